@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <set>
 #include <thread>
 
 #include "app/commands.h"
 #include "core/base/sha256.h"
-#include "sessions/evaluation/reseed.h"
 #include "sessions/evaluation/run_result.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/dataset_file.h"
@@ -40,9 +36,6 @@ struct LocalizationFigure {
   double perSecond() const { return mean_seconds.total() > 0.0 ? 1.0 / mean_seconds.total() : 0.0; }
 };
 
-constexpr int kHouseholdWidth = 640;
-constexpr int kHouseholdHeight = 480;
-
 using Loaded = std::shared_ptr<const sessions::LoadedCase>;
 
 /// The cases of these ids; without ids the first of each station. InputError.
@@ -58,89 +51,23 @@ std::vector<Loaded> readCases(const sessions::Dataset& dataset, std::vector<std:
   return cases;
 }
 
-void noteRun(const sessions::LoadedCase& loaded, LocalizerOptions options,
-             const sessions::RunSettings& settings, LocalizationFigure& figure) {
+/// The case from its own seed, `repetitions` times.
+LocalizationFigure measureCase(const sessions::LoadedCase& loaded, LocalizerOptions options,
+                               int repetitions, sessions::RunSettings settings) {
   if (options.templates.feature_size_m == 0.0)
     options.templates.feature_size_m = loaded.source.feature_size_m.value_or(0.0);
-  sessions::RunSettings summary = settings;
-  summary.level = sessions::RecordLevel::kSummary;
-  figure.name = loaded.source.id;
-  figure.kernels = settings.kernels;
-  figure.threads = settings.threads;
-  figure.width = loaded.source.camera.width;
-  figure.height = loaded.source.camera.height;
-  const sessions::LocalizationTrace trace = sessions::localize(loaded.problem(), options, summary);
-  figure.mean_seconds += trace.seconds;
-  figure.converged += trace.status == LocalizationStatus::kConverged ? 1 : 0;
-  figure.arena_bytes = trace.arena_bytes;
-  if (figure.runs == 0) figure.digest = trace.digest;
-  ++figure.runs;
-}
-
-void takeMean(LocalizationFigure& figure) {
-  const double share = 1.0 / std::max(1, figure.runs);
-  for (const auto& [name, part] : sessions::kStages) figure.mean_seconds.*part *= share;
-}
-
-/// Scales the image to the household camera's width and cuts off above and below what does not fit.
-void bringToHouseholdSize(sessions::LoadedCase& loaded) {
-  const double scale = static_cast<double>(kHouseholdWidth) / loaded.image.width;
-  const int scaled_height = std::max(1, static_cast<int>(loaded.image.height * scale + 0.5));
-  const cv::Mat pixels(loaded.image.height, loaded.image.width, CV_8U, loaded.image.pixels.data());
-  cv::Mat scaled;
-  cv::resize(pixels, scaled, cv::Size(kHouseholdWidth, scaled_height), 0, 0, cv::INTER_AREA);
-  const int above = (scaled_height - kHouseholdHeight) / 2;
-  cv::Mat fitted(kHouseholdHeight, kHouseholdWidth, CV_8U, cv::Scalar(0));
-  const int rows = std::min(scaled_height, kHouseholdHeight);
-  const int from = std::max(0, above);
-  const int to = std::max(0, -above);
-  scaled.rowRange(from, from + rows).copyTo(fitted.rowRange(to, to + rows));
-  loaded.image.pixels.assign(fitted.data, fitted.data + fitted.total());
-  loaded.image.width = kHouseholdWidth;
-  loaded.image.height = kHouseholdHeight;
-
-  Camera& camera = loaded.source.camera;
-  camera.width = kHouseholdWidth;
-  camera.height = kHouseholdHeight;
-  camera.fx *= scale;
-  camera.fy *= scale;
-  camera.cx = (camera.cx + 0.5) * scale - 0.5;
-  camera.cy = (camera.cy + 0.5) * scale - 0.5 - above;
-  if (prepareCamera(camera) != Status::kOk)
-    throw sessions::InputError("bench", "camera", "cannot be brought to 640 x 480");
-}
-
-/// The case from its own seed, `repetitions` times.
-LocalizationFigure measureCase(const sessions::LoadedCase& loaded, const LocalizerOptions& options,
-                               int repetitions, const sessions::RunSettings& settings) {
-  LocalizationFigure figure;
-  for (int i = 0; i < repetitions; ++i) noteRun(loaded, options, settings, figure);
-  takeMean(figure);
-  return figure;
-}
-
-/// The same scene as a household camera sees it: the image brought to 640 x 480, from `seeds` seeds
-/// up to 3 cm and 10 deg from the truth, which the case must have. InputError.
-LocalizationFigure measureHouseholdScale(const sessions::LoadedCase& given,
-                                         const LocalizerOptions& options, int seeds) {
-  sessions::LoadedCase loaded;
-  loaded.source = given.source;
-  loaded.image = given.image;
-  loaded.scene = given.scene;
-  sessions::SessionCase& one = loaded.source;
-  bringToHouseholdSize(loaded);
-  one.uncertainty = {Eigen::Vector3d::Constant(0.03), Eigen::Vector3d::Constant(10.0),
-                     sessions::UncertaintyPivot::kStation};
-  const Eigen::Vector3d centre_in_station_m = matchedBounds(loaded.scene.view()).centre();
-  LocalizationFigure figure;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    one.camera_from_station_seed = sessions::seedForOffset(
-        *one.camera_from_station_truth, sessions::drawOffset(one.uncertainty, 1.0, one.id, seed),
-        one.uncertainty.pivot, centre_in_station_m);
-    noteRun(loaded, options, {}, figure);
+  settings.level = sessions::RecordLevel::kSummary;
+  const Camera& camera = loaded.source.camera;
+  LocalizationFigure figure{loaded.source.id, settings.kernels, settings.threads,
+                            camera.width,     camera.height,    repetitions};
+  for (int i = 0; i < repetitions; ++i) {
+    const auto trace = sessions::localize(loaded.problem(), options, settings);
+    figure.mean_seconds += trace.seconds;
+    figure.converged += trace.status == LocalizationStatus::kConverged ? 1 : 0;
+    figure.arena_bytes = trace.arena_bytes;
+    if (i == 0) figure.digest = trace.digest;
   }
-  figure.name += " at household scale";
-  takeMean(figure);
+  for (const auto& [name, part] : sessions::kStages) figure.mean_seconds.*part /= repetitions;
   return figure;
 }
 
@@ -185,9 +112,6 @@ std::vector<LocalizationFigure> measure(const BenchArguments& arguments) {
   for (const sessions::RunSettings& settings : arguments.settings())
     for (const Loaded& one : cases)
       figures.push_back(measureCase(*one, options, arguments.quick ? 1 : 5, settings));
-  for (const Loaded& one : cases)
-    if (one->source.camera_from_station_truth)
-      figures.push_back(measureHouseholdScale(*one, options, arguments.quick ? 2 : 20));
   return figures;
 }
 

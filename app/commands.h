@@ -162,10 +162,6 @@ const sessions::SessionCase& requireCase(const sessions::SessionDocument& docume
 const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
                                        const std::string& beginning);
 
-/// The manual's page of every option: of a run, of the methods beside WHS, and the limits of the
-/// checks, as they are declared, with their values in each profile and preset.
-std::string optionsPage();
-
 LocalizerOptions profileOptions(const std::string& name);
 /// The same for the methods beside WHS: `paper` as published, else the tuned ones.
 sessions::MethodOptions methodProfile(const std::string& name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
 
 namespace boresight::app {
@@ -73,7 +73,8 @@ int decide(const DecideArguments& arguments) {
     return kNotConverged;
   }
   document.save();
-  print(arguments.case_id + ": " + standingText(standingOf(document.session(), arguments.case_id)));
+  print(arguments.case_id + ": " +
+        reviewStatusText(reviewStatusOf(document.session(), arguments.case_id)));
   return kDone;
 }
 

@@ -40,7 +40,7 @@ void exportPose(const sessions::Session& session, const ExchangeArguments& argum
   sessions::requireWritable(arguments.pose);
   const sessions::HandedPose pose =
       sessions::writeValidatedPose(arguments.pose, session, arguments.onlyCase());
-  print(pose.case_id + ": " + pose.standing);
+  print(pose.case_id + ": " + pose.review_status);
 }
 
 sessions::ExportReport exportPoses(const sessions::Session& session,

@@ -19,7 +19,7 @@
 #include "sessions/io/labels/image_label.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/run/run_text.h"
 #include "sessions/run/trace_file.h"
@@ -145,11 +145,11 @@ std::string rerunText(const sessions::RunRecord& run) {
          (run.rerun->from.empty() ? "" : ", going on from run " + run.rerun->from);
 }
 
-/// Of a session's cases: what several of them have is read or looked for once.
+/// Of a session's cases: the files that a case shares with the one before are not read again.
 struct CaseSources {
   const sessions::Session& session;
   const path& file;
-  sessions::InputSheets sheets = {};
+  std::shared_ptr<const sessions::LoadedCase> before = {};
   std::multimap<std::string, const sessions::RunRecord*> runs = {};  ///< by case, in their order
 };
 
@@ -157,7 +157,8 @@ void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
   const auto& session = sources.session;
   line("case " + one.id + (one.station.empty() ? "" : ", station " + one.station));
   try {
-    const sessions::InputSheet sheet = sources.sheets.of(one);
+    sources.before = sources.before ? reloadCase(*sources.before, one) : sessions::loadCase(one);
+    const sessions::InputSheet sheet = sessions::inputSheet(*sources.before);
     for (const sessions::SheetLine& entry : sheet.lines)
       line("  " + entry.label + ": " + entry.value);
     flagAll(sheet.flags);
@@ -171,10 +172,10 @@ void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
          stalenessText(sessions::stalenessOf(run, session, sources.file)) + rerunText(run) +
          (run.together ? ", " + togetherText(run.together->views, one.id) : ""));
   }
-  const sessions::Standing standing = sessions::standingOf(session, one.id);
-  if (standing.decision != nullptr)
-    line("  " + standingText(standing) + ", " + standing.decision->time +
-         (standing.decision->comment.empty() ? "" : ": " + standing.decision->comment));
+  const sessions::ReviewStatus status = sessions::reviewStatusOf(session, one.id);
+  if (status.decision != nullptr)
+    line("  " + reviewStatusText(status) + ", " + status.decision->time +
+         (status.decision->comment.empty() ? "" : ": " + status.decision->comment));
 }
 
 void describeSession(const path& file) {
@@ -252,7 +253,7 @@ void describeTransform(const sessions::FrameTransform& transform) {
 
 /// validated_pose.json: what it states; `whs verify` asks whether that is so.
 void describeValidatedPose(const sessions::JsonReader& root) {
-  line("case " + root.at("case").text() + ": " + root.at("standing").text());
+  line("case " + root.at("case").text() + ": " + root.at("review_status").text());
   printPose(sessions::readTransform(root.at("pose").at("camera_from_station")),
             "camera_from_station");
   if (const auto frames = root.find("frames"))

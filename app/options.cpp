@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <memory>
 
 #include "app/commands.h"
 #include "app/written_pages.h"
@@ -83,8 +84,8 @@ int printOptions(const std::string& profile) {
   return kDone;
 }
 
-}  // namespace
-
+/// The manual's page of every option: of a run, of the methods beside WHS, and the limits of the
+/// checks, as they are declared, with their values in each profile and preset.
 std::string optionsPage() {
   std::string text =
       "# Every option\n\n"
@@ -112,6 +113,18 @@ std::string optionsPage() {
   return text + tables(presets, "###");
 }
 
+/// Every command under a heading of its own, as `--help` tells of it.
+std::string commandsPage(const CLI::App& app) {
+  std::string text = "# whs, command by command\n\nExit status: " + markdownText(kExitStatusText) +
+                     "\n\n" + commandText(app);
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!command->get_group().empty())
+      text += "\n## whs " + command->get_name() + "\n\n" + commandText(*command);
+  return text;
+}
+
+}  // namespace
+
 void addOptions(CLI::App& app, int& exit_code) {
   const auto [command, profile] = addCommand(
       app, exit_code, "options",
@@ -120,6 +133,17 @@ void addOptions(CLI::App& app, int& exit_code) {
   command->add_option("--profile", *profile, "default or paper")
       ->check(CLI::IsMember({"default", "paper"}))
       ->capture_default_str();
+}
+
+/// Writes the manual's pages of commands and options, for the build: hidden from the help.
+void addDocuments(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("documents", "Writes pages of the manual");
+  command->group("");
+  auto folder = std::make_shared<std::string>();
+  command->add_option("folder", *folder, "Where to")->required()->type_name("DIR");
+  command->callback([folder, &app, &exit_code] {
+    exit_code = writePages(*folder, {{"options.md", optionsPage()}, {"whs.md", commandsPage(app)}});
+  });
 }
 
 }  // namespace boresight::app

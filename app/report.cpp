@@ -23,7 +23,7 @@ int report(const ReportArguments& arguments) {
   (void)requireCase(document, id);
   const sessions::PoseReport made = sessions::poseReport(session, id);
   sessions::writePoseReport(arguments.out, made);
-  print(id + ": " + made.pose.standing);
+  print(id + ": " + made.pose.review_status);
   return kDone;
 }
 

@@ -19,7 +19,7 @@ int verify(const VerifyArguments& arguments) {
   for (const sessions::VerifyFinding& finding : report.findings)
     print((finding.good ? "good        " : "WRONG       ") + finding.what + ": " + finding.text);
   for (const std::string& text : report.not_proved) print("not proved  " + text);
-  print("stated: " + report.standing);
+  print("stated: " + report.review_status);
   print(report.good() ? "everything that was measured is as stated"
                       : "the document is NOT as stated");
   return report.good() ? kDone : kDifferent;

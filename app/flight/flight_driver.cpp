@@ -2,6 +2,7 @@
 // Runs one localization as a flight computer would: the core alone, all memory one static block,
 // pixels and problem already decoded. Prints what the ground can compare: pose and digest.
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -84,37 +85,19 @@ Fault readProblem(std::FILE* stream, std::span<std::byte> block, LocalizationPro
   return {problemFaultText(check.fault), check.option};
 }
 
-constexpr int kLargestNumber = 1 << 20;
+constexpr int kLargestSide = 1 << 20;
 
-bool isSpace(int c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
-/// The next decimal number and the one character behind it; -1 when there is none.
-int readNumber(std::FILE* stream) {
-  int c = std::fgetc(stream);
-  while (isSpace(c) || c == '#') {
-    if (c == '#')
-      while (c != '\n' && c != EOF) c = std::fgetc(stream);
-    c = std::fgetc(stream);
-  }
-  if (c < '0' || c > '9') return -1;
-  int number = 0;
-  for (; c >= '0' && c <= '9'; c = std::fgetc(stream)) {
-    number = 10 * number + (c - '0');
-    if (number > kLargestNumber) return -1;
-  }
-  return isSpace(c) ? number : -1;
-}
-
-/// Reads the header of a binary PGM (P5, largest value 255) and leaves the stream at the first
-/// pixel. What is wrong with it, for people, or nullptr.
+/// Reads the header of a binary PGM (P5, largest value 255, no comments) and leaves the stream at
+/// the first pixel. Returns an error message, or nullptr.
 const char* readPgmHeader(std::FILE* stream, int& width, int& height) {
   if (std::fgetc(stream) != 'P' || std::fgetc(stream) != '5')
     return "not a binary PGM (P5) image; write it with whs problem --image-out";
-  width = readNumber(stream);
-  height = readNumber(stream);
-  const int largest = readNumber(stream);
-  if (width <= 0 || height <= 0) return "its header gives no width and height";
-  if (largest != 255) return "its largest value is not 255; pixels must be of 8 bits";
+  int largest = 0;
+  const bool read = std::fscanf(stream, "%7d%7d%3d", &width, &height, &largest) == 3;
+  if (!read || std::min(width, height) <= 0 || std::max(width, height) > kLargestSide)
+    return "its header gives no width and height";
+  if (largest != 255 || std::isspace(std::fgetc(stream)) == 0)
+    return "its largest value is not 255; pixels must be of 8 bits";
   return nullptr;
 }
 

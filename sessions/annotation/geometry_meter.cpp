@@ -31,15 +31,12 @@ std::vector<Eigen::Vector3d> markedPlaces(std::span<const MarkedView> views) {
 /// Widths of the smallest upright box around the places that the camera sees.
 Eigen::Vector2d extentInImage(const MarkedView& view, const Pose& camera_from_station,
                               std::span<const Eigen::Vector3d> places_m) {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300);
-  Eigen::Vector2d high = -low;
+  Eigen::AlignedBox2d box;
   for (const Eigen::Vector3d& place : places_m) {
     Eigen::Vector2d pixel;
-    if (!project(view.camera, camera_from_station * place, pixel)) continue;
-    low = low.cwiseMin(pixel);
-    high = high.cwiseMax(pixel);
+    if (project(view.camera, camera_from_station * place, pixel)) box.extend(pixel);
   }
-  return (high - low).cwiseMax(0.0);
+  return box.isEmpty() ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(box.sizes());
 }
 
 /// Measurements, and the most points of one view.

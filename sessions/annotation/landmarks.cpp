@@ -20,13 +20,6 @@ using nlohmann::ordered_json;
 
 constexpr const char* kLandmarksFormat = "boresight-landmarks";
 constexpr int kLandmarksVersion = 1;
-constexpr double kMaxCoordinate_m = 1e6;
-
-bool isMarked(const Marks& marks, const std::string& name) {
-  const auto named = [&name](const auto& pair) { return pair.id == name; };
-  return std::any_of(marks.points.begin(), marks.points.end(), named) ||
-         std::any_of(marks.lines.begin(), marks.lines.end(), named);
-}
 
 /// Standard deviation along the direction in which it is largest.
 double largestSigma_px(const PredictedPlace& place, const Matrix6d& covariance) {
@@ -91,7 +84,7 @@ std::vector<Proposal> proposeMarks(const std::vector<Landmark>& landmarks, const
                                    const Pose& camera_from_station, const Matrix6d* covariance) {
   std::vector<Proposal> proposals;
   for (const Landmark& landmark : landmarks) {
-    if (isMarked(marks, landmark.name)) continue;
+    if (hasMark(marks, landmark.name)) continue;
     const PredictedPlace place =
         predictPlace(camera, camera_from_station, landmark.point_in_station_m);
     if (!place.valid || !isInImage(camera, place.pixel)) continue;

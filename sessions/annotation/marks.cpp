@@ -6,15 +6,14 @@
 namespace boresight::sessions {
 namespace {
 
-template <class Mark>
-auto findIn(std::vector<Mark>& marks, const std::string& id) {
-  return std::find_if(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.id == id; });
+template <class Marks>
+auto findIn(Marks& marks, const std::string& id) {
+  return std::find_if(marks.begin(), marks.end(), [&](const auto& mark) { return mark.id == id; });
 }
 
 template <class Mark>
 const Mark* find(const std::vector<Mark>& marks, const std::string& id) {
-  const auto found =
-      std::find_if(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.id == id; });
+  const auto found = findIn(marks, id);
   return found == marks.end() ? nullptr : &*found;
 }
 
@@ -29,15 +28,14 @@ void put(std::vector<Mark>& marks, const std::string& replaced, const Mark& mark
 
 }  // namespace
 
+bool hasMark(const Marks& marks, const std::string& id) {
+  return findPoint(marks, id) != nullptr || findLine(marks, id) != nullptr;
+}
+
 std::string unusedId(const Marks& marks, char letter) {
-  const auto taken = [&marks](const std::string& id) {
-    const auto has = [&id](const auto& pair) { return pair.id == id; };
-    return std::any_of(marks.points.begin(), marks.points.end(), has) ||
-           std::any_of(marks.lines.begin(), marks.lines.end(), has);
-  };
   for (int number = 1;; ++number) {
     const std::string id = letter + std::to_string(number);
-    if (!taken(id)) return id;
+    if (!hasMark(marks, id)) return id;
   }
 }
 

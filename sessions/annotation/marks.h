@@ -15,6 +15,9 @@
 
 namespace boresight::sessions {
 
+/// The largest coordinate that a place on the station may have.
+inline constexpr double kMaxCoordinate_m = 1e6;
+
 /// A point of the station and where it was seen. One side may be missing: a pair half made.
 struct PointPair {
   std::string id;  ///< unique among the marks of its image
@@ -71,6 +74,8 @@ struct Marks {
   bool operator==(const Marks&) const = default;
 };
 
+/// Whether a point or line has this id.
+bool hasMark(const Marks& marks, const std::string& id);
 /// "p1", "p2", ... (or with another letter): the first that no mark has.
 std::string unusedId(const Marks& marks, char letter);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/marks_csv.h"
+#include "sessions/annotation/marks_file.h"
 
 #include <array>
 #include <charconv>
@@ -54,7 +54,7 @@ struct Record {
   int line = 0;
 };
 
-/// Splits the text as RFC 4180 says; lines may also end with a line feed alone.
+/// Reads the records of a text as RFC 4180 says; lines may also end with a line feed alone.
 class CsvReader {
  public:
   CsvReader(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
@@ -62,45 +62,37 @@ class CsvReader {
   bool next(Record& record) {
     if (at_ >= text_.size()) return false;
     record = {{}, line_};
-    while (readField(record)) {
+    for (bool more = true; more; at_ += more ? 1 : 0) {
+      record.fields.push_back(
+          textOfCsvField(at_ < text_.size() && text_[at_] == '"' ? quoted() : plain()));
+      more = at_ < text_.size() && text_[at_] == ',';
     }
+    if (at_ < text_.size() && text_[at_] == '\r') ++at_;
+    if (at_ < text_.size() && text_[at_] != '\n') fail(line_, "text after a closing quote");
+    ++at_;
+    ++line_;
     return true;
   }
 
  private:
-  /// False after the last field of a record.
-  bool readField(Record& record) {
-    std::string field;
-    if (at_ < text_.size() && text_[at_] == '"') {
-      ++at_;
-      readQuoted(field);
-    } else {
-      while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\r' && text_[at_] != '\n')
-        field += text_[at_++];
-    }
-    record.fields.push_back(textOfCsvField(field));
-    if (at_ < text_.size() && text_[at_] == ',') return ++at_, true;
-    if (at_ < text_.size() && text_[at_] == '\r') ++at_;
-    if (at_ < text_.size() && text_[at_] != '\n')
-      throw InputError(file_, "line " + std::to_string(line_), "text after a closing quote");
-    ++at_;
-    ++line_;
-    return false;
+  [[noreturn]] void fail(int line, const char* reason) const {
+    throw InputError(file_, "line " + std::to_string(line), reason);
   }
 
-  void readQuoted(std::string& field) {
+  std::string plain() {
+    const std::size_t end = std::min(text_.find_first_of(",\r\n", at_), text_.size());
+    return std::string(text_.substr(std::exchange(at_, end), end - at_));
+  }
+
+  std::string quoted() {
     const int begun = line_;
-    for (;; ++at_) {
-      if (at_ >= text_.size())
-        throw InputError(file_, "line " + std::to_string(begun), "a quote is not closed");
+    std::string field;
+    for (++at_;; ++at_) {
+      if (at_ >= text_.size()) fail(begun, "a quote is not closed");
       if (text_[at_] == '\n') ++line_;
-      if (text_[at_] == '"') {
-        if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') break;
-        ++at_;
-      }
+      if (text_[at_] == '"' && !text_.substr(++at_).starts_with('"')) return field;
       field += text_[at_];
     }
-    ++at_;
   }
 
   const std::filesystem::path& file_;

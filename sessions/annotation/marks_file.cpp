@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/annotation/marks_csv.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/file_bytes.h"
@@ -20,7 +19,6 @@ using nlohmann::ordered_json;
 constexpr const char* kMarksFormat = "boresight-points";
 constexpr int kMarksVersion = 1;
 constexpr double kMaxSigma_px = 1e4;
-constexpr double kMaxCoordinate_m = 1e6;
 
 constexpr auto kPlace = jsonCodec<Eigen::Vector3d>(
     [](const JsonReader& json) { return json.vector3(-kMaxCoordinate_m, kMaxCoordinate_m); });

@@ -1,14 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/marks_on_image.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <Eigen/Geometry>
 
-#include "sessions/annotation/mark_equations.h"
 #include "sessions/run/surface_point.h"
 
 namespace boresight::sessions {
+namespace {
+
+MarkResidual pointResidual(const Camera& camera, const PointPair& pair,
+                           const Pose& camera_from_station) {
+  const PredictedPlace place = predictPlace(camera, camera_from_station, *pair.point_in_station_m);
+  MarkResidual made;
+  made.valid = place.valid;
+  if (!made.valid) return made;
+  made.residual_px = *pair.pixel - place.pixel;
+  made.predicted_by_xi = place.pixel_by_xi;
+  made.depth_m = place.depth_m;
+  return made;
+}
+
+constexpr int kFootRounds = 4;
+
+/// Where on an edge (0: start, 1: end) it is nearest to a pixel's ray, to begin with; camera frame.
+double nearestToRay(const Ray& ray, const Eigen::Vector3d& start_m, const Eigen::Vector3d& way_m) {
+  const Eigen::Vector3d normal = way_m.cross(ray.direction);
+  const double squared = normal.squaredNorm();
+  return squared > 0.0 ? (ray.origin_m - start_m).cross(ray.direction).dot(normal) / squared : 0.5;
+}
+
+/// End `i` of the line, from the foot of its perpendicular on the projected edge; false where that
+/// does not project, or the edge runs along the ray.
+bool endResidual(const Camera& camera, const Pose& camera_from_station, const ModelEdge& edge,
+                 const Eigen::Vector2d& seen, int i, MarkResidual& made) {
+  Ray ray;
+  if (!unprojectRay(camera, seen, ray)) return false;
+  const Eigen::Vector3d way_m = edge.end_in_station_m - edge.start_in_station_m;
+  const Eigen::Vector3d way_in_camera_m = camera_from_station.rotation * way_m;
+  double share = nearestToRay(ray, camera_from_station * edge.start_in_station_m, way_in_camera_m);
+  for (int round = 0; round < kFootRounds; ++round) {
+    const PredictedPlace foot =
+        predictPlace(camera, camera_from_station, edge.start_in_station_m + share * way_m);
+    const Eigen::Vector2d along = foot.pixel_by_point * way_in_camera_m;
+    if (!foot.valid || !(along.norm() > 1e-9 * foot.pixel_by_point.norm() * way_m.norm()))
+      return false;
+    const Eigen::Vector2d offset = seen - foot.pixel;
+    made.across[i] = Eigen::Vector2d(-along.y(), along.x()).normalized();
+    made.residual_px[i] = made.across[i].dot(offset);
+    made.predicted_by_xi.row(i) = made.across[i].transpose() * foot.pixel_by_xi;
+    share += along.dot(offset) / along.squaredNorm();
+  }
+  return true;
+}
+
+MarkResidual lineResidual(const Camera& camera, const LinePair& pair,
+                          const Pose& camera_from_station) {
+  MarkResidual made;
+  const double start_depth_m = (camera_from_station * pair.edge->start_in_station_m).z();
+  const double end_depth_m = (camera_from_station * pair.edge->end_in_station_m).z();
+  if (!(start_depth_m > 0.0) || !(end_depth_m > 0.0)) return made;
+  made.valid = endResidual(camera, camera_from_station, *pair.edge, pair.line->start, 0, made) &&
+               endResidual(camera, camera_from_station, *pair.edge, pair.line->end, 1, made);
+  made.depth_m = 0.5 * (start_depth_m + end_depth_m);
+  return made;
+}
+
+constexpr int kMostSteps = 200;
+constexpr double kStepDone = 1e-11;  ///< rad, and m per m of distance
+constexpr double kFirstDamping = 1e-4;
+constexpr double kLargestDamping = 1e10;
+/// Near the minimum a good step changes the sum by less than its rounding error.
+constexpr double kRoundingOfCost = 1e-13;
+
+bool isNegligible(const Vector6d& xi, const Pose& pose) {
+  const double distance_m = std::max(pose.translation_m.cwiseAbs().maxCoeff(), 1e-3);
+  return xi.head<3>().cwiseAbs().maxCoeff() < kStepDone &&
+         xi.tail<3>().cwiseAbs().maxCoeff() < kStepDone * distance_m;
+}
+
+}  // namespace
+
 PredictedPlace predictPlace(const Camera& camera, const Pose& camera_from_station,
                             const Eigen::Vector3d& point_in_station_m) {
   PredictedPlace made;
@@ -49,6 +123,67 @@ std::vector<Eigen::Vector2d> edgeOnImage(const Camera& camera, const Pose& camer
     if (place.valid) places.push_back(place.pixel);
   }
   return places;
+}
+
+MarkResidual markResidual(const MarkedView& view, const MarkAddress& at,
+                          const Pose& camera_from_station) {
+  if (at.kind == MarkKind::kPoint)
+    return pointResidual(view.camera, view.marks.points[at.index], camera_from_station);
+  return lineResidual(view.camera, view.marks.lines[at.index], camera_from_station);
+}
+
+NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                              std::span<const double> weight, const Pose& rig_from_station) {
+  NormalEquations sum;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const MarkedView& view = views[marks[i].view];
+    const double factor = weight.empty() ? 1.0 : weight[i];
+    if (factor == 0.0) continue;
+    const MarkResidual mark = markResidual(view, marks[i], view.camera_from_rig * rig_from_station);
+    if (!mark.valid) {
+      ++sum.missing;
+      continue;
+    }
+    const double sigma_px = markSigma_px(views, marks[i]);
+    const double w = factor / (sigma_px * sigma_px);
+    const Eigen::Matrix<double, 2, 6> rows = mark.predicted_by_xi * adjointOf(view.camera_from_rig);
+    sum.information += w * rows.transpose() * rows;
+    sum.gradient += w * rows.transpose() * mark.residual_px;
+    sum.squares += w * mark.residual_px.squaredNorm();
+    ++sum.projected;
+  }
+  return sum;
+}
+
+bool refineMarks(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
+                 std::span<const double> weight, Pose& rig_from_station,
+                 NormalEquations& equations) {
+  Pose pose = rig_from_station;
+  equations = markEquations(views, marks, weight, pose);
+  double damping = 0.0;
+  for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
+    Vector6d xi;
+    if (!solve(equations, damping, xi)) {
+      damping = std::max(kFirstDamping, damping * 10.0);
+      continue;
+    }
+    Pose next = perturbed(xi, pose);
+    next.rotation.normalize();
+    const NormalEquations there = markEquations(views, marks, weight, next);
+    const bool negligible = isNegligible(xi, pose);
+    if (next.isFinite() && there.cost() <= equations.cost() * (1.0 + kRoundingOfCost)) {
+      pose = next;
+      equations = there;
+      damping = damping <= kFirstDamping ? 0.0 : damping / 10.0;
+    } else {
+      damping = std::max(kFirstDamping, damping * 10.0);
+    }
+    if (negligible) break;
+  }
+  Vector6d unused;
+  if (equations.missing > 0 || !solve(equations, 0.0, unused)) return false;
+  rig_from_station = pose;
+  return true;
 }
 
 std::vector<MarkVector> markVectors(const MarkedView& view, const Pose& camera_from_station) {

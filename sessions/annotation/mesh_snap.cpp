@@ -14,7 +14,7 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kSmallestCircle = 8;        ///< corners
+constexpr std::size_t kSmallestCircle = 8;   ///< corners
 constexpr double kCircleDeviation = 0.03;    ///< of the radius
 constexpr double kOcclusion = 1e-4;          ///< of the mesh's diagonal
 constexpr std::size_t kMostSeenTests = 200;  ///< candidates that are tested for being seen
@@ -148,32 +148,23 @@ void MeshSnapper::collectCircles() {
 }
 
 void MeshSnapper::addLoop(const std::vector<std::int32_t>& loop) {
-  if (static_cast<double>(loop.size()) < kSmallestCircle) return;
-  const double count = static_cast<double>(loop.size());
-  MeshCircle circle;
-  for (const std::int32_t index : loop) circle.centre_in_station_m += vertex(index) / count;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const std::int32_t index : loop) {
-    const Eigen::Vector3d offset = vertex(index) - circle.centre_in_station_m;
-    scatter += offset * offset.transpose() / count;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  circle.normal_in_station = solver.eigenvectors().col(0);
-  const Eigen::Vector3d u = solver.eigenvectors().col(1);
-  const Eigen::Vector3d v = solver.eigenvectors().col(2);
+  if (loop.size() < kSmallestCircle) return;
+  Eigen::Matrix3Xd places_m(3, std::ssize(loop));
+  for (Eigen::Index i = 0; i < places_m.cols(); ++i)
+    places_m.col(i) = vertex(loop[static_cast<std::size_t>(i)]);
+  const Eigen::Vector3d mean_m = places_m.rowwise().mean();
+  places_m.colwise() -= mean_m;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(places_m * places_m.transpose());
+  const Eigen::Matrix<double, 3, 2> plane = solver.eigenvectors().rightCols<2>();
   // x^2 + y^2 = 2 a x + 2 b y + c, least squares (Kasa 1976): corners need not be evenly spaced.
-  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const std::int32_t index : loop) {
-    const Eigen::Vector3d offset = vertex(index) - circle.centre_in_station_m;
-    const Eigen::Vector3d row(2.0 * offset.dot(u), 2.0 * offset.dot(v), 1.0);
-    const double squared = 0.25 * (row.x() * row.x() + row.y() * row.y());
-    normal_matrix += row * row.transpose();
-    right += row * squared;
-  }
-  const Eigen::Vector3d fit = normal_matrix.ldlt().solve(right);
-  circle.radius_m = std::sqrt(std::max(0.0, fit.z() + fit.x() * fit.x() + fit.y() * fit.y()));
-  circle.centre_in_station_m += fit.x() * u + fit.y() * v;
+  Eigen::MatrixX3d rows(places_m.cols(), 3);
+  rows << places_m.transpose() * plane, Eigen::VectorXd::Constant(places_m.cols(), 0.5);
+  const Eigen::Vector3d fit =
+      rows.colPivHouseholderQr().solve(0.5 * rows.leftCols<2>().rowwise().squaredNorm());
+  MeshCircle circle;
+  circle.normal_in_station = solver.eigenvectors().col(0);
+  circle.radius_m = std::sqrt(std::max(0.0, fit.z() + fit.head<2>().squaredNorm()));
+  circle.centre_in_station_m = mean_m + plane * fit.head<2>();
   circle.vertices = loop;
   for (const std::int32_t index : loop) {
     const Eigen::Vector3d offset = vertex(index) - circle.centre_in_station_m;

@@ -71,9 +71,9 @@ void addSolution(std::span<const MarkedView> views, const MarksSolution& solutio
   for (std::size_t i = 0; i < solution.marks.size(); ++i)
     json["marks"].push_back(
         markJson(views, solution.marks[i], i < left_out.size() ? &left_out[i] : nullptr));
-  if (solution.twin)
-    json["twin"] = {{"rig_from_station", toJson(solution.twin->rig_from_station)},
-                    {"rms_px", solution.twin->rms_px}};
+  if (solution.ambiguous)
+    json["ambiguous"] = {{"rig_from_station", toJson(solution.ambiguous->rig_from_station)},
+                         {"rms_px", solution.ambiguous->rms_px}};
 }
 
 TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution,
@@ -87,7 +87,7 @@ TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solu
                mark.address.kind == MarkKind::kPoint ? "point" : "line",
                fixedText(mark.residual_px.x(), 3), fixedText(mark.residual_px.y(), 3),
                fixedText(mark.residual_mm.x(), 3), fixedText(mark.residual_mm.y(), 3),
-               fixedText(mark.normalized, 1) + (mark.standsOut() ? " !" : ""),
+               fixedText(mark.normalized, 1) + (mark.isOutlier() ? " !" : ""),
                fixedText(mark.weight, 2),
                without.determined ? fixedText(without.translation_mm, 3) : "no pose",
                without.determined ? fixedText(without.rotation_mrad, 3) : "-"});
@@ -147,12 +147,13 @@ std::string solutionText(std::span<const MarkedView> views, const MarksSolution&
   text += summaryLine(solution) + "\n";
   for (const GeometryWarning& warning : warnings) text += plainLine("weak: " + warning.text);
   text += "\n" + posesText(views, solution);
-  if (!solution.twin) return text;
-  text += "\nanother pose explains these marks with rms " + fixedText(solution.twin->rms_px, 3) +
-          " px:\n";
-  const Pose twin = views.size() == 1 ? views[0].camera_from_rig * solution.twin->rig_from_station
-                                      : solution.twin->rig_from_station;
-  return text + poseText(twin, Matrix6d::Zero(),
+  if (!solution.ambiguous) return text;
+  text += "\nanother pose explains these marks with rms " +
+          fixedText(solution.ambiguous->rms_px, 3) + " px:\n";
+  const Pose ambiguous = views.size() == 1
+                             ? views[0].camera_from_rig * solution.ambiguous->rig_from_station
+                             : solution.ambiguous->rig_from_station;
+  return text + poseText(ambiguous, Matrix6d::Zero(),
                          views.size() == 1 ? "camera_from_station" : "rig_from_station");
 }
 

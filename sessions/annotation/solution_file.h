@@ -21,14 +21,14 @@ namespace boresight::sessions {
 ///      "marks": [{"view": "left", "id": "p1", "kind": "point", "projected": true,
 ///                 "residual_px": [x, y], "residual_mm": [x, y], "normalized": 0.8, "weight": 1,
 ///                 "without": {"determined": true, "translation_mm": 0.1, "rotation_mrad": 0.2}}],
-///      "twin": {"rig_from_station": [[4x4]], "rms_px": 0.4},
+///      "ambiguous": {"rig_from_station": [[4x4]], "rms_px": 0.4},
 ///      "warnings": [{"kind": "coplanar", "prevents": false, "text": "..."}]}
 ///
 /// Poses map metres, row by row. Covariances are of xi = (rotation rad, translation m), the left
 /// perturbation in the frame of the rig or of the camera; sigmas are the roots of their diagonals.
-/// Residuals are seen minus predicted, of a line both ends across the edge. `twin` only where there
-/// is one. Kinds of warnings: too_few, few, collinear, coplanar, clustered, one_depth, imprecise.
-/// Numbers read back as the same bits. OutputError.
+/// Residuals are seen minus predicted, of a line both ends across the edge. `ambiguous` only where
+/// there is one. Kinds of warnings: too_few, few, collinear, coplanar, clustered, one_depth,
+/// imprecise. Numbers read back as the same bits. OutputError.
 void writeSolution(const std::filesystem::path& file, std::span<const MarkedView> views,
                    const MarksResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust);

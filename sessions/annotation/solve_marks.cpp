@@ -9,7 +9,7 @@
 
 #include "core/pnp/correspondence.h"
 #include "sessions/annotation/geometry_meter.h"
-#include "sessions/annotation/mark_equations.h"
+#include "sessions/annotation/marks_on_image.h"
 
 namespace boresight::sessions {
 namespace {
@@ -19,9 +19,9 @@ constexpr int kRobustRounds = 50;
 constexpr double kTukey = 4.685;  ///< 95 % efficient on Gaussian errors
 /// Of |residual| / sigma of a two-dimensional Gaussian: its median is 1.1774.
 constexpr double kMedianOfRayleigh = 1.1774;
-constexpr double kTwinRatio = 5.0;       ///< of both poses' rms, or the other one is ruled out
-constexpr double kTwinFloor_px = 1.0;    ///< rms below this is never ruled out
-constexpr double kTwinAngle_rad = 0.02;  ///< nearer than this it is the same pose
+constexpr double kAmbiguousRatio = 5.0;       ///< of both poses' rms, or the other one is ruled out
+constexpr double kAmbiguousFloor_px = 1.0;    ///< rms below this is never ruled out
+constexpr double kAmbiguousAngle_rad = 0.02;  ///< nearer than this it is the same pose
 constexpr std::size_t kFewestPoints = 4;
 constexpr double kFirstThreshold_px = 8.0;
 constexpr int kMostSamples = 5000;
@@ -119,11 +119,12 @@ std::optional<Pose> mirroredPose(std::span<const MarkedView> views, const Pose& 
   if (normal.dot(sight) > 0.0) normal = -normal;
   const Eigen::Vector3d mirrored = 2.0 * normal.dot(sight) * sight - normal;
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(normal, mirrored);
-  Pose camera_twin;
-  camera_twin.rotation = (turn * camera_from_station.rotation).normalized();
-  camera_twin.translation_m = camera_from_station * spread.middle_in_station_m -
-                              camera_twin.rotation * spread.middle_in_station_m;
-  return views.front().camera_from_rig.inverse() * camera_twin;
+  Pose mirrored_camera_from_station;
+  mirrored_camera_from_station.rotation = (turn * camera_from_station.rotation).normalized();
+  mirrored_camera_from_station.translation_m =
+      camera_from_station * spread.middle_in_station_m -
+      mirrored_camera_from_station.rotation * spread.middle_in_station_m;
+  return views.front().camera_from_rig.inverse() * mirrored_camera_from_station;
 }
 
 /// A pose and the squares that it leaves.
@@ -207,18 +208,19 @@ std::optional<Fit> bestFit(std::span<const MarkedView> views, std::span<const Ma
   return best;
 }
 
-std::optional<PoseTwin> twinOf(std::span<const MarkedView> views,
-                               std::span<const MarkAddress> marks, const Fit& fit, bool robust) {
+std::optional<AmbiguousPose> ambiguousPoseOf(std::span<const MarkedView> views,
+                                             std::span<const MarkAddress> marks, const Fit& fit,
+                                             bool robust) {
   const std::optional<Pose> start = mirroredPose(views, fit.rig_from_station);
   if (!start) return {};
   const std::optional<Fit> other = fitFrom(views, marks, *start, robust);
   if (!other) return {};
   const Eigen::Quaterniond turn =
       (other->rig_from_station.rotation * fit.rig_from_station.rotation.conjugate()).normalized();
-  if (rotationLog(turn).norm() < kTwinAngle_rad) return {};
+  if (rotationLog(turn).norm() < kAmbiguousAngle_rad) return {};
   const double rms_px = rmsOf(*other);
-  if (rms_px > std::max(kTwinFloor_px, kTwinRatio * rmsOf(fit))) return {};
-  return PoseTwin{other->rig_from_station, rms_px};
+  if (rms_px > std::max(kAmbiguousFloor_px, kAmbiguousRatio * rmsOf(fit))) return {};
+  return AmbiguousPose{other->rig_from_station, rms_px};
 }
 
 /// Residual scaled by its own deviation: what a mark pulls on the pose makes its residual smaller
@@ -280,7 +282,7 @@ MarksSolution describe(std::span<const MarkedView> views, std::span<const MarkAd
   for (const SolvedMark& mark : solution.marks)
     squares_px += mark.weight * mark.residual_px.squaredNorm();
   solution.rms_px = std::sqrt(squares_px / std::max(1.0, 2.0 * weights));
-  solution.twin = twinOf(views, marks, fit, robust);
+  solution.ambiguous = ambiguousPoseOf(views, marks, fit, robust);
   return solution;
 }
 

@@ -19,7 +19,7 @@ struct SolveMarksOptions {
 };
 
 /// Standard deviations from which a residual stands out.
-inline constexpr double kStandsOutSigmas = 3.0;
+inline constexpr double kOutlierSigmas = 3.0;
 
 /// How well the pose explains a mark.
 struct SolvedMark {
@@ -34,7 +34,7 @@ struct SolvedMark {
   double normalized = 0.0;
 
   /// The pose explains it so badly that somebody should look at it again.
-  bool standsOut() const { return projected && normalized > kStandsOutSigmas; }
+  bool isOutlier() const { return projected && normalized > kOutlierSigmas; }
 };
 
 /// How far the pose moves without a mark.
@@ -46,7 +46,7 @@ struct LeftOut {
 };
 
 /// Another pose that explains coplanar marks nearly as well (Schweighofer and Pinz 2006).
-struct PoseTwin {
+struct AmbiguousPose {
   Pose rig_from_station;
   double rms_px = 0.0;
 };
@@ -63,7 +63,7 @@ struct MarksSolution {
   int degrees_of_freedom = 0;
   double rms_px = 0.0;            ///< over both residuals of all marks, weighted
   std::vector<SolvedMark> marks;  ///< in the order of usedMarks
-  std::optional<PoseTwin> twin;
+  std::optional<AmbiguousPose> ambiguous;
 };
 
 /// A pose, or in one sentence why there is none and what to do.

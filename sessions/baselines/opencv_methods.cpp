@@ -42,19 +42,17 @@ cv::Mat equalizedWithin(const cv::Mat& gray, const cv::Mat& mask) {
   return equalized;
 }
 
-/// Test images of one run, equalized when first asked for.
-class EqualizedImages {
- public:
-  void clear() { levels_ = {}; }
-  const cv::Mat& get(const MatchQuery& query) {
-    cv::Mat& level = levels_[static_cast<std::size_t>(query.iteration.level)];
-    if (level.empty()) cv::equalizeHist(matOf(query.image), level);
-    return level;
-  }
+/// The level of the test image that is searched.
+cv::Mat searched(const MatchQuery& query, bool equalized) {
+  if (!equalized) return matOf(query.image);
+  cv::Mat image;
+  cv::equalizeHist(matOf(query.image), image);
+  return image;
+}
 
- private:
-  std::array<cv::Mat, kPyramidLevels> levels_;
-};
+cv::Mat rendered(const MatchQuery& query, const cv::Mat& mask, bool equalized) {
+  return equalized ? equalizedWithin(matOf(query.intensity), mask) : matOf(query.intensity);
+}
 
 struct Correlation {
   cv::TemplateMatchModes mode = cv::TM_SQDIFF;
@@ -75,13 +73,10 @@ class CorrelationMethod final : public MatchingMethod {
  public:
   explicit CorrelationMethod(const Correlation& settings) : settings_(settings) {}
 
-  void begin(const std::stop_token&) override { equalized_.clear(); }
-
   void match(const MatchQuery& query, std::vector<SuppliedMatch>& found) override {
-    image_ = settings_.equalized ? equalized_.get(query) : matOf(query.image);
+    image_ = searched(query, settings_.equalized);
     mask_ = maskOf(query);
-    render_ = settings_.equalized ? equalizedWithin(matOf(query.intensity), mask_)
-                                  : matOf(query.intensity);
+    render_ = rendered(query, mask_, settings_.equalized);
     const TemplateSet& templates = query.iteration.templates;
     for (std::int32_t i = 0; i < templates.count; ++i)
       found.push_back(find(query, templates.templates[static_cast<std::size_t>(i)]));
@@ -155,7 +150,6 @@ class CorrelationMethod final : public MatchingMethod {
   }
 
   Correlation settings_;
-  EqualizedImages equalized_;
   cv::Mat image_, render_, mask_;
 };
 
@@ -192,18 +186,16 @@ class OrbMethod final : public MatchingMethod {
  public:
   explicit OrbMethod(const OrbOptions& options) : options_(options) {}
 
-  void begin(const std::stop_token&) override { equalized_.clear(); }
   int capacity() const override { return options_.features; }
 
   void match(const MatchQuery& query, std::vector<SuppliedMatch>& found) override {
     const cv::Mat mask = maskOf(query);
-    const cv::Mat render =
-        options_.equalized ? equalizedWithin(matOf(query.intensity), mask) : matOf(query.intensity);
-    const Features rendered = detect(render, mask, options_.features);
-    std::vector<Candidate> candidates = candidatesOf(query, rendered);
+    const Features shown =
+        detect(rendered(query, mask, options_.equalized), mask, options_.features);
+    std::vector<Candidate> candidates = candidatesOf(query, shown);
     if (candidates.empty()) return;
     const Features seen = detectInWindows(query, candidates);
-    for (Candidate& one : candidates) compare(rendered, seen, one);
+    for (Candidate& one : candidates) compare(shown, seen, one);
     for (const Candidate& one : candidates) {
       if (!accepted(one, candidates)) continue;
       SuppliedMatch match = one.match;
@@ -249,8 +241,9 @@ class OrbMethod final : public MatchingMethod {
   }
 
   /// Features of the image are spent where some window is.
-  Features detectInWindows(const MatchQuery& query, const std::vector<Candidate>& candidates) {
-    const cv::Mat image = options_.equalized ? equalized_.get(query) : matOf(query.image);
+  Features detectInWindows(const MatchQuery& query,
+                           const std::vector<Candidate>& candidates) const {
+    const cv::Mat image = searched(query, options_.equalized);
     cv::Mat mask = cv::Mat::zeros(image.size(), CV_8U);
     for (const Candidate& one : candidates) {
       const SearchWindow& window = one.match.window;
@@ -293,7 +286,6 @@ class OrbMethod final : public MatchingMethod {
   }
 
   OrbOptions options_;
-  EqualizedImages equalized_;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/undistort.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/image_names.h"
@@ -55,7 +55,7 @@ void requireHonestName(const std::filesystem::path& file, const HandedPoses& han
   if (file.filename().string().find(kNotValidatedName) != std::string::npos) return;
   for (const HandedPose& pose : handed.poses)
     if (!pose.validated)
-      throw InputError(file, "case '" + pose.case_id + "' is " + pose.standing +
+      throw InputError(file, "case '" + pose.case_id + "' is " + pose.review_status +
                                  "; the format has no room to say so, so its name has to: put " +
                                  kNotValidatedName + " into it, or name the validated cases alone");
 }
@@ -80,12 +80,12 @@ void requireOneStation(const Session& session, const CasePoses& made) {
 
 /// Who validated this very pose, or that nobody has.
 std::string remarkOf(const Session& session, const CasePose& pose) {
-  const Standing standing = standingOf(session, pose.case_id);
-  const bool judged = standing.holds() && standing.decision->pose &&
-                      standing.decision->pose->camera_from_station == pose.camera_from_station;
-  if (standing.state == CaseStanding::kValidated && !judged)
+  const ReviewStatus status = reviewStatusOf(session, pose.case_id);
+  const bool judged = status.holds() && status.decision->pose &&
+                      status.decision->pose->camera_from_station == pose.camera_from_station;
+  if (status.state == ReviewState::kValidated && !judged)
     return "NOT VALIDATED: another pose of the case was";
-  return standingText(standing);
+  return reviewStatusText(status);
 }
 
 Camera prepared(const SessionCase& one) {

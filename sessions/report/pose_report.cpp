@@ -14,7 +14,7 @@
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/check.h"
 #include "sessions/session/input_sigmas.h"
@@ -46,8 +46,8 @@ const SessionCase& caseOf(const PoseReport& report) { return report.loaded->sour
 
 /// The decision that the report's pose rests on, or nullptr.
 const Decision* decisionOf(const PoseReport& report) {
-  const Standing standing = standingOf(*report.session, report.pose.case_id);
-  return standing.holds() ? standing.decision : nullptr;
+  const ReviewStatus status = reviewStatusOf(*report.session, report.pose.case_id);
+  return status.holds() ? status.decision : nullptr;
 }
 
 // ---- what every page has
@@ -61,7 +61,7 @@ void drawHead(PdfCanvas& canvas, const PoseReport& report) {
   const PdfBox bar = {kLeft, 48.0, kTextWidth, 17.0};
   canvas.fill(bar, color);
   const char* sign = report.pose.validated ? "\xE2\x9C\x94  " : "\xE2\x9A\xA0  ";
-  canvas.text(bar.x + 6.0, bar.y + 3.0, bar.width - 12.0, sign + report.pose.standing,
+  canvas.text(bar.x + 6.0, bar.y + 3.0, bar.width - 12.0, sign + report.pose.review_status,
               {9.0, true, false, {1.0, 1.0, 1.0}, 1});
 }
 
@@ -71,7 +71,7 @@ void drawFoot(PdfCanvas& canvas, const PoseReport& report) {
                                ? "pose of the marks"
                                : "run " + report.pose.run_digest.substr(0, 16);
   canvas.text(kLeft, kFoot + 4.0, kTextWidth - 90.0,
-              report.pose.standing + ".  " + what + ", pixels " +
+              report.pose.review_status + ".  " + what + ", pixels " +
                   caseOf(report).image.pixels_sha256.substr(0, 16) + ", Boresight " + kVersion,
               {6.5, false, false, kFaintInk, 2});
   canvas.text(kRight - 90.0, kFoot + 4.0, 90.0, formatted("page %d of 2", canvas.page()),
@@ -222,7 +222,7 @@ double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
                           "is (0, 0)",
                           cameraModelName(one.camera.model), one.camera.fx, one.camera.fy,
                           one.camera.cx, one.camera.cy));
-  for (const FrameLine& line : frameLines(one)) row(line.label, line.value);
+  for (const LabelItem& line : frameLines(one)) row(line.name, line.value);
   for (const LabelItem& item : one.image.label)
     if (item.name == "PRODUCT_ID" || item.name == "START_TIME") row(item.name, item.value);
   for (const MeshInput& part : one.parts)
@@ -246,7 +246,7 @@ void drawDecision(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
   Rows rows(canvas, box, "Decision");
   const Decision* decision = decisionOf(report);
   if (decision == nullptr) {
-    canvas.text(box.x, rows.below(), box.width, report.pose.standing + ".",
+    canvas.text(box.x, rows.below(), box.width, report.pose.review_status + ".",
                 {7.5, true, false, kPdfOrange, 4});
     return;
   }
@@ -426,7 +426,7 @@ PoseReport poseReport(const Session& session, const std::string& case_id) {
 }
 
 std::vector<std::uint8_t> poseReportPdf(const PoseReport& report) {
-  PdfCanvas canvas("Pose of " + report.pose.case_id + " (" + report.pose.standing + ")");
+  PdfCanvas canvas("Pose of " + report.pose.case_id + " (" + report.pose.review_status + ")");
   drawFirstPage(canvas, report);
   canvas.nextPage();
   drawHead(canvas, report);

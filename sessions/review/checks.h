@@ -14,7 +14,6 @@
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
-#include "sessions/review/edge_evidence.h"
 #include "sessions/review/review_subject.h"
 #include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
@@ -22,6 +21,9 @@
 #include "sessions/session/check_limits.h"
 
 namespace boresight::sessions {
+
+struct LookedPlace;
+struct PredictedEdges;
 
 /// So many further seeds tell a second answer from none, and take a few seconds.
 inline constexpr int kBasinSeeds = 8;

@@ -10,6 +10,7 @@
 
 #include "core/accept/edge_width.h"
 #include "sessions/review/checks.h"
+#include "sessions/review/edge_evidence.h"
 #include "sessions/session/check.h"
 #include "sessions/session/input_sigmas.h"
 
@@ -75,9 +76,8 @@ Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   const double fall = 1.0 - least->coverage / seen;
   return measuredCheck(
       kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
-      "Displaced by " + sentenceNumber(EvidenceSettings().displaced_px) +
-          " px in the image, the pose loses least, " + percentText(fall) +
-          " of the edges seen, when " + least->direction + ".",
+      "Displaced by " + sentenceNumber(kDisplaced_px) + " px in the image, the pose loses least, " +
+          percentText(fall) + " of the edges seen, when " + least->direction + ".",
       "The image hardly tells this pose from others that way: use marks or a second camera.");
 }
 
@@ -190,13 +190,9 @@ struct Row {
 std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camera,
                         const Pose& camera_from_station) {
   std::vector<Row> rows;
-  Eigen::Vector2d least = Eigen::Vector2d::Constant(1e9);
-  Eigen::Vector2d most = -least;
-  for (const LookedPlace& one : looked) {
-    least = least.cwiseMin(one.place.pixel);
-    most = most.cwiseMax(one.place.pixel);
-  }
-  const double tile_px = std::max((most - least).maxCoeff() / kTiles, 1.0);
+  Eigen::AlignedBox2d box;
+  for (const LookedPlace& one : looked) box.extend(one.place.pixel);
+  const double tile_px = std::max(box.sizes().maxCoeff() / kTiles, 1.0);
   for (const LookedPlace& one : looked) {
     PlaceDerivative by;
     if (!one.found || std::abs(one.found->offset_px) > kFarthest_px ||
@@ -206,7 +202,7 @@ std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camer
     row.by.head<6>() = by.by_pose.transpose() * one.place.normal;
     row.by.tail<3>() = by.by_camera.transpose() * one.place.normal;
     row.residual_px = one.found->offset_px;
-    const Eigen::Vector2d tile = (one.place.pixel - least) / tile_px;
+    const Eigen::Vector2d tile = (one.place.pixel - box.min()) / tile_px;
     row.tile = {static_cast<int>(tile.x()), static_cast<int>(tile.y())};
     rows.push_back(row);
   }
@@ -282,16 +278,14 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
     return;
   }
   const LoadedCase& loaded = *subject.loaded;
-  const EvidenceSettings settings;
   const ImageEdges image(loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
-                         regionOf(edges, settings));
-  const auto places = thinned(edges.places, settings.places);
-  const auto looked = lookAt(image, places, settings);
+                         regionOf(edges));
+  const auto places = thinned(edges.places, kEdgePlaces);
+  const auto looked = lookAt(image, places);
   EdgeEvidence evidence;
-  evidence.coverage = coverageOf(looked, settings.near_px);
-  evidence.clutter = clutterOf(image, edges, looked, settings);
-  evidence.fall_off =
-      fallOffOf(image, places, loaded.source.camera, subject.camera_from_station, settings);
+  evidence.coverage = coverageOf(looked);
+  evidence.clutter = clutterOf(image, edges, looked);
+  evidence.fall_off = fallOffOf(image, places, loaded.source.camera, subject.camera_from_station);
   checks.push_back(coverageCheck(evidence, limits));
   checks.push_back(clutterCheck(evidence, limits));
   checks.push_back(explainedCheck(evidence, limits));

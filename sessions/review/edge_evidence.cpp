@@ -24,82 +24,40 @@ constexpr double kAlongNormal = 0.906;  // cos 25 deg
 constexpr double kScharrScale = 1.0 / 32.0;
 constexpr int kMostSteps = 128;
 
-ImageRegion cutTo(const ImageRegion& region, const ImageView& image) {
-  return {std::max(region.x_min, 0), std::max(region.y_min, 0),
-          std::min(region.x_max, image.width - 1), std::min(region.y_max, image.height - 1)};
-}
-
-/// The region with what the filters see around it, as float.
-cv::Mat cutOut(const ImageView& image, const ImageRegion& region) {
-  // OpenCV has no const headers; nothing is written.
-  const cv::Mat whole(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
-                      static_cast<std::size_t>(image.stride));
-  cv::Mat values;
-  whole(cv::Rect(region.x_min, region.y_min, region.width(), region.height()))
-      .convertTo(values, CV_32F);
-  return values;
-}
-
-std::vector<float> inner(const cv::Mat& wide, const ImageRegion& from, const ImageRegion& region) {
-  std::vector<float> values;
-  values.reserve(static_cast<std::size_t>(region.width()) *
-                 static_cast<std::size_t>(region.height()));
-  for (int y = region.y_min; y <= region.y_max; ++y) {
-    const float* row = wide.ptr<float>(y - from.y_min) + (region.x_min - from.x_min);
-    values.insert(values.end(), row, row + region.width());
-  }
-  return values;
-}
-
 constexpr double kExplained_px = 2.0;
 constexpr double kSameDirection = 0.866;  // cos 30 deg
 constexpr double kShareOfSlope = 0.5;
 
-/// Which predicted place is nearest to a pixel of a region, within kExplained_px.
-class NearestPlace {
- public:
-  NearestPlace(const ImageRegion& region, const std::vector<EdgePlace>& places)
-      : region_(region),
-        nearest_(
-            static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()),
-            -1) {
-    for (std::size_t i = 0; i < places.size(); ++i) spread(static_cast<std::int32_t>(i), places);
-  }
-
-  std::int32_t at(int x, int y) const { return nearest_[region_.indexOf(x, y)]; }
-
- private:
-  void spread(std::int32_t index, const std::vector<EdgePlace>& places) {
-    const Eigen::Vector2d& pixel = places[static_cast<std::size_t>(index)].pixel;
-    const int reach = static_cast<int>(std::ceil(kExplained_px));
-    const int x0 = static_cast<int>(std::lround(pixel.x()));
-    const int y0 = static_cast<int>(std::lround(pixel.y()));
-    for (int y = y0 - reach; y <= y0 + reach; ++y) {
-      for (int x = x0 - reach; x <= x0 + reach; ++x) {
-        if (!region_.contains(x, y)) continue;
-        const double squared = (Eigen::Vector2d(x, y) - pixel).squaredNorm();
-        if (squared > kExplained_px * kExplained_px) continue;
-        std::int32_t& known = nearest_[region_.indexOf(x, y)];
+/// Index of the predicted place that is nearest to each pixel of a region, within kExplained_px;
+/// -1: none.
+cv::Mat1i nearestPlaces(const cv::Rect& region, const std::vector<EdgePlace>& places) {
+  cv::Mat1i nearest(region.size(), -1);
+  const int reach = static_cast<int>(std::ceil(kExplained_px));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::Vector2d& place = places[i].pixel;
+    const cv::Point centre(cvRound(place.x()), cvRound(place.y()));
+    for (int y = centre.y - reach; y <= centre.y + reach; ++y)
+      for (int x = centre.x - reach; x <= centre.x + reach; ++x) {
+        const Eigen::Vector2d pixel(x, y);
+        const double distance_px = (pixel - place).norm();
+        if (!region.contains({x, y}) || distance_px > kExplained_px) continue;
+        int& known = nearest(cv::Point(x, y) - region.tl());
         if (known < 0 ||
-            squared < (Eigen::Vector2d(x, y) - places[static_cast<std::size_t>(known)].pixel)
-                          .squaredNorm())
-          known = index;
+            distance_px < (pixel - places[static_cast<std::size_t>(known)].pixel).norm())
+          known = static_cast<int>(i);
       }
-    }
   }
-
-  ImageRegion region_;
-  std::vector<std::int32_t> nearest_;
-};
+  return nearest;
+}
 
 /// How steep an edge of the image is that counts as clutter.
-double clutterSlope(const std::vector<LookedPlace>& looked, const EvidenceSettings& settings) {
+double clutterSlope(const std::vector<LookedPlace>& looked) {
   std::vector<double> slopes;
   for (const LookedPlace& one : looked)
-    if (one.found && std::abs(one.found->offset_px) <= settings.near_px)
+    if (one.found && std::abs(one.found->offset_px) <= kNearEdge_px)
       slopes.push_back(one.found->slope);
-  if (slopes.empty()) return 2.0 * settings.least_slope;
-  return std::max(settings.least_slope, kShareOfSlope * medianOf(slopes));
+  if (slopes.empty()) return 2.0 * kLeastSlope;
+  return std::max(kLeastSlope, kShareOfSlope * medianOf(slopes));
 }
 
 /// In the order of a perturbation's coordinates.
@@ -185,47 +143,44 @@ std::string mainlyText(const Vector6d& xi, const Motion& motion) {
 
 }  // namespace
 
-ImageEdges::ImageEdges(const ImageView& image, const BitImage* ignore, const ImageRegion& region)
-    : region_(cutTo(region, image)) {
+ImageEdges::ImageEdges(const ImageView& image, const BitImage* ignore, const cv::Rect& region)
+    : region_(region & cv::Rect(0, 0, image.width, image.height)) {
   if (region_.empty()) return;
-  const ImageRegion wide = cutTo({region_.x_min - kBlurReach_px, region_.y_min - kBlurReach_px,
-                                  region_.x_max + kBlurReach_px, region_.y_max + kBlurReach_px},
-                                 image);
-  cv::Mat blurred;
-  cv::GaussianBlur(cutOut(image, wide), blurred, cv::Size(), kSigma_px, kSigma_px,
-                   cv::BORDER_REPLICATE);
-  cv::Mat dx;
-  cv::Mat dy;
+  // OpenCV has no const headers; nothing is written.
+  const cv::Mat whole(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data),
+                      static_cast<std::size_t>(image.stride));
+  const cv::Point reach(kBlurReach_px, kBlurReach_px);
+  const cv::Rect wide = cv::Rect(region_.tl() - reach, region_.br() + reach) &
+                        cv::Rect(0, 0, image.width, image.height);
+  cv::Mat blurred, dx, dy;
+  whole(wide).convertTo(blurred, CV_32F);
+  cv::GaussianBlur(blurred, blurred, cv::Size(), kSigma_px, kSigma_px, cv::BORDER_REPLICATE);
   cv::Scharr(blurred, dx, CV_32F, 1, 0, kScharrScale, 0.0, cv::BORDER_REPLICATE);
   cv::Scharr(blurred, dy, CV_32F, 0, 1, kScharrScale, 0.0, cv::BORDER_REPLICATE);
-  dx_ = inner(dx, wide, region_);
-  dy_ = inner(dy, wide, region_);
-  ignored_.assign(dx_.size(), 0);
-  if (ignore == nullptr) return;
-  for (int y = region_.y_min; y <= region_.y_max; ++y)
-    for (int x = region_.x_min; x <= region_.x_max; ++x)
-      ignored_[region_.indexOf(x, y)] = ignore->get(x, y) ? 1 : 0;
+  dx_ = dx(region_ - wide.tl());
+  dy_ = dy(region_ - wide.tl());
+  ignored_ = cv::Mat1b::zeros(region_.size());
+  for (int y = 0; ignore != nullptr && y < region_.height; ++y)
+    for (int x = 0; x < region_.width; ++x)
+      ignored_(y, x) = ignore->get(region_.x + x, region_.y + y) ? 255 : 0;
 }
 
 Eigen::Vector2d ImageEdges::between(const Eigen::Vector2d& pixel) const {
-  const int x =
-      std::clamp(static_cast<int>(std::floor(pixel.x())), region_.x_min, region_.x_max - 1);
-  const int y =
-      std::clamp(static_cast<int>(std::floor(pixel.y())), region_.y_min, region_.y_max - 1);
+  const cv::Point last = region_.br() - cv::Point(2, 2);
+  const int x = std::clamp(cvFloor(pixel.x()), region_.x, last.x);
+  const int y = std::clamp(cvFloor(pixel.y()), region_.y, last.y);
   const double u = pixel.x() - x;
   const double v = pixel.y() - y;
-  return (1.0 - v) * ((1.0 - u) * gradient(x, y) + u * gradient(x + 1, y)) +
-         v * ((1.0 - u) * gradient(x, y + 1) + u * gradient(x + 1, y + 1));
+  return (1.0 - v) * ((1.0 - u) * gradient({x, y}) + u * gradient({x + 1, y})) +
+         v * ((1.0 - u) * gradient({x, y + 1}) + u * gradient({x + 1, y + 1}));
 }
 
 bool ImageEdges::canLook(const Eigen::Vector2d& predicted_px, double radius_px) const {
   const double reach = radius_px + 1.0;
-  if (!(predicted_px.x() - reach >= region_.x_min && predicted_px.x() + reach <= region_.x_max &&
-        predicted_px.y() - reach >= region_.y_min && predicted_px.y() + reach <= region_.y_max))
-    return false;
-  const int x = static_cast<int>(std::lround(predicted_px.x()));
-  const int y = static_cast<int>(std::lround(predicted_px.y()));
-  return !isIgnored(x, y);
+  return predicted_px.x() - reach >= region_.x && predicted_px.y() - reach >= region_.y &&
+         predicted_px.x() + reach <= region_.br().x - 1 &&
+         predicted_px.y() + reach <= region_.br().y - 1 &&
+         !isIgnored({cvRound(predicted_px.x()), cvRound(predicted_px.y())});
 }
 
 std::optional<FoundEdge> ImageEdges::across(const Eigen::Vector2d& predicted_px,
@@ -242,8 +197,7 @@ std::optional<FoundEdge> ImageEdges::across(const Eigen::Vector2d& predicted_px,
     slope[static_cast<std::size_t>(i)] = std::abs(found.dot(normal));
     agrees[static_cast<std::size_t>(i)] =
         slope[static_cast<std::size_t>(i)] >= kAlongNormal * found.norm();
-    if (isIgnored(static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y()))))
-      agrees[static_cast<std::size_t>(i)] = false;
+    if (isIgnored({cvRound(at.x()), cvRound(at.y())})) agrees[static_cast<std::size_t>(i)] = false;
   }
   std::size_t best = 0;
   for (std::size_t i = 1; i + 1 < static_cast<std::size_t>(count); ++i) {
@@ -258,99 +212,82 @@ std::optional<FoundEdge> ImageEdges::across(const Eigen::Vector2d& predicted_px,
   return FoundEdge{(static_cast<double>(best) - reach - 1 + shift) * kStep_px, slope[best]};
 }
 
-std::vector<std::uint8_t> ImageEdges::thinEdges(double least_slope) const {
-  std::vector<std::uint8_t> edges(dx_.size(), 0);
-  if (region_.empty()) return edges;
+cv::Mat1b ImageEdges::thinEdges(double least_slope) const {
+  if (region_.empty()) return {};
   // Canny takes integers: a 64th of a gray value per pixel is fine enough.
   constexpr double kUnits = 64.0;
-  const auto packed = [this](const std::vector<float>& values) {
-    const cv::Mat header(region_.height(), region_.width(), CV_32F,
-                         const_cast<float*>(values.data()));
-    cv::Mat made;
-    header.convertTo(made, CV_16S, kUnits);
-    return made;
-  };
-  cv::Mat found(region_.height(), region_.width(), CV_8U, edges.data());
-  cv::Canny(packed(dx_), packed(dy_), found, 0.5 * kUnits * least_slope, kUnits * least_slope,
-            true);
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (ignored_[i] != 0) edges[i] = 0;
+  cv::Mat dx, dy;
+  cv::Mat1b edges;
+  dx_.convertTo(dx, CV_16S, kUnits);
+  dy_.convertTo(dy, CV_16S, kUnits);
+  cv::Canny(dx, dy, edges, 0.5 * kUnits * least_slope, kUnits * least_slope, true);
+  edges.setTo(0, ignored_);
   return edges;
 }
 
-std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places,
-                                const EvidenceSettings& settings) {
+std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places) {
   std::vector<LookedPlace> looked;
   looked.reserve(places.size());
   for (const EdgePlace& place : places) {
-    if (!image.canLook(place.pixel, settings.radius_px)) continue;
-    looked.push_back(
-        {place, image.across(place.pixel, place.normal, settings.radius_px, settings.least_slope)});
+    if (!image.canLook(place.pixel, kEdgeRadius_px)) continue;
+    looked.push_back({place, image.across(place.pixel, place.normal, kEdgeRadius_px, kLeastSlope)});
   }
   return looked;
 }
 
-Share coverageOf(const std::vector<LookedPlace>& looked, double near_px) {
+Share coverageOf(const std::vector<LookedPlace>& looked) {
   Share share;
   for (const LookedPlace& one : looked) {
     share.whole += one.place.length_px;
-    if (one.found && std::abs(one.found->offset_px) <= near_px) share.part += one.place.length_px;
+    if (one.found && std::abs(one.found->offset_px) <= kNearEdge_px)
+      share.part += one.place.length_px;
   }
   return share;
 }
 
-Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station,
-                     const EvidenceSettings& settings) {
+Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station) {
   const PredictedEdges edges =
       predictEdges(loaded.source.camera, loaded.scene.view(), camera_from_station);
   const ImageEdges image(loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
-                         regionOf(edges, settings));
-  return coverageOf(lookAt(image, thinned(edges.places, settings.places), settings),
-                    settings.near_px);
+                         regionOf(edges));
+  return coverageOf(lookAt(image, thinned(edges.places, kEdgePlaces)));
 }
 
 Share clutterOf(const ImageEdges& image, const PredictedEdges& edges,
-                const std::vector<LookedPlace>& looked, const EvidenceSettings& settings) {
+                const std::vector<LookedPlace>& looked) {
   Share share;
-  const ImageRegion& region = image.region();
+  const cv::Rect& region = image.region();
   if (region.empty() || edges.mask.words.empty()) return share;
-  const std::vector<std::uint8_t> seen = image.thinEdges(clutterSlope(looked, settings));
-  const NearestPlace nearest(region, edges.places);
+  const cv::Mat1b seen = image.thinEdges(clutterSlope(looked));
+  const cv::Mat1i nearest = nearestPlaces(region, edges.places);
   const BitImage mask = edges.mask.view();
-  std::size_t i = 0;
-  for (int y = region.y_min; y <= region.y_max; ++y) {
-    for (int x = region.x_min; x <= region.x_max; ++x, ++i) {
-      if (seen[i] == 0 || !mask.get(x, y)) continue;
+  for (int y = 0; y < region.height; ++y)
+    for (int x = 0; x < region.width; ++x) {
+      const cv::Point pixel = region.tl() + cv::Point(x, y);
+      if (seen(y, x) == 0 || !mask.get(pixel.x, pixel.y)) continue;
       share.whole += 1.0;
-      const std::int32_t place = nearest.at(x, y);
+      const int place = nearest(y, x);
       const bool explained =
           place >= 0 &&
-          std::abs(image.gradient(x, y).normalized().dot(
+          std::abs(image.gradient(pixel).normalized().dot(
               edges.places[static_cast<std::size_t>(place)].normal)) >= kSameDirection;
       if (!explained) share.part += 1.0;
     }
-  }
   return share;
 }
 
-ImageRegion regionOf(const PredictedEdges& edges, const EvidenceSettings& settings) {
+cv::Rect regionOf(const PredictedEdges& edges) {
   if (edges.places.empty()) return {};
-  Eigen::Vector2d least = edges.places.front().pixel;
-  Eigen::Vector2d most = least;
-  for (const EdgePlace& place : edges.places) {
-    least = least.cwiseMin(place.pixel);
-    most = most.cwiseMax(place.pixel);
-  }
+  Eigen::AlignedBox2d box;
+  for (const EdgePlace& place : edges.places) box.extend(place.pixel);
   // Displaced places move by a few times the root of the mean square at most.
-  const double margin = settings.radius_px + 4.0 * settings.displaced_px + 2.0;
-  const auto round = [](double value) { return static_cast<int>(std::lround(value)); };
-  return {round(least.x() - margin), round(least.y() - margin), round(most.x() + margin),
-          round(most.y() + margin)};
+  const double margin = kEdgeRadius_px + 4.0 * kDisplaced_px + 2.0;
+  return {cv::Point(cvRound(box.min().x() - margin), cvRound(box.min().y() - margin)),
+          cv::Point(cvRound(box.max().x() + margin) + 1, cvRound(box.max().y() + margin) + 1)};
 }
 
 std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
-                               const Camera& camera, const Pose& camera_from_station,
-                               const EvidenceSettings& settings) {
+                               const Camera& camera, const Pose& camera_from_station) {
   std::vector<FallOff> all;
   if (places.empty()) return all;
   const Eigen::Vector3d middle_m = middleOf(places, camera_from_station);
@@ -360,10 +297,10 @@ std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePl
     if (!(moves_px > 0.0)) return;
     double coverage = 0.0;
     for (const double sense : {-1.0, 1.0}) {
-      const Vector6d xi = (sense * settings.displaced_px / moves_px) * way;
+      const Vector6d xi = (sense * kDisplaced_px / moves_px) * way;
       const Pose displaced = perturbed(aboutCamera(xi, middle_m), camera_from_station);
       const auto moved = displacedPlaces(places, camera, displaced);
-      coverage += 0.5 * coverageOf(lookAt(image, moved, settings), settings.near_px).value();
+      coverage += 0.5 * coverageOf(lookAt(image, moved)).value();
     }
     all.push_back({std::move(name), coverage});
   };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
 
 #include "core/base/image.h"
 #include "core/geometry/camera.h"
@@ -17,21 +18,6 @@
 #include "sessions/session/case_run.h"
 
 namespace boresight::sessions {
-
-/// A part of an image; bounds belong to it.
-struct ImageRegion {
-  int x_min = 0, y_min = 0, x_max = -1, y_max = -1;
-
-  int width() const { return x_max - x_min + 1; }
-  int height() const { return y_max - y_min + 1; }
-  bool empty() const { return width() <= 0 || height() <= 0; }
-  bool contains(int x, int y) const { return x >= x_min && x <= x_max && y >= y_min && y <= y_max; }
-  /// Of a pixel of the region, row by row.
-  std::size_t indexOf(int x, int y) const {
-    return static_cast<std::size_t>(y - y_min) * static_cast<std::size_t>(width()) +
-           static_cast<std::size_t>(x - x_min);
-  }
-};
 
 /// What the raw image shows across a predicted line.
 struct FoundEdge {
@@ -46,14 +32,15 @@ class ImageEdges {
  public:
   /// Gradients of a region, which is cut to the image; ignored pixels (`ignore` may be nullptr)
   /// show no edge. The image must outlive nothing: all that is needed is copied.
-  ImageEdges(const ImageView& image, const BitImage* ignore, const ImageRegion& region);
+  ImageEdges(const ImageView& image, const BitImage* ignore, const cv::Rect& region);
 
-  const ImageRegion& region() const { return region_; }
-  bool isIgnored(int x, int y) const { return ignored_[region_.indexOf(x, y)] != 0; }
+  const cv::Rect& region() const { return region_; }
+  /// Of a pixel of the region.
+  bool isIgnored(const cv::Point& pixel) const { return ignored_(pixel - region_.tl()) != 0; }
   /// Gray per px; the pixel must lie in the region.
-  Eigen::Vector2d gradient(int x, int y) const {
-    return {static_cast<double>(dx_[region_.indexOf(x, y)]),
-            static_cast<double>(dy_[region_.indexOf(x, y)])};
+  Eigen::Vector2d gradient(const cv::Point& pixel) const {
+    const cv::Point at = pixel - region_.tl();
+    return {static_cast<double>(dx_(at)), static_cast<double>(dy_(at))};
   }
 
   /// The steepest place along a line's normal within the radius whose gradient points along the
@@ -65,17 +52,17 @@ class ImageEdges {
   /// Whether `across` can look there at all.
   bool canLook(const Eigen::Vector2d& predicted_px, double radius_px) const;
 
-  /// Thin edges of the region (Canny 1986 with hysteresis down to half the slope): one byte a
-  /// pixel, row by row of the region, not zero on an edge.
-  std::vector<std::uint8_t> thinEdges(double least_slope) const;
+  /// Thin edges of the region (Canny 1986 with hysteresis down to half the slope): not zero on an
+  /// edge.
+  cv::Mat1b thinEdges(double least_slope) const;
 
  private:
   Eigen::Vector2d between(const Eigen::Vector2d& pixel) const;
 
-  ImageRegion region_;
-  std::vector<float> dx_;  ///< gray/px
-  std::vector<float> dy_;
-  std::vector<std::uint8_t> ignored_;
+  cv::Rect region_;
+  cv::Mat1f dx_;  ///< gray/px
+  cv::Mat1f dy_;
+  cv::Mat1b ignored_;
 };
 
 /// A piece of an edge that a pose predicts to be seen, in one pixel.
@@ -110,14 +97,14 @@ struct PlaceDerivative {
 /// At most `most` places, evenly along the order in which they are.
 std::vector<EdgePlace> thinned(const std::vector<EdgePlace>& places, std::size_t most);
 
-/// How the image's edges are asked.
-struct EvidenceSettings {
-  double radius_px = 4.0;     ///< an edge is looked for so far along the normal
-  double near_px = 1.5;       ///< and counts as the predicted one so near
-  double least_slope = 1.5;   ///< gray/px
-  double displaced_px = 4.0;  ///< of the fall-off, root of the mean square in the image
-  std::size_t places = 6000;  ///< looked at, at most: they tell a share to a percent
-};
+/// How the image's edges are searched.
+///@{
+inline constexpr double kEdgeRadius_px = 4.0;     ///< search radius along the normal
+inline constexpr double kNearEdge_px = 1.5;       ///< largest distance from the predicted edge
+inline constexpr double kLeastSlope = 1.5;        ///< gray/px
+inline constexpr double kDisplaced_px = 4.0;      ///< of the fall-off, rms in the image
+inline constexpr std::size_t kEdgePlaces = 6000;  ///< at most: enough for a share to a percent
+///@}
 
 /// Shares of what was asked, each with how much was asked.
 struct Share {
@@ -148,24 +135,21 @@ struct LookedPlace {
 };
 
 /// Places that can be looked at, in their order, with what the image shows across them.
-std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places,
-                                const EvidenceSettings& settings);
-Share coverageOf(const std::vector<LookedPlace>& looked, double near_px);
+std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places);
+Share coverageOf(const std::vector<LookedPlace>& looked);
 
 /// That of the station at a pose, rendered anew. Nothing where no edge can be looked at.
-Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station,
-                     const EvidenceSettings& settings = {});
+Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station);
 
 /// Edges of the image inside the silhouette that are at least half as steep as the predicted ones
 /// that were seen, and of these the ones with no predicted edge of their direction within 2 px.
 Share clutterOf(const ImageEdges& image, const PredictedEdges& edges,
-                const std::vector<LookedPlace>& looked, const EvidenceSettings& settings);
+                const std::vector<LookedPlace>& looked);
 
 /// The region in which a pose's edges are looked for, displaced ones as well.
-ImageRegion regionOf(const PredictedEdges& edges, const EvidenceSettings& settings);
+cv::Rect regionOf(const PredictedEdges& edges);
 
 std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,
-                               const Camera& camera, const Pose& camera_from_station,
-                               const EvidenceSettings& settings);
+                               const Camera& camera, const Pose& camera_from_station);
 
 }  // namespace boresight::sessions

@@ -9,7 +9,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
@@ -119,11 +119,11 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
   const SessionCase& one = knownCase(session, case_id);
   HandedPose pose;
   pose.case_id = case_id;
-  const Standing standing = standingOf(session, case_id);
-  pose.validated = standing.state == CaseStanding::kValidated;
-  pose.standing = standingText(standing);
+  const ReviewStatus status = reviewStatusOf(session, case_id);
+  pose.validated = status.state == ReviewState::kValidated;
+  pose.review_status = reviewStatusText(status);
   const RunRecord* run = session.lastRunOf(case_id);
-  const Decision* decision = standing.judgedPose();
+  const Decision* decision = status.judgedPose();
   const bool of_run =
       decision != nullptr ? decision->pose->source == PoseSource::kRun : converged(run);
   if (of_run && !converged(run))
@@ -156,9 +156,9 @@ CheckedPose checkedPose(const Session& session, const std::string& case_id) {
   CheckedPose made;
   made.pose = handedPose(session, case_id);
   made.session = withPlans(sessionOfCase(session, case_id, made.pose.run_digest));
-  const Standing standing = standingOf(made.session, case_id);
-  made.pose.standing = standingText(standing);  // of what is handed over
-  const Decision* decision = standing.judgedPose();
+  const ReviewStatus status = reviewStatusOf(made.session, case_id);
+  made.pose.review_status = reviewStatusText(status);  // of what is handed over
+  const Decision* decision = status.judgedPose();
   const int basin_seeds = decision != nullptr ? decision->basin_seeds : 0;
   MeasuredPose measured = measurePose(made.session, made.pose, basin_seeds, "session");
   if (decision == nullptr) {
@@ -189,9 +189,9 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
   });
   made.decisions.clear();
   if (const Decision* last = session.decisionOn(case_id)) made.decisions.push_back(*last);
-  if (!made.decisions.empty() && standingOf(session, case_id).judgedPose() == nullptr)
+  if (!made.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
     made.decisions.front().checks.clear();
-  made.passes.clear();
+  made.rounds.clear();
   made.view = {};
   return made;
 }

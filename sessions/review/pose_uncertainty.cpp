@@ -2,7 +2,7 @@
 #include "sessions/review/pose_uncertainty.h"
 
 #include "core/pnp/normal_equations.h"
-#include "sessions/annotation/mark_equations.h"
+#include "sessions/review/edge_evidence.h"
 
 namespace boresight::sessions {
 namespace {

@@ -6,11 +6,12 @@
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
-#include "sessions/review/edge_evidence.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/input_sigmas.h"
 
 namespace boresight::sessions {
+
+struct EdgePlace;
 
 /// How a pose that is fitted to edges follows an error of the camera: d xi / d (focal length, cx,
 /// cy in px) of the least squares over the places' distances along their normals,

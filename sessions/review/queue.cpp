@@ -14,7 +14,7 @@
 #include "core/localizer/localizer.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/run/run_text.h"
 #include "sessions/run/worker_pool.h"
 #include "sessions/session/check_limits.h"
@@ -27,9 +27,9 @@
 namespace boresight::sessions {
 namespace {
 
-QueueGroup groupOf(const Standing& standing, const QueueRow& row) {
-  if (standing.awaits_approval) return QueueGroup::kAwaits;
-  if (standing.holds()) return QueueGroup::kDecided;
+QueueGroup groupOf(const ReviewStatus& status, const QueueRow& row) {
+  if (status.awaits_approval) return QueueGroup::kAwaits;
+  if (status.holds()) return QueueGroup::kDecided;
   if (!row.trouble.empty()) return QueueGroup::kNoPose;
   return row.run_digest.empty() ? QueueGroup::kNotRun : QueueGroup::kOpen;
 }
@@ -42,14 +42,6 @@ void takeMargin(QueueRow& row) {
     if (!margin || (row.margin && *row.margin <= *margin)) continue;
     row.margin = margin;
     row.margin_of = check.title;
-  }
-}
-
-void takeChecks(std::vector<Check> checks, QueueRow& row) {
-  row.checks = std::move(checks);
-  for (const Check& check : row.checks) {
-    row.passed += check.state == CheckState::kPassed ? 1 : 0;
-    row.failed += check.state == CheckState::kFailed ? 1 : 0;
   }
 }
 
@@ -77,7 +69,9 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
   const ReviewSubject subject = reviewSubject(session, std::move(loaded), PoseSource::kRun);
   takeRun(subject, row);
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
-  takeChecks(checkPose(subject, limits), row);
+  row.checks = checkPose(subject, limits);
+  row.passed = countOf(row.checks, CheckState::kPassed);
+  row.failed = countOf(row.checks, CheckState::kFailed);
   if (subject.run->converged()) takeMargin(row);  // else the seed stands in for the pose
   row.subject = withoutData(subject);
   row.trouble = subject.run->converged() ? validationConcern(session, subject)
@@ -180,21 +174,21 @@ QueueRow queueRow(const Session& session, const std::string& case_id,
   } else if (const SessionCase* one = session.findCase(case_id)) {
     if (reason.empty()) takeListedResult(*one, row);
   }
-  takeStanding(session, row);
+  takeReviewStatus(session, row);
   return row;
 }
 
-void takeStanding(const Session& session, QueueRow& row) {
-  const Standing standing = standingOf(session, row.case_id);
-  row.standing = standing.state;
-  row.standing_text = standingText(standing);
-  row.group = groupOf(standing, row);
+void takeReviewStatus(const Session& session, QueueRow& row) {
+  const ReviewStatus status = reviewStatusOf(session, row.case_id);
+  row.review_state = status.state;
+  row.review_status_text = reviewStatusText(status);
+  row.group = groupOf(status, row);
 }
 
 std::string queueKey(const Session& session, const std::string& case_id) {
   const RunRecord* run = session.lastRunOf(case_id);
   std::string key = run == nullptr ? std::string() : run->digest + run->inputs_sha256;
-  for (const auto& [name, sha256] : judgedGrounds(session, case_id, run ? run->digest : ""))
+  for (const auto& [name, sha256] : inputFingerprint(session, case_id, run ? run->digest : ""))
     key += ' ' + name + ' ' + sha256;
   for (const std::string& other : casesOfRig(session, case_id))
     if (const RunRecord* theirs = session.lastRunOf(other)) key += ' ' + theirs->digest;
@@ -212,7 +206,7 @@ bool moreTrouble(const QueueRow& a, const QueueRow& b) {
 
 std::string troubleText(const QueueRow& row) {
   if (row.group == QueueGroup::kAwaits) return "a second person has to approve";
-  if (row.group == QueueGroup::kDecided) return row.standing_text;
+  if (row.group == QueueGroup::kDecided) return row.review_status_text;
   if (!row.trouble.empty()) return row.trouble;
   if (row.group == QueueGroup::kNotRun && row.margin)
     return "not run here; in the results " + fixedText(100.0 * (1.0 - *row.margin), 0) +
@@ -258,7 +252,7 @@ std::string queueText(const std::vector<QueueRow>& rows) {
   for (const QueueRow& row : rows) {
     const SeedDistance from = row.from_seed.value_or(SeedDistance{NAN, NAN, NAN});
     const std::string share = row.from_seed ? fixedText(kPercent * from.share, 0) + " %" : "-";
-    table.add({row.case_id, caseStandingText(row.standing), std::to_string(row.failed),
+    table.add({row.case_id, reviewStateText(row.review_state), std::to_string(row.failed),
                std::to_string(row.passed), marginText(row), fixedText(from.translation_mm, 2),
                fixedText(from.rotation_mrad, 2), share, std::to_string(row.inliers),
                row.opens_at < 0
@@ -276,7 +270,7 @@ std::string queueCsv(const std::vector<QueueRow>& rows) {
       "from_seed_share,inliers,iterations,look_at_iteration,run,trouble\r\n";
   for (const QueueRow& row : rows) {
     const std::string fields[] = {row.case_id,
-                                  caseStandingText(row.standing),
+                                  reviewStateText(row.review_state),
                                   std::to_string(row.failed),
                                   std::to_string(row.passed),
                                   field(row.margin),

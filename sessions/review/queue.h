@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "sessions/review/review_status.h"
 #include "sessions/review/review_subject.h"
-#include "sessions/review/standing.h"
 #include "sessions/session/check.h"
 #include "sessions/session/session.h"
 
@@ -45,10 +45,10 @@ std::optional<double> checkMargin(const Check& check);
 struct QueueRow {
   std::string case_id;
   QueueGroup group = QueueGroup::kNotRun;
-  CaseStanding standing = CaseStanding::kNew;
-  std::string standing_text;  ///< as standingText says
-  std::string run_digest;     ///< empty without a run
-  std::vector<Check> checks;  ///< of the last run, as checkPose orders them
+  ReviewState review_state = ReviewState::kNew;
+  std::string review_status_text;  ///< as reviewStatusText says
+  std::string run_digest;          ///< empty without a run
+  std::vector<Check> checks;       ///< of the last run, as checkPose orders them
   int passed = 0;
   int failed = 0;
   /// Of the failed check that is farthest beyond its limit; when none failed, of the passed one
@@ -72,8 +72,8 @@ QueueRow queueRow(const Session& session, const std::string& case_id);
 QueueRow queueRow(const Session& session, const std::string& case_id,
                   std::shared_ptr<const LoadedCase> loaded, const std::string& reason = {});
 
-/// Takes up what was decided since: group, standing and its text.
-void takeStanding(const Session& session, QueueRow& row);
+/// Takes up what was decided since: group, review status and its text.
+void takeReviewStatus(const Session& session, QueueRow& row);
 
 /// Everything that a row rests on but decisions, as a key: a row of another key is stale.
 std::string queueKey(const Session& session, const std::string& case_id);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/localizer/localizer.h"
-#include "sessions/annotation/mark_equations.h"
+#include "sessions/annotation/marks_on_image.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/onboard_record.h"
@@ -20,10 +20,7 @@ namespace {
 /// The run of this digest, or the last one.
 const RunRecord& runToReview(const Session& session, const std::string& case_id,
                              const std::string& digest) {
-  const RunRecord* found = nullptr;
-  for (const RunRecord& run : session.runs)
-    if (run.case_id == case_id && (digest.empty() || run.digest == digest)) found = &run;
-  if (found != nullptr) return *found;
+  if (const RunRecord* run = findRun(session, case_id, digest)) return *run;
   throw InputError("case " + case_id, "runs",
                    digest.empty() ? "it was not run yet: run it first"
                                   : "there is no run of the digest " + digest);

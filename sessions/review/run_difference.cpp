@@ -27,20 +27,13 @@ struct ReadRun {
   std::vector<Check> checks;
 };
 
-const RunRecord& requireRun(const Session& session, const std::string& case_id,
-                            const std::string& digest) {
-  const RunRecord* found = nullptr;
-  for (const RunRecord& run : session.runs)
-    if (run.case_id == case_id && run.digest == digest) found = &run;
-  if (found == nullptr)
-    throw std::invalid_argument("case " + case_id + " has no run of the digest " + digest);
-  return *found;
-}
-
 ReadRun readRun(const Session& session, const std::string& digest,
                 const std::shared_ptr<const LoadedCase>& loaded) {
   ReadRun made;
-  made.record = &requireRun(session, loaded->source.id, digest);
+  made.record = findRun(session, loaded->source.id, digest);
+  if (made.record == nullptr)
+    throw std::invalid_argument("case " + loaded->source.id + " has no run of the digest " +
+                                digest);
   made.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
   made.checks = checkPose(made.subject, checkLimits(session.review.preset, session.review.limits));
   return made;
@@ -64,10 +57,8 @@ RunSide sideOf(const ReadRun& run) {
   side.converged = run.subject.run->converged();
   side.iterations = static_cast<int>(run.subject.run->iterations.size());
   side.inliers = lastInliers(*run.subject.run);
-  for (const Check& check : run.checks) {
-    side.checks_passed += check.state == CheckState::kPassed ? 1 : 0;
-    side.checks_failed += check.state == CheckState::kFailed ? 1 : 0;
-  }
+  side.checks_passed = countOf(run.checks, CheckState::kPassed);
+  side.checks_failed = countOf(run.checks, CheckState::kFailed);
   takeError(run.subject, side);
   return side;
 }

@@ -14,7 +14,7 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/input_sigmas.h"
@@ -110,9 +110,9 @@ ordered_json linkJson(const std::string& name, const Pose& pose, const std::stri
 /// Which run it was, and which other views had a say in it.
 std::string runText(const HandedPose& pose, const Session& session) {
   std::string text = "run " + pose.run_digest;
-  for (const RunRecord& run : session.runs)
-    if (run.case_id == pose.case_id && run.digest == pose.run_digest && run.together)
-      text += ", " + togetherText(run.together->views, run.case_id);
+  const RunRecord* run = findRun(session, pose.case_id, pose.run_digest);
+  if (run != nullptr && run->together)
+    text += ", " + togetherText(run->together->views, run->case_id);
   return text;
 }
 
@@ -195,11 +195,11 @@ ordered_json runJson(const LocalizationTrace& run) {
   return json;
 }
 
-ordered_json decisionJson(const HandedPose& pose, const Standing& standing) {
+ordered_json decisionJson(const HandedPose& pose, const ReviewStatus& status) {
   ordered_json json;
   json["verdict"] = pose.validated ? "validated" : "not validated";
-  if (!standing.holds()) return json;
-  const Decision& decision = *standing.decision;
+  if (!status.holds()) return json;
+  const Decision& decision = *status.decision;
   json["by"] = decision.by;
   json["comment"] = decision.comment;
   json["time"] = decision.time;
@@ -239,7 +239,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   json["format"] = kValidatedPoseFormat;
   json["version"] = kValidatedPoseVersion;
   json["state"] = pose.validated ? "validated" : "NOT VALIDATED";
-  json["standing"] = pose.standing;
+  json["review_status"] = pose.review_status;
   json["case"] = one.id;
   json["station"] = one.station;
   json["conventions"] = conventionsJson();
@@ -250,7 +250,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
         toJson(namedPoses(one.camera_reference, one.station_frame, pose.camera_from_station));
   if (one.camera_from_end_effector) json["end_effector"] = endEffectorJson(pose, one);
   json["chain"] = chainJson(pose, one, alone);
-  json["decision"] = decisionJson(pose, standingOf(alone, one.id));
+  json["decision"] = decisionJson(pose, reviewStatusOf(alone, one.id));
   json["checks"] = ordered_json::array();
   for (const JudgedCheck& judged : pose.checks) json["checks"].push_back(toJson(judged));
   if (one.requirement) json["requirement"] = toJson(*one.requirement);

@@ -27,9 +27,9 @@ struct HandedPose {
   PoseCovariance covariance;
   std::string run_digest;  ///< empty: the pose is the marks'
   bool validated = false;
-  std::string standing;   ///< standingText: who validated it, or NOT VALIDATED and why
-  double score = 1.0;     ///< 1 of a decided or annotated one, else the edge support of its run
-  double seconds = -1.0;  ///< that its run took; -1: not known
+  std::string review_status;  ///< reviewStatusText: who validated it, or NOT VALIDATED and why
+  double score = 1.0;         ///< 1 of a decided or annotated one, else the edge support of its run
+  double seconds = -1.0;      ///< that its run took; -1: not known
   std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
 };
 
@@ -89,7 +89,7 @@ void requireAsMeasured(const std::string& case_id, const std::string& difference
 /// The file as JSON (README.md beside this file tells its members). It holds a session of this one
 /// case and its rig, so that whoever has the inputs can run it again and look; paths are relative
 /// to `file`. `run` is the pose's, for its matches; without it they are left out.
-/// A pose that is not validated says so in `state` and `standing`.
+/// A pose that is not validated says so in `state` and `review_status`.
 nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
                                          const std::optional<LocalizationTrace>& run,
                                          const std::filesystem::path& file);
@@ -111,7 +111,8 @@ struct VerifyFinding {
 };
 
 struct VerifyReport {
-  std::string standing;  ///< who vouches for the pose, or NOT VALIDATED and why, as it is stated
+  std::string
+      review_status;  ///< who vouches for the pose, or NOT VALIDATED and why, as it is stated
   std::vector<VerifyFinding> findings;
   /// What is stated and was not, or cannot be, measured: who decided, when, and why a failed check
   /// was passed over. One sentence each.

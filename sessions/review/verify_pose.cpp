@@ -9,7 +9,7 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/decision.h"
 #include "sessions/session/input_check.h"
@@ -94,13 +94,13 @@ bool verifyInputs(const Document& document, Findings& findings) {
 }
 
 /// Whether the decision inside is one that this program would have let pass.
-void verifyDecision(const Standing& standing, Findings& findings) {
-  if (standing.decision == nullptr) {
+void verifyDecision(const ReviewStatus& status, Findings& findings) {
+  if (status.decision == nullptr) {
     findings.push_back({true, "decision", "nobody has decided on it"});
     return;
   }
-  const Decision& decision = *standing.decision;
-  std::string wrong = standing.dropped.empty() ? "" : "it no longer holds: " + standing.dropped;
+  const Decision& decision = *status.decision;
+  std::string wrong = status.dropped.empty() ? "" : "it no longer holds: " + status.dropped;
   for (const JudgedCheck& judged : decision.checks)
     if (decision.verdict == Verdict::kValidated && judged.check.state == CheckState::kFailed &&
         judged.override_reason.empty())
@@ -175,11 +175,11 @@ void verifyRunStated(const Document& document, Findings& findings) {
 }
 
 /// What the session inside says of the pose; the document's own where nobody decided.
-void takeStanding(Document& document, const Standing& standing) {
+void takeReviewStatus(Document& document, const ReviewStatus& status) {
   HandedPose& pose = document.pose;
-  pose.validated = standing.state == CaseStanding::kValidated;
-  pose.standing = standingText(standing);
-  if (const Decision* decision = standing.judgedPose()) {
+  pose.validated = status.state == ReviewState::kValidated;
+  pose.review_status = reviewStatusText(status);
+  if (const Decision* decision = status.judgedPose()) {
     pose.source = decision->pose->source;
     pose.camera_from_station = decision->pose->camera_from_station;
     pose.covariance = decision->pose->covariance;
@@ -222,20 +222,20 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool basin_again) 
   VerifyReport report;
   Findings& findings = report.findings;
   verifySignature(document, findings);
-  const Standing standing = standingOf(document.session, document.pose.case_id);
-  takeStanding(document, standing);
-  report.standing = document.pose.standing;
+  const ReviewStatus status = reviewStatusOf(document.session, document.pose.case_id);
+  takeReviewStatus(document, status);
+  report.review_status = document.pose.review_status;
   const bool inputs = verifyInputs(document, findings);
-  verifyDecision(standing, findings);
+  verifyDecision(status, findings);
   verifyRunStated(document, findings);
-  const Decision* decision = standing.judgedPose();
+  const Decision* decision = status.judgedPose();
   const int basin_seeds = basin_again && decision != nullptr ? decision->basin_seeds : 0;
   const bool with_basin = basin_again || decision == nullptr || decision->basin_seeds == 0;
   std::optional<MeasuredPose> measured;
   if (run_again && inputs) measured = measureAgain(document, basin_seeds, findings);
   if (measured) verifyMeasured(document, *measured, with_basin, findings);
   verifyMembers(document, measured, findings);
-  listNotProved(standing.decision, measured.has_value(), with_basin, report.not_proved);
+  listNotProved(status.decision, measured.has_value(), with_basin, report.not_proved);
   return report;
 }
 

@@ -382,7 +382,7 @@ std::string memoryTable(const LocalizationTrace& trace) {
   return text + "\n";
 }
 
-std::string standingText(const LocalizationTrace& trace) {
+std::string runStatusText(const LocalizationTrace& trace) {
   if (trace.replayed) return replayedText(trace);
   return trace.views.empty() ? aloneText(trace) : viewText(trace);
 }

@@ -26,6 +26,6 @@ std::string memoryTable(const LocalizationTrace& trace);
 /// Where a run stands, for a line that is always in view: how it ended with what speaks for the
 /// pose, why it failed (as `explanation` says), or what it is at. Whole sentences. Of a replayed
 /// run it begins with that.
-std::string standingText(const LocalizationTrace& trace);
+std::string runStatusText(const LocalizationTrace& trace);
 
 }  // namespace boresight::sessions

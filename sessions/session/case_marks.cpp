@@ -65,16 +65,16 @@ std::string CaseMarksSolution::sigmaExcess() const {
                          marks.requirement);
 }
 
-std::optional<Pose> CaseMarksSolution::twin_camera_from_station() const {
-  if (!result.solution || !result.solution->twin) return {};
-  return marks.views[0].camera_from_rig * result.solution->twin->rig_from_station;
+std::optional<Pose> CaseMarksSolution::ambiguous_camera_from_station() const {
+  if (!result.solution || !result.solution->ambiguous) return {};
+  return marks.views[0].camera_from_rig * result.solution->ambiguous->rig_from_station;
 }
 
-std::map<std::string, double> CaseMarksSolution::standingOut() const {
+std::map<std::string, double> CaseMarksSolution::outlierMarks() const {
   std::map<std::string, double> found;
   if (!result.solution) return found;
   for (const SolvedMark& mark : result.solution->marks)
-    if (mark.address.view == 0 && mark.standsOut())
+    if (mark.address.view == 0 && mark.isOutlier())
       found[markId(marks.views, mark.address)] = mark.normalized;
   return found;
 }

@@ -47,10 +47,10 @@ struct CaseMarksSolution {
   /// What of its one sigma exceeds the requirement: `sigmaExcessText`; "" when nothing does.
   std::string sigmaExcess() const;
   /// The other one that explains coplanar marks, or nothing.
-  std::optional<Pose> twin_camera_from_station() const;
+  std::optional<Pose> ambiguous_camera_from_station() const;
   /// Normalized residuals (in standard deviations) of those marks of the case itself that stand
   /// out, by id; none without a solution.
-  std::map<std::string, double> standingOut() const;
+  std::map<std::string, double> outlierMarks() const;
 };
 
 /// Solves what `caseMarks` gives: the one function behind the desktop program and `whs solve`, so

@@ -22,15 +22,8 @@ std::string joined(bool passed, const std::string& found, const std::string& rem
 }
 
 const char* mark(CheckState state) {
-  switch (state) {
-    case CheckState::kPassed:
-      return "pass  ";
-    case CheckState::kFailed:
-      return "FAIL  ";
-    case CheckState::kNotApplicable:
-      break;
-  }
-  return "  -   ";
+  constexpr const char* kMarks[] = {"pass  ", "FAIL  ", "  -   "};
+  return kMarks[static_cast<std::size_t>(state)];
 }
 
 std::string padded(std::string text, std::size_t width) {
@@ -38,23 +31,11 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-long countOf(std::span<const Check> checks, CheckState state) {
-  return std::count_if(checks.begin(), checks.end(),
-                       [state](const Check& check) { return check.state == state; });
-}
-
 }  // namespace
 
 const char* checkStateText(CheckState state) {
-  switch (state) {
-    case CheckState::kPassed:
-      return "passed";
-    case CheckState::kFailed:
-      return "failed";
-    case CheckState::kNotApplicable:
-      break;
-  }
-  return "not applicable";
+  constexpr const char* kTexts[] = {"passed", "failed", "not applicable"};
+  return kTexts[static_cast<std::size_t>(state)];
 }
 
 std::string foundText(const Check& check) {
@@ -70,6 +51,11 @@ std::string limitText(const Check& check) {
 std::string figureText(const Check& check) {
   if (!check.figure || !check.limit) return foundText(check);
   return foundText(check) + " (" + limitText(check) + ")";
+}
+
+int countOf(std::span<const Check> checks, CheckState state) {
+  return static_cast<int>(std::count_if(
+      checks.begin(), checks.end(), [state](const Check& check) { return check.state == state; }));
 }
 
 bool allPassed(std::span<const Check> checks) {

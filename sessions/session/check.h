@@ -39,6 +39,7 @@ std::string limitText(const Check& check);
 /// "0.12 mm (at most 0.40 mm)", "12 of 12" where the sentence alone tells: "".
 std::string figureText(const Check& check);
 
+int countOf(std::span<const Check> checks, CheckState state);
 /// None has failed, and one at least has passed.
 bool allPassed(std::span<const Check> checks);
 

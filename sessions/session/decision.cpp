@@ -21,10 +21,10 @@ constexpr auto kSide = choiceOf<LimitSide>("at_most", "at_least");
 constexpr auto kMatrix =
     jsonCodec<Matrix6d>([](const JsonReader& json) { return json.matrix<6>(); });
 
-std::map<std::string, std::string> readGrounds(const JsonReader& json) {
-  std::map<std::string, std::string> grounds;
-  for (const auto& [name, sha256] : json.members()) grounds[name] = readSha256(sha256);
-  return grounds;
+std::map<std::string, std::string> readFingerprint(const JsonReader& json) {
+  std::map<std::string, std::string> fingerprint;
+  for (const auto& [name, sha256] : json.members()) fingerprint[name] = readSha256(sha256);
+  return fingerprint;
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void fields(Archive& archive, Self& decision) {
   archive.field("time", decision.time, kTime);
   archive.optional("run", decision.digest, kSha256);
   archive.object("pose", decision.pose);
-  archive.optional("grounds", decision.grounds, plainCodec(&readGrounds));
+  archive.optional("input_fingerprint", decision.input_fingerprint, plainCodec(&readFingerprint));
   archive.optionalList("checks", decision.checks);
   archive.optional("basin_seeds", decision.basin_seeds, integerIn(1, 1000));
   archive.object("approval", decision.approval);

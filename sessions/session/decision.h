@@ -72,8 +72,9 @@ struct Decision {
   std::string time;                               ///< UTC, "2026-01-31T23:59:59Z"
   std::string digest;                             ///< of the run that was judged, or empty
   std::optional<JudgedPose> pose = std::nullopt;  ///< always there of a validation that can hold
-  /// SHA-256 of each thing that the judgement rests on, by its name (sessions/review/standing.h).
-  std::map<std::string, std::string> grounds = {};
+  /// SHA-256 of each thing that the judgement rests on, by its name
+  /// (sessions/review/review_status.h).
+  std::map<std::string, std::string> input_fingerprint = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
   int basin_seeds = 0;  ///< further seeds that the checks rest on, to measure them again; 0: none

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -55,77 +56,49 @@ std::string namesOf(const Dependency& dependency) {
   return dependency.file.string() + (other.empty() ? "" : ", or " + other + ",");
 }
 
-/// Hashes each file once, whatever number of cases share it.
-class Checker {
- public:
-  void check(const std::string& case_id, const Dependency& dependency) {
-    const State& state = stateOf(dependency);
-    Finding finding;
-    finding.case_id = case_id;
-    finding.what = dependency.what;
-    finding.file = dependency.file;
-    const std::string start = "case " + case_id + ": ";
-    const std::string lost = dependency.image != nullptr && state.sha256 != dependency.sha256
-                                 ? lostLabelText(*dependency.image)
-                                 : std::string();
-    if (!state.error.empty() || !lost.empty()) {
-      finding.kind = state.missing ? FindingKind::kMissing : FindingKind::kUnreadable;
-      finding.text = start + dependency.file.string() + ": " + (lost.empty() ? state.error : lost);
-    } else if (state.sha256 != dependency.sha256) {
-      finding.kind = FindingKind::kChanged;
-      finding.text = start + namesOf(dependency) +
-                     " is not the file that the session was made with (its SHA-256 is " +
-                     state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) +
-                     "...)";
-    } else {
-      return;
-    }
-    findings_.push_back(finding);
-  }
-
-  void checkRun(const RunRecord& run) {
-    std::error_code error;
-    if (fs::is_regular_file(run.file, error)) return;
-    findings_.push_back(
-        {FindingKind::kMissing, run.case_id, "run", run.file,
-         "case " + run.case_id + ": the trace of a run is missing: " + run.file.string()});
-  }
-
-  std::vector<Finding> take() { return std::move(findings_); }
-
- private:
-  struct State {
-    std::string sha256;
-    std::string error;
-    bool missing = false;
-  };
-
-  const State& stateOf(const Dependency& dependency) {
-    const auto [place, added] = states_.try_emplace(dependency.file);
-    State& state = place->second;
-    if (!added) return state;
-    std::error_code error;
-    state.missing = !fs::exists(dependency.file, error);
-    try {
-      state.sha256 = inputSha256(dependency.file);
-    } catch (const InputError& unreadable) {
-      state.error = unreadable.reason();
-    }
-    return state;
-  }
-
-  std::map<fs::path, State> states_;
-  std::vector<Finding> findings_;
+/// A file's hash, or why it has none.
+struct FileState {
+  std::string sha256;
+  std::string error;
+  bool missing = false;
 };
+
+FileState stateOf(const fs::path& file) {
+  FileState state;
+  std::error_code error;
+  state.missing = !fs::exists(file, error);
+  try {
+    state.sha256 = inputSha256(file);
+  } catch (const InputError& unreadable) {
+    state.error = unreadable.reason();
+  }
+  return state;
+}
+
+/// Nothing when it is the file that the session knows.
+std::optional<Finding> findingOf(const std::string& case_id, const Dependency& dependency,
+                                 const FileState& state) {
+  const bool changed = state.sha256 != dependency.sha256;
+  const std::string lost =
+      dependency.image != nullptr && changed ? lostLabelText(*dependency.image) : std::string();
+  Finding finding{FindingKind::kChanged, case_id, dependency.what, dependency.file,
+                  "case " + case_id + ": "};
+  if (!state.error.empty() || !lost.empty()) {
+    finding.kind = state.missing ? FindingKind::kMissing : FindingKind::kUnreadable;
+    finding.text += dependency.file.string() + ": " + (lost.empty() ? state.error : lost);
+  } else if (changed) {
+    finding.text +=
+        namesOf(dependency) + " is not the file that the session was made with (its SHA-256 is " +
+        state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) + "...)";
+  } else {
+    return {};
+  }
+  return finding;
+}
 
 bool hasSha256(const fs::path& file, const std::string& sha256) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) return false;
-  try {
-    return inputSha256(file) == sha256;
-  } catch (const InputError&) {
-    return false;
-  }
+  return fs::is_regular_file(file, error) && stateOf(file).sha256 == sha256;
 }
 
 /// Files below the session's folder, by name.
@@ -184,11 +157,22 @@ std::string inputSha256(const fs::path& file) {
 }
 
 std::vector<Finding> checkInputs(const Session& session) {
-  Checker checker;
+  std::map<fs::path, FileState> states;  // each file is hashed once, however many cases share it
+  std::vector<Finding> findings;
   for (const auto& one : session.cases)
-    for (const Dependency& dependency : dependenciesOf(*one)) checker.check(one->id, dependency);
-  for (const RunRecord& run : session.runs) checker.checkRun(run);
-  return checker.take();
+    for (const Dependency& dependency : dependenciesOf(*one)) {
+      const auto [known, added] = states.try_emplace(dependency.file);
+      if (added) known->second = stateOf(dependency.file);
+      if (auto found = findingOf(one->id, dependency, known->second))
+        findings.push_back(std::move(*found));
+    }
+  std::error_code error;
+  for (const RunRecord& run : session.runs)
+    if (!fs::is_regular_file(run.file, error))
+      findings.push_back(
+          {FindingKind::kMissing, run.case_id, "run", run.file,
+           "case " + run.case_id + ": the trace of a run is missing: " + run.file.string()});
+  return findings;
 }
 
 std::vector<Relink> findMissing(const Session& session, const fs::path& session_file) {

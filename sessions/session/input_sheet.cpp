@@ -20,8 +20,6 @@ namespace {
 
 /// A station smaller than this in the image cannot be matched.
 constexpr double kSmallestStation_px = 24.0;
-/// The number of stations that `InputSheets` keeps: meshes are large.
-constexpr std::size_t kMostStations = 8;
 
 std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
@@ -73,19 +71,13 @@ struct Differences {
   bool alternate() const { return next > 1.25 * second && next > 0.0; }
 };
 
-void flagMeshes(const SceneMesh& scene, InputSheet& sheet) {
-  for (const MeshInfo& info : scene.infos)
-    for (const std::string& note : info.notes())
-      sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
-}
-
 bool contains(const BoundingBox& bounds, const Eigen::Vector3d& point_m) {
   return (point_m.array() >= bounds.minimum_m.array()).all() &&
          (point_m.array() <= bounds.maximum_m.array()).all();
 }
 
-void flagSeed(const SheetSources& sources, InputSheet& sheet) {
-  const auto& [one, image, image_sheet, scene, bounds, ignored_count] = sources;
+void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet) {
+  const BoundingBox bounds = matchedBounds(scene.view());
   const Pose& seed = one.camera_from_station_seed;
   const std::string scale = scaleConcern(bounds, seed);
   if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": is the mesh's unit right?"});
@@ -106,11 +98,11 @@ void flagSeed(const SheetSources& sources, InputSheet& sheet) {
                                                 "unit right?"});
 }
 
-void describe(const SheetSources& sources, InputSheet& sheet) {
-  const SessionCase& one = sources.one;
-  const GrayImage& image = sources.image;
-  const CameraSheet camera = cameraSheet(one.camera);
-  const BoundingBox& bounds = sources.bounds;
+void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const CameraSheet& camera,
+              InputSheet& sheet) {
+  const SessionCase& one = loaded.source;
+  const GrayImage& image = loaded.image;
+  const BoundingBox bounds = matchedBounds(loaded.scene.view());
   const Eigen::Vector3d extent_mm = kMillimetres * (bounds.maximum_m - bounds.minimum_m);
   const double seed_distance_m = (one.camera_from_station_seed * bounds.centre()).norm();
   const double view_width_mm = kMillimetres * seed_distance_m * one.camera.width / one.camera.fx;
@@ -125,15 +117,15 @@ void describe(const SheetSources& sources, InputSheet& sheet) {
   if (image.label)
     for (const SheetLine& line : labelLines(*image.label)) sheet.lines.push_back(line);
   add("to 8 bit", image.rule);
-  add("gray", std::to_string(sources.image_sheet.lowest_gray) + " .. " +
-                  std::to_string(sources.image_sheet.highest_gray) + ", " +
-                  fixedText(100.0 * sources.image_sheet.saturated_share, 2) + " % saturated");
+  add("gray", std::to_string(image_sheet.lowest_gray) + " .. " +
+                  std::to_string(image_sheet.highest_gray) + ", " +
+                  fixedText(100.0 * image_sheet.saturated_share, 2) + " % saturated");
   add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
                     sizeText(one.camera.width, one.camera.height) + " px");
-  for (const FrameLine& line : frameLines(one)) add(line.label.c_str(), line.value);
+  for (const LabelItem& line : frameLines(one)) add(line.name.c_str(), line.value);
   add("field of view", fixedText(camera.field_of_view_x_deg, 2) + " x " +
                            fixedText(camera.field_of_view_y_deg, 2) + " deg");
-  for (const MeshInfo& info : sources.scene.infos)
+  for (const MeshInfo& info : loaded.scene.infos)
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
   const InputSigmas sigmas(one);
@@ -145,9 +137,9 @@ void describe(const SheetSources& sources, InputSheet& sheet) {
                      fixedText(extent_mm.z(), 1) + " mm; the view is " +
                      fixedText(view_width_mm, 1) + " mm wide at its distance");
   add("seed", fixedText(seed_distance_m, 4) + " m from the camera to the station's middle");
-  if (sources.ignored_count)
-    add("ignored", std::to_string(*sources.ignored_count) + " px, " +
-                       fixedText(100.0 * static_cast<double>(*sources.ignored_count) /
+  if (loaded.ignore)
+    add("ignored", std::to_string(loaded.ignore->ignored_count) + " px, " +
+                       fixedText(100.0 * static_cast<double>(loaded.ignore->ignored_count) /
                                      (static_cast<double>(image.width) * image.height),
                                  2) +
                        " % of the image");
@@ -244,75 +236,25 @@ ImageSheet imageSheet(const GrayImage& image) {
   return sheet;
 }
 
-InputSheet inputSheet(const SheetSources& sources) {
+InputSheet inputSheet(const LoadedCase& loaded) {
   InputSheet sheet;
-  const SessionCase& one = sources.one;
-  const GrayImage& image = sources.image;
-  describe(sources, sheet);
-  sheet.flags = sources.image_sheet.flags;
+  const SessionCase& one = loaded.source;
+  const GrayImage& image = loaded.image;
+  const ImageSheet image_sheet = imageSheet(image);
+  const CameraSheet camera = cameraSheet(one.camera);
+  describe(loaded, image_sheet, camera, sheet);
+  sheet.flags = image_sheet.flags;
   if (image.width != one.camera.width || image.height != one.camera.height)
     sheet.flags.push_back(
         {"camera_size", "the camera is of " + sizeText(one.camera.width, one.camera.height) +
                             " px, but the image has " + sizeText(image.width, image.height)});
-  const std::vector<RedFlag> of_camera = cameraSheet(one.camera).flags;
-  sheet.flags.insert(sheet.flags.end(), of_camera.begin(), of_camera.end());
-  flagMeshes(sources.scene, sheet);
-  flagSeed(sources, sheet);
+  sheet.flags.insert(sheet.flags.end(), camera.flags.begin(), camera.flags.end());
+  for (const MeshInfo& info : loaded.scene.infos)
+    for (const std::string& note : info.notes())
+      sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
+  flagSeed(one, loaded.scene, sheet);
   if (image.label) flagLabel(one, *image.label, sheet.flags);
   return sheet;
-}
-
-InputSheet inputSheet(const LoadedCase& loaded) {
-  const ImageSheet image_sheet = imageSheet(loaded.image);
-  const BoundingBox bounds = matchedBounds(loaded.scene.view());
-  std::optional<std::int64_t> ignored_count;
-  if (loaded.ignore) ignored_count = loaded.ignore->ignored_count;
-  return inputSheet(
-      {loaded.source, loaded.image, image_sheet, loaded.scene, bounds, ignored_count});
-}
-
-const InputSheets::Image& InputSheets::imageOf(const ImageInput& input) {
-  const auto [place, added] = images_.try_emplace(input.source.file);
-  Image& known = place->second;
-  if (added || !(known.input == input)) {
-    ++files_read_;
-    known = {input, {}, {}, nullptr};
-    try {
-      known.image = loadImage(input);
-      known.sheet = imageSheet(known.image);
-      known.image.pixels = {};
-    } catch (...) {
-      known.problem = std::current_exception();
-    }
-  }
-  if (known.problem) std::rethrow_exception(known.problem);
-  return known;
-}
-
-const InputSheets::Station& InputSheets::stationOf(const std::vector<MeshInput>& parts) {
-  const std::filesystem::path key = parts.empty() ? "" : parts.front().source.mesh;
-  if (stations_.size() >= kMostStations && !stations_.contains(key)) stations_.clear();
-  const auto [place, added] = stations_.try_emplace(key);
-  Station& known = place->second;
-  if (added || !(known.parts == parts)) {
-    ++files_read_;
-    known = {parts, {}, {}, nullptr};
-    try {
-      known.scene = readKnownScene(parts);
-      known.bounds = matchedBounds(known.scene.view());
-    } catch (...) {
-      known.problem = std::current_exception();
-    }
-  }
-  if (known.problem) std::rethrow_exception(known.problem);
-  return known;
-}
-
-InputSheet InputSheets::of(const SessionCase& one) {
-  if (one.ignore || !one.ignore_strokes.empty()) return inputSheet(*loadCase(one));
-  const Image& image = imageOf(one.image);
-  const Station& station = stationOf(one.parts);
-  return inputSheet({one, image.image, image.sheet, station.scene, station.bounds, std::nullopt});
 }
 
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m) {

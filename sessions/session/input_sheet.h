@@ -3,11 +3,6 @@
 // `whs info` and for the desktop program.
 #pragma once
 
-#include <cstdint>
-#include <exception>
-#include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +11,6 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "sessions/io/image_file.h"
-#include "sessions/io/mesh_file.h"
 #include "sessions/session/case_run.h"
 
 namespace boresight::sessions {
@@ -70,49 +64,8 @@ struct InputSheet {
   std::vector<RedFlag> flags;  ///< of image, camera, meshes, and of how they fit each other
 };
 
-/// What a sheet is made from. Of the image all but its pixels, which are looked at once.
-struct SheetSources {
-  const SessionCase& one;
-  const GrayImage& image;
-  const ImageSheet& image_sheet;  ///< of that image
-  const SceneMesh& scene;
-  const BoundingBox& bounds;                  ///< of its matched parts, station frame
-  std::optional<std::int64_t> ignored_count;  ///< px, of a case with a mask
-};
-
 /// Also of inputs that could not be run: sizes that do not fit are a flag, not an error.
-InputSheet inputSheet(const SheetSources& sources);
 InputSheet inputSheet(const LoadedCase& loaded);
-
-/// Sheets of the cases of a session. An image or a station that many of them share is read once.
-class InputSheets {
- public:
-  /// As inputSheet(*loadCase(one)), and throws as that does.
-  InputSheet of(const SessionCase& one);
-  /// Images and stations that were read so far.
-  int filesRead() const { return files_read_; }
-
- private:
-  struct Image {
-    ImageInput input;
-    GrayImage image;  ///< without its pixels
-    ImageSheet sheet;
-    std::exception_ptr problem;
-  };
-  struct Station {
-    std::vector<MeshInput> parts;
-    SceneMesh scene;
-    BoundingBox bounds;
-    std::exception_ptr problem;
-  };
-
-  const Image& imageOf(const ImageInput& input);
-  const Station& stationOf(const std::vector<MeshInput>& parts);
-
-  std::map<std::filesystem::path, Image> images_;
-  std::map<std::filesystem::path, Station> stations_;  ///< by the mesh of the first part
-  int files_read_ = 0;
-};
 
 /// Whether the point is inside the surface, by its winding number: holes do not matter much.
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m);

@@ -50,11 +50,11 @@ std::string namedPoseTitle(const NamedPose& pose) {
   return "reference_from_station in " + frameText(pose.frame);
 }
 
-std::vector<FrameLine> frameLines(const SessionCase& one) {
+std::vector<LabelItem> frameLines(const SessionCase& one) {
   if (!one.camera_reference) return {};
   const Eigen::Vector3d centre_m =
       one.camera_reference->camera_from_reference.inverse().translation_m;
-  std::vector<FrameLine> lines = {
+  std::vector<LabelItem> lines = {
       {"camera model in", frameText(one.camera_reference->frame) + ", its centre at " +
                               fixedText(centre_m.x(), 4) + " " + fixedText(centre_m.y(), 4) + " " +
                               fixedText(centre_m.z(), 4) + " m"}};

@@ -31,14 +31,8 @@ nlohmann::ordered_json toJson(const std::vector<NamedPose>& poses);
 /// "reference_from_station in SITE_FRAME (194)": what heads the pose's matrix.
 std::string namedPoseTitle(const NamedPose& pose);
 
-/// A named fact, for people.
-struct FrameLine {
-  std::string label;
-  std::string value;
-};
-
 /// In which frames the camera model and the seed were given, and what joined the two; nothing for a
 /// camera without a reference frame.
-std::vector<FrameLine> frameLines(const SessionCase& one);
+std::vector<LabelItem> frameLines(const SessionCase& one);
 
 }  // namespace boresight::sessions

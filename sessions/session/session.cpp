@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/digest.h"
+#include "core/localizer/run_digest.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_fields.h"
@@ -13,19 +15,25 @@
 namespace boresight::sessions {
 namespace {
 
+/// The value of a case, or nullptr.
 template <class Value>
-bool sameOf(const std::string& id, const std::map<std::string, Value>& a,
-            const std::map<std::string, Value>& b) {
-  const auto in_a = a.find(id);
-  const auto in_b = b.find(id);
-  if (in_a == a.end() || in_b == b.end()) return (in_a == a.end()) == (in_b == b.end());
-  return in_a->second == in_b->second;
+const Value* valueOf(const std::string& id, const std::map<std::string, Value>& values) {
+  const auto found = values.find(id);
+  return found == values.end() ? nullptr : &found->second;
 }
 
-bool sameDecision(const std::string& id, const Session& a, const Session& b) {
-  const Decision* in_a = a.decisionOn(id);
-  const Decision* in_b = b.decisionOn(id);
-  return in_a && in_b ? *in_a == *in_b : in_a == in_b;
+template <class Value>
+bool same(const Value* a, const Value* b) {
+  return a && b ? *a == *b : a == b;
+}
+
+/// Empty values are not kept.
+template <class Value>
+void put(const std::string& id, Value value, std::map<std::string, SharedValue<Value>>& values) {
+  if (value == Value())
+    values.erase(id);
+  else
+    values.insert_or_assign(id, std::move(value));
 }
 
 }  // namespace
@@ -46,6 +54,14 @@ void setTruth(SessionCase& one, const Pose& camera_from_station,
   one.camera_from_station_truth = camera_from_station;
   one.truth_frame.reset();
   one.truth_covariance = covariance;
+}
+
+const RunRecord* findRun(const Session& session, const std::string& case_id,
+                         const std::string& digest) {
+  const RunRecord* found = nullptr;
+  for (const RunRecord& run : session.runs)
+    if (run.case_id == case_id && (digest.empty() || run.digest == digest)) found = &run;
+  return found;
 }
 
 const SessionCase& knownCase(const Session& session, const std::string& case_id) {
@@ -78,7 +94,7 @@ Session withoutCase(const Session& session, const std::string& case_id) {
   Session next = session;
   next.cases.eraseIf([&](const auto& one) { return one->id == case_id; });
   next.annotations.erase(case_id);
-  next.passes.erase(case_id);
+  next.rounds.erase(case_id);
   next.decisions.eraseIf([&](const Decision& one) { return one.case_id == case_id; });
   next.runs.eraseIf([&](const RunRecord& run) { return run.case_id == case_id; });
   if (next.view.case_id == case_id) next.view = {};
@@ -87,19 +103,13 @@ Session withoutCase(const Session& session, const std::string& case_id) {
 
 Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation) {
   Session next = session;
-  if (annotation == Annotation())
-    next.annotations.erase(case_id);
-  else
-    next.annotations.insert_or_assign(case_id, std::move(annotation));
+  put(case_id, std::move(annotation), next.annotations);
   return next;
 }
 
-Session withPasses(const Session& session, const std::string& case_id, AnnotationPasses passes) {
+Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds) {
   Session next = session;
-  if (passes.empty())
-    next.passes.erase(case_id);
-  else
-    next.passes.insert_or_assign(case_id, std::move(passes));
+  put(case_id, std::move(rounds), next.rounds);
   return next;
 }
 
@@ -152,6 +162,38 @@ std::string inputsDigest(const SessionCase& one) {
   return sha256Text(toJson(inputs, PathWriter("/")).dump());
 }
 
+bool RerunRecord::operator==(const RerunRecord& other) const {
+  const auto same = [](const OptionChange& a, const OptionChange& b) {
+    return a.iteration == b.iteration && sameOptions(a.options, b.options);
+  };
+  return from == other.from && sameOptions(options, other.options) &&
+         std::equal(changes.begin(), changes.end(), other.changes.begin(), other.changes.end(),
+                    same);
+}
+
+std::vector<std::string> casesOf(const TogetherRecord& record) {
+  std::vector<std::string> ids;
+  for (const ViewOutcome& view : record.views) ids.push_back(view.case_id);
+  return ids;
+}
+
+std::string viewsDigest(const Session& session, const std::vector<std::string>& case_ids) {
+  DigestWriter writer;
+  writer.tag("views");
+  for (std::size_t i = 0; i < case_ids.size(); ++i) {
+    const SessionCase* found = session.findCase(case_ids[i]);
+    if (found == nullptr || !found->rig) return "";
+    SessionCase one = *found;
+    if (i > 0) {
+      one.camera_from_station_seed = Pose();
+      one.uncertainty = {};
+    }
+    writer.tag(inputsDigest(one).c_str());
+    digestPose(found->rig->camera_from_rig, writer);
+  }
+  return hexText(writer.digest()).data();
+}
+
 Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file) {
   const SessionCase* one = session.findCase(run.case_id);
@@ -166,10 +208,12 @@ std::vector<std::string> changedCases(const Session& before, const Session& afte
   std::vector<std::string> changed;
   for (const auto& one : after.cases) {
     const SessionCase* former = before.findCase(one->id);
-    const bool same =
-        former && *former == *one && sameOf(one->id, before.annotations, after.annotations) &&
-        sameOf(one->id, before.passes, after.passes) && sameDecision(one->id, before, after);
-    if (!same) changed.push_back(one->id);
+    const auto& id = one->id;
+    const bool kept = former && *former == *one &&
+                      same(valueOf(id, before.annotations), valueOf(id, after.annotations)) &&
+                      same(valueOf(id, before.rounds), valueOf(id, after.rounds)) &&
+                      same(before.decisionOn(id), after.decisionOn(id));
+    if (!kept) changed.push_back(id);
   }
   return changed;
 }

@@ -14,7 +14,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
-#include "sessions/annotation/annotation_pass.h"
+#include "sessions/annotation/annotation_round.h"
 #include "sessions/annotation/marks.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/dataset_file.h"
@@ -124,7 +124,7 @@ struct Session {
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
   /// By case: what people marked who are done, in that order; none is empty.
-  std::map<std::string, SharedValue<AnnotationPasses>> passes;
+  std::map<std::string, SharedValue<AnnotationRounds>> rounds;
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
   KeyedList<RunRecord, CaseIdOf> runs;      ///< in the order in which they were made
@@ -140,6 +140,10 @@ struct Session {
   bool operator==(const Session&) const = default;
 };
 
+/// The last run of a case that has this digest, or any when that is empty; nullptr when there is
+/// none.
+const RunRecord* findRun(const Session& session, const std::string& case_id,
+                         const std::string& digest);
 /// The case of this id. InputError when there is none.
 const SessionCase& knownCase(const Session& session, const std::string& case_id);
 /// The same session with a case changed; unchanged when there is no such case.
@@ -151,8 +155,8 @@ Session withCase(const Session& session, SessionCase changed);
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is taken away.
 Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation);
-/// The same session with the marks that people ended with in a case; no passes are taken away.
-Session withPasses(const Session& session, const std::string& case_id, AnnotationPasses passes);
+/// The same session with the marks that people ended with in a case; no rounds are taken away.
+Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds);
 
 /// The same session with these options, kept as what differs from a profile that exists.
 Session withOptions(const Session& session, const std::string& profile,
@@ -181,7 +185,7 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file);
 
 /// Ids of the later session's cases of which a person has changed something since the earlier one
-/// (the case itself, its marks or passes, decisions on it); new ones too, in their order. Runs and
+/// (the case itself, its marks or rounds, decisions on it); new ones too, in their order. Runs and
 /// the view do not count.
 std::vector<std::string> changedCases(const Session& before, const Session& after);
 

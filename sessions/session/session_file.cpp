@@ -53,15 +53,15 @@ void readMarksOf(const JsonReader& json, Session& session) {
     requireCase(session, id, annotation);
     session.annotations.insert_or_assign(id, readMarks(annotation));
   }
-  const auto passes = json.find("passes");
-  if (!passes) return;
-  for (const auto& [id, list] : passes->members()) {
+  const auto rounds = json.find("rounds");
+  if (!rounds) return;
+  for (const auto& [id, list] : rounds->members()) {
     requireCase(session, id, list);
-    AnnotationPasses all;
-    for (const JsonReader& pass : list.elements())
-      all.push_back({pass.at("by").nonEmptyText(), readTime(pass.at("time")), readMarks(pass)});
+    AnnotationRounds all;
+    for (const JsonReader& round : list.elements())
+      all.push_back({round.at("by").nonEmptyText(), readTime(round.at("time")), readMarks(round)});
     if (all.empty()) list.fail("there is none: leave the case out");
-    session.passes.insert_or_assign(id, std::move(all));
+    session.rounds.insert_or_assign(id, std::move(all));
   }
 }
 
@@ -211,11 +211,11 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["annotations"] = ordered_json::object();
   for (const auto& [id, annotation] : session.annotations)
     json["annotations"][id] = toJson(*annotation);
-  for (const auto& [id, passes] : session.passes)
-    for (const AnnotationPass& pass : *passes) {
-      ordered_json one = {{"by", pass.by}, {"time", pass.time}};
-      one.update(toJson(pass.marks));
-      json["passes"][id].push_back(one);
+  for (const auto& [id, rounds] : session.rounds)
+    for (const AnnotationRound& round : *rounds) {
+      ordered_json one = {{"by", round.by}, {"time", round.time}};
+      one.update(toJson(round.marks));
+      json["rounds"][id].push_back(one);
     }
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
   json["decisions"] = ordered_json::array();

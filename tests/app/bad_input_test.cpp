@@ -323,12 +323,12 @@ TEST_F(Overwrite, OfMarksBySolveIsRefused) {
 TEST_F(Overwrite, OfASessionAndItsInputsIsRefused) {
   const std::string session = newSession(), mesh = file("stations/os/model.ply");
   const std::string image = file("stations/os/image.png");
-  runWhs({"run", session, "--case", "os-000038"}, 0);
+  runWhs({"run", session, "--case", kOsCase}, 0);
   for (const std::string& input : {session, mesh, image}) {
     expectRefused({"queue", session, "--csv", input}, {"--csv", input});
-    expectRefused({"check", session, "--case", "os-000038", "--json", input}, {"--json", input});
-    expectRefused({"report", session, "--case", "os-000038", "--out", input}, {"--out", input});
-    expectRefused({"export", session, "--case", "os-000038", "--pose", input}, {"--pose", input});
+    expectRefused({"check", session, "--case", kOsCase, "--json", input}, {"--json", input});
+    expectRefused({"report", session, "--case", kOsCase, "--out", input}, {"--out", input});
+    expectRefused({"export", session, "--case", kOsCase, "--pose", input}, {"--pose", input});
     expectRefused({"pack", session, "--out", input}, {"--out", input});
   }
   expectRefused({"queue", session, "--csv", session}, {"session and --csv"});
@@ -353,8 +353,8 @@ TEST_F(Overwrite, OfResultsByTablesIsRefused) {
 
 TEST_F(Overwrite, OfWhatACommandKeepsUpToDateGoesOn) {
   const std::string session = newSession(), results = file("r.sqlite");
-  runWhs({"run", session, "--case", "os-000038"}, 0);
-  EXPECT_EQ(runWhs({"run", session, "--case", "os-000038"}).exit_code, 0) << "the same run again";
+  runWhs({"run", session, "--case", kOsCase}, 0);
+  EXPECT_EQ(runWhs({"run", session, "--case", kOsCase}).exit_code, 0) << "the same run again";
   const Arguments evaluate = {
       "evaluate", "--dataset", file("stations/dataset.json"), "--station", "os", "--out", results};
   runWhs(evaluate, 0);

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/cahvor_file.h"
-#include "sessions/io/dataset_file.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
@@ -64,25 +63,11 @@ class Downlink : public ::testing::Test {
   }
 
   Arguments newArguments(bool with_transform) const {
-    Arguments arguments = {"new",
-                           "--image",
-                           image_.string(),
-                           "--mesh",
-                           (exampleFolder() / "os" / "model.ply").string(),
-                           "--mesh-unit",
-                           "m",
-                           "--seed",
-                           seed_,
-                           "--id",
-                           "sol12",
-                           "--feature-size",
-                           "0.018",
-                           "--out",
-                           session_};
-    if (with_transform) {
-      arguments.push_back("--transform");
-      arguments.push_back(transform_.string());
-    }
+    const std::string mesh = exampleFolder() / "os" / "model.ply";
+    Arguments arguments = {"new", "--image", image_, "--mesh", mesh, "--mesh-unit", "m"};
+    arguments.insert(arguments.end(), {"--seed", seed_, "--id", "sol12", "--feature-size", "0.018",
+                                       "--out", session_});
+    if (with_transform) arguments.insert(arguments.end(), {"--transform", transform_});
     return arguments;
   }
 
@@ -316,32 +301,21 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
 
 // Records, traces and sessions compared.
 
-using testing::HasSubstr;
-
-const std::string kCase = [] {
-  for (const sessions::Case& one : sessions::readDataset(exampleFolder() / "dataset.json").cases)
-    if (one.station == "os") return one.id;
-  return std::string();
-}();
-
 /// A session whose one case was run, and the record and trace of the same run elsewhere.
 struct Runs {
   TemporaryFolder folder;
-  std::string session = folder / "s.boresight.json";
+  std::string session = newSession(folder);
   std::string record = folder / "run.whsr";
   std::string trace = folder / "run.trace";
 
   Runs() {
-    runWhs(
-        {"new", "--dataset", exampleFolder() / "dataset.json", "--case", kCase, "--out", session},
-        0);
     runWhs({"run", session}, 0);
     runWhs(localizeArguments({{"--record", record}, {"--trace", trace}}), 0);
   }
 
   void edit(void (*change)(sessions::SessionCase&, const Runs&)) const {
     auto document = sessions::SessionDocument::open(session);
-    sessions::SessionCase one = *document.session().findCase(kCase);
+    sessions::SessionCase one = *document.session().findCase(kOsCase);
     change(one, *this);
     document.apply(sessions::withCase(document.session(), one), "Change");
     document.save();
@@ -359,18 +333,18 @@ TEST(WhsCompare, TakesRecordsTracesAndRunsOfSessions) {
   };
   EXPECT_EQ(exitOf({runs.record, runs.trace}), 0);
   EXPECT_EQ(exitOf({runs.trace, runs.record}), 0);
-  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kCase}), 0);
-  EXPECT_EQ(exitOf({runs.session, runs.trace, "--case", kCase}), 0);
-  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kCase, "--rerun"}), 0);
-  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kCase, "--run", "0000000"}), 3);
-  EXPECT_EQ(exitOf({runs.session, "--case", kCase}), 3) << "no record is attached";
+  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kOsCase}), 0);
+  EXPECT_EQ(exitOf({runs.session, runs.trace, "--case", kOsCase}), 0);
+  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kOsCase, "--rerun"}), 0);
+  EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kOsCase, "--run", "0000000"}), 3);
+  EXPECT_EQ(exitOf({runs.session, "--case", kOsCase}), 3) << "no record is attached";
   runs.edit([](sessions::SessionCase& one, const Runs& made) {
     one.onboard_record = {made.record, sessions::inputSha256(made.record)};
   });
-  EXPECT_EQ(exitOf({runs.session, "--case", kCase}), 0);
+  EXPECT_EQ(exitOf({runs.session, "--case", kOsCase}), 0);
   EXPECT_EQ(exitOf({runs.session}), 2);
   EXPECT_EQ(exitOf({runs.record}), 2);
-  EXPECT_EQ(exitOf({runs.session, runs.session, "--case", kCase}), 2);
+  EXPECT_EQ(exitOf({runs.session, runs.session, "--case", kOsCase}), 2);
   EXPECT_EQ(exitOf({runs.record, runs.session, "--case", "none"}), 3);
 }
 
@@ -379,9 +353,11 @@ TEST(WhsNew, AttachesAnOnboardRecordToItsOneCase) {
   const std::string made = runs.folder / "made.boresight.json";
   const std::string dataset = exampleFolder() / "dataset.json";
   runWhs({"new", "--dataset", dataset, "--record", runs.record, "--out", made}, 2);
-  runWhs({"new", "--dataset", dataset, "--case", kCase, "--record", runs.trace, "--out", made}, 3);
-  runWhs({"new", "--dataset", dataset, "--case", kCase, "--record", runs.record, "--out", made}, 0);
-  runWhs({"compare", made, "--case", kCase, "--rerun"}, 0);
+  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.trace, "--out", made},
+         3);
+  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.record, "--out", made},
+         0);
+  runWhs({"compare", made, "--case", kOsCase, "--rerun"}, 0);
 }
 
 TEST(WhsCompare, DoesNotTakeARunOfOtherInputsForTheCases) {
@@ -389,18 +365,18 @@ TEST(WhsCompare, DoesNotTakeARunOfOtherInputsForTheCases) {
   runs.edit([](sessions::SessionCase& one, const Runs&) {
     one.camera_from_station_seed.translation_m.x() += 1e-4;
   });
-  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kCase}, 3).err,
+  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase}, 3).err,
               HasSubstr("no longer its own"));
-  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kCase, "--rerun"}, 6).out,
+  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase, "--rerun"}, 6).out,
               HasSubstr("first difference: seed"));
 }
 
 TEST(WhsCompare, RunsTheCaseByTheRecordsOptions) {
   const Runs runs;
   runWhs(localizeArguments({{"--record", runs.record}, {"--set", "pnp.seed=7"}}), 0);
-  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kCase}, 6).out,
+  EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase}, 6).out,
               HasSubstr("first difference: options"));
-  runWhs({"compare", runs.record, runs.session, "--case", kCase, "--rerun"}, 0);
+  runWhs({"compare", runs.record, runs.session, "--case", kOsCase, "--rerun"}, 0);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class WhsEvaluate : public testing::Test {
  protected:
@@ -187,7 +188,35 @@ TEST_F(WhsEvaluate, RefusesWhatItCannotRun) {
   EXPECT_EQ(folder_.fileCount(), 0u);
 }
 
-using testing::Not;
+TEST_F(WhsEvaluate, SeveralMethodsAreRunSideBySide) {
+  runWhs(evaluateArguments(dataset_, {"--station", "os", "--method", "whs", "--method", "orb"}), 0);
+  const auto results = lines();
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0]["method"], "orb") << "by name, of the same case and seed";
+  EXPECT_EQ(results[1]["method"], "whs");
+  EXPECT_EQ(results[1]["success"], true);
+}
+
+TEST_F(WhsEvaluate, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
+  for (const char* what : {"die", "babble"}) {
+    runWhs(evaluateArguments(
+               dataset_, {"--station", "os", "--method", "external", "--method", "whs", "--reseed",
+                          "1", "--matcher", std::string(BORESIGHT_TEST_MATCHER " ") + what}),
+           0);
+    const auto results = lines();
+    ASSERT_EQ(results.size(), 4u);
+    for (const auto& result : results) {
+      const bool failed = result["method"] == "external";
+      EXPECT_EQ(result["status"] == "method_error", failed) << result.dump();
+      EXPECT_EQ(result["completed"], !failed);
+      EXPECT_EQ(result["success"], !failed) << "a run that was lost is not left out of the share";
+      if (failed) {
+        EXPECT_THAT(std::string(result["message"]), HasSubstr("the matcher"));
+      }
+    }
+    std::filesystem::remove(folder_ / "r.sqlite");
+  }
+}
 
 /// Results of the example, quick and good.
 class WhsTables : public testing::Test {

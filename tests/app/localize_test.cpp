@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -48,26 +47,21 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
   EXPECT_EQ(sessions::readImage(folder / "overlay.png").width, 1024);
 }
 
-TEST(WhsLocalize, GivesTheSameDigestWithAllKernels) {
-  const auto digestWith = [](const std::string& kernels) {
-    const ProgramRun run = runWhs(localizeArguments({{"--kernels", kernels}}));
-    EXPECT_EQ(run.exit_code, 0) << kernels << ": " << run.err;
-    return run.out.substr(std::min(run.out.find("digest"), run.out.size()));
-  };
-  EXPECT_EQ(digestWith("portable"), digestWith("best"));
+TEST(WhsLocalize, GivesTheSameDigestByAllKernelsAndThreadsAndWithRecording) {
+  const TemporaryFolder folder;
+  const std::string plain = digestOf(runWhs(localizeArguments(), 0));
+  EXPECT_EQ(plain.size(), std::string("digest ").size() + 64);
+  using Option = std::pair<const std::string, std::string>;
+  std::vector<Option> options = {
+      {"--kernels", "portable"}, {"--kernels", "best"}, {"--trace", folder / "t"}};
+  for (const char* threads : {"0", "1", "2", "3", "8"}) options.emplace_back("--threads", threads);
+  for (const Option& option : options)
+    EXPECT_EQ(digestOf(runWhs(localizeArguments({option}))), plain)
+        << option.first << " " << option.second;
+  EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
   EXPECT_THAT(runWhs(localizeArguments({{"--kernels", "abacus"}}), 2).err,
               AllOf(HasSubstr("--kernels"), HasSubstr("best, portable")));
-}
-
-TEST(WhsLocalize, GivesTheSameDigestWithAndWithoutRecording) {
-  const TemporaryFolder folder;
-  const auto digestOf = [](const ProgramRun& run) {
-    return run.out.substr(run.out.find("digest"));
-  };
-  const std::string plain = digestOf(runWhs(localizeArguments()));
-  EXPECT_EQ(plain.size(), std::string("digest ").size() + 64 + 1);
-  EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--trace", folder / "t"}}))), plain);
-  EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
+  runWhs(localizeArguments({{"--threads", "-1"}}), 2);
 }
 
 TEST(WhsLocalize, WritesTheOnboardRecord) {
@@ -103,9 +97,6 @@ TEST(WhsCompare, SaysByItsExitCodeWhetherTwoRunsWereTheSame) {
 }
 
 TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
-  const auto digestOf = [](const ProgramRun& run) {
-    return run.out.substr(run.out.find("digest"), 64 + 7);
-  };
   for (const std::string station : {"os", "bc"}) {
     const std::filesystem::path folder = exampleFolder() / station;
     std::map<std::string, std::string> inputs;
@@ -130,16 +121,6 @@ TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
   EXPECT_THAT(asking.err, AllOf(HasSubstr("arena_too_small"), HasSubstr("bytes"),
                                 HasSubstr("10000000 in all"), HasSubstr("lower")));
   EXPECT_THAT(asking.out, Not(HasSubstr("digest")));
-}
-
-TEST(WhsLocalize, GivesTheSameDigestWithAnyNumberOfThreads) {
-  const auto digestOf = [](const ProgramRun& run) {
-    return run.out.substr(run.out.find("digest"));
-  };
-  const std::string plain = digestOf(runWhs(localizeArguments()));
-  for (const std::string threads : {"0", "1", "2", "3", "8"})
-    EXPECT_EQ(digestOf(runWhs(localizeArguments({{"--threads", threads}}))), plain) << threads;
-  runWhs(localizeArguments({{"--threads", "-1"}}), 2);
 }
 
 TEST(WhsLocalize, ExitsWith4AndSaysWhyWhenItDoesNotConverge) {
@@ -195,96 +176,45 @@ TEST(WhsLocalize, SeesOnlyWhatTheIgnoreMaskLeaves) {
 
 // Methods beside WHS, on the command line.
 
-/// The test matcher as a command, without quotes: runProgram's own surround it.
-std::string matcherCommand(const std::string& what) {
-  return std::string(BORESIGHT_TEST_MATCHER) + " " + what;
-}
-
-class WhsMethods : public testing::Test {
- protected:
-  std::vector<nlohmann::json> evaluated(const Arguments& more) {
-    Arguments arguments = {
-        "evaluate",           "--dataset", (exampleFolder() / "dataset.json").string(),
-        "--station",          "os",        "--out",
-        folder_ / "r.sqlite", "--jsonl",   folder_ / "r.jsonl"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    run_ = runWhs(arguments);
-    std::istringstream stream(folder_.read("r.jsonl"));
-    std::vector<nlohmann::json> made;
-    for (std::string line; std::getline(stream, line);) made.push_back(nlohmann::json::parse(line));
-    return made;
-  }
-
-  const TemporaryFolder folder_;
-  ProgramRun run_;
-};
-
-TEST_F(WhsMethods, ResultNamesTheMethodAndItsOptions) {
+TEST(WhsMethods, ResultNamesTheMethodAndItsOptions) {
+  const TemporaryFolder folder;
   const ProgramRun run = runWhs(localizeArguments({{"--method", "ncc"},
                                                    {"--set", "ncc.kind=ccorr_normed"},
-                                                   {"--out", folder_ / "result.json"}}));
+                                                   {"--out", folder / "result.json"}}));
   EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
-  const auto result = nlohmann::json::parse(folder_.read("result.json"));
+  const auto result = nlohmann::json::parse(folder.read("result.json"));
   EXPECT_THAT(result.dump(),
               AllOf(HasSubstr("\"method\":\"ncc\""), HasSubstr("\"ncc.kind\":\"ccorr_normed\"")));
 }
 
-TEST_F(WhsMethods, APoseFoundWithoutASearch_IsJudgedByEdgeSupportAndReportedSo) {
+TEST(WhsMethods, APoseFoundWithoutASearch_IsJudgedByEdgeSupportAndReportedSo) {
   const ProgramRun run =
       runWhs(localizeArguments({{"--method", "ncc"}, {"--set", "support.min_support=1"}}), 4);
   EXPECT_THAT(run.out + run.err,
               AllOf(HasSubstr("edge support is"), Not(HasSubstr("probability"))));
 }
 
-TEST_F(WhsMethods, RefusesWhatDoesNotFit) {
+TEST(WhsMethods, RefusesWhatDoesNotFit) {
   EXPECT_THAT(runWhs(localizeArguments({{"--method", "sift"}}), 2).err,
               AllOf(HasSubstr("sift"), HasSubstr("whs, ncc, ssd, orb")));
   EXPECT_THAT(runWhs(localizeArguments({{"--method", "loftr-r"}}), 2).err, HasSubstr("--matcher"));
   EXPECT_THAT(runWhs(localizeArguments({{"--method", "orb"}, {"--set", "orb.levels=99"}}), 2).err,
               HasSubstr("orb.levels"));
-  const ProgramRun record =
-      runWhs(localizeArguments({{"--method", "orb"}, {"--record", folder_ / "run.whsr"}}), 2);
+  runWhs(localizeArguments({{"--method", "orb"}, {"--record", "/no/such/run.whsr"}}), 2);
 }
 
-TEST_F(WhsMethods, OptionsListThoseOfTheMethods) {
+TEST(WhsMethods, OptionsListThoseOfTheMethods) {
   const ProgramRun run = runWhs({"options"}, 0);
   for (const char* name : {"ssd.masked", "ncc.kind", "orb.features", "external.timeout_s"})
     EXPECT_THAT(run.out, HasSubstr(name));
 }
 
-TEST_F(WhsMethods, AMatcherThatDiesIsOneSentence) {
+TEST(WhsMethods, AMatcherThatDiesIsOneSentence) {
   const ProgramRun run = runWhs(
-      localizeArguments({{"--method", "external"}, {"--matcher", matcherCommand("die")}}), 4);
+      localizeArguments({{"--method", "external"}, {"--matcher", BORESIGHT_TEST_MATCHER " die"}}),
+      4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
   EXPECT_THAT(run.err, AllOf(HasSubstr("ended with status 3"), HasSubstr("out of paper")));
-}
-
-TEST_F(WhsMethods, SeveralAreRunSideBySide) {
-  const auto results = evaluated({"--method", "whs", "--method", "orb"});
-  EXPECT_EQ(run_.exit_code, 0) << run_.err;
-  ASSERT_EQ(results.size(), 2u);
-  EXPECT_EQ(results[0]["method"], "orb") << "by name, of the same case and seed";
-  EXPECT_EQ(results[1]["method"], "whs");
-  EXPECT_EQ(results[1]["success"], true);
-}
-
-TEST_F(WhsMethods, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
-  for (const char* what : {"die", "babble"}) {
-    const auto results = evaluated({"--method", "external", "--method", "whs", "--reseed", "1",
-                                    "--matcher", matcherCommand(what)});
-    EXPECT_EQ(run_.exit_code, 0) << run_.err;
-    ASSERT_EQ(results.size(), 4u);
-    for (const auto& result : results) {
-      const bool failed = result["method"] == "external";
-      EXPECT_EQ(result["status"] == "method_error", failed) << result.dump();
-      EXPECT_EQ(result["completed"], !failed);
-      EXPECT_EQ(result["success"], !failed) << "a run that was lost is not left out of the share";
-      if (failed) {
-        EXPECT_THAT(std::string(result["message"]), HasSubstr("the matcher"));
-      }
-    }
-    std::filesystem::remove(folder_ / "r.sqlite");
-  }
 }
 
 // whs problem, and the flight driver that reads what it writes.
@@ -340,7 +270,7 @@ TEST_F(WhsProblem, DriverDoesNotPassOverLostOutput) {
 TEST_F(WhsProblem, IsTheSameFromADataset) {
   runWhs(arguments(), 0);
   const std::string problem = folder_.read("problem.bin");
-  runWhs({"problem", "--dataset", exampleFolder() / "dataset.json", "--case", "os-000038", "--out",
+  runWhs({"problem", "--dataset", exampleFolder() / "dataset.json", "--case", kOsCase, "--out",
           problem_, "--image-out", image_},
          0);
   EXPECT_TRUE(folder_.read("problem.bin") == problem);
@@ -354,7 +284,7 @@ TEST_F(WhsProblem, RefusesWhatItCannotWriteOrRead) {
                   .err,
               AllOf(StartsWith(dataset), HasSubstr("none")));
   Arguments both = arguments();
-  both.insert(both.end(), {"--dataset", dataset, "--case", "os-000038"});
+  both.insert(both.end(), {"--dataset", dataset, "--case", kOsCase});
   runWhs(both, 2);
   runWhs({"problem", "--out", problem_, "--image-out", image_}, 2);
   runWhs(arguments({{"--seed", ""}}), 2);
@@ -388,7 +318,7 @@ TEST_F(WhsProblem, TheDriverRefusesDamageInOneSentence) {
   expectRefused(image_, "8 bits");
   folder_.write("image.pgm", std::string("P5\n1024 99999999999999999999\n255\n"));
   expectRefused(image_, "width and height");
-  folder_.write("image.pgm", "P5\n# by hand\n512 2048 255\n" + image.substr(17));
+  folder_.write("image.pgm", "P5\n512 2048\n255\n" + image.substr(17));
   expectRefused(image_, "not the camera's");
   const std::string folder = folder_.path();
   for (const Arguments& arguments : {Arguments{folder, image_}, Arguments{problem_, folder}}) {

@@ -14,30 +14,26 @@ using ::testing::Not;
 
 class ReviewCommands : public ::testing::Test {
  protected:
-  ReviewCommands() {
-    runWhs({"new", "--dataset", (exampleFolder() / "dataset.json").string(), "--out", session_}, 0);
-    runWhs({"run", session_, "--case", kCase}, 0);
-  }
+  ReviewCommands() { runWhs({"run", session_, "--case", kOsCase}, 0); }
 
-  ProgramRun decide(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"decide", session_, "--case", kCase};
+  ProgramRun decide(const Arguments& more) const {
+    Arguments arguments = {"decide", session_, "--case", kOsCase};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runWhs(arguments);
   }
 
   std::string exportPose() const {
     const std::string file = folder_ / "pose.json";
-    runWhs({"export", session_, "--case", kCase, "--pose", file}, 0);
+    runWhs({"export", session_, "--case", kOsCase, "--pose", file}, 0);
     return file;
   }
 
-  static constexpr const char* kCase = "os-000038";
   TemporaryFolder folder_;
-  std::string session_ = folder_ / "s.boresight.json";
+  std::string session_ = newSession(folder_, true);
 };
 
 TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
-  runWhs({"check", session_, "--case", kCase}, 0);
+  runWhs({"check", session_, "--case", kOsCase}, 0);
   const ProgramRun decided = decide({"--validate", "--by", "Ada", "--comment", "right"});
   EXPECT_EQ(decided.exit_code, 0) << decided.err;
   EXPECT_THAT(decided.out, HasSubstr("validated by Ada"));
@@ -65,7 +61,7 @@ TEST_F(ReviewCommands, APoseThatIsNotAsMeasuredIsNeitherSignedNorReported) {
   folder_.write("s.boresight.json", session.dump());
   for (const Arguments& to : {Arguments{"export", "--pose", folder_ / "pose.json"},
                               Arguments{"report", "--out", folder_ / "pose.pdf"}}) {
-    const ProgramRun run = runWhs({to[0], session_, "--case", kCase, to[1], to[2]}, 3);
+    const ProgramRun run = runWhs({to[0], session_, "--case", kOsCase, to[1], to[2]}, 3);
     EXPECT_EQ(run.errorLines(), 1) << run.err;
     EXPECT_THAT(run.err, HasSubstr("another pose comes out"));
     EXPECT_FALSE(std::filesystem::exists(to[2]));
@@ -89,7 +85,7 @@ TEST_F(ReviewCommands, WhatMayNotBeDecidedIsRefusedAndChangesNothing) {
 
 TEST_F(ReviewCommands, WhatNobodyValidatedIsReportedAsSuch) {
   const std::string pdf = folder_ / "report.pdf";
-  const ProgramRun report = runWhs({"report", session_, "--case", kCase, "--out", pdf}, 0);
+  const ProgramRun report = runWhs({"report", session_, "--case", kOsCase, "--out", pdf}, 0);
   EXPECT_THAT(report.out, HasSubstr("NOT VALIDATED: converged"));
   EXPECT_EQ(folder_.read("report.pdf").substr(0, 5), "%PDF-");
   runWhs({"verify", exportPose()}, 0);
@@ -101,18 +97,7 @@ TEST_F(ReviewCommands, WhatNobodyValidatedIsReportedAsSuch) {
 
 // whs queue: the cases of a session by trouble, and what changed since the run before.
 
-class QueueCommand : public ::testing::Test {
- protected:
-  QueueCommand() {
-    runWhs({"new", "--dataset", (exampleFolder() / "dataset.json").string(), "--out", session_}, 0);
-    runWhs({"run", session_, "--case", "os-000038"}, 0);
-  }
-
-  TemporaryFolder folder_;
-  std::string session_ = folder_ / "s.boresight.json";
-};
-
-TEST_F(QueueCommand, ListsWhatWaitsBeforeWhatWasNotRun) {
+TEST_F(ReviewCommands, TheQueueListsWhatWaitsBeforeWhatWasNotRun) {
   const std::string csv = folder_ / "queue.csv";
   const ProgramRun run = runWhs({"queue", session_, "--jobs", "2", "--csv", csv}, 0);
   const std::size_t waits = run.out.find("os-000038");
@@ -124,7 +109,7 @@ TEST_F(QueueCommand, ListsWhatWaitsBeforeWhatWasNotRun) {
   EXPECT_THAT(folder_.read("queue.csv"), HasSubstr("\r\nos-000038,converged,"));
 }
 
-TEST_F(QueueCommand, WritesTextThatLooksLikeAFormulaAsText) {
+TEST_F(ReviewCommands, TheQueueWritesTextThatLooksLikeAFormulaAsText) {
   std::string session = folder_.read("s.boresight.json");
   for (std::size_t at = session.find("\"os-000038\""); at != std::string::npos;
        at = session.find("\"os-000038\""))
@@ -135,13 +120,13 @@ TEST_F(QueueCommand, WritesTextThatLooksLikeAFormulaAsText) {
   EXPECT_THAT(folder_.read("queue.csv"), HasSubstr("\r\n\"'=HYPERLINK(\"\"x\"\")\",converged,"));
 }
 
-TEST_F(QueueCommand, DifferencesNeedTwoRuns) {
+TEST_F(ReviewCommands, DifferencesInTheQueueNeedTwoRuns) {
   const ProgramRun run = runWhs({"queue", session_, "--differences"}, 0);
   EXPECT_THAT(run.err, HasSubstr("os-000038: it has no two runs to compare"));
   EXPECT_THAT(run.out, HasSubstr("0 better, 0 worse, 0 the same"));
 }
 
-TEST_F(QueueCommand, SaysWhatIsNoSession) {
+TEST_F(ReviewCommands, TheQueueSaysWhatIsNoSession) {
   const ProgramRun run = runWhs({"queue", folder_ / "none.json"}, 3);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
 }

@@ -70,4 +70,21 @@ inline Arguments localizeArguments(const std::map<std::string, std::string>& rep
   return arguments;
 }
 
+/// What a program says from the word "digest" on, which ends what whs localize prints of a run.
+inline std::string digestOf(const ProgramRun& run) {
+  return run.out.substr(std::min(run.out.find("digest"), run.out.size()), 64 + 7);
+}
+
+/// The example's case of the orbiting sample.
+inline constexpr const char* kOsCase = "os-000038";
+
+/// A new session of the example in `folder`: of that case, or of all.
+inline std::string newSession(const TemporaryFolder& folder, bool all_cases = false) {
+  const std::string file = folder / "s.boresight.json";
+  Arguments arguments = {"new", "--dataset", exampleFolder() / "dataset.json", "--out", file};
+  if (!all_cases) arguments.insert(arguments.end(), {"--case", kOsCase});
+  runWhs(arguments, 0);
+  return file;
+}
+
 }  // namespace boresight::test

@@ -81,101 +81,93 @@ sessions::Marks trueMarks(std::size_t count) {
   return marks;
 }
 
-TEST(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
-  const TemporaryFolder folder;
+class WhsSolve : public testing::Test {
+ protected:
+  ProgramRun solve(const sessions::Marks& marks, int exit_code, const Arguments& more = {}) const {
+    sessions::writeMarks(folder_ / "points.json", marks);
+    Arguments arguments = {"solve", "--points", folder_ / "points.json", "--camera",
+                           kExample / "camera.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runWhs(arguments, exit_code);
+  }
+
+  /// A session of the example's cases with marks of one of them.
+  std::string markedSession(const sessions::Marks& marks) const {
+    const sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+    sessions::writeSessionFile(folder_ / "s.json", withAnnotation(session, kOsCase, marks));
+    return folder_ / "s.json";
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
   sessions::Marks marks = trueMarks(10);
   *marks.points[3].pixel += Eigen::Vector2d(120.0, -80.0);
-  sessions::writeMarks(folder / "points.json", marks);
-  EXPECT_THAT(runWhs({"solve", "--points", folder / "points.json", "--camera",
-                      kExample / "camera.json", "--robust", "--out", folder / "pose.json"},
-                     0)
-                  .out,
+  EXPECT_THAT(solve(marks, 0, {"--robust", "--out", folder_ / "pose.json"}).out,
               AllOf(HasSubstr("10 marks"), HasSubstr("120.000"), HasSubstr(" !")));
   const Vector6d error =
       perturbationBetween(ExampleCase("os").truth.camera_from_station,
-                          sessions::readPose(folder / "pose.json").camera_from_station);
+                          sessions::readPose(folder_ / "pose.json").camera_from_station);
   EXPECT_LT(error.norm(), 1e-6);
 }
 
-TEST(WhsSolve, SaysWhereItsSigmasAreAndKeepsTheCovarianceWithThePose) {
-  const TemporaryFolder folder;
+TEST_F(WhsSolve, SaysWhereItsSigmasAreAndKeepsTheCovarianceWithThePose) {
   sessions::Marks marks = trueMarks(10);
   *marks.points[3].pixel += Eigen::Vector2d(1.0, -1.0);
-  sessions::writeMarks(folder / "points.json", marks);
-  EXPECT_THAT(runWhs({"solve", "--points", folder / "points.json", "--camera",
-                      kExample / "camera.json", "--out", folder / "pose.json"},
-                     0)
-                  .out,
+  EXPECT_THAT(solve(marks, 0, {"--out", folder_ / "pose.json"}).out,
               AllOf(HasSubstr("1 sigma at the camera"),
                     HasSubstr("without: how far the middle of the marked places moves")));
-  const auto covariance = sessions::readPose(folder / "pose.json").covariance;
+  const auto covariance = sessions::readPose(folder_ / "pose.json").covariance;
   ASSERT_TRUE(covariance);
   EXPECT_GT(covariance->diagonal().minCoeff(), 0.0);
 }
 
-TEST(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
-  const TemporaryFolder folder;
+TEST_F(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
   sessions::Marks marks = trueMarks(5);
   marks.points[0].enabled = false;
   marks.points[1].enabled = false;
-  sessions::writeMarks(folder / "points.json", marks);
-  Arguments arguments = {"solve", "--points", folder / "points.json", "--camera",
-                         kExample / "camera.json"};
-  EXPECT_THAT(runWhs(arguments, 4).err, HasSubstr("one image needs 4"));
+  EXPECT_THAT(solve(marks, 4).err, HasSubstr("one image needs 4"));
   // Three do where there is a first guess.
-  arguments.insert(arguments.end(), {"--seed", kExample / "seed.json"});
-  runWhs(arguments, 0);
+  solve(marks, 0, {"--seed", kExample / "seed.json"});
 }
 
-TEST(WhsSolve, SaysWhenNoPoseAgrees) {
-  const TemporaryFolder folder;
+TEST_F(WhsSolve, SaysWhenNoPoseAgrees) {
   sessions::Marks marks = trueMarks(6);
   for (sessions::PointPair& point : marks.points)
     point.point_in_station_m = marks.points[0].point_in_station_m;
-  sessions::writeMarks(folder / "points.json", marks);
-  const ProgramRun run = runWhs(
-      {"solve", "--points", folder / "points.json", "--camera", kExample / "camera.json"}, 4);
+  const ProgramRun run = solve(marks, 4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
 }
 
-TEST(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
-  const TemporaryFolder folder;
-  sessions::writeMarks(folder / "points.json", trueMarks(6));
+TEST_F(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
+  sessions::writeMarks(folder_ / "points.json", trueMarks(6));
   const std::string view = R"("camera": ")" + (kExample / "camera.json").string() +
                            R"(", "points": "points.json", "camera_from_rig":
       [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})";
-  folder.write("rig.json", R"({"format": "boresight-rig", "version": 1, "views": [{"name": "a", )" +
-                               view + R"(, {"name": "b", )" + view + "]}");
-  EXPECT_THAT(runWhs({"solve", "--rig", folder / "rig.json", "--out", folder / "pose.json"}, 0).out,
-              HasSubstr("12 marks"));
+  folder_.write("rig.json",
+                R"({"format": "boresight-rig", "version": 1, "views": [{"name": "a", )" + view +
+                    R"(, {"name": "b", )" + view + "]}");
+  EXPECT_THAT(
+      runWhs({"solve", "--rig", folder_ / "rig.json", "--out", folder_ / "pose.json"}, 0).out,
+      HasSubstr("12 marks"));
   runWhs({"solve"}, 2);
-  runWhs({"solve", "--points", folder / "points.json"}, 2);
+  runWhs({"solve", "--points", folder_ / "points.json"}, 2);
 }
 
-/// A session of the example's cases with marks of one of them.
-std::string markedSession(const TemporaryFolder& folder, const sessions::Marks& marks) {
-  sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
-  for (const auto& one : session.cases)
-    if (one->station == "os") session = withAnnotation(session, one->id, marks);
-  sessions::writeSessionFile(folder / "s.json", session);
-  return folder / "s.json";
-}
-
-TEST(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
-  const TemporaryFolder folder;
+TEST_F(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
   sessions::Marks marks = trueMarks(8);
   *marks.points[2].pixel += Eigen::Vector2d(0.4, -0.3);
-  const std::string file = markedSession(folder, marks);
+  const std::string file = markedSession(marks);
   const sessions::Session session = sessions::readSessionFile(file).session;
-  const std::string id = session.annotations.begin()->first;
-  const ProgramRun run = runWhs({"solve", "--session", file, "--case", id, "--json",
-                                 folder / "s.solution.json", "--out", folder / "pose.json"},
+  const ProgramRun run = runWhs({"solve", "--session", file, "--case", kOsCase, "--json",
+                                 folder_ / "s.solution.json", "--out", folder_ / "pose.json"},
                                 0);
-  const auto solved = sessions::solveCaseMarks(session, id, true, false);
+  const auto solved = sessions::solveCaseMarks(session, kOsCase, true, false);
   const sessions::MarksSolution& solution = *solved.result.solution;
   EXPECT_EQ(run.out,
             sessions::solutionText(solved.marks.views, solution, solved.left_out, solved.warnings));
-  const auto json = nlohmann::json::parse(folder.read("s.solution.json"));
+  const auto json = nlohmann::json::parse(folder_.read("s.solution.json"));
   EXPECT_EQ(json["solved"], true);
   EXPECT_EQ(json["rms_px"], solution.rms_px);
   EXPECT_EQ(json["marks"].size(), 8u);
@@ -184,32 +176,30 @@ TEST(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
   EXPECT_EQ(json["marks"][2]["residual_mm"][1], solution.marks[2].residual_mm.y());
   EXPECT_EQ(json["marks"][7]["without"]["translation_mm"], solved.left_out[7].translation_mm);
   const Matrix6d covariance = cameraCovariance(solution, solved.marks.views[0]);
-  EXPECT_EQ(json["views"][0]["name"], id);
+  EXPECT_EQ(json["views"][0]["name"], kOsCase);
   EXPECT_EQ(json["views"][0]["covariance"][1][4], covariance(1, 4));
   EXPECT_EQ(json["views"][0]["sigma_mm"][2], 1000.0 * std::sqrt(covariance(5, 5)));
   EXPECT_EQ(json["views"][0]["camera_from_station"][1][3],
             solved.camera_from_station()->translation_m.y());
   EXPECT_EQ(json["warnings"].size(), solved.warnings.size());
   EXPECT_LT(perturbationBetween(*solved.camera_from_station(),
-                                sessions::readPose(folder / "pose.json").camera_from_station)
+                                sessions::readPose(folder_ / "pose.json").camera_from_station)
                 .norm(),
             1e-12);
 }
 
-TEST(WhsSolve, SaysWhyACaseHasNoPose) {
-  const TemporaryFolder folder;
-  const std::string file = markedSession(folder, trueMarks(2));
-  const std::string id = sessions::readSessionFile(file).session.annotations.begin()->first;
+TEST_F(WhsSolve, SaysWhyACaseHasNoPose) {
+  const std::string file = markedSession(trueMarks(2));
   const ProgramRun run =
-      runWhs({"solve", "--session", file, "--case", id, "--json", folder / "out.json"}, 4);
+      runWhs({"solve", "--session", file, "--case", kOsCase, "--json", folder_ / "out.json"}, 4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
-  const auto json = nlohmann::json::parse(folder.read("out.json"));
+  const auto json = nlohmann::json::parse(folder_.read("out.json"));
   EXPECT_EQ(json["solved"], false);
   EXPECT_THAT(run.err, HasSubstr(json["reason"].get<std::string>()));
   EXPECT_EQ(json["warnings"][0]["kind"], "too_few");
   runWhs({"solve", "--session", file, "--case", "nobody"}, 3);
   runWhs({"solve", "--session", file}, 2);
-  runWhs({"solve", "--session", file, "--case", id, "--seed", "x.json"}, 2);
+  runWhs({"solve", "--session", file, "--case", kOsCase, "--seed", "x.json"}, 2);
   runWhs({"solve", "--alone"}, 2);
 }
 
@@ -326,8 +316,8 @@ TEST(WhsBench, WritesWhatItMeasured) {
   EXPECT_EQ(run.err, "");
   const auto json = nlohmann::json::parse(folder.read("bench.json"));
   EXPECT_EQ(json["format"], "boresight-bench");
-  // Two stations as they are, by portable and by the best kernels, and both at household scale.
-  ASSERT_EQ(json["localizations"].size(), 6u);
+  // Two stations, by portable and by the best kernels.
+  ASSERT_EQ(json["localizations"].size(), 4u);
   for (const auto& one : json["localizations"]) {
     EXPECT_THAT(run.out, HasSubstr(one["name"].get<std::string>()));
     EXPECT_GT(one["per_second"], 0.0);
@@ -341,9 +331,6 @@ TEST(WhsBench, WritesWhatItMeasured) {
     EXPECT_EQ(json["localizations"][i]["converged"], 1) << i;
     EXPECT_EQ(json["localizations"][i]["digest"], json["localizations"][i + 2]["digest"]);
   }
-  EXPECT_EQ(json["localizations"][4]["width"], 640);
-  EXPECT_EQ(json["localizations"][4]["height"], 480);
-  EXPECT_EQ(json["localizations"][4]["runs"], 2);
 }
 
 TEST(WhsBench, GivesTheDigestOfTheRunItTimes) {

@@ -10,7 +10,6 @@
 #include <benchmark/benchmark.h>
 
 #include "sessions/review/queue.h"
-#include "sessions/session/input_sheet.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/temporary_folder.h"
@@ -60,12 +59,6 @@ int main(int argc, char** argv) {
       benchmark::DoNotOptimize(sessions::SessionDocument::open(file, sessions::Access::kReadOnly)
                                    .session()
                                    .cases.size());
-  });
-  each("sheets", [](benchmark::State& state, const sessions::Session& session) {
-    for (auto _ : state) {
-      sessions::InputSheets sheets;
-      for (const auto& one : session.cases) benchmark::DoNotOptimize(sheets.of(*one).lines.size());
-    }
   });
   each("queue", [](benchmark::State& state, const sessions::Session& session) {
     for (auto _ : state) benchmark::DoNotOptimize(sessions::queueRows(session).size());

@@ -26,7 +26,7 @@
 #include "sessions/io/pose_file.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/run/trace_file.h"
-#include "sessions/session/journal.h"
+#include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 
 namespace boresight::test {

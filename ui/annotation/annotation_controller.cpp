@@ -29,19 +29,19 @@ bool sameViews(const sessions::CaseMarks& a, const sessions::CaseMarks& b) {
 
 bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
   return sameViews(a.marks, b.marks) && a.one == b.one && a.landmarks == b.landmarks &&
-         a.passes == b.passes && a.robust == b.robust &&
+         a.rounds == b.rounds && a.robust == b.robust &&
          a.camera_from_station_guess == b.camera_from_station_guess;
 }
 
-PassAnswer answerOf(const sessions::AnnotationPass& pass, const AnnotationQuestion& asked) {
-  PassAnswer made;
-  made.by = pass.by;
-  made.time = pass.time;
+RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQuestion& asked) {
+  RoundAnswer made;
+  made.by = round.by;
+  made.time = round.time;
   const sessions::MarkedView& at_work = asked.marks.views.front();
-  made.repeatability = sessions::repeatability(pass.marks, at_work.marks);
+  made.repeatability = sessions::repeatability(round.marks, at_work.marks);
   sessions::MarkedView view = at_work;
   view.camera_from_rig = Pose();
-  view.marks = pass.marks;
+  view.marks = round.marks;
   sessions::SolveMarksOptions options;
   options.robust = asked.robust;
   options.rig_from_station_guess = asked.camera_from_station_guess;
@@ -62,8 +62,8 @@ AnnotationAnswer solve(const AnnotationQuestion& asked) {
     made.proposals = sessions::proposeMarks(asked.landmarks, view.marks, mesh, view.camera, *pose,
                                             &*made.covariance);
   }
-  for (const sessions::AnnotationPass& pass : asked.passes)
-    made.passes.push_back(answerOf(pass, asked));
+  for (const sessions::AnnotationRound& round : asked.rounds)
+    made.rounds.push_back(answerOf(round, asked));
   made.solution = std::move(solution);
   return made;
 }
@@ -141,7 +141,7 @@ void AnnotationController::showLandmarks() {
   }
 }
 
-/// Solves what the marks, the rig, the landmarks and the passes are now, if that is news.
+/// Solves what the marks, the rig, the landmarks and the rounds are now, if that is news.
 void AnnotationController::askIfChanged(bool anyway) {
   if (case_id_.empty()) return;
   AnnotationQuestion now;
@@ -155,7 +155,7 @@ void AnnotationController::askIfChanged(bool anyway) {
   now.one = state_.currentCase();
   now.camera_from_station_guess = sessions::marksGuess(*document_.session().findCase(case_id_));
   now.landmarks = landmarks_;
-  now.passes = passesOfCase();
+  now.rounds = roundsOfCase();
   now.robust = robust_;
   if (!anyway && asked_ && sameQuestion(*asked_, now)) return;
   asked_ = now;

@@ -11,7 +11,7 @@
 #include <QString>
 #include <QTimer>
 
-#include "sessions/annotation/annotation_pass.h"
+#include "sessions/annotation/annotation_round.h"
 #include "sessions/annotation/landmarks.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/case_run.h"
@@ -35,22 +35,22 @@ struct AnnotationQuestion {
   std::shared_ptr<const sessions::LoadedCase> one;
   Pose camera_from_station_guess;
   std::vector<sessions::Landmark> landmarks;
-  sessions::AnnotationPasses passes;
+  sessions::AnnotationRounds rounds;
   bool robust = false;
 };
 
-/// Somebody's earlier pass over the same image beside the marks at work.
-struct PassAnswer {
+/// Somebody's earlier round over the same image beside the marks at work.
+struct RoundAnswer {
   std::string by;
   std::string time;
   std::optional<Pose> camera_from_station;
-  sessions::Repeatability repeatability;  ///< marks at work minus the pass
+  sessions::Repeatability repeatability;  ///< marks at work minus the round
 };
 
 struct AnnotationAnswer {
   std::shared_ptr<const sessions::CaseMarksSolution> solution;
   std::vector<sessions::Proposal> proposals;
-  std::vector<PassAnswer> passes;
+  std::vector<RoundAnswer> rounds;
   std::optional<Matrix6d> covariance;  ///< of the case's camera, in its own frame
 };
 
@@ -84,8 +84,8 @@ class AnnotationController : public QObject {
   /// Of the solved pose, in the camera's frame.
   const std::optional<Matrix6d>& covariance() const { return answer_.covariance; }
   const AnnotationAnswer& answer() const { return answer_; }
-  /// The other people's passes over this case, and how the marks at work differ from each.
-  const std::vector<PassAnswer>& passes() const { return answer_.passes; }
+  /// The other people's rounds over this case, and how the marks at work differ from each.
+  const std::vector<RoundAnswer>& rounds() const { return answer_.rounds; }
   bool robust() const { return robust_; }
   /// The other cases of the rig are solved with this one.
   bool together() const { return together_; }
@@ -135,12 +135,12 @@ class AnnotationController : public QObject {
   /// next.
   void begin(const sessions::Landmark& landmark);
 
-  /// Keeps the marks as this person's pass and begins a blind one: the same places of the station,
+  /// Keeps the marks as this person's round and begins a blind one: the same places of the station,
   /// nothing on the image.
   void putAside(const QString& by);
-  /// The marks at work become those of a pass; nothing is lost, Undo brings them back.
-  void takeUp(int pass);
-  void removePass(int pass);
+  /// The marks at work become those of a round; nothing is lost, Undo brings them back.
+  void takeUp(int round);
+  void removeRound(int round);
   /// The solved pose becomes the case's truth.
   void useAsTruth();
   /// Solves another case with this one from now on, as images of cameras that are rigidly linked.
@@ -153,7 +153,7 @@ class AnnotationController : public QObject {
   void modeChanged();
   void marksChanged();  ///< any of them, also during a gesture
   void selectionChanged();
-  void solutionChanged();  ///< also when it goes stale; proposals and passes with it
+  void solutionChanged();  ///< also when it goes stale; proposals and rounds with it
   /// One sentence for people: what was refused, and what to do.
   void told(const QString& sentence);
 
@@ -172,8 +172,8 @@ class AnnotationController : public QObject {
   bool replace(const Pair* before, const Pair& after, const QString& text);
   bool mayReplace(const std::string& replaced, const std::string& id);
   sessions::PointPair markOf(const sessions::Landmark& landmark) const;
-  sessions::AnnotationPasses passesOfCase() const;
-  void setPasses(sessions::AnnotationPasses passes, const sessions::Marks& marks,
+  sessions::AnnotationRounds roundsOfCase() const;
+  void setRounds(sessions::AnnotationRounds rounds, const sessions::Marks& marks,
                  const QString& text);
 
   Document& document_;

@@ -223,46 +223,46 @@ void AnnotationController::begin(const sessions::Landmark& landmark) {
     select(landmark.name);
 }
 
-sessions::AnnotationPasses AnnotationController::passesOfCase() const {
-  const auto& passes = document_.session().passes;
-  const auto found = passes.find(case_id_);
-  return found == passes.end() ? sessions::AnnotationPasses() : *found->second;
+sessions::AnnotationRounds AnnotationController::roundsOfCase() const {
+  const auto& rounds = document_.session().rounds;
+  const auto found = rounds.find(case_id_);
+  return found == rounds.end() ? sessions::AnnotationRounds() : *found->second;
 }
 
-void AnnotationController::setPasses(sessions::AnnotationPasses passes,
+void AnnotationController::setRounds(sessions::AnnotationRounds rounds,
                                      const sessions::Marks& marks, const QString& text) {
   if (case_id_.empty()) return;
   const sessions::Session with_marks =
       sessions::withAnnotation(document_.session(), case_id_, marks);
-  document_.edit(sessions::withPasses(with_marks, case_id_, std::move(passes)), text);
+  document_.edit(sessions::withRounds(with_marks, case_id_, std::move(rounds)), text);
 }
 
 void AnnotationController::putAside(const QString& by) {
   finishMove();
   const std::string name = by.trimmed().toStdString();
   if (name.empty() || marks_.empty()) return;
-  sessions::AnnotationPasses passes = passesOfCase();
-  passes.push_back({name, sessions::utcNowText(), marks_});
-  setPasses(std::move(passes), sessions::blindMarks(marks_),
+  sessions::AnnotationRounds rounds = roundsOfCase();
+  rounds.push_back({name, sessions::utcNowText(), marks_});
+  setRounds(std::move(rounds), sessions::blindMarks(marks_),
             tr("Put the marks of %1 aside").arg(by.trimmed()));
 }
 
-void AnnotationController::takeUp(int pass) {
+void AnnotationController::takeUp(int round) {
   finishMove();
-  const sessions::AnnotationPasses passes = passesOfCase();
-  if (pass < 0 || pass >= static_cast<int>(passes.size())) return;
-  const sessions::AnnotationPass& taken = passes[static_cast<std::size_t>(pass)];
-  setPasses(sessions::keepingMarks(passes, marks_, sessions::utcNowText()), taken.marks,
+  const sessions::AnnotationRounds rounds = roundsOfCase();
+  if (round < 0 || round >= static_cast<int>(rounds.size())) return;
+  const sessions::AnnotationRound& taken = rounds[static_cast<std::size_t>(round)];
+  setRounds(sessions::keepingMarks(rounds, marks_, sessions::utcNowText()), taken.marks,
             tr("Take up the marks of %1").arg(fromText(taken.by)));
 }
 
-void AnnotationController::removePass(int pass) {
+void AnnotationController::removeRound(int round) {
   finishMove();
-  sessions::AnnotationPasses passes = passesOfCase();
-  if (pass < 0 || pass >= static_cast<int>(passes.size())) return;
-  const QString by = fromText(passes[static_cast<std::size_t>(pass)].by);
-  passes.erase(passes.begin() + pass);
-  setPasses(std::move(passes), marks_, tr("Remove the marks of %1").arg(by));
+  sessions::AnnotationRounds rounds = roundsOfCase();
+  if (round < 0 || round >= static_cast<int>(rounds.size())) return;
+  const QString by = fromText(rounds[static_cast<std::size_t>(round)].by);
+  rounds.erase(rounds.begin() + round);
+  setRounds(std::move(rounds), marks_, tr("Remove the marks of %1").arg(by));
 }
 
 void AnnotationController::useAsTruth() {

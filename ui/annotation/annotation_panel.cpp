@@ -114,7 +114,7 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
   connect(rig, &RigMenu::openRequested, this, &AnnotationPanel::openCaseRequested);
   ui_->markFiles->setMenu(files_menu_);
   ui_->landmarks->setMenu(landmarks_menu_);
-  ui_->passes->setMenu(new QMenu(this));
+  ui_->rounds->setMenu(new QMenu(this));
   ui_->rig->setMenu(rig);
   buildTable();
   connectTools();
@@ -153,7 +153,7 @@ void AnnotationPanel::connectTools() {
       controller_.setMode(on ? chosen : PlaceMode::kOff);
       showMode();
     });
-  connect(ui_->passes->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showPasses);
+  connect(ui_->rounds->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showRounds);
   connect(ui_->newSigma, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
           &AnnotationController::setSigma);
   connect(ui_->robust, &QCheckBox::toggled, &controller_, &AnnotationController::setRobust);
@@ -244,18 +244,19 @@ void AnnotationPanel::showSolution() {
   ui_->together->setVisible(one && one->source.rig);
 }
 
-void AnnotationPanel::showPasses() {
-  QMenu& menu = *ui_->passes->menu();
+void AnnotationPanel::showRounds() {
+  QMenu& menu = *ui_->rounds->menu();
   menu.clear();
-  QAction* aside = menu.addAction(tr("Put these marks aside, begin a blind pass ..."), this,
+  QAction* aside = menu.addAction(tr("Put these marks aside, begin a blind round ..."), this,
                                   &AnnotationPanel::askForName);
   aside->setEnabled(!controller_.marks().empty());
   menu.addSeparator();
-  for (int i = 0; i < static_cast<int>(controller_.passes().size()); ++i) {
-    const auto& pass = controller_.passes()[static_cast<std::size_t>(i)];
-    QMenu* one = menu.addMenu(QStringLiteral("%1, %2").arg(fromText(pass.by), fromText(pass.time)));
+  for (int i = 0; i < static_cast<int>(controller_.rounds().size()); ++i) {
+    const auto& round = controller_.rounds()[static_cast<std::size_t>(i)];
+    QMenu* one =
+        menu.addMenu(QStringLiteral("%1, %2").arg(fromText(round.by), fromText(round.time)));
     one->addAction(tr("Take up"), this, [this, i] { controller_.takeUp(i); });
-    one->addAction(tr("Remove"), this, [this, i] { controller_.removePass(i); });
+    one->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
   }
 }
 

@@ -98,7 +98,7 @@ class AnnotationPanel : public QWidget {
   void showMarks();
   void showSelection();
   void showSolution();
-  void showPasses();
+  void showRounds();
   void chooseRow(const QModelIndex& current);
   std::vector<ComparedPose> otherPoses() const;
 

@@ -98,7 +98,7 @@ MarkLook ImageAnnotation::look() const {
   made.selected = controller_.selected();
   made.camera = state_.currentCase()->source.camera;
   made.camera_from_station = tool_->stationPose();
-  if (controller_.solution()) made.outliers = controller_.solution()->standingOut();
+  if (controller_.solution()) made.outliers = controller_.solution()->outlierMarks();
   return made;
 }
 

@@ -69,7 +69,7 @@ class Signs {
 
  private:
   template <class Pair>
-  bool standsOut(const Pair& pair) const {
+  bool isOutlier(const Pair& pair) const {
     return pair.used() && look_.outliers.contains(pair.id);
   }
 
@@ -100,7 +100,7 @@ class Signs {
 
   template <class Pair>
   MarkState stateOf(const Pair& pair) const {
-    const double outlier = standsOut(pair) ? look_.outliers.at(pair.id) : 0.0;
+    const double outlier = isOutlier(pair) ? look_.outliers.at(pair.id) : 0.0;
     return {pair.complete(), pair.enabled, pair.id == look_.selected, outlier};
   }
 

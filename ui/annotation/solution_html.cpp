@@ -77,12 +77,12 @@ QStringList poseCells(const Pose& pose) {
   return cells;
 }
 
-QString twinHtml(const sessions::CaseMarksSolution& solved) {
+QString ambiguityHtml(const sessions::CaseMarksSolution& solved) {
   const MarksSolution& solution = *solved.result.solution;
-  const auto twin = solved.twin_camera_from_station();
-  if (!twin) return {};
+  const auto other_pose = solved.ambiguous_camera_from_station();
+  if (!other_pose) return {};
   const QStringList ours = poseCells(solution.camera_from_station.front());
-  const QStringList other = poseCells(*twin);
+  const QStringList other = poseCells(*other_pose);
   const QStringList names = {solutionText("x, mm"),       solutionText("y, mm"),
                              solutionText("z, mm"),       solutionText("turn x, deg"),
                              solutionText("turn y, deg"), solutionText("turn z, deg")};
@@ -90,7 +90,7 @@ QString twinHtml(const sessions::CaseMarksSolution& solved) {
       {QString(), solutionText("this pose"), solutionText("the other pose")}};
   for (int i = 0; i < names.size(); ++i) rows.append({names[i], ours[i], other[i]});
   rows.append({solutionText("rms, px"), QString::number(solution.rms_px, 'f', 3),
-               QString::number(solution.twin->rms_px, 'f', 3)});
+               QString::number(solution.ambiguous->rms_px, 'f', 3)});
   return titledTable(solutionText("Two poses explain marks in a plane"), rows);
 }
 
@@ -128,16 +128,16 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
   QVector<QStringList> rows;
   for (const ComparedPose& other : others)
     rows << differenceRow(other.name, other.camera_from_station, annotated, marks, {});
-  for (const PassAnswer& pass : answer.passes) {
-    const int shared = static_cast<int>(pass.repeatability.marks.size());
+  for (const RoundAnswer& round : answer.rounds) {
+    const int shared = static_cast<int>(round.repeatability.marks.size());
     const QString repeated = shared > 0
                                  ? solutionText("%1 marks, %2 px per mark and axis")
                                        .arg(shared)
-                                       .arg(QString::number(pass.repeatability.sigma_px, 'f', 3))
+                                       .arg(QString::number(round.repeatability.sigma_px, 'f', 3))
                                  : solutionText("no mark in common");
-    const QString name = solutionText("pass of %1").arg(fromText(pass.by));
-    if (pass.camera_from_station)
-      rows << differenceRow(name, *pass.camera_from_station, annotated, marks, repeated);
+    const QString name = solutionText("round of %1").arg(fromText(round.by));
+    if (round.camera_from_station)
+      rows << differenceRow(name, *round.camera_from_station, annotated, marks, repeated);
     else
       rows.append({name.toHtmlEscaped(), solutionText("no pose"), QString(), QString(), repeated});
   }
@@ -183,7 +183,7 @@ QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
   const auto annotated = answer.solution->camera_from_station();
   if (!annotated) return html;
   html += sigmaHtml(answer);
-  html += twinHtml(*answer.solution);
+  html += ambiguityHtml(*answer.solution);
   html += viewsHtml(*answer.solution);
   html += comparedHtml(answer, others, *annotated);
   return html;

@@ -26,7 +26,7 @@ QString geometryMeterText(const AnnotationAnswer& answer);
 
 /// Everything else that an annotator reads of a solution: what is weak in the marks, one sigma
 /// against the requirement, the second pose of a plane beside the first, residuals per camera, and
-/// how far the other poses (seed, run, truth) and passes are. Colour never says anything alone.
+/// how far the other poses (seed, run, truth) and rounds are. Colour never says anything alone.
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others);
 
 }  // namespace boresight::ui

@@ -62,20 +62,20 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
 
 }  // namespace
 
-CaseState caseStateOf(sessions::CaseStanding standing) {
-  using sessions::CaseStanding;
-  switch (standing) {
-    case CaseStanding::kConverged:
+CaseState caseStateOf(sessions::ReviewState status) {
+  using sessions::ReviewState;
+  switch (status) {
+    case ReviewState::kConverged:
       return CaseState::kConverged;
-    case CaseStanding::kFailed:
+    case ReviewState::kFailed:
       return CaseState::kFailed;
-    case CaseStanding::kAnnotated:
+    case ReviewState::kAnnotated:
       return CaseState::kAnnotated;
-    case CaseStanding::kValidated:
+    case ReviewState::kValidated:
       return CaseState::kValidated;
-    case CaseStanding::kRejected:
+    case ReviewState::kRejected:
       return CaseState::kRejected;
-    case CaseStanding::kNew:
+    case ReviewState::kNew:
       break;
   }
   return CaseState::kNew;

@@ -7,7 +7,7 @@
 #include <QImage>
 #include <QString>
 
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "ui/models/rows_model.h"
 
 namespace boresight::ui {
@@ -16,7 +16,7 @@ enum class CaseState { kNew, kRunning, kConverged, kFailed, kAnnotated, kValidat
 inline constexpr int kCaseStateCount = 7;
 
 /// How the list names where a case stands.
-CaseState caseStateOf(sessions::CaseStanding standing);
+CaseState caseStateOf(sessions::ReviewState status);
 
 /// One case as the list shows it.
 struct CaseRow {

@@ -173,7 +173,7 @@ constexpr MarkChoice kMarkChoices[] = {
     {QT_TR_NOOP("In use"), [](MarkRef mark) { return mark.enabled && mark.complete; }},
     {QT_TR_NOOP("Off"), [](MarkRef mark) { return !mark.enabled; }},
     {QT_TR_NOOP("Half made"), [](MarkRef mark) { return !mark.complete; }},
-    {QT_TR_NOOP("Standing out"), [](MarkRef mark) { return mark.standsOut(); }},
+    {QT_TR_NOOP("Outliers"), [](MarkRef mark) { return mark.isOutlier(); }},
     {QT_TR_NOOP("Lines"), [](MarkRef mark) { return mark.line != nullptr; }},
 };
 
@@ -232,7 +232,7 @@ QVariant MarksModel::look(const MarkRow& row, int column, int role) const {
   const bool switches = column == kOn || column == kLocked;
   switch (role) {
     case Qt::DisplayRole:
-      if (column == kNormalized && row.standsOut())
+      if (column == kNormalized && row.isOutlier())
         return tr("%1 !").arg(numberText(row.solved->normalized, 1));
       if (column == kWithout_mm && row.left_out && !row.left_out->determined) return tr("no pose");
       if (column == kResidualX_px && row.solved && !row.solved->projected) return tr("not seen");
@@ -248,7 +248,7 @@ QVariant MarksModel::look(const MarkRow& row, int column, int role) const {
     case Qt::FontRole: {
       QFont font;
       font.setItalic(!row.complete);
-      font.setBold(column >= kResidualX_px && column <= kNormalized && row.standsOut());
+      font.setBold(column >= kResidualX_px && column <= kNormalized && row.isOutlier());
       font.setStrikeOut(!row.enabled && column == kName);
       return font;
     }

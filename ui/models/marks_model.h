@@ -27,7 +27,7 @@ struct MarkRow {
   std::optional<sessions::SolvedMark> solved;
   std::optional<sessions::LeftOut> left_out;
 
-  bool standsOut() const { return solved && solved->standsOut(); }
+  bool isOutlier() const { return solved && solved->isOutlier(); }
 };
 
 /// The marks of one image, points before lines, one row each, with what the solved pose says of

@@ -11,7 +11,7 @@
 
 namespace boresight::ui {
 
-using sessions::CaseStanding;
+using sessions::ReviewState;
 
 namespace {
 
@@ -19,11 +19,11 @@ constexpr int kMostShown = 2;  // warnings
 
 /// A tick beside "NOT VALIDATED" would be read as a yes: what converged, but nobody vouches for, is
 /// an open circle here.
-QString signOf(const sessions::Standing& standing) {
-  if (!standing.dropped.empty()) return QStringLiteral("⚠");
+QString signOf(const sessions::ReviewStatus& status) {
+  if (!status.dropped.empty()) return QStringLiteral("⚠");
   const bool open =
-      standing.state == CaseStanding::kConverged || standing.state == CaseStanding::kAnnotated;
-  return CasesModel::stateText(open ? CaseState::kNew : caseStateOf(standing.state)).left(1);
+      status.state == ReviewState::kConverged || status.state == ReviewState::kAnnotated;
+  return CasesModel::stateText(open ? CaseState::kNew : caseStateOf(status.state)).left(1);
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void Banner::showRun(const sessions::LocalizationTrace* run) {
     setMessage(QStringLiteral("○"), tr("Nothing has run yet."), Tone::kPlain);
     return;
   }
-  const QString text = fromText(sessions::standingText(*run));
+  const QString text = fromText(sessions::runStatusText(*run));
   if (run->converged())
     setMessage(QStringLiteral("✓"), text, Tone::kGood);
   else if (run->finished)
@@ -73,20 +73,20 @@ void Banner::showRun(const sessions::LocalizationTrace* run) {
     setMessage(QStringLiteral("…"), text, Tone::kPlain);
 }
 
-void Banner::showStanding(const sessions::Standing* standing) {
-  if (standing == nullptr) {
+void Banner::showReviewStatus(const sessions::ReviewStatus* status) {
+  if (status == nullptr) {
     setMessage({}, tr("No case is shown."), Tone::kPlain);
     return;
   }
   // The decision that no longer holds stands out: somebody counted on it.
-  const bool bad = standing->state == CaseStanding::kFailed ||
-                   standing->state == CaseStanding::kRejected || !standing->dropped.empty();
-  QString text = fromText(sessions::standingText(*standing));
+  const bool bad = status->state == ReviewState::kFailed ||
+                   status->state == ReviewState::kRejected || !status->dropped.empty();
+  QString text = fromText(sessions::reviewStatusText(*status));
   if (!text.isEmpty()) text[0] = text[0].toUpper();
-  setMessage(signOf(*standing), text,
-             standing->state == CaseStanding::kValidated ? Tone::kGood
-             : bad                                       ? Tone::kBad
-                                                         : Tone::kPlain);
+  setMessage(signOf(*status), text,
+             status->state == ReviewState::kValidated ? Tone::kGood
+             : bad                                    ? Tone::kBad
+                                                      : Tone::kPlain);
 }
 
 void Banner::setMessage(const QString& sign, const QString& text, Tone tone) {

@@ -4,7 +4,7 @@
 #include <QFrame>
 #include <QStringList>
 
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/run/trace.h"
 
 class QLabel;
@@ -27,7 +27,7 @@ class Banner : public QFrame {
   /// no run.
   void showRun(const sessions::LocalizationTrace* run);
   /// The review status of a case; nullptr: there is no case.
-  void showStanding(const sessions::Standing* standing);
+  void showReviewStatus(const sessions::ReviewStatus* status);
   /// Shows the first sentences, and all of them in the tooltip. Hides the banner when empty.
   void showWarnings(const QStringList& sentences);
   /// Adds the button; `tip` says what it does.

@@ -69,7 +69,7 @@ void IterationsPanel::showSnapshot() {
   showing_ = true;
   model_.setSnapshot(view_.snapshot());
   showing_ = false;
-  ui_->standing->showRun(view_.snapshot().get());
+  ui_->runStatus->showRun(view_.snapshot().get());
   ui_->iterations->resizeColumnsToContents();
   ui_->plots->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
   fillPlots();

@@ -5,7 +5,7 @@
 
 #include "ui_mask_panel.h"
 
-#include "sessions/session/mask_edits.h"
+#include "sessions/session/session.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {

@@ -82,7 +82,7 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
     connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
   ui_->reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
   connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
-  connect(&controller_, &ReviewController::standingChanged, this,
+  connect(&controller_, &ReviewController::reviewStatusChanged, this,
           &DecisionForm::showWhatIsPossible);
   showWhatIsPossible();
 }
@@ -107,9 +107,9 @@ void DecisionForm::decide(Act act) {
 
 /// What a person most likely wants to do, whose obstacle is told without being asked.
 ReviewController::Act DecisionForm::nextStep() const {
-  const sessions::Standing standing = controller_.standing();
-  if (standing.awaits_approval) return Act::kApprove;
-  return standing.holds() ? Act::kTakeBack : Act::kValidate;
+  const sessions::ReviewStatus status = controller_.reviewStatus();
+  if (status.awaits_approval) return Act::kApprove;
+  return status.holds() ? Act::kTakeBack : Act::kValidate;
 }
 
 void DecisionForm::showWhatIsPossible() {

@@ -32,7 +32,7 @@ LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
   connect(ui_->limits, &OptionsTable::helpChanged, this, [this](const QString& help) {
     ui_->limitHelp->setText(help.isEmpty() ? tr("Choose a limit to read what it is for.") : help);
   });
-  connect(&controller_, &ReviewController::standingChanged, this, &LimitsDialog::showSettings);
+  connect(&controller_, &ReviewController::reviewStatusChanged, this, &LimitsDialog::showSettings);
   showSettings();
   resize(640, 460);
 }

@@ -7,7 +7,7 @@
 
 #include "sessions/exchange/annotation_exchange.h"
 #include "sessions/report/pose_report.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "ui/models/number_text.h"
 #include "ui/run/task_runner.h"
@@ -59,12 +59,13 @@ std::string PoseExport::caseId() const {
 }
 
 bool PoseExport::isValidated(const std::string& case_id) const {
-  return sessions::standingOf(document_.session(), case_id).state ==
-         sessions::CaseStanding::kValidated;
+  return sessions::reviewStatusOf(document_.session(), case_id).state ==
+         sessions::ReviewState::kValidated;
 }
 
-QString PoseExport::standing() const {
-  return fromText(sessions::standingText(sessions::standingOf(document_.session(), caseId())));
+QString PoseExport::reviewStatus() const {
+  return fromText(
+      sessions::reviewStatusText(sessions::reviewStatusOf(document_.session(), caseId())));
 }
 
 QString PoseExport::poseFileName() const {
@@ -95,15 +96,15 @@ void PoseExport::exportOne(const QString& key, const std::filesystem::path& file
       [write, session = document_.session(), id = caseId()](const std::stop_token&) {
         return write(session, id);
       },
-      [this, file, note, id = fromText(caseId())](const std::string& standing) {
-        Q_EMIT noted(note.arg(id, fileNameOf(file), fromText(standing)));
+      [this, file, note, id = fromText(caseId())](const std::string& status) {
+        Q_EMIT noted(note.arg(id, fileNameOf(file), fromText(status)));
       });
 }
 
 void PoseExport::exportPose(const std::filesystem::path& file) {
   exportOne(QStringLiteral("export pose"), file, tr("Pose of %1 written to %2. It is %3."),
             [file](const sessions::Session& session, const std::string& id) {
-              return sessions::writeValidatedPose(file, session, id).standing;
+              return sessions::writeValidatedPose(file, session, id).review_status;
             });
 }
 
@@ -112,7 +113,7 @@ void PoseExport::exportReport(const std::filesystem::path& file) {
             [file](const sessions::Session& session, const std::string& id) {
               const sessions::PoseReport report = sessions::poseReport(session, id);
               sessions::writePoseReport(file, report);
-              return report.pose.standing;
+              return report.pose.review_status;
             });
 }
 
@@ -162,8 +163,8 @@ void PoseExport::askForColmap() {
 std::filesystem::path PoseExport::askForFile(const QString& title, const QString& name,
                                              const QString& filter) {
   if (caseId().empty()) return {};
-  QString file = QFileDialog::getSaveFileName(&window_, title.arg(fromText(caseId()), standing()),
-                                              inSessionFolder(name), filter);
+  QString file = QFileDialog::getSaveFileName(
+      &window_, title.arg(fromText(caseId()), reviewStatus()), inSessionFolder(name), filter);
   if (!file.isEmpty() && QFileInfo(file).suffix().isEmpty())
     file += QLatin1Char('.') + QFileInfo(name).suffix();
   return file.toStdString();

@@ -68,7 +68,7 @@ class PoseExport : public QObject {
   template <class Write>
   void exportAll(const std::filesystem::path& path, Write write);
   /// "NOT VALIDATED: converged", for titles.
-  QString standing() const;
+  QString reviewStatus() const;
   std::filesystem::path askForFile(const QString& title, const QString& name,
                                    const QString& filter);
   QString inSessionFolder(const QString& name) const;

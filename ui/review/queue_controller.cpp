@@ -40,7 +40,7 @@ QueueRow plainRow(const sessions::Session& session, const std::string& id) {
     row.run_digest = run->digest;
     if (run->status != "converged") row.trouble = "the run failed: " + run->status;
   }
-  sessions::takeStanding(session, row);
+  sessions::takeReviewStatus(session, row);
   return row;
 }
 
@@ -122,7 +122,7 @@ void QueueController::follow() {
 QueueRow QueueController::rowOf(const Rows::Entry& entry) const {
   if (!entry.value) return plainRow(document_.session(), entry.id);
   QueueRow row = entry.value->row;
-  sessions::takeStanding(document_.session(), row);
+  sessions::takeReviewStatus(document_.session(), row);
   return row;
 }
 
@@ -174,7 +174,7 @@ QString QueueController::obstacle(Act act, const QString& id) const {
   const QueueRow row = rowOf(*found);
   if (row.group == QueueGroup::kDecided || row.group == QueueGroup::kAwaits)
     return tr("%1 is decided already: %2. Review (F9) takes a decision back, or approves it.")
-        .arg(id, fromText(row.standing_text));
+        .arg(id, fromText(row.review_status_text));
   if (act == Act::kReject) return {};
   if (!found->current) return tr("%1 is not checked yet; wait, or review it (F9).").arg(id);
   if (!row.trouble.empty() || !row.subject)

@@ -15,8 +15,8 @@
 #include <QString>
 
 #include "sessions/review/queue.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/run_difference.h"
-#include "sessions/review/standing.h"
 #include "sessions/session/session.h"
 #include "ui/run/task_runner.h"
 

@@ -134,7 +134,7 @@ QString tooltipOf(const QueueEntry& entry, int column) {
   const QueueRow& row = entry.row;
   if (column == QueueModel::kMargin && !row.margin_of.empty())
     return QueueModel::tr("Of the check '%1'").arg(fromText(row.margin_of));
-  QString text = fromText(row.case_id) + QLatin1Char('\n') + fromText(row.standing_text) +
+  QString text = fromText(row.case_id) + QLatin1Char('\n') + fromText(row.review_status_text) +
                  QLatin1Char('\n') + troubleOf(entry);
   for (const sessions::Check& check : row.checks)
     if (check.state == sessions::CheckState::kFailed)
@@ -152,7 +152,7 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
           "there is no result."),
        -1, [](Entry entry) { return fromText(entry.row.case_id); }},
       {tr("State"), tr("Where the case stands."), -1,
-       [](Entry entry) { return QueueModel::standingText(entry.row); }},
+       [](Entry entry) { return QueueModel::reviewStatusText(entry.row); }},
       {tr("Trouble"),
        tr("What to look at. Sorted by it: failed runs, then failed checks, then the margin, then "
           "the distance from the seed; what is decided comes last."),
@@ -184,9 +184,9 @@ int QueueModel::rowOf(const QString& id) const {
       [wanted = id.toStdString()](const QueueEntry& entry) { return entry.row.case_id == wanted; });
 }
 
-QString QueueModel::standingText(const QueueRow& row) {
+QString QueueModel::reviewStatusText(const QueueRow& row) {
   if (row.group == QueueGroup::kAwaits) return tr("☆ to be approved");
-  return CasesModel::stateText(caseStateOf(row.standing));
+  return CasesModel::stateText(caseStateOf(row.review_state));
 }
 
 QVariant QueueModel::look(const QueueEntry& entry, int column, int role) const {
@@ -201,7 +201,7 @@ QueueFilter::QueueFilter(QueueModel& model, QObject* parent) : RowsFilter(parent
 
 void QueueFilter::setText(const QString& text) {
   setCondition([this, words = text.trimmed()](int row) {
-    for (const int column : {QueueModel::kCase, QueueModel::kStanding, QueueModel::kTrouble})
+    for (const int column : {QueueModel::kCase, QueueModel::kStatus, QueueModel::kTrouble})
       if (model_.index(row, column).data().toString().contains(words, Qt::CaseInsensitive))
         return true;
     return false;

@@ -26,7 +26,7 @@ class QueueModel : public RowsModel<QueueEntry> {
   Q_OBJECT
 
  public:
-  enum Column { kCase, kStanding, kTrouble, kMargin, kFromSeed, kInliers };
+  enum Column { kCase, kStatus, kTrouble, kMargin, kFromSeed, kInliers };
 
   explicit QueueModel(QObject* parent = nullptr);
 
@@ -35,7 +35,7 @@ class QueueModel : public RowsModel<QueueEntry> {
   /// -1 where there is none.
   int rowOf(const QString& id) const;
   /// Where a case stands: a word with a sign of its own shape before it.
-  static QString standingText(const sessions::QueueRow& row);
+  static QString reviewStatusText(const sessions::QueueRow& row);
 
  protected:
   QVariant look(const QueueEntry& entry, int column, int role) const override;

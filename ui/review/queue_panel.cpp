@@ -150,7 +150,7 @@ void QueuePanel::fitColumns() {
   const auto fit = [this](int column, const QString& widest) {
     ui_->queue->setColumnWidth(column, fontMetrics().horizontalAdvance(widest) + 14);
   };
-  fit(QueueModel::kStanding, QStringLiteral("✓ converged"));
+  fit(QueueModel::kStatus, QStringLiteral("✓ converged"));
   fit(QueueModel::kMargin, QStringLiteral("Margin,"));
   fit(QueueModel::kFromSeed, QStringLiteral("000.0 mrad"));
   fit(QueueModel::kInliers, QStringLiteral("Inliers"));

@@ -72,7 +72,7 @@ void ReviewController::chooseSource() {
   const sessions::RunRecord* run = document_.session().lastRunOf(id);
   source_ = hasMarks() && (!run || run->status != "converged") ? PoseSource::kAnnotation
                                                                : PoseSource::kRun;
-  const sessions::Standing now = standing();
+  const sessions::ReviewStatus now = reviewStatus();
   if (now.holds() && now.decision->pose) source_ = now.decision->pose->source;
   if (wanted_source_ == PoseSource::kRun && run) source_ = PoseSource::kRun;
   if (wanted_source_ == PoseSource::kAnnotation && hasMarks()) source_ = PoseSource::kAnnotation;
@@ -98,7 +98,7 @@ std::optional<ReviewController::Question> ReviewController::question() const {
   made.loaded = state_.currentCase();
   made.source = source_;
   if (source_ == PoseSource::kRun) made.run_digest = runDigest();
-  made.grounds = sessions::judgedGrounds(session, id, made.run_digest);
+  made.input_fingerprint = sessions::inputFingerprint(session, id, made.run_digest);
   return made;
 }
 
@@ -112,7 +112,7 @@ void ReviewController::follow() {
     if (active_) ask();
   }
   Q_EMIT checksChanged();
-  Q_EMIT standingChanged();
+  Q_EMIT reviewStatusChanged();
 }
 
 /// What was asked and answered is no longer so. The checks stay to be seen, as stale ones, unless
@@ -156,7 +156,7 @@ void ReviewController::take(const Answer& answer) {
   problem_ = answer.problem;
   current_ = subject_ != nullptr;
   Q_EMIT checksChanged();
-  Q_EMIT standingChanged();
+  Q_EMIT reviewStatusChanged();
 }
 
 QString ReviewController::reasonFor(const sessions::Check& check) const {
@@ -183,8 +183,8 @@ sessions::CheckOverrides ReviewController::overrides() const {
   return made;
 }
 
-sessions::Standing ReviewController::standing() const {
-  return sessions::standingOf(document_.session(), caseId());
+sessions::ReviewStatus ReviewController::reviewStatus() const {
+  return sessions::reviewStatusOf(document_.session(), caseId());
 }
 
 std::vector<const sessions::Decision*> ReviewController::history() const {
@@ -217,7 +217,7 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
 /// What has been said and holds is not said again; a validation least of all, as it would put
 /// itself in the place of one that awaits its second person.
 QString ReviewController::settled(Act act) const {
-  const sessions::Standing now = standing();
+  const sessions::ReviewStatus now = reviewStatus();
   if (!now.holds()) return {};
   const QString by = fromText(now.decision->by);
   if (act == Act::kValidate && now.decision->verdict == Verdict::kValidated)

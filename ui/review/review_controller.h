@@ -11,8 +11,8 @@
 #include <QString>
 
 #include "sessions/review/checks.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/review_subject.h"
-#include "sessions/review/standing.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 
@@ -54,7 +54,7 @@ class ReviewController : public QObject {
   QString reasonFor(const sessions::Check& check) const;
   void setReason(const std::string& check_id, const QString& reason);
 
-  sessions::Standing standing() const;
+  sessions::ReviewStatus reviewStatus() const;
   /// The decisions on the case, the newest first; they point into the document's session.
   std::vector<const sessions::Decision*> history() const;
   /// Why this cannot be done now, or empty.
@@ -82,7 +82,7 @@ class ReviewController : public QObject {
   /// Checks, reasons, or whether the checks are current.
   void checksChanged();
   /// Case, decisions, limits, or what can be judged.
-  void standingChanged();
+  void reviewStatusChanged();
   void basinChanged();
 
  private:
@@ -91,7 +91,7 @@ class ReviewController : public QObject {
     ViewState::CasePtr loaded;
     sessions::PoseSource source = sessions::PoseSource::kRun;
     std::string run_digest;
-    std::map<std::string, std::string> grounds;
+    std::map<std::string, std::string> input_fingerprint;
 
     bool operator==(const Question&) const = default;
   };

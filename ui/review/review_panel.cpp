@@ -141,11 +141,12 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   });
   connect(ui_->openLimits, &QPushButton::clicked, this, &ReviewPanel::openLimits);
   connect(ui_->basin, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
-  connect(&controller_, &ReviewController::standingChanged, this, &ReviewPanel::showStanding);
+  connect(&controller_, &ReviewController::reviewStatusChanged, this,
+          &ReviewPanel::showReviewStatus);
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
   connect(&controller_, &ReviewController::basinChanged, this, &ReviewPanel::showBasin);
   connect(&model_, &ChecksModel::reasonEdited, &controller_, &ReviewController::setReason);
-  showStanding();
+  showReviewStatus();
   showChecks();
 }
 
@@ -180,9 +181,9 @@ void ReviewPanel::hideEvent(QHideEvent* event) {
   controller_.setActive(false);
 }
 
-void ReviewPanel::showStanding() {
-  const sessions::Standing standing = controller_.standing();
-  ui_->caseStanding->showStanding(controller_.caseId().empty() ? nullptr : &standing);
+void ReviewPanel::showReviewStatus() {
+  const sessions::ReviewStatus status = controller_.reviewStatus();
+  ui_->caseReviewStatus->showReviewStatus(controller_.caseId().empty() ? nullptr : &status);
   const sessions::ReviewSettings& settings = controller_.settings();
   ui_->openLimits->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);

@@ -78,7 +78,7 @@ class ReviewPanel : public QWidget {
 
  private:
   void buildTable();
-  void showStanding();
+  void showReviewStatus();
   void showSources();
   void showChecks();
   void showChosen();

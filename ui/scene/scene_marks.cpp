@@ -192,7 +192,7 @@ std::vector<SceneMark> sceneMarks(const AnnotationController& annotation) {
     marks.push_back(mark);
   }
   std::map<std::string, double> outlying;
-  if (annotation.solution()) outlying = annotation.solution()->standingOut();
+  if (annotation.solution()) outlying = annotation.solution()->outlierMarks();
   for (const sessions::PointPair& point : annotation.marks().points) {
     if (!point.point_in_station_m) continue;
     marks.push_back(markOf(point, annotation, outlying));

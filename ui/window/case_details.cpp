@@ -8,7 +8,7 @@
 
 #include "core/base/math.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
 #include "ui/models/number_text.h"
@@ -18,8 +18,8 @@ namespace boresight::ui {
 namespace {
 
 QString detailOf(const sessions::Session& session, const std::string& id,
-                 const sessions::Standing& standing) {
-  QString text = fromText(sessions::standingText(standing));
+                 const sessions::ReviewStatus& status) {
+  QString text = fromText(sessions::reviewStatusText(status));
   if (const sessions::RunRecord* run = session.lastRunOf(id))
     text += QCoreApplication::translate("CaseRows", "\nLast run %1: %2")
                 .arg(fromText(run->time), fromText(run->status)) +
@@ -49,11 +49,11 @@ std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& r
     CaseRow row;
     row.id = QString::fromStdString(one->id);
     row.station = QString::fromStdString(one->station);
-    const sessions::Standing standing = sessions::standingOf(session, one->id);
-    row.state = row.id == running ? CaseState::kRunning : caseStateOf(standing.state);
+    const sessions::ReviewStatus status = sessions::reviewStatusOf(session, one->id);
+    row.state = row.id == running ? CaseState::kRunning : caseStateOf(status.state);
     const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
     row.stale = of_run && isStale(session, one, file, known);
-    row.detail = detailOf(session, one->id, standing);
+    row.detail = detailOf(session, one->id, status);
     rows.push_back(std::move(row));
   }
   return rows;

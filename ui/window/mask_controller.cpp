@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sessions/session/input_check.h"
-#include "sessions/session/mask_edits.h"
+#include "sessions/session/session.h"
 #include "ui/panels/levels_panel.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/run/task_runner.h"

@@ -3,10 +3,10 @@
 
 #include <QtWidgets>
 
+#include "ui/annotation/ambiguity_view.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
-#include "ui/annotation/twin_view.h"
 #include "ui/panels/banner.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
@@ -61,10 +61,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  auto* twins = new TwinView(parts.annotation, parts.state, *snapper_);
-  QObject::connect(twins, &TwinView::otherRequested, &poses_->nudgeController(),
+  auto* ambiguity = new AmbiguityView(parts.annotation, parts.state, *snapper_);
+  QObject::connect(ambiguity, &AmbiguityView::otherRequested, &poses_->nudgeController(),
                    &NudgeController::setPose);
-  annotation_->addBeside(twins);
+  annotation_->addBeside(ambiguity);
   scene_->setAnnotation(parts.annotation, *snapper_);
   buildCentre();
   add(QStringLiteral("cases"), windowText("Cases"), cases_);

@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "sessions/annotation/marks_csv.h"
 #include "tests/sessions/annotation/random_marks.h"
 #include "tests/support/temporary_folder.h"
 

@@ -137,13 +137,13 @@ TEST(SolveMarks, ShowsBothPosesOfAPlaneAsIppeDoes) {
     const bool expected = apart_rad > 0.3 && std::max(errors[0], errors[1]) < least + 0.3;
     ambiguous += expected ? 1 : 0;
     if (expected) {
-      EXPECT_TRUE(result.solution->twin) << errors[0] << " " << errors[1] << " " << apart_rad;
+      EXPECT_TRUE(result.solution->ambiguous) << errors[0] << " " << errors[1] << " " << apart_rad;
     }
-    if (!result.solution->twin) continue;
-    EXPECT_GE(result.solution->twin->rms_px, result.solution->rms_px - 1e-9);
+    if (!result.solution->ambiguous) continue;
+    EXPECT_GE(result.solution->ambiguous->rms_px, result.solution->rms_px - 1e-9);
     double nearest = 1e9;
     for (std::size_t i = 0; i < rotations.size(); ++i)
-      nearest = std::min(nearest, distance(result.solution->twin->rig_from_station,
+      nearest = std::min(nearest, distance(result.solution->ambiguous->rig_from_station,
                                            fromOpenCv(rotations[i], translations[i])));
     EXPECT_LT(nearest, 0.2);
   }

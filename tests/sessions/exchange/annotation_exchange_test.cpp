@@ -11,7 +11,7 @@
 #include "sessions/exchange/colmap_text.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/undistort.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/case_marks.h"
 #include "sessions/session/image_names.h"

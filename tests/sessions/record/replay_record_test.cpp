@@ -146,7 +146,7 @@ TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
     expectSameScores(one, *b.iterations[i]);
   }
   EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
-  EXPECT_THAT(standingText(a), testing::StartsWith("Onboard record, replayed. Converged"));
+  EXPECT_THAT(runStatusText(a), testing::StartsWith("Onboard record, replayed. Converged"));
 }
 
 TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {

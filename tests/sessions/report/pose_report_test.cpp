@@ -12,7 +12,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/checks.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 

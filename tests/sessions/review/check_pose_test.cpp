@@ -52,15 +52,20 @@ const ExampleReview& example(const std::string& station) {
 
 CheckLimits presetLimits() { return checkLimits(kDefaultCheckPreset, {}); }
 
-ReviewSubject displaced(const ReviewSubject& subject, const Vector6d& xi) {
-  ReviewSubject moved = subject;
-  moved.camera_from_station = perturbed(xi, subject.camera_from_station);
-  auto loaded = std::make_shared<LoadedCase>();  // without the truth, which would tell at once
+/// The subject's case without the truth, which would tell at once.
+std::shared_ptr<LoadedCase> withoutTruth(const ReviewSubject& subject) {
+  auto loaded = std::make_shared<LoadedCase>();
   loaded->source = subject.loaded->source;
   loaded->source.camera_from_station_truth.reset();
   loaded->image = subject.loaded->image;
   loaded->scene = subject.loaded->scene;
-  moved.loaded = loaded;
+  return loaded;
+}
+
+ReviewSubject displaced(const ReviewSubject& subject, const Vector6d& xi) {
+  ReviewSubject moved = subject;
+  moved.camera_from_station = perturbed(xi, subject.camera_from_station);
+  moved.loaded = withoutTruth(subject);
   return moved;
 }
 
@@ -77,13 +82,9 @@ TEST(CheckPose, TheExamplesPassAll) {
 ReviewSubject runWith(const std::string& station, double mesh_scale,
                       const std::function<void(SessionCase&)>& change) {
   const ExampleReview& review = example(station);
-  auto loaded = std::make_shared<LoadedCase>();
-  loaded->source = review.subject.loaded->source;
-  loaded->source.camera_from_station_truth.reset();
+  const auto loaded = withoutTruth(review.subject);
   change(loaded->source);
   EXPECT_EQ(prepareCamera(loaded->source.camera), Status::kOk);
-  loaded->image = review.subject.loaded->image;
-  loaded->scene = review.subject.loaded->scene;
   for (Eigen::Vector3f& vertex : loaded->scene.vertices_in_station_m)
     vertex *= static_cast<float>(mesh_scale);
   LocalizerOptions options = caseOptions(review.session, loaded->source, "session");
@@ -157,10 +158,8 @@ TEST(CheckPose, APoseThatIsOffByThreeMillimetresFails) {
 }
 
 TEST(CheckPose, AMeshOfAnotherStationFails) {
-  ReviewSubject subject = displaced(example("bc").subject, Vector6d::Zero());
-  auto loaded = std::make_shared<LoadedCase>();
-  loaded->source = subject.loaded->source;
-  loaded->image = subject.loaded->image;
+  ReviewSubject subject = example("bc").subject;
+  const auto loaded = withoutTruth(subject);
   loaded->scene = example("os").subject.loaded->scene;
   subject.loaded = loaded;
   const auto checks = checkPose(subject, presetLimits());
@@ -202,19 +201,19 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
   ExampleReview review = example("bc");
   // The same image again, said to be taken by a camera 10 cm beside and turned by 0.1 rad: the pose
   // that it finds disagrees by as much.
-  SessionCase twin = *review.session.findCase(review.case_id);
-  twin.id = "twin";
-  review.session = withCase(review.session, twin);
+  SessionCase second = *review.session.findCase(review.case_id);
+  second.id = "second";
+  review.session = withCase(review.session, second);
   RunRecord run = *review.session.lastRunOf(review.case_id);
-  run.case_id = "twin";
+  run.case_id = "second";
   review.session.runs.push_back(run);
   SessionCase one = *review.session.findCase(review.case_id);
   Pose camera_from_rig;
   camera_from_rig.rotation = rotationExp({0.1, 0.0, 0.0});
   camera_from_rig.translation_m = {0.1, 0.0, 0.0};
   one.rig = Rig{"rig", camera_from_rig};
-  twin.rig = Rig{"rig", camera_from_rig};
-  review.session = withCase(withCase(review.session, one), twin);
+  second.rig = Rig{"rig", camera_from_rig};
+  review.session = withCase(withCase(review.session, one), second);
   const auto agrees = reviewSubject(review.session, review.subject.loaded, PoseSource::kRun);
   EXPECT_TRUE(agrees.other_cameras.empty()) << "the loaded case is in no rig yet";
   const auto loaded = reloadCase(*review.subject.loaded, one);
@@ -225,8 +224,8 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
             1e-9);
   EXPECT_LT((same.other_cameras[0].covariance.total() - same.covariance.total()).norm(),
             1e-6 * same.covariance.total().norm());
-  twin.rig->camera_from_rig.translation_m.x() += 0.002;
-  review.session = withCase(review.session, twin);
+  second.rig->camera_from_rig.translation_m.x() += 0.002;
+  review.session = withCase(review.session, second);
   const auto apart = reviewSubject(review.session, loaded, PoseSource::kRun);
   EXPECT_EQ(findCheck(checkPose(apart, presetLimits()), "agreement_camera").state,
             CheckState::kFailed);
@@ -319,13 +318,8 @@ double sixfoldVolume(const SceneMesh& scene) {
   return sum;
 }
 
-std::shared_ptr<const LoadedCase> example() {
-  const Session session = makeSession(test::exampleFolder() / "dataset.json");
-  return loadCase(*session.cases.front());
-}
-
 TEST(MirrorImage, KeepsTheBoxAndTheOutwardSide) {
-  const auto loaded = example();
+  const auto loaded = example("bc").subject.loaded;
   for (int axis = 0; axis < 3; ++axis) {
     const auto image = mirrorImageOf(*loaded, axis);
     const BoundingBox was = matchedBounds(loaded->scene.view());
@@ -339,7 +333,7 @@ TEST(MirrorImage, KeepsTheBoxAndTheOutwardSide) {
 }
 
 TEST(MirrorImage, MirrorsOneCoordinateAndTwiceIsNothing) {
-  const auto loaded = example();
+  const auto loaded = example("bc").subject.loaded;
   const double middle_m = matchedBounds(loaded->scene.view()).centre()(1);
   const auto image = mirrorImageOf(*loaded, 1);
   const SceneMesh twice = mirrored(image->scene, MirrorAxis::kY);

@@ -5,18 +5,18 @@
 
 #include <gmock/gmock.h>
 
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "tests/sessions/review/judged_case.h"
 
 namespace boresight::test {
 namespace {
 
-using sessions::CaseStanding;
 using sessions::CheckState;
 using sessions::DecisionError;
+using sessions::ReviewState;
+using sessions::reviewStatusOf;
+using sessions::reviewStatusText;
 using sessions::Session;
-using sessions::standingOf;
-using sessions::standingText;
 using testing::HasSubstr;
 
 std::string refusal(const std::function<void()>& act) {
@@ -75,8 +75,8 @@ TEST(Decide, AValidationHoldsItsPoseItsChecksAndTheirReasons) {
   ASSERT_EQ(decision.checks.size(), 3u);
   EXPECT_EQ(decision.checks[0].override_reason, "");
   EXPECT_EQ(decision.checks[1].override_reason, "half of it is dark");
-  EXPECT_EQ(standingOf(next, "a").state, CaseStanding::kValidated);
-  EXPECT_EQ(standingText(standingOf(next, "a")), "validated by Ada");
+  EXPECT_EQ(reviewStatusOf(next, "a").state, ReviewState::kValidated);
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(next, "a")), "validated by Ada");
 }
 
 TEST(Decide, OnlyTheLastConvergedRunOfTheseInputsCanBeValidated) {
@@ -141,11 +141,11 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
     sessions::SessionCase one = *before.findCase("a");
     edit(after, one);
     after = withCase(after, one);
-    const sessions::Standing standing = standingOf(after, "a");
-    EXPECT_NE(standing.state, CaseStanding::kValidated) << text;
-    EXPECT_FALSE(standing.holds()) << text;
-    EXPECT_THAT(standing.dropped, HasSubstr(text));
-    EXPECT_THAT(standingText(standing), testing::StartsWith("NOT VALIDATED: "));
+    const sessions::ReviewStatus status = reviewStatusOf(after, "a");
+    EXPECT_NE(status.state, ReviewState::kValidated) << text;
+    EXPECT_FALSE(status.holds()) << text;
+    EXPECT_THAT(status.dropped, HasSubstr(text));
+    EXPECT_THAT(reviewStatusText(status), testing::StartsWith("NOT VALIDATED: "));
   }
 }
 
@@ -158,14 +158,14 @@ TEST(Decide, ARunOfTheRigsOtherCameraDropsAValidation) {
   other.id = "b";
   judged.session = withCase(withCase(judged.session, one), other);
   Session after = judged.validatedBy("Ada");
-  EXPECT_TRUE(standingOf(after, "a").holds());
+  EXPECT_TRUE(reviewStatusOf(after, "a").holds());
   sessions::RunRecord run = after.runs.back();
   run.case_id = "b";
   after.runs.push_back(run);
-  EXPECT_EQ(standingOf(after, "a").dropped, "the runs of the rig's other cameras have changed");
+  EXPECT_EQ(reviewStatusOf(after, "a").dropped, "the runs of the rig's other cameras have changed");
   after.runs.back().together =
       sessions::TogetherRecord{{{"b", "converged"}, {"a", "converged"}}, ""};
-  EXPECT_TRUE(standingOf(after, "a").holds()) << "a run in which it had a part is no witness";
+  EXPECT_TRUE(reviewStatusOf(after, "a").holds()) << "a run in which it had a part is no witness";
 }
 
 TEST(Decide, WhatIsNoInputChangesNothing) {
@@ -179,7 +179,7 @@ TEST(Decide, WhatIsNoInputChangesNothing) {
   after.review.second_person = false;
   after.options = {{"pnp.seed", std::int64_t{7}}};  // the run's own are part of its digest
   after.runs.push_back(after.runs.back());          // the same run once more
-  EXPECT_EQ(standingOf(after, "a").state, CaseStanding::kValidated);
+  EXPECT_EQ(reviewStatusOf(after, "a").state, ReviewState::kValidated);
 }
 
 TEST(Decide, ASecondPersonIsSomebodyElse) {
@@ -191,9 +191,9 @@ TEST(Decide, ASecondPersonIsSomebodyElse) {
               }),
               HasSubstr("no validation"));
   const Session first = judged.validatedBy("Ada L");
-  EXPECT_EQ(standingOf(first, "a").state, CaseStanding::kConverged);
-  EXPECT_TRUE(standingOf(first, "a").awaits_approval);
-  EXPECT_THAT(standingText(standingOf(first, "a")), HasSubstr("second person"));
+  EXPECT_EQ(reviewStatusOf(first, "a").state, ReviewState::kConverged);
+  EXPECT_TRUE(reviewStatusOf(first, "a").awaits_approval);
+  EXPECT_THAT(reviewStatusText(reviewStatusOf(first, "a")), HasSubstr("second person"));
   EXPECT_THAT(refusal([&] {
                 approved(first, "a", {"ada  l ", "yes"});
               }),
@@ -201,8 +201,8 @@ TEST(Decide, ASecondPersonIsSomebodyElse) {
   EXPECT_THAT(refusal([&] { approved(first, "a", {"Bob", ""}); }), HasSubstr("comment"));
 
   const Session second = approved(first, "a", {"Bob", "yes"});
-  EXPECT_EQ(standingOf(second, "a").state, CaseStanding::kValidated);
-  EXPECT_EQ(standingText(standingOf(second, "a")), "validated by Ada L, approved by Bob");
+  EXPECT_EQ(reviewStatusOf(second, "a").state, ReviewState::kValidated);
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(second, "a")), "validated by Ada L, approved by Bob");
   EXPECT_THAT(refusal([&] { approved(second, "a", {"Eve", "yes"}); }), HasSubstr("already"));
   Session other = first;
   other.runs.clear();
@@ -214,14 +214,14 @@ TEST(Decide, ARejectionNeedsNoPoseAndIsTakenBackByName) {
   JudgedCase judged(random);
   judged.session.runs.clear();
   const Session rejected = sessions::rejected(judged.session, "a", {}, {"Ada", "blurred"});
-  EXPECT_EQ(standingOf(rejected, "a").state, CaseStanding::kRejected);
-  EXPECT_EQ(standingText(standingOf(rejected, "a")), "NOT VALIDATED: rejected by Ada");
+  EXPECT_EQ(reviewStatusOf(rejected, "a").state, ReviewState::kRejected);
+  EXPECT_EQ(reviewStatusText(reviewStatusOf(rejected, "a")), "NOT VALIDATED: rejected by Ada");
   EXPECT_THAT(refusal([&] {
                 sessions::rejected(judged.session, "a", {}, {"Ada", ""});
               }),
               HasSubstr("comment"));
   const Session again = reopened(rejected, "a", {"Bob", "another image came down"});
-  EXPECT_EQ(standingOf(again, "a").state, CaseStanding::kNew);
+  EXPECT_EQ(reviewStatusOf(again, "a").state, ReviewState::kNew);
   EXPECT_EQ(again.decisions.size(), 2u);
   EXPECT_THAT(refusal([&] {
                 reopened(again, "a", {"Bob", "once more"});

@@ -34,25 +34,33 @@ std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
   return copy;
 }
 
-void hideLeftHalf(DrawnBox& box, double middle_px) {
-  box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
-}
-
 double figureOf(const std::vector<Check>& checks, const std::string& id) {
   return findCheck(checks, id).figure.value_or(-1.0);
 }
 
-/// The box's pose moved across the view so that the image moves by so many pixels.
-Pose movedBy(const DrawnBox& box, double x_px, double y_px) {
-  Pose moved = box.camera_from_station_;
-  moved.translation_m.x() += x_px * 0.5 / 1000.0;
-  moved.translation_m.y() += y_px * 0.5 / 1000.0;
-  return moved;
-}
+class EdgeChecks : public testing::Test {
+ protected:
+  /// At the pose that was drawn.
+  ReviewSubject subject() const { return box.subject(box.camera_from_station_); }
+  PredictedEdges edges() const {
+    return predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+  }
+  /// The box's pose moved across the view so that the image moves by so many pixels.
+  Pose movedBy(double x_px, double y_px) const {
+    Pose moved = box.camera_from_station_;
+    moved.translation_m += 0.5 / 1000.0 * Eigen::Vector3d(x_px, y_px, 0.0);
+    return moved;
+  }
+  void hideLeftHalf() {
+    box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  }
 
-TEST(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
-  const DrawnBox box;
-  const auto checks = checksOf(box.subject(box.camera_from_station_));
+  DrawnBox box;
+  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
+};
+
+TEST_F(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
+  const auto checks = checksOf(subject());
   EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
   EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
   EXPECT_GT(figureOf(checks, "edge_fall_off"), 40.0);
@@ -62,9 +70,8 @@ TEST(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
     EXPECT_EQ(check.state, CheckState::kPassed) << check.id << ": " << check.sentence;
 }
 
-TEST(EdgeChecks, BlurredImage_FailsBySharpness) {
-  const DrawnBox box;
-  const auto sharp = box.subject(box.camera_from_station_);
+TEST_F(EdgeChecks, BlurredImage_FailsBySharpness) {
+  const ReviewSubject sharp = subject();
   EXPECT_LT(figureOf(checksOf(sharp), "edge_width"), 5.0);
   const auto blurred = copyOf(*sharp.loaded);
   cv::Mat pixels(blurred->image.height, blurred->image.width, CV_8U, blurred->image.pixels.data());
@@ -76,20 +83,17 @@ TEST(EdgeChecks, BlurredImage_FailsBySharpness) {
   EXPECT_EQ(findCheck(checks, "edge_width").state, CheckState::kFailed);
 }
 
-TEST(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
-  const DrawnBox box;
-  const EvidenceSettings settings;
-  const PredictedEdges edges =
-      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+TEST_F(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
+  const PredictedEdges edges = this->edges();
   double length_px = 0.0;
   for (const EdgePlace& place : edges.places) length_px += place.length_px;
   EXPECT_NEAR(length_px, box.visibleLength_px(), 0.02 * box.visibleLength_px());
-  const auto subject = box.subject(box.camera_from_station_);
-  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
+  const ReviewSubject subject = this->subject();
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
   double sum = 0.0;
   double squares = 0.0;
   double count = 0.0;
-  for (const LookedPlace& one : lookAt(image, edges.places, settings)) {
+  for (const LookedPlace& one : lookAt(image, edges.places)) {
     if (!one.found || std::abs(one.found->offset_px) > 1.0) continue;
     sum += one.found->offset_px;
     squares += one.found->offset_px * one.found->offset_px;
@@ -100,21 +104,18 @@ TEST(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
   EXPECT_LT(std::sqrt(squares / count), 0.2);
 }
 
-TEST(EdgeChecks, CoverageFallsWithTheDistanceFromThePose) {
-  const DrawnBox box;
-  const double near = figureOf(checksOf(box.subject(movedBy(box, 0.7, 0.5))), "edge_coverage");
-  const auto away = checksOf(box.subject(movedBy(box, 6.0, 5.0)));
+TEST_F(EdgeChecks, CoverageFallsWithTheDistanceFromThePose) {
+  const double near = figureOf(checksOf(box.subject(movedBy(0.7, 0.5))), "edge_coverage");
+  const auto away = checksOf(box.subject(movedBy(6.0, 5.0)));
   EXPECT_GT(near, 90.0);
   EXPECT_LT(figureOf(away, "edge_coverage"), 35.0);
   EXPECT_EQ(findCheck(away, "edge_coverage").state, CheckState::kFailed);
   EXPECT_GT(figureOf(away, "edge_clutter"), 60.0);
 }
 
-TEST(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
-  DrawnBox box;
+TEST_F(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
   const double added_px = box.addPatch(0.6, 230);
-  const auto subject = box.subject(box.camera_from_station_);
-  const auto checks = checksOf(subject);
+  const auto checks = checksOf(subject());
   // Of the predicted edges, those on the silhouette count where Canny puts them inside it.
   const double least = 100.0 * added_px / (added_px + box.visibleLength_px());
   EXPECT_GT(figureOf(checks, "edge_clutter"), 0.85 * least);
@@ -122,44 +123,37 @@ TEST(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
   EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
 }
 
-TEST(EdgeChecks, EitherThePredictedOrTheSeenIsExplained) {
+TEST_F(EdgeChecks, EitherThePredictedOrTheSeenIsExplained) {
   // Half of the box unseen, yet what is seen is predicted; then lines all over it as well.
-  DrawnBox box;
-  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
-  hideLeftHalf(box, middle_px);
-  const auto half = checksOf(box.subject(box.camera_from_station_));
+  hideLeftHalf();
+  const auto half = checksOf(subject());
   EXPECT_NEAR(figureOf(half, "edge_explained"),
               std::max(figureOf(half, "edge_coverage"), 100.0 - figureOf(half, "edge_clutter")),
               1e-9);
   EXPECT_EQ(findCheck(half, "edge_explained").state, CheckState::kPassed);
-  const auto away = checksOf(box.subject(movedBy(box, 6.0, 5.0)));
+  const auto away = checksOf(box.subject(movedBy(6.0, 5.0)));
   EXPECT_LT(figureOf(away, "edge_explained"), 40.0);
   EXPECT_EQ(findCheck(away, "edge_explained").state, CheckState::kFailed);
 }
 
-TEST(EdgeChecks, CoverageOfAPoseIsThatOfTheCheck) {
-  const DrawnBox box;
+TEST_F(EdgeChecks, CoverageOfAPoseIsThatOfTheCheck) {
   for (const double moved_px : {0.0, 1.0, 6.0}) {
-    const auto subject = box.subject(movedBy(box, moved_px, 0.5));
+    const auto subject = box.subject(movedBy(moved_px, 0.5));
     const Share share = coverageOfPose(*subject.loaded, subject.camera_from_station);
     EXPECT_NEAR(100.0 * share.value(), figureOf(checksOf(subject), "edge_coverage"), 1e-9);
   }
 }
 
-TEST(EdgeChecks, WhatIsHiddenIsNotSeen) {
-  DrawnBox box;
-  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
-  hideLeftHalf(box, middle_px);
-  const double seen = figureOf(checksOf(box.subject(box.camera_from_station_)), "edge_coverage");
+TEST_F(EdgeChecks, WhatIsHiddenIsNotSeen) {
+  hideLeftHalf();
+  const double seen = figureOf(checksOf(subject()), "edge_coverage");
   EXPECT_GT(seen, 35.0);
   EXPECT_LT(seen, 65.0);
 }
 
-TEST(EdgeChecks, IgnoredPixelsCountNeitherWay) {
-  DrawnBox box;
-  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
-  hideLeftHalf(box, middle_px);
-  ReviewSubject subject = box.subject(box.camera_from_station_);
+TEST_F(EdgeChecks, IgnoredPixelsCountNeitherWay) {
+  hideLeftHalf();
+  ReviewSubject subject = this->subject();
   const auto masked = copyOf(*subject.loaded);
   masked->ignore.emplace();
   masked->ignore->width = 800;
@@ -174,45 +168,37 @@ TEST(EdgeChecks, IgnoredPixelsCountNeitherWay) {
   EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
 }
 
-TEST(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
+TEST_F(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
   // Half of the image hidden so that parallel lines of one edge remain: it slides along itself.
-  DrawnBox box;
-  const PredictedEdges edges =
-      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+  const PredictedEdges edges = this->edges();
   std::vector<EdgePlace> parallel;
   const Eigen::Vector2d along =
       (box.pixelOf({0.06, 0.04, 0.025}) - box.pixelOf({-0.06, 0.04, 0.025})).normalized();
   for (const EdgePlace& place : edges.places)
     if (std::abs(place.normal.dot(along)) < 0.1) parallel.push_back(place);
   ASSERT_GT(parallel.size(), 200U);
-  const EvidenceSettings settings;
-  const auto subject = box.subject(box.camera_from_station_);
-  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
+  const ReviewSubject subject = this->subject();
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
   double most = 0.0;
-  for (const FallOff& one :
-       fallOffOf(image, parallel, box.camera_, box.camera_from_station_, settings))
+  for (const FallOff& one : fallOffOf(image, parallel, box.camera_, box.camera_from_station_))
     most = std::max(most, one.coverage);
   EXPECT_GT(most, 0.85);
 }
 
 /// The pose that explains the drawn image best with a wrong focal length: farther away.
-TEST(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
-  const DrawnBox box;
-  const EvidenceSettings settings;
+TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   Camera wrong = box.camera_;
   wrong.fx *= 1.03;
   wrong.fy *= 1.03;
   ASSERT_EQ(prepareCamera(wrong), Status::kOk);
-  const auto follow =
-      poseByCamera(predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_).places,
-                   box.camera_, box.camera_from_station_);
+  const auto follow = poseByCamera(edges().places, box.camera_, box.camera_from_station_);
   ASSERT_TRUE(follow);
   const Pose farther = perturbed(Vector6d(30.0 * follow->col(0)), box.camera_from_station_);
   EXPECT_NEAR(farther.translation_m.z(), 1.03 * 0.5, 0.003);
-  const PredictedEdges edges = predictEdges(wrong, box.scene_.view(), farther);
+  const PredictedEdges wrong_edges = predictEdges(wrong, box.scene_.view(), farther);
   const auto subject = box.subject(farther);
-  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges, settings));
-  const auto fit = fitCamera(lookAt(image, edges.places, settings), wrong, farther);
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(wrong_edges));
+  const auto fit = fitCamera(lookAt(image, wrong_edges.places), wrong, farther);
   ASSERT_TRUE(fit);
   // Half a pixel of perspective is all that tells on so small a box.
   EXPECT_LT(fit->focal_px, -10.0);
@@ -220,11 +206,9 @@ TEST(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   EXPECT_LT(fit->focal_sigma_px, 5.0);
 }
 
-TEST(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
-  const DrawnBox box;
-  ReviewSubject subject = box.subject(box.camera_from_station_);
-  const PredictedEdges edges =
-      predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+TEST_F(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
+  ReviewSubject subject = this->subject();
+  const PredictedEdges edges = this->edges();
   const auto focalCheck = [&](const CheckLimits& limits) {
     std::vector<Check> checks;
     addEdgeChecks(subject, limits, edges, checks);
@@ -242,12 +226,11 @@ TEST(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
   EXPECT_EQ(focalCheck(limits).state, CheckState::kNotApplicable);
 }
 
-TEST(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
-  const DrawnBox box;
+TEST_F(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
   Pose behind = box.camera_from_station_;
   behind.translation_m.z() = -1.0;
   EXPECT_EQ(findCheck(checksOf(box.subject(behind)), "edge_coverage").state, CheckState::kFailed);
-  ReviewSubject subject = box.subject(box.camera_from_station_);
+  ReviewSubject subject = this->subject();
   auto other = std::make_shared<LoadedCase>();
   other->source = subject.loaded->source;
   other->scene = subject.loaded->scene;
@@ -256,9 +239,8 @@ TEST(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
     EXPECT_EQ(check.state, CheckState::kNotApplicable) << check.id;
 }
 
-TEST(EdgeChecks, TheSameImageGivesTheSameFigures) {
-  const DrawnBox box;
-  const auto subject = box.subject(movedBy(box, 0.4, 0.2));
+TEST_F(EdgeChecks, TheSameImageGivesTheSameFigures) {
+  const auto subject = box.subject(movedBy(0.4, 0.2));
   EXPECT_EQ(checksOf(subject), checksOf(subject));
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "tests/sessions/session/random_session.h"
 
 namespace boresight::test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/review/pose_uncertainty.h"
+#include "sessions/review/edge_evidence.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>

@@ -112,18 +112,18 @@ TEST(QueueRowTest, TellsADecisionThatHoldsAndOneThatDoesNot) {
   QueueRow row;
   row.case_id = "a";
   row.run_digest = judged.subject.run->digest;
-  takeStanding(judged.session, row);
+  takeReviewStatus(judged.session, row);
   EXPECT_EQ(row.group, QueueGroup::kOpen);
   Session decided = judged.validatedBy("Ada");
-  takeStanding(decided, row);
+  takeReviewStatus(decided, row);
   EXPECT_EQ(row.group, QueueGroup::kDecided);
   EXPECT_THAT(troubleText(row), ::testing::HasSubstr("Ada"));
   decided.review.second_person = true;
-  takeStanding(decided, row);
+  takeReviewStatus(decided, row);
   EXPECT_EQ(row.group, QueueGroup::kAwaits);
   judged.session = judged.validatedBy("Ada");
   judged.noteRun(test::randomSha256(random), "converged", random);
-  takeStanding(judged.session, row);
+  takeReviewStatus(judged.session, row);
   EXPECT_EQ(row.group, QueueGroup::kOpen) << "there is a later run";
 }
 
@@ -212,7 +212,7 @@ TEST_F(QueueOfExample, ARowSufficesToDecide) {
             }));
   ASSERT_EQ(row.failed, 0) << troubleText(row);
   const Session after = validated(*session_, *row.subject, row.checks, {}, {"Ada", "as drawn"});
-  EXPECT_EQ(standingOf(after, id).state, CaseStanding::kValidated);
+  EXPECT_EQ(reviewStatusOf(after, id).state, ReviewState::kValidated);
   EXPECT_EQ(after.decisions.back().pose->camera_from_station,
             loadRun(*session_->lastRunOf(id)).camera_from_station);
 }

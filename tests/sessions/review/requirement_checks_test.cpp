@@ -18,118 +18,111 @@ using test::findCheck;
 /// At half a metre, with 0.4 mm asked for along and across the view axis.
 ReviewSubject someSubject() {
   ReviewSubject subject;
-  subject.loaded = std::make_shared<LoadedCase>();
   subject.camera_from_station.translation_m = {0.0, 0.0, 0.5};
   subject.requirement = {0.4, 0.4, 0.25, {}};
   return subject;
 }
 
-Pose movedBy(const ReviewSubject& subject, double x_mm, double z_mm) {
-  Pose moved = subject.camera_from_station;
-  moved.translation_m += 1e-3 * Eigen::Vector3d(x_mm, 0.0, z_mm);
-  return moved;
-}
+class AgreementChecks : public testing::Test {
+ protected:
+  AgreementChecks() { subject_.loaded = loaded_; }
 
-Check checkOf(const ReviewSubject& subject, const std::string& id) {
-  std::vector<Check> checks;
-  addAgreementChecks(subject, CheckLimits(), checks);
-  return findCheck(checks, id);
-}
+  Pose movedBy(double x_mm, double z_mm) const {
+    Pose moved = subject_.camera_from_station;
+    moved.translation_m += 1e-3 * Eigen::Vector3d(x_mm, 0.0, z_mm);
+    return moved;
+  }
+  Check checkOf(const std::string& id) const {
+    std::vector<Check> checks;
+    addAgreementChecks(subject_, CheckLimits(), checks);
+    return findCheck(checks, id);
+  }
 
-TEST(AgreementChecks, NothingToCompareWithIsNotApplicable) {
+  const std::shared_ptr<LoadedCase> loaded_ = std::make_shared<LoadedCase>();
+  SessionCase& one_ = loaded_->source;
+  ReviewSubject subject_ = someSubject();
+};
+
+TEST_F(AgreementChecks, NothingToCompareWithIsNotApplicable) {
   for (const char* id : {"agreement_annotation", "agreement_truth", "agreement_camera"})
-    EXPECT_EQ(checkOf(someSubject(), id).state, CheckState::kNotApplicable) << id;
+    EXPECT_EQ(checkOf(id).state, CheckState::kNotApplicable) << id;
 }
 
-TEST(AgreementChecks, TheTruthIsHeldToTheRequirement) {
-  ReviewSubject subject = someSubject();
-  auto loaded = std::make_shared<LoadedCase>();
-  loaded->source.camera_from_station_truth = movedBy(subject, 0.1, -0.3);
-  subject.loaded = loaded;
-  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 75.0, 1e-6);
-  EXPECT_EQ(checkOf(subject, "agreement_truth").state, CheckState::kPassed);
-  loaded->source.camera_from_station_truth = movedBy(subject, 0.6, 0.0);
-  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 150.0, 1e-6);
-  EXPECT_EQ(checkOf(subject, "agreement_truth").state, CheckState::kFailed);
+TEST_F(AgreementChecks, TheTruthIsHeldToTheRequirement) {
+  one_.camera_from_station_truth = movedBy(0.1, -0.3);
+  EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 75.0, 1e-6);
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kPassed);
+  one_.camera_from_station_truth = movedBy(0.6, 0.0);
+  EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 150.0, 1e-6);
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kFailed);
 }
 
-TEST(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
-  ReviewSubject subject = someSubject();
-  auto loaded = std::make_shared<LoadedCase>();
-  setTruth(loaded->source, movedBy(subject, 0.0, 8.0));
-  subject.loaded = loaded;
-  EXPECT_NEAR(checkOf(subject, "agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
+TEST_F(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+  setTruth(one_, movedBy(0.0, 8.0));
+  EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
   // 3 sigma of 10 mm along the view axis, of the truth and of the pose together.
-  setTruth(loaded->source, movedBy(subject, 0.0, 8.0), Matrix6d(9.9e-5 * Matrix6d::Identity()));
-  subject.covariance.picture = 1e-6 * Matrix6d::Identity();
-  const Check check = checkOf(subject, "agreement_truth");
+  setTruth(one_, movedBy(0.0, 8.0), Matrix6d(9.9e-5 * Matrix6d::Identity()));
+  subject_.covariance.picture = 1e-6 * Matrix6d::Identity();
+  const Check check = checkOf("agreement_truth");
   EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
   EXPECT_THAT(check.sentence, testing::HasSubstr("says little"));
 }
 
-TEST(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
-  ReviewSubject subject = someSubject();
-  subject.covariance = {1e-12 * Matrix6d::Identity(), Matrix6d::Identity(), Matrix6d::Identity()};
-  subject.annotated.emplace();
-  subject.annotated->camera_from_station = movedBy(subject, 0.0, 0.8);
-  subject.annotated->covariance.picture = 1e-12 * Matrix6d::Identity();
-  EXPECT_NEAR(checkOf(subject, "agreement_annotation").figure.value(), 200.0, 0.1);
+TEST_F(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
+  subject_.covariance = {1e-12 * Matrix6d::Identity(), Matrix6d::Identity(), Matrix6d::Identity()};
+  subject_.annotated.emplace();
+  subject_.annotated->camera_from_station = movedBy(0.0, 0.8);
+  subject_.annotated->covariance.picture = 1e-12 * Matrix6d::Identity();
+  EXPECT_NEAR(checkOf("agreement_annotation").figure.value(), 200.0, 0.1);
 }
 
-TEST(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
-  ReviewSubject subject = someSubject();
-  OtherPose other{"left", movedBy(subject, 0.0, 0.8), {1e-12 * Matrix6d::Identity(), {}, {}}};
+TEST_F(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
+  OtherPose other{"left", movedBy(0.0, 0.8), {1e-12 * Matrix6d::Identity(), {}, {}}};
   other.covariance.mesh_scale = other.covariance.calibration = Matrix6d::Zero();
   other.covariance.calibration(5, 5) = 1e-8;
-  subject.covariance = other.covariance;
-  subject.other_cameras = {other};
-  EXPECT_NEAR(checkOf(subject, "agreement_camera").figure.value(),
+  subject_.covariance = other.covariance;
+  subject_.other_cameras = {other};
+  EXPECT_NEAR(checkOf("agreement_camera").figure.value(),
               100.0 * 0.8 / std::hypot(0.4, 0.3 * std::sqrt(2.0)), 0.1);
 }
 
-TEST(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
-  ReviewSubject subject = someSubject();
-  auto loaded = std::make_shared<LoadedCase>();
-  setTruth(loaded->source, movedBy(subject, 0.1, -0.3));
-  subject.loaded = loaded;
-  const auto sentence = [&] { return checkOf(subject, "agreement_truth").sentence; };
+TEST_F(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
+  setTruth(one_, movedBy(0.1, -0.3));
+  const auto sentence = [&] { return checkOf("agreement_truth").sentence; };
   EXPECT_THAT(sentence(), testing::HasSubstr("across the view axis at the camera"));
-  loaded->source.camera_from_end_effector = Pose();
+  one_.camera_from_end_effector = Pose();
   EXPECT_THAT(sentence(), testing::HasSubstr("at the end effector"));
 }
 
-TEST(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
-  ReviewSubject subject = someSubject();
-  subject.annotated.emplace();
-  subject.annotated->camera_from_station = movedBy(subject, 0.6, 0.0);
-  EXPECT_EQ(checkOf(subject, "agreement_annotation").state, CheckState::kFailed);
+TEST_F(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+  subject_.annotated.emplace();
+  subject_.annotated->camera_from_station = movedBy(0.6, 0.0);
+  EXPECT_EQ(checkOf("agreement_annotation").state, CheckState::kFailed);
   // 3 sigma of 0.4 mm per axis: across the axis 3 sqrt(2) 0.4 mm and the requirement together.
-  subject.annotated->covariance.picture = 1.6e-7 * Matrix6d::Identity();
-  const Check check = checkOf(subject, "agreement_annotation");
+  subject_.annotated->covariance.picture = 1.6e-7 * Matrix6d::Identity();
+  const Check check = checkOf("agreement_annotation");
   EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
   EXPECT_THAT(check.sentence, testing::HasSubstr("says little"));
 }
 
-TEST(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
-  ReviewSubject subject = someSubject();
+TEST_F(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
   const PoseCovariance unknown;
-  subject.other_cameras = {{"left", movedBy(subject, 0.1, 0.0), unknown},
-                           {"top", movedBy(subject, 0.0, 0.8), unknown},
-                           {"right", movedBy(subject, 0.2, 0.0), unknown}};
-  const Check check = checkOf(subject, "agreement_camera");
+  subject_.other_cameras = {{"left", movedBy(0.1, 0.0), unknown},
+                            {"top", movedBy(0.0, 0.8), unknown},
+                            {"right", movedBy(0.2, 0.0), unknown}};
+  const Check check = checkOf("agreement_camera");
   EXPECT_NEAR(check.figure.value(), 200.0, 1e-6);
   EXPECT_THAT(check.sentence, testing::HasSubstr("top"));
 }
 
-TEST(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
-  const ReviewSubject subject = someSubject();
-  EXPECT_TRUE(withinRequirement(subject, movedBy(subject, 0.3, 0.3)));
-  EXPECT_FALSE(withinRequirement(subject, movedBy(subject, 0.3, 0.5)));
-  Pose turned = subject.camera_from_station;
+TEST_F(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
+  EXPECT_TRUE(withinRequirement(subject_, movedBy(0.3, 0.3)));
+  EXPECT_FALSE(withinRequirement(subject_, movedBy(0.3, 0.5)));
+  Pose turned = subject_.camera_from_station;
   turned.rotation = rotationExp({0.005, 0.0, 0.0}) * turned.rotation;
-  EXPECT_FALSE(withinRequirement(subject, turned));
+  EXPECT_FALSE(withinRequirement(subject_, turned));
 }
 
 std::vector<Check> basinChecks(const std::optional<BasinResult>& basin) {
@@ -205,12 +198,16 @@ std::vector<Check> checksOf(const ReviewSubject& subject, const CheckLimits& lim
   return checks;
 }
 
-TEST(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
-  const DrawnBox box;
-  ReviewSubject subject = box.subject(box.camera_from_station_);
-  subject.covariance.picture = someCovariance();
-  subject.requirement = {0.5, 0.5, {}, {}};
-  const auto checks = checksOf(subject, CheckLimits());
+class PrecisionChecks : public testing::Test {
+ protected:
+  const DrawnBox box_;
+  ReviewSubject subject_ = box_.subject(box_.camera_from_station_);
+};
+
+TEST_F(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
+  subject_.covariance.picture = someCovariance();
+  subject_.requirement = {0.5, 0.5, {}, {}};
+  const auto checks = checksOf(subject_, CheckLimits());
   EXPECT_NEAR(findCheck(checks, "covariance_normal").figure.value(), 0.6, 1e-9);
   EXPECT_EQ(findCheck(checks, "covariance_normal").state, CheckState::kFailed);
   EXPECT_NEAR(findCheck(checks, "covariance_lateral").figure.value(), 0.3 * std::sqrt(2.0), 1e-9);
@@ -218,33 +215,27 @@ TEST(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
   EXPECT_EQ(findCheck(checks, "covariance_rotation").state, CheckState::kNotApplicable);
 }
 
-TEST(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
-  const DrawnBox box;
-  ReviewSubject subject = box.subject(box.camera_from_station_);
+TEST_F(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
   // 0.5 mm along x at half a metre with f = 1000 px: a pixel, whatever the place's depth makes of
   // it.
-  subject.covariance.picture(3, 3) = 0.5e-3 * 0.5e-3;
-  subject.requirement = {{}, {}, {}, 3.5};
-  const Check check = findCheck(checksOf(subject, CheckLimits()), "covariance_projection");
+  subject_.covariance.picture(3, 3) = 0.5e-3 * 0.5e-3;
+  subject_.requirement = {{}, {}, {}, 3.5};
+  const Check check = findCheck(checksOf(subject_, CheckLimits()), "covariance_projection");
   EXPECT_NEAR(check.figure.value(), 3.0, 0.25);
   EXPECT_EQ(check.state, CheckState::kPassed);
 }
 
-TEST(PrecisionChecks, WithoutACovarianceThereIsNothingToAsk) {
-  const DrawnBox box;
-  ReviewSubject subject = box.subject(box.camera_from_station_);
-  EXPECT_EQ(findCheck(checksOf(subject, CheckLimits()), "covariance_normal").state,
+TEST_F(PrecisionChecks, WithoutACovarianceThereIsNothingToAsk) {
+  EXPECT_EQ(findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").state,
             CheckState::kNotApplicable);
 }
 
-TEST(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
-  const DrawnBox box;
-  ReviewSubject subject = box.subject(box.camera_from_station_);
-  const SessionCase& one = subject.loaded->source;
-  subject.covariance = poseCovariance(one, subject.loaded->scene.view(),
-                                      subject.camera_from_station, 1e-12 * Matrix6d::Identity());
+TEST_F(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
+  const SessionCase& one = subject_.loaded->source;
+  subject_.covariance = poseCovariance(one, subject_.loaded->scene.view(),
+                                       subject_.camera_from_station, 1e-12 * Matrix6d::Identity());
   // 0.02 % of half a metre twice over, less what the box's own depth tells of the focal length.
-  const Check check = findCheck(checksOf(subject, CheckLimits()), "covariance_normal");
+  const Check check = findCheck(checksOf(subject_, CheckLimits()), "covariance_normal");
   EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
   EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
   EXPECT_THAT(check.sentence,
@@ -254,33 +245,30 @@ TEST(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
   EXPECT_THAT(check.sentence, testing::HasSubstr("state how well"));
 }
 
-TEST(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
-  const DrawnBox box;
-  ReviewSubject subject = box.subject(box.camera_from_station_);
-  SessionCase one = subject.loaded->source;
+TEST_F(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
+  SessionCase one = subject_.loaded->source;
   const auto figure = [&](double mesh_scale, const CalibrationSigma& calibration) {
     one.mesh_scale_sigma = mesh_scale;
     one.calibration_sigma = calibration;
-    subject.covariance = poseCovariance(one, subject.loaded->scene.view(),
-                                        subject.camera_from_station, 1e-12 * Matrix6d::Identity());
-    return findCheck(checksOf(subject, CheckLimits()), "covariance_normal").figure.value();
+    subject_.covariance =
+        poseCovariance(one, subject_.loaded->scene.view(), subject_.camera_from_station,
+                       1e-12 * Matrix6d::Identity());
+    return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").figure.value();
   };
   EXPECT_NEAR(figure(0.0, {0.0, 0.0}), 0.003, 1e-6);
   EXPECT_NEAR(figure(0.005, {0.0, 0.0}), 3.0 * 2.5, 1e-3) << "half a percent of half a metre";
   EXPECT_NEAR(figure(0.0, {0.001, 0.0}), 3.0 * 0.5, 0.15);
 }
 
-TEST(PrecisionChecks, TheSentenceSaysWhere) {
-  const DrawnBox box;
-  ReviewSubject subject = box.subject(box.camera_from_station_);
-  subject.covariance.picture = someCovariance();
+TEST_F(PrecisionChecks, TheSentenceSaysWhere) {
+  subject_.covariance.picture = someCovariance();
   const auto sentence = [&] {
-    return findCheck(checksOf(subject, CheckLimits()), "covariance_normal").sentence;
+    return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").sentence;
   };
   EXPECT_EQ(sentence().rfind("3 sigma at the camera are ", 0), 0U) << sentence();
   auto loaded = std::make_shared<LoadedCase>();
   loaded->source.camera_from_end_effector = Pose();
-  subject.loaded = loaded;
+  subject_.loaded = loaded;
   EXPECT_EQ(sentence().rfind("3 sigma at the end effector are ", 0), 0U) << sentence();
 }
 

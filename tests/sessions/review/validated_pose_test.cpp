@@ -15,7 +15,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
@@ -35,7 +35,6 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The example's OS station, run and marked, in a folder of its own with its files.
 /// As another program would: this one does not replace what it has read.
 void overwrite(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
   std::ofstream(file, std::ios::binary)
@@ -43,6 +42,7 @@ void overwrite(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
+/// The example's OS station, run and marked, in a folder of its own with its files.
 class ValidatedPose : public testing::Test {
  protected:
   void SetUp() override {
@@ -140,12 +140,15 @@ class ValidatedPose : public testing::Test {
     return report;
   }
 
-  static std::string wrongsOfForged(ordered_json json,
-                                    const std::function<void(ordered_json&)>& forge,
-                                    const fs::path& file, bool run_again) {
-    forge(json);
-    resign(json, file);
-    return wrongsOf(sessions::verifyPose(file, run_again));
+  /// What is wrong with the file after an edit of what is in it now.
+  static auto forging(const fs::path& file) {
+    return
+        [good = read(file), file](const std::function<void(ordered_json&)>& forge, bool run_again) {
+          ordered_json json = good;
+          forge(json);
+          resign(json, file);
+          return wrongsOf(sessions::verifyPose(file, run_again));
+        };
   }
 
   static std::string wrongsOf(const VerifyReport& report) {
@@ -165,7 +168,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   const fs::path file = writeValidated();
   const ordered_json json = read(file);
   EXPECT_EQ(json["state"], "validated");
-  EXPECT_EQ(json["standing"], "validated by Ada");
+  EXPECT_EQ(json["review_status"], "validated by Ada");
   EXPECT_THAT(json["checks"].dump(), HasSubstr("\"override_reason\":\"the shadow of the arm\""));
   EXPECT_EQ(json["sha256"]["image_pixels"], session_.findCase(id_)->image.pixels_sha256);
   EXPECT_EQ(json["run"]["digest"], subject_.run->digest);
@@ -178,7 +181,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   EXPECT_TRUE(json["end_effector"].contains("end_effector_seed_from_end_effector_estimated"));
 
   const VerifyReport report = verified(file);
-  EXPECT_EQ(report.standing, "validated by Ada");
+  EXPECT_EQ(report.review_status, "validated by Ada");
 }
 
 Matrix6d matrixOf(const ordered_json& json) {
@@ -215,9 +218,9 @@ TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {
   run();
   const fs::path file = write();
   EXPECT_EQ(read(file)["state"], "NOT VALIDATED");
-  EXPECT_EQ(read(file)["standing"], "NOT VALIDATED: converged");
+  EXPECT_EQ(read(file)["review_status"], "NOT VALIDATED: converged");
   const VerifyReport report = verified(file);
-  EXPECT_EQ(report.standing, "NOT VALIDATED: converged");
+  EXPECT_EQ(report.review_status, "NOT VALIDATED: converged");
 }
 
 TEST_F(ValidatedPose, OfMarksIsSolvedAgain) {
@@ -272,10 +275,7 @@ TEST_F(ValidatedPose, NoLeafCanBeAlteredUnseen) {
 
 TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
   const fs::path file = writeValidated();
-  const ordered_json good = read(file);
-  const auto forged = [&](const std::function<void(ordered_json&)>& forge, bool run_again) {
-    return wrongsOfForged(good, forge, file, run_again);
-  };
+  const auto forged = forging(file);
   EXPECT_EQ(forged([](ordered_json&) {}, true), "");
   const auto shift = [](ordered_json& json) {
     json["pose"]["camera_from_station"][0][3] =
@@ -313,10 +313,7 @@ TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
 
 TEST_F(ValidatedPose, AFailedCheckStatedAsPassedIsFoundWhenItIsMadeAgain) {
   const fs::path file = writeValidated();
-  const ordered_json good = read(file);
-  const auto forged = [&](const std::function<void(ordered_json&)>& forge, bool run_again) {
-    return wrongsOfForged(good, forge, file, run_again);
-  };
+  const auto forged = forging(file);
   const auto pass = [](ordered_json& json) {
     for (const char* id : {"inlier_count", "edge_coverage"}) eachCheck(json, id, statePassed);
   };
@@ -352,7 +349,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
   pose.covariance = decision.pose->covariance;
   pose.run_digest = decision.digest;
   pose.validated = true;
-  pose.standing = "validated by Ada";
+  pose.review_status = "validated by Ada";
   pose.checks = decision.checks;
   resign(json = validatedPoseJson(edited, pose, subject_.run, file), file);
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)),
@@ -362,7 +359,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
 TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
   const fs::path file = writeValidated();
   ordered_json json = read(file);
-  json["standing"] = "validated by Flight Director";
+  json["review_status"] = "validated by Flight Director";
   for (ordered_json* decision : {&json["decision"], &json["session"]["decisions"][0]}) {
     (*decision)["by"] = "Flight Director";
     (*decision)["time"] = "2020-01-01T00:00:00Z";
@@ -445,20 +442,14 @@ TEST_F(ValidatedPose, ADamagedOrLostTraceIsNotHandedOver) {
 }
 
 TEST_F(ValidatedPose, WithoutItsRunItDoesNotVerify) {
-  const fs::path file = writeValidated();
-  const ordered_json good = read(file);
-  ordered_json json = good;
-  json.erase("run");
-  resign(json, file);
-  for (const bool run_again : {true, false})
-    EXPECT_THAT(wrongsOf(sessions::verifyPose(file, run_again)),
+  const auto forged = forging(writeValidated());
+  for (const bool run_again : {true, false}) {
+    EXPECT_THAT(forged([](ordered_json& json) { json.erase("run"); }, run_again),
                 HasSubstr("the member run, with options and matches, is missing"));
-  json = good;
-  json["session"]["runs"] = ordered_json::array();
-  resign(json, file);
-  for (const bool run_again : {true, false})
-    EXPECT_THAT(wrongsOf(sessions::verifyPose(file, run_again)),
+    EXPECT_THAT(forged([](ordered_json& json) { json["session"]["runs"] = ordered_json::array(); },
+                       run_again),
                 HasSubstr("does not have the run that the pose is of"));
+  }
 }
 
 TEST_F(ValidatedPose, OfMarksIsMeasuredLikeThatOfARun) {

@@ -158,49 +158,49 @@ TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
               HasSubstr("0.0000 0.0000 0.3000 mm, 2.0000 0.0000 0.0000 mrad"));
 }
 
-TEST(StandingText, ExplainsARunThatFailed) {
-  EXPECT_THAT(standingText(endedWith(LocalizationStatus::kTooFewEdges)),
+TEST(RunStatusText, ExplainsARunThatFailed) {
+  EXPECT_THAT(runStatusText(endedWith(LocalizationStatus::kTooFewEdges)),
               AllOf(HasSubstr("Did not converge. The render shows 7 salient edge pixels"),
                     testing::EndsWith(".")));
 }
 
-TEST(StandingText, SaysWhatSpeaksForAPose) {
+TEST(RunStatusText, SaysWhatSpeaksForAPose) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.covariance(3, 3) = 4e-10;  // 0.02 mm
   trace.support.rendered = trace.support.covered = 10;
   trace.support.seen = trace.support.explained = 10;
-  EXPECT_THAT(standingText(trace),
+  EXPECT_THAT(runStatusText(trace),
               AllOf(HasSubstr("Converged in 1 iteration,"), HasSubstr("0.020, 0.000, 0.000 mm"),
                     HasSubstr("Edge support is 100.0 %")));
   trace.options.support.gate = false;
-  EXPECT_THAT(standingText(trace), Not(HasSubstr("Edge support")));
+  EXPECT_THAT(runStatusText(trace), Not(HasSubstr("Edge support")));
 }
 
-TEST(StandingText, SaysHowFarARunIs) {
+TEST(RunStatusText, SaysHowFarARunIs) {
   LocalizationTrace trace;
-  EXPECT_EQ(standingText(trace), "Nothing has run yet.");
+  EXPECT_EQ(runStatusText(trace), "Nothing has run yet.");
   trace = endedWith(LocalizationStatus::kRunning);
-  EXPECT_EQ(standingText(trace), "Iteration 1 is complete.");
+  EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
   trace.last_under_way = true;
-  EXPECT_THAT(standingText(trace), AllOf(HasSubstr("under way"), HasSubstr("render")));
+  EXPECT_THAT(runStatusText(trace), AllOf(HasSubstr("under way"), HasSubstr("render")));
 }
 
-TEST(StandingText, NamesTheOtherViews) {
+TEST(RunStatusText, NamesTheOtherViews) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
-  EXPECT_THAT(standingText(trace),
+  EXPECT_THAT(runStatusText(trace),
               testing::StartsWith("Together with b (left out: too few of its templates meet edges "
                                   "of the image) and c. Converged in"));
   trace = endedWith(LocalizationStatus::kTooFewMatches);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}};
   trace.own_view = 1;
-  EXPECT_THAT(standingText(trace),
+  EXPECT_THAT(runStatusText(trace),
               testing::StartsWith("Together with a. This view was left out: too few of"));
   trace.views[0].status = "pnp_failed";
-  EXPECT_THAT(standingText(trace), testing::StartsWith("Together with a. Did not converge. "));
+  EXPECT_THAT(runStatusText(trace), testing::StartsWith("Together with a. Did not converge. "));
   trace.views = {{"a", "running"}, {"b", "running"}};
   trace.finished = false;
-  EXPECT_EQ(standingText(trace), "Together with a. Iteration 1 is complete.");
+  EXPECT_EQ(runStatusText(trace), "Together with a. Iteration 1 is complete.");
 }
 
 }  // namespace

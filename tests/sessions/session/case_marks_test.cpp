@@ -104,7 +104,7 @@ TEST(CaseMarks, SolvesWithTheDigitsOfTheViewsThemselves) {
 TEST(CaseMarks, NamesItsOwnMarksThatStandOut) {
   using sessions::MarkKind;
   sessions::CaseMarksSolution made;
-  EXPECT_TRUE(made.standingOut().empty()) << "without a solution";
+  EXPECT_TRUE(made.outlierMarks().empty()) << "without a solution";
   made.marks.views = RigSession().views;
   made.result.solution.emplace();
   const auto add = [&](const sessions::MarkAddress& address, bool projected, double normalized) {
@@ -120,7 +120,7 @@ TEST(CaseMarks, NamesItsOwnMarksThatStandOut) {
   add({1, MarkKind::kPoint, 3}, true, 8.0);
   const sessions::Marks& own = made.marks.views[0].marks;
   const std::map<std::string, double> expected = {{own.points[1].id, 4.2}, {own.lines[1].id, 3.1}};
-  EXPECT_EQ(made.standingOut(), expected);
+  EXPECT_EQ(made.outlierMarks(), expected);
 }
 
 TEST(CaseMarks, AnUnmarkedCaseGetsItsPoseFromTheRig) {

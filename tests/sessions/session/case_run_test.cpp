@@ -186,14 +186,6 @@ TEST(CaseRun, AStoppedRunIsNotStored) {
   EXPECT_EQ(folder.fileCount(), 0u);
 }
 
-/// Unpacks a zip with another program than the one that packed it.
-void unpack(const std::filesystem::path& archive, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  const std::string command =
-      "cd '" + folder.string() + "' && '" BORESIGHT_CMAKE "' -E tar xf '" + archive.string() + "'";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-}
-
 /// The archive's notes.
 std::vector<std::string> pack(const Session& session, const std::filesystem::path& session_file,
                               const std::filesystem::path& archive) {

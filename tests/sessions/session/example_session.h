@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cstdlib>
 #include <filesystem>
+#include <string>
 
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
@@ -14,6 +18,14 @@ inline std::filesystem::path copyOfExamples(const TemporaryFolder& folder) {
   std::filesystem::copy(exampleFolder(), folder / "stations",
                         std::filesystem::copy_options::recursive);
   return folder / "stations";
+}
+
+/// Unpacks a zip with another program than the one that packed it.
+inline void unpack(const std::filesystem::path& archive, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const std::string command =
+      "cd '" + folder.string() + "' && '" BORESIGHT_CMAKE "' -E tar xf '" + archive.string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
 }
 
 /// The files of one station.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sessions/session/case_run.h"
-#include "sessions/session/mask_edits.h"
+#include "sessions/session/session.h"
 #include "sessions/session/session_maker.h"
 #include "tests/sessions/session/random_session.h"
 #include "tests/support/example_case.h"

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "sessions/session/case_run.h"
@@ -21,11 +20,9 @@ using sessions::Session;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::Field;
-using ::testing::HasSubstr;
 using testing::HasSubstr;
-using ::testing::IsEmpty;
 using testing::IsEmpty;
-using ::testing::SizeIs;
+using testing::SizeIs;
 
 auto finding(FindingKind kind, const std::string& what, const std::string& text) {
   return AllOf(Field(&Finding::kind, kind), Field(&Finding::what, what),
@@ -175,11 +172,7 @@ TEST_F(LabelledImage, IsPackedWithItsPixels) {
   EXPECT_THAT(plan.notes, IsEmpty());
   writePack(plan, folder_ / "s.zip");
   std::filesystem::remove_all(folder_ / "in");
-  std::filesystem::create_directories(folder_ / "there");
-  const std::string command = "cd '" + (folder_ / "there").string() +
-                              "' && '" BORESIGHT_CMAKE "' -E tar xf '" +
-                              (folder_ / "s.zip").string() + "'";
-  ASSERT_EQ(std::system(command.c_str()), 0);
+  unpack(folder_ / "s.zip", folder_ / "there");
   const Session again =
       sessions::readSessionFile(folder_ / "there/s.boresight/s.boresight.json").session;
   EXPECT_THAT(sessions::checkInputs(again), IsEmpty());

@@ -77,43 +77,6 @@ TEST(InputSheet, FlagsWhatIsProbablyWrong) {
               Contains("camera_corners"));
 }
 
-TEST(InputSheets, ReadAnImageAndAStationOnceForAllCasesThatShareThem) {
-  SessionCase one = exampleOs();
-  const SessionCase other = sessions::makeCase(filesOf(exampleFolder() / "bc")).made;
-  sessions::InputSheets sheets;
-  for (int i = 0; i < 20; ++i) {
-    one.camera_from_station_seed.translation_m.x() += 1e-4;
-    const InputSheet sheet = sheets.of(one);
-    const InputSheet alone = sessions::inputSheet(*sessions::loadCase(one));
-    EXPECT_EQ(sheet.lines, alone.lines);
-    EXPECT_EQ(sheet.flags, alone.flags);
-    (void)sheets.of(other);
-  }
-  EXPECT_EQ(sheets.filesRead(), 4) << "two images, two stations";
-}
-
-TEST(InputSheets, AreThoseOfTheCasesOwnMaskRuleAndParts) {
-  SessionCase one = exampleOs();
-  sessions::InputSheets sheets;
-  (void)sheets.of(one);
-  sessions::MaskStroke stroke;
-  stroke.kind = sessions::StrokeKind::kSaturation;
-  stroke.level = 200;
-  one.ignore_strokes.push_back(stroke);
-  EXPECT_EQ(sheets.of(one).lines, sessions::inputSheet(*sessions::loadCase(one)).lines);
-  one.ignore_strokes.clear();
-  one.parts[0].source.mesh_unit = "km";
-  EXPECT_THAT(codes(sheets.of(one).flags), Contains("mesh_scale"));
-}
-
-TEST(InputSheets, SayOfEveryCaseThatItsImageIsAnotherButReadItOnce) {
-  SessionCase one = exampleOs();
-  one.image.source.sha256 = std::string(64, '0');
-  sessions::InputSheets sheets;
-  for (int i = 0; i < 3; ++i) EXPECT_THROW((void)sheets.of(one), sessions::InputError);
-  EXPECT_EQ(sheets.filesRead(), 1);
-}
-
 TEST(InputSheet, TellsTheInsideOfASurface) {
   const sessions::SceneMesh scene = ExampleCase("os").scene;
   // A cube of two triangles a side, from -1 to 1.

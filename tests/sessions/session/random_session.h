@@ -161,11 +161,11 @@ inline sessions::Annotation randomAnnotation(Random& random) {
   return annotation;
 }
 
-inline sessions::AnnotationPasses randomPasses(Random& random) {
-  sessions::AnnotationPasses passes;
+inline sessions::AnnotationRounds randomRounds(Random& random) {
+  sessions::AnnotationRounds rounds;
   for (std::uint32_t i = 1u + random.below(3); i > 0; --i)
-    passes.push_back({"Ada \xC3\x9C", "2026-01-31T23:59:59Z", randomAnnotation(random)});
-  return passes;
+    rounds.push_back({"Ada \xC3\x9C", "2026-01-31T23:59:59Z", randomAnnotation(random)});
+  return rounds;
 }
 
 inline LocalizerOptions randomOptions(Random& random) {
@@ -225,7 +225,7 @@ inline sessions::Decision randomDecision(Random& random, const std::string& case
     decision.pose->covariance.picture(1, 2) = random.uniform(-1.0, 1.0);
     decision.pose->covariance.mesh_scale(5, 5) = random.uniform(0.0, 1.0);
   }
-  if (coin(random)) decision.grounds["truth"] = randomSha256(random);
+  if (coin(random)) decision.input_fingerprint["truth"] = randomSha256(random);
   if (coin(random)) decision.approval = {"Bob", "", "2026-01-31T23:59:59Z"};
   return decision;
 }
@@ -239,7 +239,7 @@ inline sessions::Session randomSession(Random& random) {
     const std::string id = "case " + std::to_string(i);
     session.cases.push_back(randomCase(random, id));
     if (coin(random)) session = withAnnotation(session, id, randomAnnotation(random));
-    if (coin(random)) session = withPasses(session, id, randomPasses(random));
+    if (coin(random)) session = withRounds(session, id, randomRounds(random));
     if (coin(random)) session.decisions.push_back(randomDecision(random, id));
     if (coin(random))
       session.runs.push_back({id, randomSha256(random), randomPath(random, ".trace"), "converged",
@@ -261,8 +261,8 @@ inline sessions::Session randomEdit(Random& random, const sessions::Session& ses
   const sessions::SessionCase& one = *session.cases[indexBelow(random, session.cases.size())];
   switch (random.below(7)) {
     case 5:
-      return withPasses(session, one.id,
-                        coin(random) ? randomPasses(random) : sessions::AnnotationPasses());
+      return withRounds(session, one.id,
+                        coin(random) ? randomRounds(random) : sessions::AnnotationRounds());
     case 0:
       return withoutCase(session, one.id);
     case 1:

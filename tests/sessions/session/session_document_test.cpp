@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
 #include <limits>
+#include <thread>
 
 #include "sessions/io/errors.h"
 #include "sessions/session/session_file.h"
@@ -21,6 +25,7 @@ namespace {
 using sessions::Access;
 using sessions::Session;
 using sessions::SessionDocument;
+using sessions::SessionHistory;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -337,6 +342,186 @@ TEST(SessionDocument, RandomEditsAreAllRecovered) {
     if (document.recovery()) document.acceptRecovery();
     ASSERT_TRUE(document.session() == last);
   }
+}
+
+const sessions::Journal kJournal = {
+    std::string(64, '0'), "2026-01-31T23:59:59Z", {"Edit \"1\"\nsecond line", "Edit 2"}};
+
+std::string writeJournal(const TemporaryFolder& folder, const Session& session) {
+  sessions::writeJournal(folder / "j", kJournal, sessions::sessionText(session, folder / "j"));
+  return folder.read("j");
+}
+
+TEST(Journal, ReadsBackWhatWasWritten) {
+  Random random = randomFor("Journal");
+  const TemporaryFolder folder;
+  for (int i = 0; i < 20; ++i) {
+    const Session session = randomSession(random);
+    writeJournal(folder, session);
+    const sessions::Recovery read = sessions::readJournal(folder / "j");
+    EXPECT_EQ(read.base_sha256, kJournal.base_sha256);
+    EXPECT_EQ(read.time, kJournal.time);
+    EXPECT_EQ(read.edits, kJournal.edits);
+    EXPECT_TRUE(read.session == session);
+  }
+}
+
+TEST(Journal, ACutOneIsNotUsed) {
+  const TemporaryFolder folder;
+  const std::string whole = writeJournal(folder, {});
+  for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
+    const auto cut = folder.write("cut", whole.substr(0, length));
+    EXPECT_THROW((void)sessions::readJournal(cut), sessions::InputError) << length;
+  }
+}
+
+TEST(Journal, SaysWhyItCannotBeUsed) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(folder.message([&] { (void)sessions::readJournal(folder.write("j", "{}\n")); }),
+              HasSubstr("j: format: missing"));
+  EXPECT_THAT(folder.message([&] { (void)sessions::readJournal(folder / "none"); }),
+              HasSubstr("none: no such file"));
+}
+
+TEST(SessionHistory, UndoesAndRedoesEveryStep) {
+  Random random = randomFor("SessionHistory");
+  const TemporaryFolder folder;
+  SessionDocument document = SessionDocument::create(folder / "s.json", randomSession(random));
+  SessionHistory history(document);
+  std::vector<Session> states = {document.session()};
+  for (int i = 0; i < 30; ++i) {
+    history.perform(randomEdit(random, document.session()), "Edit " + std::to_string(i));
+    if (states.size() <= history.done()) states.push_back(document.session());
+  }
+  const Session& end = document.session();
+  const auto expectEdits = [&](std::size_t i) {
+    ASSERT_TRUE(keepingRuns(states[i], {}) == keepingRuns(document.session(), {})) << i;
+  };
+  const std::size_t count = history.done();
+  ASSERT_EQ(states.size(), count + 1);
+  for (std::size_t i = count; i > 0; --i) {
+    expectEdits(i);
+    EXPECT_TRUE(history.canUndo());
+    history.undo();
+  }
+  expectEdits(0);
+  EXPECT_FALSE(history.canUndo());
+  history.undo();
+  for (std::size_t i = 1; i <= count; ++i) {
+    history.redo();
+    expectEdits(i);
+  }
+  EXPECT_FALSE(history.canRedo());
+  EXPECT_TRUE(keepingRuns(end, {}) == keepingRuns(states.back(), {}));
+}
+
+TEST(SessionHistory, ANewEditForgetsWhatWasUndone) {
+  Random random = randomFor("forget");
+  const TemporaryFolder folder;
+  SessionDocument document = SessionDocument::create(folder / "s.json", {});
+  SessionHistory history(document);
+  history.perform(withCase(document.session(), randomCase(random, "a")), "Add a");
+  history.perform(withCase(document.session(), randomCase(random, "b")), "Add b");
+  history.perform(document.session(), "Nothing");
+  EXPECT_EQ(history.undoText(), "Add b");
+  history.undo();
+  EXPECT_EQ(history.redoText(), "Add b");
+  history.perform(withCase(document.session(), randomCase(random, "c")), "Add c");
+  EXPECT_EQ(history.redoText(), "");
+  EXPECT_EQ(document.session().cases.size(), 2u);
+}
+
+TEST(SessionHistory, RunsAndTheViewAreNotUndone) {
+  Random random = randomFor("runs");
+  const TemporaryFolder folder;
+  SessionDocument document =
+      SessionDocument::create(folder / "s.json", withCase({}, randomCase(random, "a")));
+  SessionHistory history(document);
+  history.perform(withAnnotation(document.session(), "a", randomAnnotation(random)), "Mark");
+  Session ran = document.session();
+  ran.runs.push_back({"a", randomSha256(random), folder / "x", "converged", "0.1.0",
+                      "2026-01-31T23:59:59Z", randomSha256(random), randomSha256(random)});
+  ran.view.case_id = "a";
+  document.apply(ran, "Run a");
+  history.undo();
+  EXPECT_TRUE(document.session().annotations.empty());
+  EXPECT_EQ(document.session().runs.size(), 1u);
+  EXPECT_EQ(document.session().view.case_id, "a");
+}
+
+TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
+  Random random = randomFor("unwritten");
+  const TemporaryFolder folder;
+  { SessionDocument::create(folder / "s.json", withCase({}, randomCase(random, "a"))); }
+  SessionDocument document = SessionDocument::open(folder / "s.json", sessions::Access::kReadOnly);
+  SessionHistory history(document);
+  EXPECT_NE(folder.message([&] {
+    history.perform(withAnnotation(document.session(), "a", randomAnnotation(random)), "Mark");
+  }),
+            "(nothing)");
+  EXPECT_FALSE(history.canUndo());
+  EXPECT_TRUE(document.session().annotations.empty());
+}
+
+/// The number of the last edit is kept in the session's view; the rest is random.
+Session numberedEdit(Random& random, const Session& session, std::int32_t number) {
+  Session next = random.below(4) == 0 ? randomEdit(random, session) : session;
+  next.view.iteration = number;
+  return next;
+}
+
+/// Opens, recovers, edits in a loop and confirms each edit on the pipe; saves now and then.
+[[noreturn]] void editForEver(const std::filesystem::path& file, int confirm, std::uint64_t round) {
+  Random random = randomFor("kill " + std::to_string(round));
+  SessionDocument document = SessionDocument::open(file);
+  document.acceptRecovery();
+  for (std::int32_t number = document.session().view.iteration + 1;; ++number) {
+    document.apply(numberedEdit(random, document.session(), number), "Edit");
+    if (::write(confirm, &number, sizeof(number)) != sizeof(number)) ::_exit(1);
+    if (random.below(8) == 0) document.save();
+  }
+}
+
+TEST(Kill, NothingConfirmedIsLost) {
+  const TemporaryFolder folder;
+  Random random = randomFor("Kill");
+  { SessionDocument::create(folder / "s.json", randomSession(random)); }
+  std::int32_t confirmed = -1;
+  for (std::uint64_t round = 0; round < 50; ++round) {
+    int pipe_ends[2];
+    ASSERT_EQ(::pipe(pipe_ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::close(pipe_ends[0]);
+      try {
+        editForEver(folder / "s.json", pipe_ends[1], round);
+      } catch (const std::exception& error) {
+        ::_exit(2);
+      }
+    }
+    ::close(pipe_ends[1]);
+    const auto read = [&] { return ::read(pipe_ends[0], &confirmed, sizeof(confirmed)) > 0; };
+    for (std::uint32_t left = random.below(30); left > 0; --left) ASSERT_TRUE(read());
+    std::this_thread::sleep_for(std::chrono::microseconds(random.below(6000)));
+    ASSERT_EQ(::kill(child, SIGKILL), 0);
+    while (read()) {
+    }
+    ::close(pipe_ends[0]);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself, with " << WEXITSTATUS(status);
+
+    const SessionDocument document = SessionDocument::open(folder / "s.json");
+    ASSERT_FALSE(document.readOnly());
+    const Session& session =
+        document.recovery() ? document.recovery()->session : document.session();
+    // The last edit may be on the disk although it was not confirmed any more.
+    ASSERT_GE(session.view.iteration, confirmed) << "round " << round;
+    ASSERT_LE(session.view.iteration, confirmed + 1) << "round " << round;
+    for (const std::string& notice : document.notices())
+      EXPECT_EQ(notice.find("set aside"), std::string::npos) << notice;
+  }
+  EXPECT_GT(confirmed, 50);
 }
 
 }  // namespace

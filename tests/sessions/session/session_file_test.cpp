@@ -86,7 +86,7 @@ json goodSession() {
   one.image.eight_bit = {};
   Session session = withCase({}, one);
   session = withAnnotation(session, "bc", randomAnnotation(random));
-  session = withPasses(session, "bc", randomPasses(random));
+  session = withRounds(session, "bc", randomRounds(random));
   session.decisions.push_back(
       {"bc", sessions::Verdict::kValidated, "Ada", "", "2026-01-31T23:59:59Z", ""});
   session.runs.push_back({"bc", std::string(64, 'a'), "/x", "converged", "0.1.0",
@@ -157,11 +157,11 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
          points.push_back(points[0]);
        },
        "is given twice"},
-      {[](json& s) { s["passes"]["os"] = s["passes"]["bc"]; }, "passes.os: there is no case 'os'"},
-      {[](json& s) { s["passes"]["bc"] = json::array(); }, "passes.bc: there is none"},
-      {[](json& s) { s["passes"]["bc"][0]["by"] = ""; }, "passes.bc[0].by: is empty"},
-      {[](json& s) { s["passes"]["bc"][0]["time"] = "now"; }, "passes.bc[0].time: not a time"},
-      {[](json& s) { s["passes"]["bc"][0]["sigma"] = 1; }, "passes.bc[0].sigma: is not known"},
+      {[](json& s) { s["rounds"]["os"] = s["rounds"]["bc"]; }, "rounds.os: there is no case 'os'"},
+      {[](json& s) { s["rounds"]["bc"] = json::array(); }, "rounds.bc: there is none"},
+      {[](json& s) { s["rounds"]["bc"][0]["by"] = ""; }, "rounds.bc[0].by: is empty"},
+      {[](json& s) { s["rounds"]["bc"][0]["time"] = "now"; }, "rounds.bc[0].time: not a time"},
+      {[](json& s) { s["rounds"]["bc"][0]["sigma"] = 1; }, "rounds.bc[0].sigma: is not known"},
       {[](json& s) { s["cases"][0]["landmarks"] = 3; }, "cases[0].landmarks: not "},
       {[](json& s) { s["decisions"][0]["case"] = "os"; }, "decisions[0].case: there is no case"},
       {[](json& s) { s["decisions"][0]["by"] = ""; }, "decisions[0].by: is empty"},
@@ -179,13 +179,13 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
 TEST(SessionFile, ReadsFilesFromBeforePassesAndLandmarks) {
   const TemporaryFolder folder;
   json old = goodSession();
-  old.erase("passes");
+  old.erase("rounds");
   old["cases"][0].erase("landmarks");
   const Session session = sessions::readSessionFile(folder.write("s.json", old.dump())).session;
-  EXPECT_TRUE(session.passes.empty());
+  EXPECT_TRUE(session.rounds.empty());
   EXPECT_FALSE(session.cases[0]->landmarks);
   // What has none is written as it was before.
-  EXPECT_EQ(json::parse(sessions::sessionText(session, folder / "s.json")).contains("passes"),
+  EXPECT_EQ(json::parse(sessions::sessionText(session, folder / "s.json")).contains("rounds"),
             false);
 }
 
@@ -196,9 +196,9 @@ TEST(SessionFile, LandmarksAreNoInputOfARun) {
   const std::string digest = sessions::inputsDigest(one);
   one.landmarks = "/station/landmarks.json";
   EXPECT_EQ(sessions::inputsDigest(one), digest);
-  Session session = withPasses(withCase({}, one), "a", randomPasses(random));
-  EXPECT_TRUE(withoutCase(session, "a").passes.empty());
-  EXPECT_TRUE(withPasses(session, "a", {}).passes.empty());
+  Session session = withRounds(withCase({}, one), "a", randomRounds(random));
+  EXPECT_TRUE(withoutCase(session, "a").rounds.empty());
+  EXPECT_TRUE(withRounds(session, "a", {}).rounds.empty());
 }
 
 TEST(SessionFile, RefusesToWriteWhatIsNotText) {

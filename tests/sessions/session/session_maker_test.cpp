@@ -99,14 +99,14 @@ TEST(SessionMaker, WhatIsStatedOfMeshCameraAndTruthComesAlong) {
 
 TEST(InputSigmas, AreStatedForAllCasesOfTheMeshAndOfTheCamera) {
   Session session = sessions::makeSession(exampleFolder() / "dataset.json");
-  sessions::SessionCase twin = *session.cases[0];
-  twin.id = "same mesh";
-  twin.camera.fx += 1.0;
-  session = withCase(session, twin);
-  twin = *session.cases[1];
-  twin.id = "same camera";
-  twin.camera = session.cases[0]->camera;
-  session = withCase(session, twin);
+  sessions::SessionCase other = *session.cases[0];
+  other.id = "same mesh";
+  other.camera.fx += 1.0;
+  session = withCase(session, other);
+  other = *session.cases[1];
+  other.id = "same camera";
+  other.camera = session.cases[0]->camera;
+  session = withCase(session, other);
   const Session stated =
       sessions::withInputSigmas(session, session.cases[0]->id, 1e-3, sessions::CalibrationSigma{});
   EXPECT_EQ(stated.cases[0]->mesh_scale_sigma, 1e-3);

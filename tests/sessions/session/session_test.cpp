@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <stdexcept>
 
+#include "core/base/random.h"
 #include "sessions/session/keyed_list.h"
+#include "sessions/session/rig_links.h"
+#include "tests/sessions/session/example_session.h"
 #include "tests/sessions/session/random_session.h"
 
 namespace boresight::test {
@@ -109,3 +113,137 @@ TEST(KeyedList, FindsElementsThatWereChangedRemovedOrReplaced) {
 
 }  // namespace
 }  // namespace boresight::test
+
+namespace boresight::sessions {
+namespace {
+
+/// A run of every case as it is, without running it.
+Session asIfRun(Session session) {
+  for (const auto& one : session.cases) {
+    RunRecord run;
+    run.case_id = one->id;
+    run.inputs_sha256 = inputsDigest(*one);
+    run.options_sha256 = optionsDigest(caseOptions(session, *one, {}));
+    session.runs.push_back(run);
+  }
+  return session;
+}
+
+Session withRandomEdit(const Session& session, Random& random) {
+  const auto at = static_cast<std::size_t>(
+      random.uniform(0.0, static_cast<double>(session.cases.size()) - 1e-9));
+  SessionCase one = *session.cases[at];
+  LocalizerOptions options = sessionOptions(session, {});
+  switch (static_cast<int>(random.uniform(0.0, 5.0))) {
+    case 0:
+      one.camera_from_station_seed.translation_m.x() += 0.01;
+      return withCase(session, one);
+    case 1:
+      one.feature_size_m = random.uniform(0.001, 0.004);
+      return withCase(session, one);
+    case 2:
+      one.tags.push_back("seen");  // no input of a run
+      return withCase(session, one);
+    case 3:
+      options.pnp.seed += 1;
+      return withOptions(session, session.profile, options);
+    default:
+      return withOptions(session, session.profile == "paper" ? "default" : "paper", options);
+  }
+}
+
+TEST(StaleRuns, SaysAsStalenessWhateverIsEditedAndUndone) {
+  Random random(5);
+  StaleRuns known;
+  std::vector<Session> history = {asIfRun(makeSession(test::exampleFolder() / "dataset.json"))};
+  int stale_count = 0, fresh_count = 0;
+  for (int edit = 0; edit < 200; ++edit) {
+    const double chance = random.uniform(0.0, 1.0);
+    if (chance < 0.1)
+      history.resize(1);
+    else if (chance < 0.5 && history.size() > 1)
+      history.pop_back();
+    else
+      history.push_back(withRandomEdit(history.back(), random));
+    const Session& session = history.back();
+    for (const auto& one : session.cases) {
+      const RunRecord& run = *session.lastRunOf(one->id);
+      const bool stale = stalenessOf(run, session, {}).stale();
+      EXPECT_EQ(known.isStale(run, one, session, {}), stale) << edit;
+      ++(stale ? stale_count : fresh_count);
+    }
+  }
+  EXPECT_GT(stale_count, 50);
+  EXPECT_GT(fresh_count, 20);
+}
+
+Pose somePose(double x_m) {
+  Pose pose;
+  pose.rotation = Eigen::Quaterniond(0.9, 0.1, -0.2, 0.3).normalized();
+  pose.translation_m = {x_m, 0.02, -0.01};
+  return pose;
+}
+
+Session threeCases() {
+  Session session;
+  for (const char* id : {"left", "right", "top"}) {
+    SessionCase one;
+    one.id = id;
+    session = withCase(session, one);
+  }
+  return session;
+}
+
+Pose between(const Session& session, const char* to, const char* from) {
+  return session.findCase(to)->rig->camera_from_rig *
+         session.findCase(from)->rig->camera_from_rig.inverse();
+}
+
+void expectNear(const Pose& a, const Pose& b) {
+  EXPECT_LT((a.translation_m - b.translation_m).norm(), 1e-12);
+  EXPECT_LT(a.rotation.angularDistance(b.rotation), 1e-12);
+}
+
+TEST(RigLinks, TheCameraThatIsLinkedLiesWhereItWasSaidFromTheOther) {
+  Session session = withRigLink(threeCases(), "left", "right", somePose(0.1));
+  EXPECT_EQ(casesOfRig(session, "left"), std::vector<std::string>{"right"});
+  expectNear(between(session, "right", "left"), somePose(0.1));
+  // A third one linked to the second is linked to the first as well.
+  session = withRigLink(session, "right", "top", somePose(-0.3));
+  EXPECT_EQ(casesOfRig(session, "left"), (std::vector<std::string>{"right", "top"}));
+  expectNear(between(session, "top", "right"), somePose(-0.3));
+  expectNear(between(session, "top", "left"), somePose(-0.3) * somePose(0.1));
+}
+
+TEST(RigLinks, ALinkThatIsDroppedLeavesTheOthersAndARigOfOneIsNone) {
+  Session session = withRigLink(threeCases(), "left", "right", somePose(0.1));
+  session = withRigLink(session, "left", "top", Pose());
+  session = withoutRigLink(session, "left");
+  EXPECT_FALSE(session.findCase("left")->rig);
+  EXPECT_EQ(casesOfRig(session, "right"), std::vector<std::string>{"top"});
+  session = withoutRigLink(session, "top");
+  for (const auto& one : session.cases) EXPECT_FALSE(one->rig) << one->id;
+  EXPECT_EQ(withoutRigLink(session, "top"), session);
+}
+
+TEST(RigLinks, ANewRigDoesNotTakeTheNameOfAnother) {
+  Session session = withRigLink(threeCases(), "left", "right", Pose());
+  session = withoutRigLink(withRigLink(session, "left", "top", Pose()), "left");
+  ASSERT_EQ(session.findCase("top")->rig->id, "left");
+  SessionCase fourth;
+  fourth.id = "fourth";
+  session = withRigLink(withCase(session, fourth), "left", "fourth", Pose());
+  EXPECT_EQ(casesOfRig(session, "left"), std::vector<std::string>{"fourth"});
+}
+
+TEST(RigLinks, NonsenseIsRefused) {
+  Pose broken;
+  broken.translation_m.x() = std::numeric_limits<double>::quiet_NaN();
+  const Session session = threeCases();
+  EXPECT_THROW(withRigLink(session, "left", "left", Pose()), std::invalid_argument);
+  EXPECT_THROW(withRigLink(session, "left", "none", Pose()), std::invalid_argument);
+  EXPECT_THROW(withRigLink(session, "left", "right", broken), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -91,9 +91,9 @@ TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReaso
   EXPECT_EQ(controller_.placeInImage({-3.0, 10.0}), "");
   EXPECT_EQ(controller_.placeInImage({std::nan(""), 10.0}), "");
   EXPECT_EQ(told.count(), 5);
-  sessions::PointPair twin = *controller_.selectedPoint();
-  twin.id = "";
-  EXPECT_FALSE(controller_.replacePoint(id, twin, QStringLiteral("Rename")));
+  sessions::PointPair renamed = *controller_.selectedPoint();
+  renamed.id = "";
+  EXPECT_FALSE(controller_.replacePoint(id, renamed, QStringLiteral("Rename")));
 }
 
 TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHowPeopleDiffer) {
@@ -109,19 +109,19 @@ TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHow
     controller_.placeInImage(*sessions::findPoint(first, id)->pixel + Eigen::Vector2d(0.5, -0.5));
   }
   ASSERT_TRUE(solved());
-  ASSERT_EQ(controller_.passes().size(), 1u);
-  EXPECT_EQ(controller_.passes()[0].by, "Ada");
-  EXPECT_TRUE(controller_.passes()[0].camera_from_station);
-  EXPECT_EQ(controller_.passes()[0].repeatability.marks.size(), ids.size());
-  EXPECT_NEAR(controller_.passes()[0].repeatability.sigma_px, 0.5 / std::sqrt(2.0), 1e-9);
+  ASSERT_EQ(controller_.rounds().size(), 1u);
+  EXPECT_EQ(controller_.rounds()[0].by, "Ada");
+  EXPECT_TRUE(controller_.rounds()[0].camera_from_station);
+  EXPECT_EQ(controller_.rounds()[0].repeatability.marks.size(), ids.size());
+  EXPECT_NEAR(controller_.rounds()[0].repeatability.sigma_px, 0.5 / std::sqrt(2.0), 1e-9);
   controller_.takeUp(0);
   EXPECT_EQ(controller_.marks(), first);
-  EXPECT_EQ(document_.session().passes.at(source().id)->size(), 2u)
+  EXPECT_EQ(document_.session().rounds.at(source().id)->size(), 2u)
       << "the marks that were at work are put aside";
-  ASSERT_TRUE(document_.undo()) << "the second pass is not lost";
+  ASSERT_TRUE(document_.undo()) << "the second round is not lost";
   EXPECT_TRUE(controller_.marks().points[0].complete());
-  controller_.removePass(0);
-  EXPECT_TRUE(document_.session().passes.empty());
+  controller_.removeRound(0);
+  EXPECT_TRUE(document_.session().rounds.empty());
 }
 
 TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeArePlaced) {

@@ -5,8 +5,8 @@
 
 #include "sessions/session/rig_links.h"
 #include "tests/ui/annotation/annotation_fixture.h"
+#include "ui/annotation/ambiguity_view.h"
 #include "ui/annotation/solution_html.h"
-#include "ui/annotation/twin_view.h"
 
 namespace boresight::ui {
 namespace {
@@ -159,24 +159,25 @@ TEST_F(AnnotationPanelTest, ButtonsSetModeWeightsAndTruth) {
 
 TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
   StationSnapper snapper(state_);
-  auto* twins = new TwinView(controller_, state_, snapper);
-  panel_->addBeside(twins);
-  EXPECT_FALSE(twins->isVisibleTo(panel_.get()));
+  auto* ambiguity = new AmbiguityView(controller_, state_, snapper);
+  panel_->addBeside(ambiguity);
+  EXPECT_FALSE(ambiguity->isVisibleTo(panel_.get()));
   controller_.setMarks(smallSquare(), QStringLiteral("Import"));
   ASSERT_TRUE(solved());
-  ASSERT_TRUE(controller_.solution()->twin_camera_from_station()) << "the case is not ambiguous";
-  EXPECT_TRUE(twins->isVisibleTo(panel_.get()));
+  ASSERT_TRUE(controller_.solution()->ambiguous_camera_from_station())
+      << "the case is not ambiguous";
+  EXPECT_TRUE(ambiguity->isVisibleTo(panel_.get()));
   EXPECT_TRUE(summary().contains(QStringLiteral("Two poses explain")));
-  auto& theirs = find<QLabel>("twinOther");
+  auto& theirs = find<QLabel>("otherPicture");
   ASSERT_TRUE(
       QTest::qWaitFor([&] { return !theirs.pixmap(Qt::ReturnByValue).isNull(); }, kPatience_ms));
   EXPECT_NE(theirs.pixmap(Qt::ReturnByValue).toImage(),
-            find<QLabel>("twinOurs").pixmap(Qt::ReturnByValue).toImage());
+            find<QLabel>("bestPicture").pixmap(Qt::ReturnByValue).toImage());
   Pose asked;
-  QObject::connect(twins, &TwinView::otherRequested, twins,
+  QObject::connect(ambiguity, &AmbiguityView::otherRequested, ambiguity,
                    [&](const Pose& pose) { asked = pose; });
-  QTest::mouseClick(&find<QPushButton>("lookAtTwin"), Qt::LeftButton);
-  EXPECT_EQ(asked, *controller_.solution()->twin_camera_from_station());
+  QTest::mouseClick(&find<QPushButton>("showOtherPose"), Qt::LeftButton);
+  EXPECT_EQ(asked, *controller_.solution()->ambiguous_camera_from_station());
 }
 
 TEST_F(AnnotationPanelTest, CasesThatAreLinkedAreSolvedAsOne) {

@@ -40,7 +40,7 @@ TEST_F(IterationsPanelTest, FollowsTheRunToItsEnd) {
   EXPECT_EQ(view_.cursor().iteration, last_);
   EXPECT_EQ(child<QTableView>("iterations")->currentIndex().row(), last_ + 1);
   EXPECT_EQ(child<QSlider>("iterations")->value(), last_);
-  EXPECT_TRUE(child<Banner>("standing")->text().startsWith(QStringLiteral("Converged in")));
+  EXPECT_TRUE(child<Banner>("runStatus")->text().startsWith(QStringLiteral("Converged in")));
 }
 
 TEST_F(IterationsPanelTest, AClickOnARowMovesTheCursor) {
@@ -109,7 +109,7 @@ TEST_F(IterationsPanelTest, ShowsNothingOfACaseThatHasNotRun) {
   view_.setCase(nullptr);
   EXPECT_EQ(panel_.model().rowCount(), 0);
   EXPECT_FALSE(child<QSlider>("iterations")->isEnabled());
-  EXPECT_EQ(child<Banner>("standing")->text(), QStringLiteral("Nothing has run yet."));
+  EXPECT_EQ(child<Banner>("runStatus")->text(), QStringLiteral("Nothing has run yet."));
   for (int i = 0; i < RunScrubber::kStepCount; ++i)
     EXPECT_FALSE(panel_.scrubber().action(static_cast<RunScrubber::Step>(i))->isEnabled());
 }
@@ -119,7 +119,7 @@ TEST_F(IterationsPanelTest, SaysWhyARunFailed) {
   failed->status = LocalizationStatus::kIterationLimit;
   view_.setSnapshot(failed);
   EXPECT_TRUE(
-      child<Banner>("standing")->text().startsWith(QStringLiteral("Did not converge. After")));
+      child<Banner>("runStatus")->text().startsWith(QStringLiteral("Did not converge. After")));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <QtWidgets>
 
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/session_document.h"
@@ -21,8 +21,8 @@
 namespace boresight::ui {
 namespace {
 
-using sessions::CaseStanding;
 using sessions::CheckState;
+using sessions::ReviewState;
 using test::kPatienceMs;
 using test::RunExample;
 
@@ -50,7 +50,7 @@ class ReviewPanelTest : public ::testing::Test {
   }
   ReviewController& controller() { return panel_->controller(); }
   test::ReviewHands hands() { return test::ReviewHands(*panel_); }
-  CaseStanding standing() { return controller().standing().state; }
+  ReviewState reviewState() { return controller().reviewStatus().state; }
   QString banner() { return panel_->findChild<Banner*>()->text(); }
   QString obstacle() { return panel_->findChild<DecisionForm*>()->obstacle(); }
   QString history() { return panel_->findChild<QTextBrowser*>()->toPlainText(); }
@@ -127,7 +127,7 @@ TEST_F(ReviewPanelTest, AFailedCheckBlocksUntilAReasonIsTyped) {
   hands().passOverAll(QStringLiteral("a small station"));
   ASSERT_TRUE(hands().button("validate")->isEnabled()) << obstacle().toStdString();
   hands().click("validate");
-  EXPECT_EQ(standing(), CaseStanding::kValidated);
+  EXPECT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_TRUE(test::has(history(), "a small station"));
 }
 
@@ -158,17 +158,17 @@ TEST_F(ReviewPanelTest, NeedsANameAndAComment) {
 TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
   openRun();
   validateAs(QStringLiteral("Ada"));
-  ASSERT_EQ(standing(), CaseStanding::kValidated);
+  ASSERT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_EQ(document_.undoText(),
             QStringLiteral("Validate %1").arg(fromText(RunExample::get().id)));
   EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "said once";
   ASSERT_TRUE(document_.undo());
-  EXPECT_EQ(standing(), CaseStanding::kConverged);
+  EXPECT_EQ(reviewState(), ReviewState::kConverged);
   EXPECT_TRUE(document_.session().decisions.empty());
   EXPECT_FALSE(history().contains(QStringLiteral("Validated by Ada")));
   ASSERT_TRUE(document_.redo());
-  EXPECT_EQ(standing(), CaseStanding::kValidated);
+  EXPECT_EQ(reviewState(), ReviewState::kValidated);
 }
 
 TEST_F(ReviewPanelTest, TheNameIsRememberedAndTheCommentIsNot) {
@@ -184,7 +184,7 @@ TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
   openRun();
   controller().setSecondPerson(true);
   validateAs(QStringLiteral("Ada"));
-  EXPECT_EQ(standing(), CaseStanding::kConverged) << "not yet validated";
+  EXPECT_EQ(reviewState(), ReviewState::kConverged) << "not yet validated";
   EXPECT_TRUE(test::has(banner(), "second person"));
   hands().sign(QStringLiteral(" aDa "), QStringLiteral("me again"));
   EXPECT_FALSE(hands().button("approve")->isEnabled());
@@ -193,7 +193,7 @@ TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
   hands().type("decisionName", QStringLiteral("Grace"));
   ASSERT_TRUE(hands().button("approve")->isEnabled()) << obstacle().toStdString();
   hands().click("approve");
-  EXPECT_EQ(standing(), CaseStanding::kValidated);
+  EXPECT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_TRUE(test::has(banner(), "approved by Grace"));
 }
 
@@ -202,11 +202,11 @@ TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
   EXPECT_FALSE(hands().button("takeBack")->isEnabled());
   hands().sign(QStringLiteral("Ada"), QStringLiteral("the gripper hides it"));
   hands().click("reject");
-  EXPECT_EQ(standing(), CaseStanding::kRejected);
+  EXPECT_EQ(reviewState(), ReviewState::kRejected);
   EXPECT_TRUE(test::has(banner(), "rejected by Ada"));
   hands().sign(QStringLiteral("Grace"), QStringLiteral("it does not"));
   hands().click("takeBack");
-  EXPECT_EQ(standing(), CaseStanding::kConverged);
+  EXPECT_EQ(reviewState(), ReviewState::kConverged);
   EXPECT_TRUE(test::has(history(), "the gripper hides it"));
   EXPECT_TRUE(history().contains(QStringLiteral("Taken back by Grace"))) << "the newest first";
 }
@@ -226,8 +226,8 @@ TEST_F(ReviewPanelTest, MarksCanBeJudgedInsteadAndTheirChangeIsTold) {
   EXPECT_FALSE(controller().isCurrent()) << "stale at once";
   ASSERT_TRUE(checked());
   validateAs(QStringLiteral("Ada"));
-  ASSERT_EQ(standing(), CaseStanding::kValidated);
-  EXPECT_EQ(controller().standing().decision->pose->source, sessions::PoseSource::kAnnotation);
+  ASSERT_EQ(reviewState(), ReviewState::kValidated);
+  EXPECT_EQ(controller().reviewStatus().decision->pose->source, sessions::PoseSource::kAnnotation);
   sessions::Marks moved = *document_.session().annotations.at(id);
   moved.points[0].pixel->x() += 0.3;
   document_.edit(withAnnotation(document_.session(), id, moved), QStringLiteral("Move"));

@@ -12,9 +12,9 @@ class MaskEditingTest : public test::WindowTest {
  protected:
   void SetUp() override {
     sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
-    sessions::SessionCase twin = *session.cases.front();
-    twin.id = "twin";
-    session = withCase(session, twin);
+    sessions::SessionCase second = *session.cases.front();
+    second.id = "second";
+    session = withCase(session, second);
     open(session);
     id_ = window_.state().currentCase()->source.id;
   }
@@ -155,17 +155,17 @@ TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
   EXPECT_EQ(strokes(id_)[0].name, "gripper");
   EXPECT_TRUE(list.item(0)->text().startsWith(QStringLiteral("gripper")));
   QTest::mouseClick(&find<QPushButton>("copyStroke"), Qt::LeftButton);
-  EXPECT_EQ(strokes("twin"), strokes(id_));
+  EXPECT_EQ(strokes("second"), strokes(id_));
   EXPECT_TRUE(window_.document().session().cases[1]->ignore_strokes.empty()) << "another camera";
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
-  EXPECT_TRUE(strokes("twin").empty());
+  EXPECT_TRUE(strokes("second").empty());
   // The case whose edit was undone is shown.
   ASSERT_TRUE(
-      wait([&] { return window_.state().currentCase()->source.id == "twin" && resting(); }));
+      wait([&] { return window_.state().currentCase()->source.id == "second" && resting(); }));
   const QList<QAction*> offered = find<QPushButton>("takeStroke").menu()->actions();
   ASSERT_EQ(offered.size(), 1);
   offered[0]->trigger();
-  EXPECT_EQ(strokes("twin"), strokes(id_));
+  EXPECT_EQ(strokes("second"), strokes(id_));
 }
 
 TEST_F(MaskEditingTest, NothingIsDrawnInASessionThatCannotBeEdited) {

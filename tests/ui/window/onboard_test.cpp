@@ -105,7 +105,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
 
   click("showOnboard");
   ASSERT_TRUE(window_.state().snapshot() && window_.state().snapshot()->replayed);
-  EXPECT_TRUE(find<Banner>("standing").text().startsWith(QStringLiteral("Onboard record")));
+  EXPECT_TRUE(find<Banner>("runStatus").text().startsWith(QStringLiteral("Onboard record")));
   EXPECT_TRUE(test::has(find<Banner>("shownRun").text(), "ONBOARD"));
   EXPECT_FALSE(window_.state().snapshot()->iterations.front()->templates.empty());
   EXPECT_TRUE(window_.document().session().runs.empty()) << "a replay is no run";

@@ -12,7 +12,6 @@
 
 #include "core/base/random.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/session/journal.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "ui/window/main_window.h"

@@ -19,7 +19,7 @@ class ViewsRunWindowTest : public test::WindowTest {
     return nullptr;
   }
   const sessions::Session& session() { return window_.document().session(); }
-  QString banner() { return find<Banner>("standing").text(); }
+  QString banner() { return find<Banner>("runStatus").text(); }
 };
 
 TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {

@@ -14,18 +14,18 @@
 namespace boresight::ui {
 
 namespace Ui {
-class TwinView;
+class AmbiguityView;
 }
 
 /// Both poses that marks in a plane may mean, side by side: the image round the marks with the
 /// model's edges as each pose has them. Hidden while there is one pose only.
-class TwinView : public QWidget {
+class AmbiguityView : public QWidget {
   Q_OBJECT
 
  public:
-  TwinView(AnnotationController& controller, ViewState& state, StationSnapper& snapper,
-           QWidget* parent = nullptr);
-  ~TwinView() override;
+  AmbiguityView(AnnotationController& controller, ViewState& state, StationSnapper& snapper,
+                QWidget* parent = nullptr);
+  ~AmbiguityView() override;
 
  Q_SIGNALS:
   /// The other pose is to be looked at in all views.
@@ -44,7 +44,7 @@ class TwinView : public QWidget {
   StationSnapper& snapper_;
   std::array<QImage, 2> drawn_;  ///< the solved pose's picture and the other's
   TaskRunner runner_;
-  const std::unique_ptr<Ui::TwinView> ui_;
+  const std::unique_ptr<Ui::AmbiguityView> ui_;
 };
 
 }  // namespace boresight::ui

@@ -12,24 +12,24 @@
 namespace boresight::sessions {
 
 /// The marks that somebody ended with; kept beside the ones at work.
-struct AnnotationPass {
+struct AnnotationRound {
   std::string by;    ///< who, not empty
   std::string time;  ///< UTC, when it was put aside
   Marks marks;
 
-  bool operator==(const AnnotationPass&) const = default;
+  bool operator==(const AnnotationRound&) const = default;
 };
-using AnnotationPasses = std::vector<AnnotationPass>;
+using AnnotationRounds = std::vector<AnnotationRound>;
 
 /// The marks that the next person begins with: the same ids and places of the station, nothing of
 /// the image.
 Marks blindMarks(const Marks& marks);
 
-/// The passes with these marks put aside as well, under a name of their own, unless nothing of them
-/// is on the image or a pass has the same: what another pass is taken up over is not lost.
-AnnotationPasses keepingMarks(AnnotationPasses passes, const Marks& marks, const std::string& time);
+/// The rounds with these marks put aside as well, under a name of their own, unless nothing of them
+/// is on the image or a round has the same: what another round is taken up over is not lost.
+AnnotationRounds keepingMarks(AnnotationRounds rounds, const Marks& marks, const std::string& time);
 
-/// How far two passes over one image differ in one mark.
+/// How far two rounds over one image differ in one mark.
 struct MarkDifference {
   std::string id;
   Eigen::Vector2d difference_px = Eigen::Vector2d::Zero();  ///< second minus first; of a line the

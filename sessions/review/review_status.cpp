@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/review/standing.h"
+#include "sessions/review/review_status.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,22 +23,23 @@ namespace {
 
 using nlohmann::ordered_json;
 
-CaseStanding undecided(const Session& session, const std::string& case_id) {
+ReviewState undecided(const Session& session, const std::string& case_id) {
   if (const RunRecord* run = session.lastRunOf(case_id))
-    return run->status == "converged" ? CaseStanding::kConverged : CaseStanding::kFailed;
-  return session.annotations.count(case_id) > 0 ? CaseStanding::kAnnotated : CaseStanding::kNew;
+    return run->status == "converged" ? ReviewState::kConverged : ReviewState::kFailed;
+  return session.annotations.count(case_id) > 0 ? ReviewState::kAnnotated : ReviewState::kNew;
 }
 
 /// Why a decision no longer holds, or "".
 std::string droppedText(const Session& session, const Decision& decision) {
-  if (decision.grounds.empty() || (decision.verdict == Verdict::kValidated && !decision.pose))
+  if (decision.input_fingerprint.empty() ||
+      (decision.verdict == Verdict::kValidated && !decision.pose))
     return "it does not say what it is of";
   const bool of_run = !decision.digest.empty();
   const RunRecord* last = session.lastRunOf(decision.case_id);
   if (of_run && last == nullptr) return "its run is no longer there";
   if (of_run && last->digest != decision.digest) return "there is a later run";
-  return changedGroundsText(decision.grounds,
-                            judgedGrounds(session, decision.case_id, decision.digest));
+  return changedInputsText(decision.input_fingerprint,
+                           inputFingerprint(session, decision.case_id, decision.digest));
 }
 
 std::string byText(const Decision& decision) {
@@ -94,7 +95,7 @@ ordered_json otherRunsJson(const Session& session, const std::string& case_id) {
   return json;
 }
 
-const char* groundText(const std::string& name) {
+const char* inputText(const std::string& name) {
   static const std::map<std::string, const char*> kTexts = {
       {"inputs", "the image, camera, mesh, seed or mask"},
       {"run", "the run"},
@@ -197,75 +198,76 @@ Session withDecision(const Session& session, Decision decision) {
 
 }  // namespace
 
-const char* caseStandingText(CaseStanding state) {
+const char* reviewStateText(ReviewState state) {
   constexpr const char* kTexts[] = {"new",       "converged", "failed",
                                     "annotated", "validated", "rejected"};
   return kTexts[static_cast<std::size_t>(state)];
 }
 
-Standing standingOf(const Session& session, const std::string& case_id) {
-  Standing standing;
-  standing.state = undecided(session, case_id);
+ReviewStatus reviewStatusOf(const Session& session, const std::string& case_id) {
+  ReviewStatus status;
+  status.state = undecided(session, case_id);
   const Decision* decision = session.decisionOn(case_id);
-  if (decision == nullptr || decision->verdict == Verdict::kReopened) return standing;
-  standing.decision = decision;
-  standing.dropped = droppedText(session, *decision);
-  if (!standing.holds()) return standing;
+  if (decision == nullptr || decision->verdict == Verdict::kReopened) return status;
+  status.decision = decision;
+  status.dropped = droppedText(session, *decision);
+  if (!status.holds()) return status;
   if (decision->verdict == Verdict::kRejected) {
-    standing.state = CaseStanding::kRejected;
+    status.state = ReviewState::kRejected;
   } else if (session.review.second_person && !decision->approval) {
-    standing.awaits_approval = true;
+    status.awaits_approval = true;
   } else {
-    standing.state = CaseStanding::kValidated;
+    status.state = ReviewState::kValidated;
   }
-  return standing;
+  return status;
 }
 
-std::string standingText(const Standing& standing) {
-  if (standing.state == CaseStanding::kValidated) return "validated" + byText(*standing.decision);
-  if (standing.state == CaseStanding::kRejected)
-    return "NOT VALIDATED: rejected" + byText(*standing.decision);
-  const std::string text = std::string("NOT VALIDATED: ") + caseStandingText(standing.state);
-  if (standing.awaits_approval)
-    return text + "; validated" + byText(*standing.decision) + ", a second person has to approve";
-  if (standing.decision == nullptr) return text;
-  const char* what = standing.decision->verdict == Verdict::kValidated ? "validation" : "rejection";
-  return text + "; the " + what + byText(*standing.decision) +
-         " no longer holds: " + standing.dropped;
+std::string reviewStatusText(const ReviewStatus& status) {
+  if (status.state == ReviewState::kValidated) return "validated" + byText(*status.decision);
+  if (status.state == ReviewState::kRejected)
+    return "NOT VALIDATED: rejected" + byText(*status.decision);
+  const std::string text = std::string("NOT VALIDATED: ") + reviewStateText(status.state);
+  if (status.awaits_approval)
+    return text + "; validated" + byText(*status.decision) + ", a second person has to approve";
+  if (status.decision == nullptr) return text;
+  const char* what = status.decision->verdict == Verdict::kValidated ? "validation" : "rejection";
+  return text + "; the " + what + byText(*status.decision) + " no longer holds: " + status.dropped;
 }
 
-std::map<std::string, std::string> judgedGrounds(const Session& session, const std::string& case_id,
-                                                 const std::string& run_digest) {
+std::map<std::string, std::string> inputFingerprint(const Session& session,
+                                                    const std::string& case_id,
+                                                    const std::string& run_digest) {
   const SessionCase* one = session.findCase(case_id);
   if (one == nullptr) return {};
-  std::map<std::string, std::string> grounds;
-  grounds["inputs"] = inputsDigest(*one);
-  grounds["marks"] = sha256Of(marksJson(session, case_id));
-  grounds["truth"] = sha256Of(truthJson(*one));
-  grounds["input_sigmas"] = sha256Of(inputSigmasJson(*one));
-  grounds["requirement"] = sha256Of(one->requirement ? toJson(*one->requirement) : ordered_json());
-  grounds["end_effector"] = sha256Of(poseJson(one->camera_from_end_effector));
-  grounds["rig"] = sha256Of(rigJson(session, *one));
-  grounds["onboard_record"] =
+  std::map<std::string, std::string> fingerprint;
+  fingerprint["inputs"] = inputsDigest(*one);
+  fingerprint["marks"] = sha256Of(marksJson(session, case_id));
+  fingerprint["truth"] = sha256Of(truthJson(*one));
+  fingerprint["input_sigmas"] = sha256Of(inputSigmasJson(*one));
+  fingerprint["requirement"] =
+      sha256Of(one->requirement ? toJson(*one->requirement) : ordered_json());
+  fingerprint["end_effector"] = sha256Of(poseJson(one->camera_from_end_effector));
+  fingerprint["rig"] = sha256Of(rigJson(session, *one));
+  fingerprint["onboard_record"] =
       sha256Text(one->onboard_record ? one->onboard_record->sha256 : std::string());
   ReviewSettings limits = session.review;
   limits.second_person = false;  // who has to sign does not change what was measured
-  grounds["limits"] = sha256Of(toJson(limits));
+  fingerprint["limits"] = sha256Of(toJson(limits));
   const ordered_json other_runs = otherRunsJson(session, case_id);
-  if (!other_runs.empty()) grounds["other_runs"] = sha256Of(other_runs);
-  if (!run_digest.empty()) grounds["run"] = sha256Text(run_digest);
-  return grounds;
+  if (!other_runs.empty()) fingerprint["other_runs"] = sha256Of(other_runs);
+  if (!run_digest.empty()) fingerprint["run"] = sha256Text(run_digest);
+  return fingerprint;
 }
 
-std::string changedGroundsText(const std::map<std::string, std::string>& before,
-                               const std::map<std::string, std::string>& now) {
+std::string changedInputsText(const std::map<std::string, std::string>& before,
+                              const std::map<std::string, std::string>& now) {
   std::vector<std::string> changed;
   for (const auto& [name, sha256] : before) {
     const auto found = now.find(name);
-    if (found == now.end() || found->second != sha256) changed.emplace_back(groundText(name));
+    if (found == now.end() || found->second != sha256) changed.emplace_back(inputText(name));
   }
   for (const auto& [name, sha256] : now)
-    if (before.count(name) == 0) changed.emplace_back(groundText(name));
+    if (before.count(name) == 0) changed.emplace_back(inputText(name));
   if (changed.empty()) return "";
   const auto plural = [](const std::string& text) {
     return text.starts_with("the marks") || text.starts_with("the limits") ||
@@ -312,22 +314,22 @@ Session validated(const Session& session, const ReviewSubject& subject,
   requireAnswered(decision.checks);
   if (subject.run) decision.digest = subject.run->digest;
   decision.pose = JudgedPose{subject.source, subject.camera_from_station, subject.covariance};
-  decision.grounds = judgedGrounds(session, id, decision.digest);
+  decision.input_fingerprint = inputFingerprint(session, id, decision.digest);
   return withDecision(session, std::move(decision));
 }
 
 Session approved(const Session& session, const std::string& case_id, const Signature& who) {
   requireCase(session, case_id);
   const Signature signature = requireSigned(who, "approves");
-  const Standing standing = standingOf(session, case_id);
-  if (standing.decision == nullptr || standing.decision->verdict != Verdict::kValidated)
+  const ReviewStatus status = reviewStatusOf(session, case_id);
+  if (status.decision == nullptr || status.decision->verdict != Verdict::kValidated)
     throw DecisionError("there is no validation of '" + case_id + "' to approve");
-  if (!standing.holds()) throw DecisionError("the validation no longer holds: " + standing.dropped);
-  if (standing.decision->approval)
-    throw DecisionError("it has been approved already, by " + standing.decision->approval->by);
-  if (samePerson(standing.decision->by, signature.by))
+  if (!status.holds()) throw DecisionError("the validation no longer holds: " + status.dropped);
+  if (status.decision->approval)
+    throw DecisionError("it has been approved already, by " + status.decision->approval->by);
+  if (samePerson(status.decision->by, signature.by))
     throw DecisionError(signature.by + " validated it: somebody else has to approve");
-  Decision decision = *standing.decision;
+  Decision decision = *status.decision;
   decision.approval = Approval{signature.by, signature.comment, utcNowText()};
   return withDecision(session, std::move(decision));
 }
@@ -338,7 +340,7 @@ Session rejected(const Session& session, const std::string& case_id,
   Decision decision = newDecision(case_id, Verdict::kRejected, requireSigned(who, "rejects"));
   decision.checks = judgedChecks(checks, {});
   if (const RunRecord* run = session.lastRunOf(case_id)) decision.digest = run->digest;
-  decision.grounds = judgedGrounds(session, case_id, decision.digest);
+  decision.input_fingerprint = inputFingerprint(session, case_id, decision.digest);
   return withDecision(session, std::move(decision));
 }
 

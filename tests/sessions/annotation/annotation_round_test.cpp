@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/annotation_pass.h"
+#include "sessions/annotation/annotation_round.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/annotation_pass.h"
+#include "sessions/annotation/annotation_round.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,17 +59,17 @@ Marks blindMarks(const Marks& marks) {
   return blind;
 }
 
-AnnotationPasses keepingMarks(AnnotationPasses passes, const Marks& marks,
+AnnotationRounds keepingMarks(AnnotationRounds rounds, const Marks& marks,
                               const std::string& time) {
   const bool on_image =
       std::any_of(marks.points.begin(), marks.points.end(),
                   [](const PointPair& point) { return point.pixel.has_value(); }) ||
       std::any_of(marks.lines.begin(), marks.lines.end(),
                   [](const LinePair& line) { return line.line.has_value(); });
-  const bool kept = std::any_of(passes.begin(), passes.end(),
-                                [&](const AnnotationPass& pass) { return pass.marks == marks; });
-  if (on_image && !kept) passes.push_back({"marks at work", time, marks});
-  return passes;
+  const bool kept = std::any_of(rounds.begin(), rounds.end(),
+                                [&](const AnnotationRound& round) { return round.marks == marks; });
+  if (on_image && !kept) rounds.push_back({"marks at work", time, marks});
+  return rounds;
 }
 
 Repeatability repeatability(const Marks& first, const Marks& second) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annotation/twin_view.h"
+#include "ui/annotation/ambiguity_view.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <QtWidgets>
 
-#include "ui_twin_view.h"
+#include "ui_ambiguity_view.h"
 
 #include "sessions/annotation/edge_band.h"
 #include "ui/views/layer.h"
@@ -80,47 +80,47 @@ QImage draw(const Drawing& drawing, std::size_t which) {
 
 }  // namespace
 
-TwinView::TwinView(AnnotationController& controller, ViewState& state, StationSnapper& snapper,
-                   QWidget* parent)
+AmbiguityView::AmbiguityView(AnnotationController& controller, ViewState& state,
+                             StationSnapper& snapper, QWidget* parent)
     : QWidget(parent),
       controller_(controller),
       state_(state),
       snapper_(snapper),
-      ui_(std::make_unique<Ui::TwinView>()) {
+      ui_(std::make_unique<Ui::AmbiguityView>()) {
   ui_->setupUi(this);
-  setObjectName(QStringLiteral("twinView"));
-  for (QLabel* picture : {ui_->twinOurs, ui_->twinOther})
+  setObjectName(QStringLiteral("ambiguityView"));
+  for (QLabel* picture : {ui_->bestPicture, ui_->otherPicture})
     picture->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
-  connect(ui_->lookAtTwin, &QPushButton::clicked, this, [this] {
+  connect(ui_->showOtherPose, &QPushButton::clicked, this, [this] {
     if (const auto pose = other()) Q_EMIT otherRequested(*pose);
   });
-  connect(&controller_, &AnnotationController::solutionChanged, this, &TwinView::showSolution);
-  connect(&snapper_, &StationSnapper::meshChanged, this, &TwinView::showSolution);
+  connect(&controller_, &AnnotationController::solutionChanged, this, &AmbiguityView::showSolution);
+  connect(&snapper_, &StationSnapper::meshChanged, this, &AmbiguityView::showSolution);
   showSolution();
 }
 
-TwinView::~TwinView() = default;
+AmbiguityView::~AmbiguityView() = default;
 
-std::optional<Pose> TwinView::other() const {
+std::optional<Pose> AmbiguityView::other() const {
   const auto& solution = controller_.solution();
-  return solution ? solution->twin_camera_from_station() : std::nullopt;
+  return solution ? solution->ambiguous_camera_from_station() : std::nullopt;
 }
 
-void TwinView::showSolution() {
+void AmbiguityView::showSolution() {
   const auto pose = controller_.solvedPose();
-  const auto twin = other();
-  setVisible(pose && twin);
-  if (!pose || !twin) return;
+  const auto other_pose = other();
+  setVisible(pose && other_pose);
+  if (!pose || !other_pose) return;
   const sessions::MarksSolution& solution = *controller_.solution()->result.solution;
   ui_->oursCaption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
   ui_->otherCaption->setText(
-      tr("other: %1 px rms").arg(QString::number(solution.twin->rms_px, 'f', 3)));
+      tr("other: %1 px rms").arg(QString::number(solution.ambiguous->rms_px, 'f', 3)));
   if (!snapper_.mesh() || !state_.currentCase()) return;
   const sessions::MarkedView& view = controller_.solution()->marks.views.front();
   const Drawing drawing = {
-      state_.currentCase(), snapper_.mesh(), view.marks, view.camera, {*pose, *twin}};
+      state_.currentCase(), snapper_.mesh(), view.marks, view.camera, {*pose, *other_pose}};
   runner_.start(
-      QStringLiteral("draw twins"),
+      QStringLiteral("draw ambiguous poses"),
       [drawing](const std::stop_token&) {
         return std::array<QImage, 2>{draw(drawing, 0), draw(drawing, 1)};
       },
@@ -130,8 +130,8 @@ void TwinView::showSolution() {
       });
 }
 
-void TwinView::showPictures() {
-  const std::array<QLabel*, 2> labels = {ui_->twinOurs, ui_->twinOther};
+void AmbiguityView::showPictures() {
+  const std::array<QLabel*, 2> labels = {ui_->bestPicture, ui_->otherPicture};
   for (std::size_t i : {0u, 1u}) {
     if (drawn_[i].isNull()) continue;
     const double ratio = devicePixelRatioF();
@@ -142,7 +142,7 @@ void TwinView::showPictures() {
   }
 }
 
-void TwinView::resizeEvent(QResizeEvent* event) {
+void AmbiguityView::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   showPictures();
 }
