@@ -9,7 +9,6 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/labels/label_values.h"
-#include "sessions/io/labels/label_xml.h"
 
 namespace boresight::sessions {
 namespace {

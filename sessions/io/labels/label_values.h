@@ -52,6 +52,13 @@ std::optional<Eigen::Vector3d> labelVector(const nlohmann::json* value);
 /// The unit of a value, upper case, "" without one; all units of a list, each once.
 std::string labelUnit(const nlohmann::json* value);
 
+/// Bits of a number as labels write them: 16#FF7FFFFB#, 0xFF7FFFFB or 2#1101#.
+struct BitPattern {
+  std::uint64_t bits = 0;
+  int width = 0;  ///< of the digits written, in bits
+};
+std::optional<BitPattern> bitPattern(std::string_view text);
+
 /// Several texts as one, separated by ", ".
 std::string joined(const std::vector<std::string>& texts);
 

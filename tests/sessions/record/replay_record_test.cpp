@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/record/replay_record.h"
+#include "sessions/record/onboard_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/record/onboard_record.h"
 #include "sessions/run/match_details.h"
 #include "sessions/run/run_text.h"
 #include "tests/sessions/record/recorded_run.h"
