@@ -108,7 +108,7 @@ Camera readCamera(const std::filesystem::path& file);
 /// The same for a camera inside another file, without format and version.
 Camera readCamera(const JsonReader& json);
 
-/// What camera.json holds besides format and version; reading it back gives the same bits. The
+/// The members of camera.json without format and version; reading it back gives the same bits. The
 /// vectors of the CAHV family are then those in the camera's own frame.
 nlohmann::ordered_json toJson(const Camera& camera);
 /// The same with vectors in the reference frame: reading them back gives the same but for rounding.

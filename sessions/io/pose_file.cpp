@@ -95,8 +95,9 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
     json.requireFormat(kPoseFormat, kPoseVersion);  // a file's content in a dataset
   PoseFile pose;
   if (json.has("reference_from_station") && json.has("camera_from_station"))
-    json.failMember("reference_from_station",
-                    "stands beside camera_from_station: give the pose in one of the two ways");
+    json.failMember(
+        "reference_from_station",
+        "given together with camera_from_station: give the pose in one of the two ways");
   if (json.has("reference_from_station")) {
     readReferencePose(json, frames, pose);
   } else {

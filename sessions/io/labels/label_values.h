@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of labels as people and programs wrote them: with units, blanks, line ends inside texts,
+// Values of labels as they were written: with units, blanks, line ends inside texts,
 // numbers as texts, and words for what is not there.
 #pragma once
 
