@@ -56,7 +56,7 @@ struct RecordedTemplate {
   bool operator==(const RecordedTemplate&) const = default;
 };
 
-/// The image's edges, by what tells them apart.
+/// The image's edges, by a hash and figures.
 struct RecordedEdges {
   RecordHash sha256{};  ///< of every level (core/record/record_hashes.h)
   double low_threshold = 0.0;

@@ -223,7 +223,7 @@ void Replayer::startAttempt(const IterationTrace& one) {
   attempt_ = one.attempt;
   refined_render_.reset();
   attempt_begin_.reset();
-  if (one.attempt > 0 && optionsAt(one.index).ambiguity.enabled) return;  // nor which are rivals
+  if (one.attempt > 0 && optionsAt(one.index).ambiguity.enabled) return;  // nor which compete
   if (one.attempt == 0) attempt_begin_ = 0;
   if (one.attempt > 0 && follows) attempt_begin_ = one.index;
   startFromCandidate(one);

@@ -64,19 +64,15 @@ std::string endText(const RunResult& run) {
 }
 
 std::string verdictText(Astray astray) {
-  switch (astray) {
-    case Astray::kLedAway:
-      return "No iteration was nearer to the truth than the seed: its matches led away.";
-    case Astray::kPartOfWay:
-      return "It went a part of the way, and never came near.";
-    case Astray::kCameNear:
-      return "It was near the truth, and did not end there or was refused there.";
-    case Astray::kNotBegun:
-    case Astray::kNoTruth:
-    case Astray::kBeyondNeed:
-      break;
-  }
-  return "";
+  constexpr const char* kTexts[] = {
+      // by Astray
+      "",
+      "",
+      "No iteration was nearer to the truth than the seed: its matches led away.",
+      "It went a part of the way, and never came near.",
+      "It was near the truth, and did not end there or was refused there.",
+      ""};
+  return kTexts[static_cast<std::size_t>(astray)];
 }
 
 std::string withFullStop(std::string sentence) {
