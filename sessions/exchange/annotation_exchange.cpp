@@ -78,7 +78,7 @@ void requireOneStation(const Session& session, const CasePoses& made) {
                            "the cases of one station");
 }
 
-/// Who validated this very pose, or that nobody has.
+/// Who validated this very pose, or that it is not validated.
 std::string remarkOf(const Session& session, const CasePose& pose) {
   const ReviewStatus status = reviewStatusOf(session, pose.case_id);
   const bool judged = status.holds() && status.decision->pose &&

@@ -53,22 +53,13 @@ const std::vector<ColmapModel>& colmapModels() {
 constexpr const char* kWhatToDo =
     "; undistort the images with COLMAP's image_undistorter and read its model";
 
+/// Of a camera with a lens; those of the CAHV family are refused before.
 const ColmapModel& modelFor(const Camera& camera) {
+  if (camera.model == CameraModel::kPinhole) return colmapModels()[0];
+  if (camera.model == CameraModel::kKannalaBrandt) return colmapModels()[3];
   const bool short_form = std::all_of(camera.distortion.begin() + 4, camera.distortion.end(),
                                       [](double value) { return value == 0.0; });
-  switch (camera.model) {
-    case CameraModel::kPinhole:
-      return colmapModels()[0];
-    case CameraModel::kBrownConrady:
-      return colmapModels()[short_form ? 1 : 2];
-    case CameraModel::kKannalaBrandt:
-      return colmapModels()[3];
-    case CameraModel::kCahv:
-    case CameraModel::kCahvor:
-    case CameraModel::kCahvore:
-      break;  // refused before
-  }
-  throw std::logic_error("no such camera model");
+  return colmapModels()[short_form ? 1 : 2];
 }
 
 std::string cameraLine(int id, const Camera& camera) {

@@ -113,33 +113,6 @@ void syncFolder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-/// A folder beside another one, removed unless it has got that one's name.
-class FolderBeside {
- public:
-  explicit FolderBeside(const fs::path& target) : target_(target) {
-    const fs::path name = temporaryName(target);
-    if (::mkdir(name.c_str(), 0777) != 0) fail(target, errno);
-    path_ = name;
-  }
-  FolderBeside(const FolderBeside&) = delete;
-  FolderBeside& operator=(const FolderBeside&) = delete;
-  ~FolderBeside() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-
-  const fs::path& path() const { return path_; }
-
-  void takeName() {
-    moveIntoPlace(path_, target_);
-    path_.clear();
-  }
-
- private:
-  fs::path target_;
-  fs::path path_;
-};
-
 }  // namespace
 
 void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
@@ -212,9 +185,15 @@ void writeFolderAtomically(const fs::path& folder,
   const bool there = fs::exists(status);
   if (there && !(fs::is_directory(status) && fs::is_empty(target, error)))
     throw OutputError(folder, "there is something of this name already; name a new folder");
-  FolderBeside beside(target);
-  write(beside.path());
-  beside.takeName();
+  const fs::path temporary = temporaryName(target);
+  if (::mkdir(temporary.c_str(), 0777) != 0) fail(target, errno);
+  try {
+    write(temporary);
+    moveIntoPlace(temporary, target);
+  } catch (...) {
+    fs::remove_all(temporary, error);
+    throw;
+  }
 }
 
 }  // namespace boresight::sessions

@@ -14,7 +14,7 @@ namespace boresight::sessions {
 // All of these throw OverwriteError for a file that this process has read (file_bytes.h), unless
 // it was read for the same `use` and that is not kInput.
 
-/// Writes a file whole or not at all: a temporary file beside it, fsync, rename, fsync of the
+/// Writes a file whole or not at all: a temporary file in its folder, fsync, rename, fsync of the
 /// folder. On failure the old file is as it was and nothing is left behind. A symbolic link keeps
 /// pointing where it did; the permissions of an existing file are kept. A device or pipe
 /// (/dev/stdout) cannot be renamed onto and is written directly. Throws OutputError.
@@ -32,9 +32,9 @@ void moveIntoPlace(const std::filesystem::path& finished, const std::filesystem:
 /// it is a folder): to be asked before long work, not instead of writing.
 void requireWritable(const std::filesystem::path& file, FileUse use = FileUse::kInput);
 
-/// Makes a folder with all its files or not at all: `write` fills a folder beside it, which gets
-/// the name when it returns; when it throws, nothing is left behind. OutputError when there is
-/// something of this name already, unless it is an empty folder, or it cannot be made.
+/// Creates a folder with all its files or not at all: `write` fills a temporary folder next to it,
+/// which is renamed when `write` returns, and removed when it throws. OutputError when something of
+/// this name exists, unless it is an empty folder, or the folder cannot be created.
 void writeFolderAtomically(const std::filesystem::path& folder,
                            const std::function<void(const std::filesystem::path&)>& write);
 

@@ -15,18 +15,18 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/io/pose_file.h"
 
 namespace boresight::sessions {
 namespace {
 
 constexpr std::size_t kMaxBytes = 1 << 20;
-constexpr double kMostAsymmetry = 1e-6;  ///< of a covariance, beside its diagonal
 
 int sizeOf(CameraModel model) {
   return model == CameraModel::kCahv ? 12 : model == CameraModel::kCahvor ? 18 : 21;
 }
 
-/// What stands after each key, lines without one added to the key before.
+/// The text after each key; a line without a key continues the one before.
 class Entries {
  public:
   explicit Entries(const std::filesystem::path& file) : file_(file) {
@@ -56,7 +56,7 @@ class Entries {
     if (found == values_.end()) throw InputError(file_, key, "is missing");
     return found->second;
   }
-  /// Exactly so many finite numbers.
+  /// Exactly `count` finite numbers.
   std::vector<double> numbers(const std::string& key, std::size_t count) const {
     std::istringstream words(text(key));
     std::vector<double> found;
@@ -84,14 +84,7 @@ class Entries {
     const Eigen::MatrixXd matrix =
         Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
             found.data(), size, size);
-    for (int i = 0; i < size; ++i)
-      for (int j = 0; j <= i; ++j) {
-        const double scale = std::sqrt(std::abs(matrix(i, i) * matrix(j, j)));
-        if (matrix(i, i) < 0.0 || std::abs(matrix(i, j) - matrix(j, i)) > kMostAsymmetry * scale)
-          throw InputError(file_, key,
-                           "is not a covariance: not symmetric, or below 0 on its "
-                           "diagonal");
-      }
+    if (!isCovariance(matrix)) throw InputError(file_, key, "is " + std::string(kNoCovariance));
     return matrix;
   }
   const std::filesystem::path& file() const { return file_; }
@@ -207,16 +200,10 @@ std::optional<CalibrationSigma> calibrationSigmaOf(const CahvorFile& file, const
 
 CameraFile readCahvorCamera(const std::filesystem::path& file) {
   const CahvorFile read = readCahvorFile(file);
-  CameraFile made;
-  CameraReference reference;
-  if (cameraFromCahv(read.cahv, read.width, read.height, made.camera,
-                     reference.camera_from_reference) != Status::kOk)
-    throw InputError(file,
-                     "the camera cannot project with these vectors: A and O must have length 1 and "
-                     "lie within 60 deg, H and V must not lie along A or along each other");
-  made.reference = reference;
-  made.calibration_sigma = calibrationSigmaOf(read, made.camera);
-  return made;
+  std::optional<CameraFile> camera = cameraOfVectors(read.cahv, read.width, read.height);
+  if (!camera) throw InputError(file, kVectorsCannotProject);
+  camera->calibration_sigma = calibrationSigmaOf(read, camera->camera);
+  return *camera;
 }
 
 void writeCahvorFile(const std::filesystem::path& file, const CahvorFile& cahvor) {

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
-#include "core/geometry/cahv_model.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
@@ -79,7 +77,7 @@ bool coefficientCountFits(CameraModel model, std::size_t count) {
 
 void readDistortion(const JsonReader& json, Camera& camera) {
   if (camera.model == CameraModel::kPinhole) {
-    // Somebody who gives coefficients wants them used; all zeros say nothing.
+    // Coefficients that would be ignored are refused; zeros change nothing.
     if (const auto dist = json.find("dist"))
       for (const JsonReader& coefficient : dist->elements())
         if (coefficient.number() != 0.0)
@@ -121,22 +119,16 @@ CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
   const CahvModel cahv = readVectors(model, json);
   const auto width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
   const auto height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
-  CameraFile file;
-  Pose camera_from_reference;
-  Status status = cameraFromCahv(cahv, width, height, file.camera, camera_from_reference);
+  std::optional<CameraFile> file = cameraOfVectors(cahv, width, height);
   const auto subframe = json.find("subframe");
-  if (status == Status::kOk && subframe) {
-    cutSubframe(*subframe, file.camera);
-    status = prepareCamera(file.camera);
+  if (file && subframe) {
+    cutSubframe(*subframe, file->camera);
+    if (prepareCamera(file->camera) != Status::kOk) file.reset();
   }
-  if (status != Status::kOk)
-    json.fail(
-        "the camera cannot project with these vectors: A and O must have length 1 and lie within "
-        "60 deg, H and V must not lie along A or along each other, and 1 + r0 must be positive");
-  file.reference = CameraReference{camera_from_reference, {}};
+  if (!file) json.fail(kVectorsCannotProject);
   if (const auto frame = json.find("reference_frame"))
-    file.reference->frame = readFrameName(*frame);
-  return file;
+    file->reference->frame = readFrameName(*frame);
+  return *file;
 }
 
 /// The vectors in the reference frame; in the camera's own where there is none.
@@ -160,6 +152,15 @@ nlohmann::ordered_json cahvJson(const CameraFile& file) {
 }
 
 }  // namespace
+
+std::optional<CameraFile> cameraOfVectors(const CahvModel& cahv, int width, int height) {
+  CameraFile file;
+  CameraReference& reference = file.reference.emplace();
+  if (cameraFromCahv(cahv, width, height, file.camera, reference.camera_from_reference) !=
+      Status::kOk)
+    return std::nullopt;
+  return file;
+}
 
 FrameName readFrameName(const JsonReader& json) {
   FrameName frame;
@@ -200,7 +201,7 @@ const char* cameraModelName(CameraModel model) { return kModelNames[static_cast<
 CameraFile readCameraFile(const JsonReader& json) {
   if (json.has("format"))
     json.requireFormat(kCameraFormat, kCameraVersion);  // a file's content in a dataset
-  (void)json.has("fitted_from");  // for people: the camera that this one was fitted to
+  (void)json.has("fitted_from");  // not read: the camera that this one was fitted to
   const CameraModel model = readModel(json);
   CameraFile file = isCahvFamily(model) ? readCahvCamera(model, json) : readLensCamera(model, json);
   if (const auto sigma = json.find("calibration_sigma"))

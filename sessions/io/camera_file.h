@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/geometry/cahv_model.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/io/json_reader.h"
@@ -87,6 +88,13 @@ struct CameraFile {
   std::optional<CalibrationSigma> calibration_sigma = std::nullopt;  ///< where the file states it
 };
 
+/// The camera of vectors that are given in a frame without a name; nothing where it cannot project:
+/// then kVectorsCannotProject says why.
+std::optional<CameraFile> cameraOfVectors(const CahvModel& cahv, int width, int height);
+inline constexpr const char* kVectorsCannotProject =
+    "the camera cannot project with these vectors: A and O must have length 1 and lie within 60 "
+    "deg, H and V must not lie along A or along each other, and 1 + r0 must be positive";
+
 /// Reads camera.json (`boresight-camera`, version 1): pinhole, brown_conrady with 4, 5 or 8
 /// coefficients, kannala_brandt with 4, cahv, cahvor and cahvore with their vectors; or a text file
 /// of calibration named .cahv, .cahvor or .cahvore; or an image with a VICAR, PDS3 or PDS4 label,
@@ -94,13 +102,13 @@ struct CameraFile {
 CameraFile readCameraFile(const std::filesystem::path& file);
 /// The same for a camera inside another file, without format and version.
 CameraFile readCameraFile(const JsonReader& json);
-/// The camera alone: whoever has no pose in the reference frame.
+/// The camera alone, without its reference frame.
 Camera readCamera(const std::filesystem::path& file);
 
 /// The same for a camera inside another file, without format and version.
 Camera readCamera(const JsonReader& json);
 
-/// What camera.json holds besides format and version; reading it back gives the same bits. The
+/// The members of camera.json without format and version; reading it back gives the same bits. The
 /// vectors of the CAHV family are then those in the camera's own frame.
 nlohmann::ordered_json toJson(const Camera& camera);
 /// The same with vectors in the reference frame: reading them back gives the same but for rounding.

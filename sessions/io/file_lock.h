@@ -25,7 +25,7 @@ struct LockHolder {
 /// file, which says who holds it. The kernel drops the flock when the holder dies, however it dies.
 class FileLock {
  public:
-  /// Takes the lock, or leaves it with whoever has it. OutputError when the lock file cannot be
+  /// Takes the lock, or leaves it with its holder. OutputError when the lock file cannot be
   /// written at all.
   explicit FileLock(const std::filesystem::path& lock_file);
   FileLock(const FileLock&) = delete;

@@ -16,7 +16,7 @@ constexpr int kTransformVersion = 1;
 constexpr double kSameTranslation_m = 1e-6;
 constexpr double kSameRotation_rad = 1e-6;
 
-/// What people are told who gave none, or only some between other frames.
+/// The message where no transform is given, or only some between other frames.
 std::string noWayText(const FrameName& a, const FrameName& b,
                       std::span<const FrameTransform> given) {
   const std::string needed =

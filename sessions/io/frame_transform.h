@@ -14,7 +14,7 @@
 
 namespace boresight::sessions {
 
-/// A transform between two named frames, as somebody gave it.
+/// A transform between two named frames, as an operator gave it.
 struct FrameTransform {
   FrameName target;
   FrameName source;

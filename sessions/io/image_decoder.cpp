@@ -49,7 +49,7 @@ ImageContainer containerOf(const std::filesystem::path& file, Bytes bytes) {
     if (text.starts_with(begin)) return ImageContainer::kTiff;
   throw InputError(file,
                    "not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
-                   "in it or beside it");
+                   "in it or next to it");
 }
 
 /// The orientation 1 .. 8 that a TIFF or an Exif block, which is one, states in its first

@@ -32,7 +32,7 @@ struct DecodedImage {
   ImageHeader header;
   /// 8 or 16 bits; gray, gray and alpha, BGR or BGRA; lines and samples as they are stored.
   cv::Mat pixels;
-  /// What the user should know: an orientation that is not applied, further pages, damage.
+  /// For the operator: an orientation that is not applied, further pages, damage.
   std::vector<std::string> notes;
 };
 

@@ -58,7 +58,7 @@ struct GrayImage {
   bool bit_depth_of_label = false;          ///< stated by the file's label, or made by its rule
   std::string rule;                         ///< how samples became 8 bit, for provenance
   std::shared_ptr<const ImageLabel> label;  ///< of a VICAR, PDS3 or PDS4 image, else null
-  std::vector<std::string> notes;           ///< what its file and samples should tell a person
+  std::vector<std::string> notes;           ///< for the operator, on its file and samples
   std::string file_sha256;    ///< of a label and the file of its pixels: of both together
   std::string pixels_sha256;  ///< of `pixels`
 

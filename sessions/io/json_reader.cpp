@@ -260,14 +260,10 @@ std::filesystem::path JsonReader::path(FileUse use) const {
 }
 
 JsonDocument::JsonDocument(const std::filesystem::path& file, std::string_view text)
-    : file_(file), value_(std::make_unique<nlohmann::json>(parse(file, text))) {}
+    : file_(file), value_(std::make_shared<const nlohmann::json>(parse(file, text))) {}
 
 JsonDocument::JsonDocument(const std::filesystem::path& file)
     : JsonDocument(file, asText(readFileBytes(file, kMaxJsonBytes))) {}
-
-JsonDocument::JsonDocument(JsonDocument&&) noexcept = default;
-JsonDocument& JsonDocument::operator=(JsonDocument&&) noexcept = default;
-JsonDocument::~JsonDocument() = default;
 
 JsonReader JsonDocument::root() const { return {file_, *value_, ""}; }
 

@@ -150,9 +150,6 @@ class JsonDocument {
   explicit JsonDocument(const std::filesystem::path& file);
   /// Parses text; `file` only names it in messages.
   JsonDocument(const std::filesystem::path& file, std::string_view text);
-  JsonDocument(JsonDocument&&) noexcept;
-  JsonDocument& operator=(JsonDocument&&) noexcept;
-  ~JsonDocument();
 
   /// The value at the top, of a format that others define; lives as long as the document.
   JsonReader root() const;
@@ -170,7 +167,7 @@ class JsonDocument {
 
  private:
   std::filesystem::path file_;
-  std::unique_ptr<nlohmann::json> value_;
+  std::shared_ptr<const nlohmann::json> value_;
 };
 
 }  // namespace boresight::sessions

@@ -11,7 +11,7 @@
 
 namespace boresight::sessions {
 
-/// JSON for people: one member per line, but lists of plain values (a matrix row) on one line.
+/// Readable JSON: one member per line, but lists of plain values (a matrix row) on one line.
 /// Numbers are the shortest text that reads back as the same double.
 std::string prettyJson(const nlohmann::ordered_json& value);
 

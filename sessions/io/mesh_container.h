@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "core/geometry/mesh.h"
 #include "sessions/io/file_bytes.h"
 
 namespace boresight::sessions {
@@ -70,5 +73,25 @@ MeshFiles readMeshFiles(const std::filesystem::path& file);
 /// The part of checkMeshContainer for PLY (ASCII and binary of either byte order): walks every
 /// element that the header declares to its last value. InputError.
 MeshDeclaration checkPly(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+/// Triangles of a mesh file as they come, before welding.
+struct ImportedMesh {
+  std::vector<Eigen::Vector3f> vertices_m;
+  std::vector<Face> faces;
+  std::int64_t file_vertices = 0;
+  std::int64_t file_polygons = 0;
+  std::int64_t lines_and_points = 0;
+  std::int64_t irregular_polygons = 0;  ///< could only be cut into a fan
+};
+
+/// Reads files of which the first passed checkMeshContainer, places every mesh by the transforms of
+/// its nodes, scales to metres, and triangulates. Importer and damaged files: every index and
+/// coordinate is checked here. Opens no file. InputError.
+ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
+                        double metres_per_unit);
+
+/// InputError when a mesh has more of something than can be handled.
+void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::int64_t limit,
+                   const char* what);
 
 }  // namespace boresight::sessions

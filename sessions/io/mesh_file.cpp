@@ -12,7 +12,6 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/mesh_container.h"
 #include "sessions/io/mesh_faces.h"
-#include "sessions/io/mesh_import.h"
 
 namespace boresight::sessions {
 namespace {

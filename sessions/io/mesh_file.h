@@ -23,7 +23,7 @@ struct MeshInfo {
   std::string format;  ///< "PLY", "OBJ", "STL", "glTF", "GLB"
   std::string unit;    ///< as stated, or "m" for glTF
   double metres_per_unit = 1.0;
-  std::string file_sha256;  ///< of the file and, for glTF, of the buffers beside it in their order
+  std::string file_sha256;  ///< of the file and, for glTF, of its buffers in their order
 
   std::int64_t file_vertices = 0;
   std::int64_t file_polygons = 0;
@@ -38,7 +38,7 @@ struct MeshInfo {
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();
 
   double diagonal_m() const { return (maximum_m - minimum_m).norm(); }
-  /// One line for each thing that people should know: what was left out, an unusual size.
+  /// A line for each thing that the operator should know: parts left out, an unusual size.
   std::vector<std::string> notes() const;
 };
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/mesh_import.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cstdint>

@@ -33,22 +33,11 @@ std::string plainText(const OptionValue& value) {
 }
 
 [[noreturn]] void wrongKind(const OptionDescription& option, const OptionValue& value) {
-  std::string wanted;
-  switch (option.kind) {
-    case OptionKind::kBoolean:
-      wanted = "true or false";
-      break;
-    case OptionKind::kInteger:
-      wanted = "an integer in " + rangeText(option);
-      break;
-    case OptionKind::kReal:
-      wanted = "a number in " + rangeText(option);
-      break;
-    case OptionKind::kChoice:
-      wanted = "one of " + choicesText(option);
-      break;
-  }
-  throw OptionError(option.name, plainText(value) + " is not " + wanted);
+  const std::string wanted[] = {"true or false", "an integer in " + rangeText(option),
+                                "a number in " + rangeText(option),
+                                "one of " + choicesText(option)};  // by OptionKind
+  throw OptionError(option.name,
+                    plainText(value) + " is not " + wanted[static_cast<std::size_t>(option.kind)]);
 }
 
 std::optional<double> asReal(const OptionValue& value) {

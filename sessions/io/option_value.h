@@ -55,7 +55,7 @@ OptionValue checkedValue(const OptionDescription& option, const OptionValue& val
 /// A value given as text: "true", "12", "0.5", "histogram". OptionError.
 OptionValue parsedValue(const OptionDescription& option, std::string_view text);
 
-/// For people: "1.5 px", "true", "histogram".
+/// For display: "1.5 px", "true", "histogram".
 std::string valueText(const OptionDescription& option, const OptionValue& value);
 
 template <class Field>

@@ -42,13 +42,16 @@ Pose readTransform(const JsonReader& json, double* rotation_deviation) {
   return pose;
 }
 
+bool isCovariance(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd sigma = matrix.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::MatrixXd asymmetry = matrix - matrix.transpose();
+  const Eigen::MatrixXd allowed = kMostAsymmetry * sigma * sigma.transpose();
+  return matrix.diagonal().minCoeff() >= 0.0 && (asymmetry.cwiseAbs() - allowed).maxCoeff() <= 0.0;
+}
+
 Matrix6d readCovariance(const JsonReader& json) {
   const Matrix6d matrix = json.matrix<6>();
-  const Vector6d sigma = matrix.diagonal().cwiseMax(0.0).cwiseSqrt();
-  const Matrix6d asymmetry = matrix - matrix.transpose();
-  const Matrix6d allowed = kMostAsymmetry * sigma * sigma.transpose();
-  if (matrix.diagonal().minCoeff() < 0.0 || (asymmetry.cwiseAbs() - allowed).maxCoeff() > 0.0)
-    json.fail("not a covariance: not symmetric, or below 0 on its diagonal");
+  if (!isCovariance(matrix)) json.fail(kNoCovariance);
   return matrix;
 }
 
@@ -92,8 +95,9 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
     json.requireFormat(kPoseFormat, kPoseVersion);  // a file's content in a dataset
   PoseFile pose;
   if (json.has("reference_from_station") && json.has("camera_from_station"))
-    json.failMember("reference_from_station",
-                    "stands beside camera_from_station: give the pose in one of the two ways");
+    json.failMember(
+        "reference_from_station",
+        "given together with camera_from_station: give the pose in one of the two ways");
   if (json.has("reference_from_station")) {
     readReferencePose(json, frames, pose);
   } else {

@@ -38,7 +38,7 @@ struct PoseFile {
   std::optional<StationFrame> station_frame = std::nullopt;
 };
 
-/// What a pose in a named frame is brought to the camera by.
+/// What a pose in a named frame needs to be converted to the camera frame.
 struct PoseFrames {
   /// Of a camera of the CAHV family.
   std::optional<CameraReference> reference = std::nullopt;
@@ -59,14 +59,18 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames = {});
 /// `rotation_deviation` may be nullptr.
 Pose readTransform(const JsonReader& json, double* rotation_deviation = nullptr);
 
-/// Six rows of six numbers, symmetric and nowhere below 0 on the diagonal. InputError.
+/// Whether a square matrix is symmetric and nowhere below 0 on its diagonal.
+bool isCovariance(const Eigen::MatrixXd& matrix);
+inline constexpr const char* kNoCovariance =
+    "not a covariance: not symmetric, or below 0 on its diagonal";
+/// Six rows of six numbers. InputError.
 Matrix6d readCovariance(const JsonReader& json);
 
 /// Translations 0 .. 1000 m, rotations 0 .. 180 deg; `pivot` is "camera" where it is not given.
 DeclaredUncertainty readUncertainty(const JsonReader& json);
 
-/// A line for people when the matrix was noticeably not a rotation (deviation above 1e-6, more than
-/// single precision explains), else empty.
+/// A line for the operator when the matrix was noticeably not a rotation (deviation above 1e-6,
+/// more than single precision explains), else empty.
 std::string projectionNote(double rotation_deviation);
 
 /// The uncertainty as the core takes it: radians, and the pivot in the seed camera's frame, which

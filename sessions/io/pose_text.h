@@ -8,7 +8,7 @@
 
 namespace boresight::sessions {
 
-/// How a pose is written for people and for other programs.
+/// How a pose is written for operators and other programs.
 enum class PoseForm { kRotationVector, kQuaternion, kMatrix };
 enum class PoseDirection { kCameraFromStation, kStationFromCamera };
 enum class MatrixOrder { kRowMajor, kColumnMajor };
@@ -23,7 +23,7 @@ Eigen::Quaterniond shownQuaternion(const Eigen::Quaterniond& rotation);
 /// read back to 1e-12. A matrix is 4x4, row-major, metres, as in pose files; the others give mm.
 std::string poseText(const Pose& camera_from_station, PoseForm form);
 
-/// What the numbers of a text mean; people are asked, as no text says it all.
+/// What the numbers of a text mean: the operator chooses, as no text states it all.
 struct PoseReading {
   PoseDirection direction = PoseDirection::kCameraFromStation;
   MatrixOrder matrix_order = MatrixOrder::kRowMajor;

@@ -14,23 +14,18 @@ bool isIdentity(const Pose& pose) {
          pose.translation_m == Eigen::Vector3d::Zero();
 }
 
-void requireBelow(const std::filesystem::path& file, std::size_t count, std::int64_t limit,
-                  const char* what) {
-  if (count > static_cast<std::size_t>(limit))
-    throw InputError(file, what,
-                     "the station's parts together have " + std::to_string(count) + ", more than " +
-                         std::to_string(limit));
-}
-
 }  // namespace
 
 void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
              const ScenePart& part, double albedo) {
   const std::filesystem::path& file = mesh.info.file;
   const std::size_t first = scene.vertices_in_station_m.size();
-  requireBelow(file, first + mesh.vertices_m.size(), kMaxMeshVertices, "vertices");
-  requireBelow(file, scene.faces.size() + mesh.faces.size(), kMaxMeshFaces, "faces");
-  requireBelow(file, scene.parts.size() + 1, std::numeric_limits<std::uint16_t>::max(), "parts");
+  const auto require = [&file](std::size_t count, std::int64_t limit, const char* what) {
+    requireAtMost(file, static_cast<std::int64_t>(count), limit, what);
+  };
+  require(first + mesh.vertices_m.size(), kMaxMeshVertices, "vertices of the station");
+  require(scene.faces.size() + mesh.faces.size(), kMaxMeshFaces, "faces of the station");
+  require(scene.parts.size() + 1, std::numeric_limits<std::uint16_t>::max(), "parts");
   // Without a transform the coordinates keep their bits.
   const bool in_place = isIdentity(station_from_mesh);
   for (const Eigen::Vector3f& vertex : mesh.vertices_m)

@@ -4,41 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace boresight::sessions {
 namespace {
 
-/// Gray value at a place between pixel centres; 0 beyond the image's outermost half pixel.
-std::uint8_t sample(const ImageView& image, const Eigen::Vector2d& place) {
-  if (!(place.x() >= -0.5 && place.y() >= -0.5 && place.x() <= image.width - 0.5 &&
-        place.y() <= image.height - 0.5))
-    return 0;
-  const double x = std::clamp(place.x(), 0.0, image.width - 1.0);
-  const double y = std::clamp(place.y(), 0.0, image.height - 1.0);
-  const int left = std::min(static_cast<int>(x), std::max(image.width - 2, 0));
-  const int top = std::min(static_cast<int>(y), std::max(image.height - 2, 0));
-  const int right = std::min(left + 1, image.width - 1);
-  const int bottom = std::min(top + 1, image.height - 1);
-  const double u = x - left;
-  const double v = y - top;
-  const double upper = (1.0 - u) * image.at(left, top) + u * image.at(right, top);
-  const double lower = (1.0 - u) * image.at(left, bottom) + u * image.at(right, bottom);
-  return static_cast<std::uint8_t>((1.0 - v) * upper + v * lower + 0.5);
-}
-
-void undistortRows(const Camera& camera, const ImageView& image, const cv::Range& rows,
-                   UndistortedImage& output) {
-  const Camera& pinhole = output.camera;
-  for (int y = rows.start; y < rows.end; ++y)
-    for (int x = 0; x < pinhole.width; ++x) {
-      const Eigen::Vector3d ray((x - pinhole.cx) / pinhole.fx, (y - pinhole.cy) / pinhole.fy, 1.0);
-      Eigen::Vector2d place;
-      const std::size_t index =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(pinhole.width) +
-          static_cast<std::size_t>(x);
-      if (projectDirection(camera, ray, place)) output.pixels[index] = sample(image, place);
-    }
+/// Where the camera sees the ray; far outside of the image where it does not see it.
+cv::Vec2f placeOf(const Camera& camera, const Eigen::Vector3d& ray) {
+  Eigen::Vector2d place;
+  if (!projectDirection(camera, ray, place) || place.x() < -0.5 || place.y() < -0.5 ||
+      place.x() > camera.width - 0.5 || place.y() > camera.height - 0.5)
+    return {-2.0F, -2.0F};
+  // The outermost half pixel has the value of its pixel.
+  return {static_cast<float>(std::clamp(place.x(), 0.0, camera.width - 1.0)),
+          static_cast<float>(std::clamp(place.y(), 0.0, camera.height - 1.0))};
 }
 
 }  // namespace
@@ -58,14 +37,23 @@ UndistortedImage undistort(const Camera& camera, const ImageView& image) {
   output.camera = pinholeOf(camera);
   output.pixels.assign(
       static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height), 0);
+  cv::Mat target(camera.height, camera.width, CV_8UC1, output.pixels.data());
+  // OpenCV has no const headers; nothing is written.
+  const cv::Mat source(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
+                       static_cast<std::size_t>(image.stride));
   if (camera.model == CameraModel::kPinhole) {
-    for (int y = 0; y < image.height; ++y)
-      std::copy_n(image.row(y), image.width,
-                  output.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width);
+    source.copyTo(target);
     return output;
   }
-  cv::parallel_for_(cv::Range(0, camera.height),
-                    [&](const cv::Range& rows) { undistortRows(camera, image, rows, output); });
+  cv::Mat places(camera.height, camera.width, CV_32FC2);
+  const Camera& pinhole = output.camera;
+  cv::parallel_for_(cv::Range(0, camera.height), [&](const cv::Range& rows) {
+    for (int y = rows.start; y < rows.end; ++y)
+      for (int x = 0; x < pinhole.width; ++x)
+        places.at<cv::Vec2f>(y, x) =
+            placeOf(camera, {(x - pinhole.cx) / pinhole.fx, (y - pinhole.cy) / pinhole.fy, 1.0});
+  });
+  cv::remap(source, target, places, {}, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
   return output;
 }
 

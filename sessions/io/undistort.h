@@ -17,7 +17,7 @@ struct UndistortedImage {
   ImageView view() const { return {pixels.data(), camera.width, camera.height, camera.width}; }
 };
 
-/// The pinhole camera that people look through instead: same centre, size, focal lengths and
+/// The pinhole camera that stands in for it: same centre, size, focal lengths and
 /// principal point, no distortion.
 Camera pinholeOf(const Camera& camera);
 

@@ -223,13 +223,13 @@ void compareTemplates(const RecordedIteration& a, const RecordedIteration& b,
   for (const RecordedTemplate& item : *a.templates) {
     const auto found = theirs.find({item.x, item.y});
     if (found == theirs.end() || !item.searched || !found->second->searched) continue;
-    const RecordedTemplate& twin = *found->second;
+    const RecordedTemplate& counterpart = *found->second;
     ++made.templates;
-    const double apart = std::hypot(static_cast<double>(item.found_x) - twin.found_x,
-                                    static_cast<double>(item.found_y) - twin.found_y);
+    const double apart = std::hypot(static_cast<double>(item.found_x) - counterpart.found_x,
+                                    static_cast<double>(item.found_y) - counterpart.found_y);
     if (apart <= limits.found_px) ++made.found_alike;
-    if (item.inlier || twin.inlier) ++made.inliers_either;
-    if (item.inlier && twin.inlier) ++made.inliers_both;
+    if (item.inlier || counterpart.inlier) ++made.inliers_either;
+    if (item.inlier && counterpart.inlier) ++made.inliers_both;
   }
 }
 

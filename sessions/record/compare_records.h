@@ -28,7 +28,7 @@ enum class RunPart {
   kEnd,
   kDigest,
 };
-/// "pixels", "mask", ... for people.
+/// "pixels", "mask", ... for display.
 const char* runPartText(RunPart part);
 
 /// The first thing that is not the same, to the bit.
@@ -80,7 +80,7 @@ struct RecordComparison {
 RecordComparison compareRecords(const OnboardRecord& one, const OnboardRecord& other,
                                 const ComparisonLimits& limits = {});
 
-/// The comparison for people.
+/// The comparison as text.
 std::string comparisonText(const RecordComparison& comparison);
 
 }  // namespace boresight::sessions

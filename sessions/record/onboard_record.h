@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ struct RecordedTemplate {
   bool operator==(const RecordedTemplate&) const = default;
 };
 
-/// The image's edges, by what tells them apart.
+/// The image's edges, by a hash and figures.
 struct RecordedEdges {
   RecordHash sha256{};  ///< of every level (core/record/record_hashes.h)
   double low_threshold = 0.0;
@@ -105,6 +106,19 @@ OnboardRecord readRecord(const std::filesystem::path& file);
 /// hashes of the inputs are missing. `missing` also names edges, renders and templates that a
 /// summary does not have, and the end of a run that was halted.
 OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given);
+
+/// An onboard run as every view shows a run that was made here. Poses, counts, templates, where
+/// they were found, inliers, support and end are the record's. What a record leaves out is made by
+/// the core from what the ground has, with the record's options and at the record's poses: the
+/// image's edges, renders, the templates' points, search windows; residuals are those of the
+/// recorded poses. Edge places of refinements, covariances but the last, and what matching scores
+/// are made of are not known and stay empty (`recorded_scores` has the scores).
+///
+/// `ground` is what a run on the ground would be given. Where that is not what the run was given on
+/// board, or the record is cut or of another program, `remarks` says so. With the same inputs the
+/// replay is the ground's run in all that both have. A stop leaves the iterations done so far.
+LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
+                               const std::stop_token& stop = {});
 
 /// The options of an onboard run as this program understands them.
 struct RecordedPlan {

@@ -8,7 +8,6 @@
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/record/replay_record.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people who look at an onboard record of a case are shown.
+// What the reviewer of an onboard record of a case is shown.
 #pragma once
 
 #include <memory>

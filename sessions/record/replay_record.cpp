@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/record/replay_record.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -41,17 +41,8 @@ std::string validUtf8(const std::string& text) {
   return made;
 }
 
-PangoAlignment alignment(PdfTextStyle::Align align) {
-  switch (align) {
-    case PdfTextStyle::Align::kCentre:
-      return PANGO_ALIGN_CENTER;
-    case PdfTextStyle::Align::kRight:
-      return PANGO_ALIGN_RIGHT;
-    case PdfTextStyle::Align::kLeft:
-      break;
-  }
-  return PANGO_ALIGN_LEFT;
-}
+constexpr PangoAlignment kAlignments[] = {PANGO_ALIGN_LEFT, PANGO_ALIGN_CENTER,
+                                          PANGO_ALIGN_RIGHT};  ///< by PdfTextStyle::Align
 
 Layout makeLayout(cairo_t* cairo, double width, const std::string& text,
                   const PdfTextStyle& style) {
@@ -64,7 +55,7 @@ Layout makeLayout(cairo_t* cairo, double width, const std::string& text,
   pango_font_description_free(font);
   pango_layout_set_width(layout.get(), static_cast<int>(width * PANGO_SCALE));
   pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
-  pango_layout_set_alignment(layout.get(), alignment(style.align));
+  pango_layout_set_alignment(layout.get(), kAlignments[static_cast<std::size_t>(style.align)]);
   if (style.max_lines > 0) {
     pango_layout_set_height(layout.get(), -style.max_lines);
     pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_END);

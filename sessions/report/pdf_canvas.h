@@ -29,7 +29,7 @@ using PdfColor = std::array<double, 3>;
 inline constexpr PdfColor kInk = {0.10, 0.10, 0.12};
 inline constexpr PdfColor kFaintInk = {0.45, 0.45, 0.50};
 inline constexpr PdfColor kPaperGrid = {0.85, 0.85, 0.88};
-/// Two that people who confuse red and green tell apart (Okabe and Ito 2008).
+/// Distinct also for readers who confuse red and green (Okabe and Ito 2008).
 inline constexpr PdfColor kPdfBlue = {0.00, 0.45, 0.70};
 inline constexpr PdfColor kPdfOrange = {0.84, 0.37, 0.00};
 

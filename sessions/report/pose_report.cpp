@@ -298,10 +298,10 @@ double drawCheck(PdfCanvas& canvas, double y, const JudgedCheck& judged) {
       canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink, 2});
   const double figure =
       canvas.text(kLeft + 156.0, y, 104.0, figureText(check), {kSize, false, false, ink, 2});
-  const double told =
+  const double text =
       canvas.text(kLeft + 262.0, y, kTextWidth - 262.0, sentence,
                   {kSize, false, false, ink, check.state == CheckState::kFailed ? 4 : 2});
-  return y + std::max({title, figure, told}) + 1.0;
+  return y + std::max({title, figure, text}) + 1.0;
 }
 
 double drawChecks(PdfCanvas& canvas, double y, const PoseReport& report) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report of a pose: two pages of PDF for whoever signs or reads it.
+// The report of a pose: two pages of PDF for those who sign or read it.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct PoseReport {
 PoseReport poseReport(const Session& session, const std::string& case_id);
 
 /// The PDF: overlay, pose, end effector, inputs and decision on the first page, checks, residuals
-/// and the run's course on the second. Every page says who validated the pose, or that nobody has.
+/// and the run's course on the second. Every page says who validated the pose, or that it is not.
 std::vector<std::uint8_t> poseReportPdf(const PoseReport& report);
 
 /// The same into a file, atomically; OutputError.

@@ -198,7 +198,7 @@ struct LocalizationTrace {
   bool last_under_way = false;
   bool finished = false;
   Stage stage = Stage::kEdges;  ///< the last one that was worked on
-  bool replayed = false;        ///< from an onboard record (sessions/record/replay_record.h)
+  bool replayed = false;        ///< from an onboard record (sessions/record/onboard_record.h)
   /// Of a replayed run, sentences: unknown values, and differences between ground and onboard.
   std::vector<std::string> remarks;
   /// Of one of several views that were solved as one: all of them, the first one led.

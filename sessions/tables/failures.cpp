@@ -64,19 +64,15 @@ std::string endText(const RunResult& run) {
 }
 
 std::string verdictText(Astray astray) {
-  switch (astray) {
-    case Astray::kLedAway:
-      return "No iteration was nearer to the truth than the seed: its matches led away.";
-    case Astray::kPartOfWay:
-      return "It went a part of the way, and never came near.";
-    case Astray::kCameNear:
-      return "It was near the truth, and did not end there or was refused there.";
-    case Astray::kNotBegun:
-    case Astray::kNoTruth:
-    case Astray::kBeyondNeed:
-      break;
-  }
-  return "";
+  constexpr const char* kTexts[] = {
+      // by Astray
+      "",
+      "",
+      "No iteration was nearer to the truth than the seed: its matches led away.",
+      "It went a part of the way, and never came near.",
+      "It was near the truth, and did not end there or was refused there.",
+      ""};
+  return kTexts[static_cast<std::size_t>(astray)];
 }
 
 std::string withFullStop(std::string sentence) {
@@ -116,23 +112,16 @@ constexpr std::size_t kPerPage = kColumns * kRows;
 constexpr double kPixelsPerPoint = 2.5;
 
 /// Datasets and scenes that several failures share, read once.
-class Inputs {
- public:
-  const Dataset& dataset(const std::filesystem::path& file) {
-    auto& known = datasets_[file];
-    if (!known) known = std::make_unique<Dataset>(readDataset(file));
-    return *known;
-  }
-  const SceneMesh& scene(const Dataset& dataset, const std::string& station) {
-    auto& known = scenes_[{dataset.file, station}];
-    if (!known) known = std::make_unique<SceneMesh>(readStationScene(dataset.stations.at(station)));
-    return *known;
-  }
-
- private:
-  std::map<std::filesystem::path, std::unique_ptr<Dataset>> datasets_;
-  std::map<std::pair<std::filesystem::path, std::string>, std::unique_ptr<SceneMesh>> scenes_;
+struct Inputs {
+  std::map<std::filesystem::path, Dataset> datasets;
+  std::map<std::pair<std::filesystem::path, std::string>, SceneMesh> scenes;
 };
+
+template <class Key, class Value, class Read>
+const Value& readOnce(std::map<Key, Value>& known, const Key& key, Read&& read) {
+  const auto found = known.find(key);
+  return found != known.end() ? found->second : known.emplace(key, read()).first->second;
+}
 
 /// What the run came to. One that did not complete hands its seed back, which shows nothing: its
 /// iteration nearest to the truth, the first one where it was led away, or the last without truth.
@@ -151,11 +140,14 @@ OverlayLayer reached(const RunResult& run) {
 ColorImage pictureOf(const Failure& failure, Inputs& inputs, int width_px, int height_px) {
   if (std::filesystem::is_directory(failure.dataset))
     throw InputError(failure.dataset, "it is a folder: pictures are made of a dataset.json only");
-  const Dataset& dataset = inputs.dataset(failure.dataset);
+  const Dataset& dataset =
+      readOnce(inputs.datasets, failure.dataset, [&] { return readDataset(failure.dataset); });
   const Case* one = dataset.findCase(failure.run.case_id);
   if (one == nullptr) throw InputError(failure.dataset, "it has no case " + failure.run.case_id);
   const GrayImage image = readCaseImage(dataset, *one);
-  const SceneMesh& scene = inputs.scene(dataset, one->station);
+  const SceneMesh& scene = readOnce(inputs.scenes, {failure.dataset, one->station}, [&] {
+    return readStationScene(dataset.stations.at(one->station));
+  });
   std::vector<Pose> framed = {failure.run.camera_from_station_seed};
   std::vector<OverlayLayer> layers = {
       {"seed", failure.run.camera_from_station_seed, kSeedColor, true}};

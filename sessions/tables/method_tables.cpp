@@ -14,9 +14,9 @@
 namespace boresight::sessions {
 namespace {
 
-// What Pham 2025 (IEEE RA-L, DOI 10.1109/LRA.2025.3614045) reports, to be shown beside our own.
+// What Pham 2025 (IEEE RA-L, DOI 10.1109/LRA.2025.3614045) reports, to be shown with our own.
 constexpr const char* kPaperSource = "Pham et al., IEEE RA-L 2025, 10.1109/LRA.2025.3614045";
-/// To be said wherever its success stands beside ours.
+/// Shown wherever its success is listed with ours.
 constexpr const char* kPaperCaution =
     "Rows marked (paper): 2000 synthetic images a station. The paper requires 0.4 mm and 0.25 deg "
     "(Sec. I), but its successful runs exceed both (Table I): compare errors, not success.";

@@ -14,7 +14,7 @@ namespace boresight::sessions {
 struct TableColumn {
   std::string name;  ///< with its unit
   std::vector<std::string> parts = {};
-  int decimals = 0;  ///< of its numbers, as people read them
+  int decimals = 0;  ///< of its numbers, as text
 };
 
 /// Text, or the numbers of a column's parts; a part without one shows as "-".

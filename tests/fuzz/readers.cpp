@@ -103,7 +103,7 @@ void readTree(const Path& file) {
   const auto bytes = sessions::readFileBytes(file, sessions::kMegabyte);
   const auto json = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
   if (!json.is_object() || !json.contains("label")) return;
-  sessions::LabelPicture picture{1024, 1024, 1, 16, false};
+  sessions::LabelPicture picture{1024, 1024, 1, {16}};
   const auto side = [&json](const char* key) {
     return json.contains(key) && json[key].is_number_integer()
                ? std::clamp(json[key].get<int>(), 1, sessions::kMaxImageSide_px)

@@ -12,7 +12,7 @@
 
 namespace boresight::sessions {
 
-/// A statement of a label, as provenance and people want it.
+/// A statement of a label, for provenance and for display.
 struct LabelItem {
   std::string name;   ///< the label's own keyword, e.g. "PRODUCT_ID"
   std::string value;  ///< of several values, separated by ", "
@@ -20,7 +20,7 @@ struct LabelItem {
   bool operator==(const LabelItem&) const = default;
 };
 
-/// A frame that a label tells the place of. It is shown; nothing is converted by it.
+/// A frame whose pose a label states. It is shown; nothing is converted by it.
 struct LabelFrame {
   FrameName frame;
   FrameName reference;
@@ -53,19 +53,19 @@ struct ImageLabel {
   std::optional<CameraFile> camera;
   /// One sentence: the label has no camera model, or one that does not fit the image.
   std::string camera_remark;
-  /// What the label says of the camera model besides: its source, filter, solution.
+  /// Other statements of the label on its camera model: its source, filter, solution.
   std::vector<LabelItem> camera_items;
   std::optional<LabelSubframe> subframe;  ///< as stated by the label
   std::optional<int> bit_depth;           ///< bits that the samples use, as the label states them
   std::string bayer_pattern;              ///< of a mosaic that is not yet colours; else empty
   std::vector<LabelFrame> frames;
-  std::vector<std::string> flags;  ///< what a person should know, a sentence each
+  std::vector<std::string> flags;  ///< for the operator, a sentence each
 };
 
 /// Whether the file begins like a VICAR, PDS3 or PDS4 label; false also when it cannot be read.
 bool hasImageLabel(const std::filesystem::path& file);
 
-/// Reads the label of a VICAR, PDS3 or PDS4 image (of PDS3 and PDS4 also a label beside the pixels'
+/// Reads the label of a VICAR, PDS3 or PDS4 image (of PDS3 and PDS4 also a label next to the pixel
 /// file). InputError when it is none, or is damaged; a camera model that is missing or unfit is
 /// not an error here.
 ImageLabel readImageLabel(const std::filesystem::path& file);

@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/labels/label_frames.h"
 #include "sessions/io/labels/label_values.h"
 
 namespace boresight::sessions {
@@ -177,7 +176,7 @@ StatedCamera groupCamera(const json& group) {
   StatedCamera stated;
   stated.items = itemsOf(group);
   stated.frame = groupFrame(group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX",
-                            stated.frame_flag);
+                            stated.flags);
   const std::string type = labelText(labelMember(&group, "MODEL_TYPE")).value_or("NONE");
   const auto model = modelOf(type);
   if (!model) {
@@ -193,9 +192,7 @@ StatedCamera groupCamera(const json& group) {
 std::vector<StatedCamera> groupCameras(LabelFormat format, const json& label) {
   std::vector<StatedCamera> cameras;
   for (const auto& [name, group] : labelGroups(format, label))
-    if (name == "GEOMETRIC_CAMERA_MODEL" || name == "GEOMETRIC_CAMERA_MODEL_PARMS" ||
-        name == "CAMERA_MODEL")
-      cameras.push_back(groupCamera(*group));
+    if (isCameraGroup(name)) cameras.push_back(groupCamera(*group));
   return cameras;
 }
 
@@ -225,7 +222,7 @@ StatedCamera elementCamera(const json& parameters) {
       stated.items.push_back({key, *text});
   if (const json* space =
           labelPath(&parameters, {"Coordinate_Space_Reference", "Coordinate_Space_Indexed"}))
-    stated.frame = indexedFrame(*space, stated.frame_flag);
+    stated.frame = indexedFrame(*space, stated.flags);
   CameraModel model = CameraModel::kCahv;
   const json* element = modelElement(parameters, model);
   if (element == nullptr) {
@@ -264,6 +261,11 @@ StatedCamera onlyCamera(const std::vector<StatedCamera>& cameras) {
 }
 
 }  // namespace
+
+bool isCameraGroup(std::string_view name) {
+  return name == "GEOMETRIC_CAMERA_MODEL" || name == "GEOMETRIC_CAMERA_MODEL_PARMS" ||
+         name == "CAMERA_MODEL";
+}
 
 bool sameModel(const StatedCamera& a, const StatedCamera& b) {
   if (!a.cahv || !b.cahv || a.cahv->model != b.cahv->model || !(a.frame == b.frame)) return false;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -28,9 +29,9 @@ LabelDetector detectorOf(const std::vector<LabelItem>& identifiers);
 struct StatedCamera {
   std::optional<CahvModel> cahv;
   FrameName frame;
-  std::vector<LabelItem> items;  ///< source, filter, solution
-  std::string remark;            ///< one sentence where there is no model
-  std::string frame_flag;        ///< one sentence where the frame's name is not usable
+  std::vector<LabelItem> items;    ///< source, filter, solution
+  std::string remark;              ///< one sentence where there is no model
+  std::vector<std::string> flags;  ///< a sentence where the frame's name is not usable
 };
 
 /// Of a VICAR or PDS3 label: the group GEOMETRIC_CAMERA_MODEL, GEOMETRIC_CAMERA_MODEL_PARMS or
@@ -39,8 +40,25 @@ struct StatedCamera {
 /// CAHVORE_Model.
 StatedCamera statedCamera(LabelFormat format, const nlohmann::json& label);
 
+/// The groups of VICAR and PDS3 labels with a camera model.
+bool isCameraGroup(std::string_view name);
+
 /// Whether two labels state one model in one frame, as far as their digits go.
 bool sameModel(const StatedCamera& a, const StatedCamera& b);
+
+/// A frame by its name and index in a group of a VICAR or PDS3 label. One whose index is not of
+/// whole numbers could be taken for another: it stays without a name, with a sentence in `flags`.
+FrameName groupFrame(const nlohmann::json& group, std::string_view name, std::string_view index,
+                     std::vector<std::string>& flags);
+
+/// The same of a Coordinate_Space_Indexed of a PDS4 label.
+FrameName indexedFrame(const nlohmann::json& space, std::vector<std::string>& flags);
+
+/// The frames whose pose the label states: groups NAME_COORDINATE_SYSTEM of VICAR and PDS3,
+/// Coordinate_Space_Definition of PDS4. Quaternions are scalar first and, with the offset, map a
+/// frame's vectors into its reference. What cannot be read is left out with a sentence in `flags`.
+std::vector<LabelFrame> labelFrames(LabelFormat format, const nlohmann::json& label,
+                                    std::vector<std::string>& flags);
 
 /// What is wrong with the model for an image of this size and sub-frame: one sentence, or nothing.
 /// Where it is not known that labels of this mission state the model of the sub-frame, a cut

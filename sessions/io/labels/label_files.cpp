@@ -9,7 +9,6 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
 #include "sessions/io/labels/label_values.h"
-#include "sessions/io/labels/label_xml.h"
 
 namespace boresight::sessions {
 namespace {
@@ -154,11 +153,11 @@ void requireBeside(const fs::path& label_file, const std::string& name) {
                      });
   if (!plain)
     throw InputError(label_file, "the label names the file '" + oneLine(name).substr(0, 80) +
-                                     "', which is not one beside it: only a name without a folder "
+                                     "', which is not in its folder: only a name without a folder "
                                      "is followed");
 }
 
-/// The file of that name beside the label; upper and lower case may differ, as on the discs that
+/// The file of that name in the label's folder; upper and lower case may differ, as on discs that
 /// such labels were written for.
 fs::path fileBeside(const fs::path& label_file, const std::string& name) {
   const fs::path folder = label_file.has_parent_path() ? label_file.parent_path() : fs::path(".");
@@ -210,13 +209,13 @@ void readPixelsPart(LabelFiles& files, const std::string& name) {
   requireBeside(files.file, name);
   const fs::path part = fileBeside(files.file, name);
   std::error_code error;
-  // A label beside the pixels may name itself.
+  // A label next to the pixels may name itself.
   if (fs::equivalent(part, files.file, error)) {
     files.parts.push_back({name, files.parts.front().bytes});
     return;
   }
   if (!fs::exists(part, error))
-    throw InputError(files.file, "the file of its pixels, '" + name + "', is not beside it");
+    throw InputError(files.file, "the file of its pixels, '" + name + "', is not in its folder");
   files.parts.push_back({name, readFileBytes(part, kMaxImageFileBytes)});
 }
 

@@ -124,7 +124,7 @@ std::string axesMisfit(const Camera& camera) {
   return "";
 }
 
-/// What a mission is called in labels; the host is an INSTRUMENT_HOST_ID and nothing more.
+/// A name of a mission in labels; a host's is the whole value of INSTRUMENT_HOST_ID.
 struct MissionName {
   char mission;
   std::string_view name;
@@ -164,35 +164,27 @@ constexpr Instrument kInstruments[] = {
 char missionOf(const std::vector<LabelItem>& identifiers) {
   for (const LabelItem& item : identifiers) {
     const std::string text = upperCase(item.value);
-    for (const MissionName& one : kMissions)
-      if (one.host ? item.name == "INSTRUMENT_HOST_ID" && text == one.name
-                   : text.find(one.name) != std::string::npos)
-        return one.mission;
+    for (const auto& [mission, name, host] : kMissions)
+      if (host ? item.name == "INSTRUMENT_HOST_ID" && text == name
+               : text.find(name) != std::string::npos)
+        return mission;
   }
   return '\0';
-}
-
-bool namesInstrument(const LabelItem& item) {
-  return item.name == "INSTRUMENT_ID" || item.name == "INSTRUMENT_NAME" ||
-         item.name == "Observing_System_Component";
 }
 
 }  // namespace
 
 LabelDetector detectorOf(const std::vector<LabelItem>& identifiers) {
-  LabelDetector detector;
   const char mission = missionOf(identifiers);
-  detector.model_of_subframe = mission != '\0';
   std::string words;
   for (const LabelItem& item : identifiers)
-    if (namesInstrument(item)) words += upperCase(item.value) + "\n";
-  for (const Instrument& one : kInstruments) {
-    if (one.mission != mission || words.find(one.word) == std::string::npos) continue;
-    detector.width = one.width;
-    detector.height = one.height;
-    return detector;
-  }
-  return detector;
+    if (item.name == "INSTRUMENT_ID" || item.name == "INSTRUMENT_NAME" ||
+        item.name == "Observing_System_Component")
+      words += upperCase(item.value) + "\n";
+  for (const Instrument& instrument : kInstruments)
+    if (instrument.mission == mission && words.find(instrument.word) != std::string::npos)
+      return {true, instrument.width, instrument.height};
+  return {mission != '\0', 0, 0};
 }
 
 std::string cameraMisfit(const CahvModel& cahv, int width, int height,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/labels/label_frames.h"
+#include "sessions/io/labels/label_camera.h"
 
 #include <cmath>
 #include <optional>
@@ -17,7 +17,7 @@ using nlohmann::json;
 /// `parts` are the index as numbers, none where a part is no whole number; `text` the same as
 /// words.
 FrameName frameWith(std::string name, const std::vector<std::optional<std::int64_t>>& parts,
-                    const std::string& text, std::string& flag) {
+                    const std::string& text, std::vector<std::string>& flags) {
   FrameName frame{std::move(name), {}};
   for (const auto& part : parts) {
     if (part) {
@@ -25,8 +25,8 @@ FrameName frameWith(std::string name, const std::vector<std::optional<std::int64
       continue;
     }
     if (!frame.name.empty())
-      flag = "the index of the label's frame " + frame.name + ", (" + text +
-             "), is not of whole numbers: the frame counts as one without a name";
+      flags.push_back("the index of the label's frame " + frame.name + ", (" + text +
+                      "), is not of whole numbers: the frame counts as one without a name");
     return {};
   }
   return frame;
@@ -41,11 +41,6 @@ std::optional<Eigen::Vector3d> offsetIn_m(const json* value) {
   const std::string unit = labelUnit(value);
   if (!unit.empty() && unit != "M" && unit != "METER" && unit != "METERS") return std::nullopt;
   return labelVector(value);
-}
-
-/// A flag of a frame's name, if there is one.
-void addFlag(const std::string& flag, std::vector<std::string>& flags) {
-  if (!flag.empty()) flags.push_back(flag);
 }
 
 std::optional<Pose> poseOf(const std::optional<Eigen::Vector3d>& offset_m,
@@ -74,14 +69,10 @@ void groupFrames(LabelFormat format, const json& label, std::vector<LabelFrame>&
     if (labelMember(group, "ORIGIN_OFFSET_VECTOR") == nullptr &&
         labelMember(group, "ORIGIN_ROTATION_QUATERNION") == nullptr)
       continue;
-    std::string flag;
     const FrameName frame =
-        groupFrame(*group, "COORDINATE_SYSTEM_NAME", "COORDINATE_SYSTEM_INDEX", flag);
-    addFlag(flag, flags);
-    std::string reference_flag;
-    const FrameName reference = groupFrame(*group, "REFERENCE_COORD_SYSTEM_NAME",
-                                           "REFERENCE_COORD_SYSTEM_INDEX", reference_flag);
-    addFlag(reference_flag, flags);
+        groupFrame(*group, "COORDINATE_SYSTEM_NAME", "COORDINATE_SYSTEM_INDEX", flags);
+    const FrameName reference =
+        groupFrame(*group, "REFERENCE_COORD_SYSTEM_NAME", "REFERENCE_COORD_SYSTEM_INDEX", flags);
     add(frame, reference,
         poseOf(offsetIn_m(labelMember(group, "ORIGIN_OFFSET_VECTOR")),
                labelNumbers(labelMember(group, "ORIGIN_ROTATION_QUATERNION"))),
@@ -111,10 +102,10 @@ std::optional<Eigen::Vector3d> elementOffset(const json* element) {
 
 /// The reference is named whole, or by the identifier of another definition.
 FrameName elementReference(const json& definition, const std::vector<const json*>& all,
-                           std::string& flag) {
+                           std::vector<std::string>& flags) {
   const json* reference = labelMember(&definition, "Coordinate_Space_Reference");
   if (const json* space = labelMember(reference, "Coordinate_Space_Indexed"))
-    return indexedFrame(*space, flag);
+    return indexedFrame(*space, flags);
   const auto id =
       labelText(labelPath(reference, {"Local_Internal_Reference", "local_identifier_reference"}));
   if (!id) return {};
@@ -123,7 +114,7 @@ FrameName elementReference(const json& definition, const std::vector<const json*
       if (known == *id)
         if (const json* space =
                 labelPath(other, {"Coordinate_Space_Present", "Coordinate_Space_Indexed"}))
-          return indexedFrame(*space, flag);
+          return indexedFrame(*space, flags);
   return {*id, {}};
 }
 
@@ -142,12 +133,8 @@ void elementFrames(const json& label, std::vector<LabelFrame>& frames,
     const auto direction = labelText(labelMember(quaternion, "rotation_direction"));
     if (pose && direction && upperCase(*direction) != "FORWARD")
       pose->rotation = pose->rotation.conjugate();
-    std::string flag;
-    const FrameName frame = indexedFrame(*present, flag);
-    addFlag(flag, flags);
-    std::string reference_flag;
-    const FrameName reference = elementReference(*definition, definitions, reference_flag);
-    addFlag(reference_flag, flags);
+    const FrameName frame = indexedFrame(*present, flags);
+    const FrameName reference = elementReference(*definition, definitions, flags);
     add(frame, reference, pose, frames, flags);
   }
 }
@@ -155,7 +142,7 @@ void elementFrames(const json& label, std::vector<LabelFrame>& frames,
 }  // namespace
 
 FrameName groupFrame(const json& group, std::string_view name, std::string_view index,
-                     std::string& flag) {
+                     std::vector<std::string>& flags) {
   const json* stated = labelMember(&group, index);
   std::vector<std::optional<std::int64_t>> parts;
   if (stated != nullptr && stated->is_array())
@@ -163,10 +150,10 @@ FrameName groupFrame(const json& group, std::string_view name, std::string_view 
   else if (labelText(stated))  // "N/A" is no index
     parts.push_back(labelInteger(stated));
   return frameWith(labelText(labelMember(&group, name)).value_or(""), parts,
-                   joined(labelTexts(stated)), flag);
+                   joined(labelTexts(stated)), flags);
 }
 
-FrameName indexedFrame(const json& space, std::string& flag) {
+FrameName indexedFrame(const json& space, std::vector<std::string>& flags) {
   std::vector<std::optional<std::int64_t>> parts;
   std::vector<std::string> texts;
   const auto add = [&](const json& index) {
@@ -181,7 +168,7 @@ FrameName indexedFrame(const json& space, std::string& flag) {
   else if (indices != nullptr)
     add(*indices);
   return frameWith(labelText(labelMember(&space, "coordinate_space_frame_type")).value_or(""),
-                   parts, joined(texts), flag);
+                   parts, joined(texts), flags);
 }
 
 std::vector<LabelFrame> labelFrames(LabelFormat format, const json& label,

@@ -1,45 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include "sessions/io/labels/label_files.h"
-#include "sessions/io/labels/label_layout.h"
 
 namespace boresight::sessions {
 
-/// An image with a label as GDAL opens it, from bytes in memory alone: nothing that a label says
-/// makes it read another file. The label comes as one tree: of VICAR and PDS3 as GDAL's JSON has
-/// it (IMAGE at the top also where it stands in an OBJECT = FILE), of PDS4 as readXmlLabel has it.
-class LabelRaster {
- public:
-  /// The files must outlive it. InputError: a label that is damaged, sizes out of bounds, pixels
-  /// that are not all there.
-  explicit LabelRaster(const LabelFiles& files);
-  ~LabelRaster();
-  LabelRaster(const LabelRaster&) = delete;
-  LabelRaster& operator=(const LabelRaster&) = delete;
+/// How the file stores a sample.
+struct SampleType {
+  int bits = 8;
+  bool floating = false;
+  bool is_signed = false;
 
-  int width() const;
-  int height() const;
-  int bands() const;
-  SampleType type() const;
-  const nlohmann::json& label() const;
-  /// The label of the VICAR header inside a PDS3 file; null when there is none.
-  const nlohmann::json& vicarLabel() const;
-  /// Of several images in the label, which one this is; else empty.
-  const std::string& remark() const;
-  /// Samples of a row of a band (from 0), exact in double. InputError.
-  void readRow(int band, int row, std::vector<double>& samples) const;
-
- private:
-  struct Opened;
-  std::unique_ptr<Opened> opened_;
+  std::string name() const;  ///< "16-bit signed integers"
 };
+
+/// The pixels by their header.
+struct LabelPicture {
+  int width = 0;
+  int height = 0;
+  int bands = 1;
+  SampleType type;
+  std::string remark = {};  ///< which of several images in the label is read; else empty
+};
+
+/// An image with a label, opened by GDAL from bytes in memory: no other file is read.
+struct LabelRaster {
+  LabelPicture picture;
+  /// Of VICAR and PDS3 GDAL's JSON, with IMAGE at the top also where the label has it in an
+  /// OBJECT = FILE; of PDS4 the tree of readXmlLabel.
+  nlohmann::json label;
+  nlohmann::json vicar_label;  ///< of the VICAR header inside a PDS3 file; else null
+  /// Reads a row of a band (both from 0), exact in double. InputError.
+  std::function<void(int band, int row, std::vector<double>& samples)> readRow;
+};
+
+/// `files` must outlive the result. InputError: a damaged label, sizes out of bounds, missing
+/// pixels, or samples that GDAL would read otherwise than the label states.
+LabelRaster openLabelRaster(const LabelFiles& files);
 
 }  // namespace boresight::sessions

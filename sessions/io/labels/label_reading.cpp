@@ -7,17 +7,14 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <span>
 #include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
 #include "sessions/io/labels/label_camera.h"
-#include "sessions/io/labels/label_files.h"
-#include "sessions/io/labels/label_frames.h"
-#include "sessions/io/labels/label_raster.h"
 #include "sessions/io/labels/label_values.h"
 
 namespace boresight::sessions {
@@ -121,25 +118,17 @@ std::optional<LabelSubframe> subframeOf(const Source& source) {
 
 /// 2#0000111111111111# uses 12 bits.
 std::optional<int> bitsOfMask(const std::string& mask) {
-  const auto hash = mask.find('#');
-  int base = 2;
-  std::string digits = mask;
-  if (hash != std::string::npos) {
-    base = numberIn<int>(std::string_view(mask).substr(0, hash)).value_or(0);
-    if (base != 2 && base != 16) return std::nullopt;
-    digits = mask.substr(hash + 1);
-    if (digits.ends_with('#')) digits.pop_back();
-  } else if (mask.size() < 8) {
-    return std::nullopt;  // a plain number of bits or a decimal mask: not told apart
-  }
-  const auto value = numberIn<std::uint64_t>(digits, base);
-  if (!value || *value == 0) return std::nullopt;
-  return static_cast<int>(std::bit_width(*value));
+  const bool digits_alone = mask.find('#') == std::string::npos;
+  // So few digits may also be a number of bits or a decimal mask.
+  if (digits_alone && mask.size() < 8) return std::nullopt;
+  const auto pattern = bitPattern(digits_alone ? "2#" + mask : mask);
+  if (!pattern || pattern->bits == 0) return std::nullopt;
+  return static_cast<int>(std::bit_width(pattern->bits));
 }
 
 std::optional<int> bitDepthOf(const Source& source, const LabelPicture& picture,
                               std::vector<std::string>& flags) {
-  if (picture.floating) return std::nullopt;
+  if (picture.type.floating) return std::nullopt;
   const json* mask = source.elements() ? source.imaging("Sampling", "sample_bit_mask")
                                        : source.image("SAMPLE_BIT_MASK");
   std::optional<int> bits;
@@ -148,10 +137,10 @@ std::optional<int> bitDepthOf(const Source& source, const LabelPicture& picture,
     if (const auto stated = labelInteger(source.imaging("Sampling", "sample_bits")))
       bits = static_cast<int>(std::clamp<std::int64_t>(*stated, 0, 64));
   if (!bits) return std::nullopt;
-  if (*bits < 1 || *bits > std::min(picture.sample_bits, 16)) {
-    if (*bits > picture.sample_bits)
+  if (*bits < 1 || *bits > std::min(picture.type.bits, 16)) {
+    if (*bits > picture.type.bits)
       flags.push_back("the label says that " + std::to_string(*bits) +
-                      " bits are used, but a sample has " + std::to_string(picture.sample_bits));
+                      " bits are used, but a sample has " + std::to_string(picture.type.bits));
     return std::nullopt;
   }
   return bits;
@@ -161,7 +150,7 @@ std::optional<int> bitDepthOf(const Source& source, const LabelPicture& picture,
 std::vector<InvalidValue> invalidValues(const Source& source, const LabelPicture& picture) {
   std::vector<InvalidValue> values;
   const auto add = [&](const json* stated) {
-    addInvalidValues(stated, picture.floating, picture.sample_bits, values);
+    addInvalidValues(stated, picture.type.floating, picture.type.bits, values);
   };
   if (!source.elements()) {
     for (const char* key : {"MISSING_CONSTANT", "MISSING", "INVALID_CONSTANT", "INVALID",
@@ -208,7 +197,7 @@ void addPictureFlags(const Source& source, const LabelPicture& picture,
   if (const std::string display = displayOf(source); !display.empty())
     flags.push_back("the label has the image displayed otherwise than it is stored (" + display +
                     "); it is read as it is stored, in the lines and samples of its camera model");
-  if (source.format != LabelFormat::kPds3 || picture.sample_bits != 8) return;
+  if (source.format != LabelFormat::kPds3 || picture.type.bits != 8) return;
   const std::string type = labelText(source.image("SAMPLE_TYPE")).value_or("UNSIGNED");
   if (upperCase(type).find("UNSIGNED") == std::string::npos)
     flags.push_back("the label calls samples of 8 bits " + type + "; they are read as unsigned");
@@ -271,19 +260,14 @@ void readCamera(const Source& source, const json& vicar_label, ImageLabel& label
   const StatedCamera stated = chosenCamera(source, vicar_label, label.flags);
   label.camera_items = stated.items;
   label.camera_remark = stated.remark;
-  if (!stated.frame_flag.empty()) label.flags.push_back(stated.frame_flag);
+  label.flags.insert(label.flags.end(), stated.flags.begin(), stated.flags.end());
   if (!stated.cahv) return;
   label.camera_remark = cameraMisfit(*stated.cahv, label.width, label.height, label.subframe,
                                      detectorOf(label.identifiers));
   if (!label.camera_remark.empty()) return;
-  CameraFile file;
-  CameraReference reference;
-  if (cameraFromCahv(*stated.cahv, label.width, label.height, file.camera,
-                     reference.camera_from_reference) != Status::kOk)
-    return;  // cameraMisfit asked the same
-  reference.frame = stated.frame;
-  file.reference = reference;
-  label.camera = file;
+  label.camera = cameraOfVectors(*stated.cahv, label.width, label.height);
+  if (!label.camera) return;  // reported by cameraMisfit
+  label.camera->reference->frame = stated.frame;
   if (stated.frame.name.empty())
     label.flags.push_back("the label does not name the frame of its camera model");
 }
@@ -340,11 +324,6 @@ class Statements {
   std::string_view text_;
 };
 
-bool isCameraGroup(std::string_view name) {
-  return name == "GEOMETRIC_CAMERA_MODEL" || name == "GEOMETRIC_CAMERA_MODEL_PARMS" ||
-         name == "CAMERA_MODEL";
-}
-
 /// The first key that a camera model of the text states twice, or its VICAR property that is there
 /// twice. GDAL hands on the last one alone.
 std::string statedTwice(std::string_view text, std::set<std::string>& properties) {
@@ -352,8 +331,7 @@ std::string statedTwice(std::string_view text, std::set<std::string>& properties
   std::set<std::string> keys;
   bool in_model = false;
   while (statements.next()) {
-    std::string key(statements.key);
-    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const std::string key = upperCase(statements.key);
     const bool begins = key == "GROUP" || key == "OBJECT" || key == "PROPERTY";
     if (begins) keys.clear();
     if (begins || key == "END_GROUP" || key == "END_OBJECT" || key == "TASK") {
@@ -368,8 +346,7 @@ std::string statedTwice(std::string_view text, std::set<std::string>& properties
 }
 
 std::string statedTwice(const LabelFiles& files) {
-  const std::span<const std::uint8_t> bytes = files.labelBytes();
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string_view text = asText(files.labelBytes());
   std::set<std::string> properties;
   if (files.format == LabelFormat::kPds3)
     return statedTwice(text.substr(0, text.find('\0')), properties);
@@ -416,9 +393,7 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
 
 LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster) {
   LabelReading reading =
-      readLabelTree(files.format, raster.label(), raster.vicarLabel(),
-                    {raster.width(), raster.height(), raster.bands(), bitsOf(raster.type()),
-                     isFloating(raster.type()), raster.remark()});
+      readLabelTree(files.format, raster.label, raster.vicar_label, raster.picture);
   const std::string twice = statedTwice(files);
   if (twice.empty()) return reading;
   reading.label.camera.reset();
@@ -431,8 +406,7 @@ bool hasImageLabel(const std::filesystem::path& file) { return labelFileOf(file)
 
 ImageLabel readImageLabel(const std::filesystem::path& file) {
   const LabelFiles files = readLabelFiles(labelFileOf(file).value_or(file));
-  const LabelRaster raster(files);
-  return readLabel(files, raster).label;
+  return readLabel(files, openLabelRaster(files)).label;
 }
 
 CameraFile readLabelCamera(const std::filesystem::path& file) {

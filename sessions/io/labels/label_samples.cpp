@@ -9,13 +9,12 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/errors.h"
 #include "sessions/io/json_reader.h"
-#include "sessions/io/labels/label_raster.h"
 #include "sessions/io/labels/label_reading.h"
 #include "sessions/io/labels/label_values.h"
 
@@ -27,30 +26,7 @@ using nlohmann::json;
 constexpr std::size_t kMostDistinct = 32;
 constexpr double kBeyondMeasurement = 1e30;
 
-/// Bits of a number as a label writes them.
-struct Pattern {
-  std::uint64_t bits = 0;
-  int width = 0;  ///< of the digits written
-};
-
-std::optional<Pattern> patternOf(std::string_view text) {
-  int base = 16;
-  if (text.starts_with("0x") || text.starts_with("0X")) {
-    text.remove_prefix(2);
-  } else {
-    const auto hash = text.find('#');
-    if (hash == std::string_view::npos) return std::nullopt;
-    base = numberIn<int>(text.substr(0, hash)).value_or(0);
-    if (base != 2 && base != 16) return std::nullopt;
-    text = text.substr(hash + 1);
-    if (text.ends_with('#')) text.remove_suffix(1);
-  }
-  const auto bits = numberIn<std::uint64_t>(text, base);
-  if (!bits) return std::nullopt;
-  return Pattern{*bits, static_cast<int>(text.size()) * (base == 16 ? 4 : 1)};
-}
-
-double floatingOf(const Pattern& pattern) {
+double floatingOf(const BitPattern& pattern) {
   if (pattern.width > 32) return std::bit_cast<double>(pattern.bits);
   return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(pattern.bits)));
 }
@@ -75,7 +51,7 @@ void add(double value, double tolerance, std::vector<InvalidValue>& values) {
     values.push_back({value, tolerance});
 }
 
-void addPattern(const Pattern& pattern, bool floating, int sample_bits,
+void addPattern(const BitPattern& pattern, bool floating, int sample_bits,
                 std::vector<InvalidValue>& values) {
   if (floating) return add(floatingOf(pattern), 0.0, values);
   add(static_cast<double>(pattern.bits), 0.0, values);
@@ -91,20 +67,21 @@ constexpr double kMostFill = 0.05;      ///< of the samples, the lowest or the h
 constexpr double kOutlierRoom = 0.5;    ///< of what all others span, beyond them
 constexpr std::int64_t kEnoughSamples = 1'000'000;
 
-/// Whether a sample is one, by the label's constants.
+/// Finds the samples without a value, by the label's constants.
 class Validity {
  public:
-  Validity(const std::vector<InvalidValue>& invalid, SampleType type) : invalid_(invalid) {
+  Validity(std::vector<InvalidValue> invalid, const SampleType& type)
+      : invalid_(std::move(invalid)) {
     constexpr double kLargest = std::numeric_limits<float>::max();
     // A constant written in decimals is the nearest number of the samples' type.
-    for (InvalidValue& one : invalid_)
-      if (type == SampleType::kFloat && std::abs(one.value) <= kLargest)
-        one.value = static_cast<double>(static_cast<float>(one.value));
+    for (InvalidValue& constant : invalid_)
+      if (type.floating && type.bits == 32 && std::abs(constant.value) <= kLargest)
+        constant.value = static_cast<double>(static_cast<float>(constant.value));
   }
   bool operator()(double sample) const {
     return std::isfinite(sample) &&
-           std::none_of(invalid_.begin(), invalid_.end(), [sample](const InvalidValue& one) {
-             return std::abs(sample - one.value) <= one.tolerance;
+           std::none_of(invalid_.begin(), invalid_.end(), [sample](const InvalidValue& constant) {
+             return std::abs(sample - constant.value) <= constant.tolerance;
            });
   }
 
@@ -122,8 +99,8 @@ struct Range {
 template <class Visit>
 void forValidSamples(const LabelRaster& raster, const Validity& valid, const Visit& visit) {
   std::vector<double> row;
-  for (int band = 0; band < raster.bands(); ++band)
-    for (int y = 0; y < raster.height(); ++y) {
+  for (int band = 0; band < raster.picture.bands; ++band)
+    for (int y = 0; y < raster.picture.height; ++y) {
       raster.readRow(band, y, row);
       for (const double sample : row)
         if (valid(sample)) visit(sample);
@@ -132,7 +109,8 @@ void forValidSamples(const LabelRaster& raster, const Validity& valid, const Vis
 
 Range rangeOf(const LabelRaster& raster, const Validity& valid) {
   Range range;
-  range.invalid_count = std::int64_t{raster.width()} * raster.height() * raster.bands();
+  range.invalid_count =
+      std::int64_t{raster.picture.width} * raster.picture.height * raster.picture.bands;
   forValidSamples(raster, valid, [&range](double sample) {
     --range.invalid_count;
     range.lowest = std::min(range.lowest, sample);
@@ -141,31 +119,20 @@ Range rangeOf(const LabelRaster& raster, const Validity& valid) {
   return range;
 }
 
-/// Samples to 16 bits.
-class Quantizer {
- public:
-  Quantizer(const Range& range, bool quantized)
-      : quantized_(quantized),
-        lowest_(0.5 * range.lowest),
-        span_(0.5 * range.highest - 0.5 * range.lowest) {}
-  /// Halves keep the difference of the largest numbers finite.
-  std::uint16_t operator()(double sample) const {
-    if (!quantized_) return static_cast<std::uint16_t>(sample);
-    if (!(span_ > 0.0)) return 0;
-    const double share = (0.5 * sample - lowest_) / span_;
-    return static_cast<std::uint16_t>(
-        std::clamp(std::floor(share * kLargestWhole + 0.5), 0.0, kLargestWhole));
-  }
+/// The lowest of the range becomes 0, the highest 65535. Halves keep the difference of the largest
+/// numbers finite.
+std::uint16_t quantized(double sample, const Range& range) {
+  const double span = 0.5 * range.highest - 0.5 * range.lowest;
+  if (!(span > 0.0)) return 0;
+  const double share = (0.5 * sample - 0.5 * range.lowest) / span;
+  return static_cast<std::uint16_t>(
+      std::clamp(std::floor(share * kLargestWhole + 0.5), 0.0, kLargestWhole));
+}
 
- private:
-  bool quantized_;
-  double lowest_;
-  double span_;
-};
-
-/// Every so many of the valid samples, enough to know between which values nearly all lie.
+/// Valid samples at equal steps, enough to know between which values nearly all lie.
 std::vector<double> someSamples(const LabelRaster& raster, const Validity& valid) {
-  const std::int64_t all = std::int64_t{raster.width()} * raster.height() * raster.bands();
+  const std::int64_t all =
+      std::int64_t{raster.picture.width} * raster.picture.height * raster.picture.bands;
   const std::int64_t step = (all / kEnoughSamples) | 1;  // odd: not one column of an even width
   std::vector<double> samples;
   std::int64_t number = 0;
@@ -215,30 +182,30 @@ std::uint16_t luma(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
   return static_cast<std::uint16_t>((9798u * red + 19235u * green + 3735u * blue + 16384u) >> 15);
 }
 
-void readValues(const LabelRaster& raster, const Validity& valid, const Quantizer& quantize,
-                std::vector<std::uint16_t>& values) {
-  const auto width = static_cast<std::size_t>(raster.width());
-  values.reserve(width * static_cast<std::size_t>(raster.height()));
+void readValues(const LabelRaster& raster, const Validity& valid, const Range& range,
+                LabelSamples& samples) {
+  const auto width = static_cast<std::size_t>(raster.picture.width);
+  samples.values.reserve(width * static_cast<std::size_t>(raster.picture.height));
   std::vector<double> row;
   std::vector<std::uint16_t> bands[3];
-  for (int y = 0; y < raster.height(); ++y) {
-    for (int band = 0; band < raster.bands(); ++band) {
+  for (int y = 0; y < raster.picture.height; ++y) {
+    for (int band = 0; band < raster.picture.bands; ++band) {
       raster.readRow(band, y, row);
-      bands[band].resize(width);
+      bands[band].assign(width, 0);
       for (std::size_t x = 0; x < width; ++x)
-        bands[band][x] = valid(row[x]) ? quantize(row[x]) : std::uint16_t{0};
+        if (valid(row[x]))
+          bands[band][x] =
+              samples.quantized ? quantized(row[x], range) : static_cast<std::uint16_t>(row[x]);
     }
-    if (raster.bands() == 1)
-      values.insert(values.end(), bands[0].begin(), bands[0].end());
-    else
-      for (std::size_t x = 0; x < width; ++x)
-        values.push_back(luma(bands[0][x], bands[1][x], bands[2][x]));
+    for (std::size_t x = 0; x < width; ++x)
+      samples.values.push_back(
+          raster.picture.bands == 1 ? bands[0][x] : luma(bands[0][x], bands[1][x], bands[2][x]));
   }
 }
 
 void requirePicture(const LabelFiles& files, const LabelRaster& raster,
                     const LabelReading& reading) {
-  const int bands = raster.bands();
+  const int bands = raster.picture.bands;
   if (bands != 1 && bands != 3)
     throw InputError(files.file, "the image has " + std::to_string(bands) +
                                      " bands; 1 (gray) or 3 (red, green, blue) are needed: write "
@@ -248,11 +215,10 @@ void requirePicture(const LabelFiles& files, const LabelRaster& raster,
         files.file, "the label calls this a " + reading.derived_type + ", not a picture in colour");
 }
 
-std::string ruleOf(const LabelSamples& samples, const Range& range, SampleType type) {
+std::string ruleOf(const LabelSamples& samples, const Range& range, const SampleType& type) {
   std::string rule;
   if (samples.quantized)
-    rule = std::string(sampleTypeName(type)) +
-           " v as q = floor((v - low) / (high - low) * 65535 + " + "0.5), low " +
+    rule = type.name() + " v as q = floor((v - low) / (high - low) * 65535 + " + "0.5), low " +
            numberText(range.lowest) + ", high " + numberText(range.highest) +
            (range.clipped_count == 0
                 ? ""
@@ -273,17 +239,17 @@ void addInvalidValues(const json* stated, bool floating, int sample_bits,
     if (const auto number = labelNumber(&one)) {
       const bool rounded = floating && std::abs(*number) >= kBeyondMeasurement;
       add(*number, rounded ? halfDigit(*number) : 0.0, values);
-    } else if (const auto pattern = patternOf(labelText(&one).value_or(""))) {
+    } else if (const auto pattern = bitPattern(labelText(&one).value_or(""))) {
       addPattern(*pattern, floating, sample_bits, values);
     }
   }
 }
 
 LabelSamples readLabelSamples(const LabelFiles& files) {
-  const LabelRaster raster(files);
+  const LabelRaster raster = openLabelRaster(files);
   const LabelReading reading = readLabel(files, raster);
   requirePicture(files, raster, reading);
-  const Validity valid(reading.invalid, raster.type());
+  const Validity valid(reading.invalid, raster.picture.type);
   Range range = rangeOf(raster, valid);
   if (!(range.lowest <= range.highest))
     throw InputError(files.file,
@@ -291,11 +257,11 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
                      "no numbers");
   LabelSamples samples;
   samples.container = labelFormatName(files.format);
-  samples.width = raster.width();
-  samples.height = raster.height();
-  samples.bands = raster.bands();
+  samples.width = raster.picture.width;
+  samples.height = raster.picture.height;
+  samples.bands = raster.picture.bands;
   samples.quantized =
-      isFloating(raster.type()) || range.lowest < 0.0 || range.highest > kLargestWhole;
+      raster.picture.type.floating || range.lowest < 0.0 || range.highest > kLargestWhole;
   ImageLabel label = reading.label;
   if (samples.quantized) {
     const Range whole = range;
@@ -306,17 +272,17 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
           numberText(whole.lowest) + " to " + numberText(whole.highest) + ") and are clipped to " +
           numberText(range.lowest) + " .. " + numberText(range.highest));
   }
-  samples.sample_bits = bitsOf(raster.type()) == 8 && !samples.quantized ? 8 : 16;
+  samples.sample_bits = raster.picture.type.bits == 8 && !samples.quantized ? 8 : 16;
   samples.highest = samples.quantized ? 65535 : static_cast<int>(range.highest);
   samples.invalid_count = range.invalid_count;
   if (samples.quantized) {
     samples.offset = range.lowest;
     samples.scale = (range.highest / kLargestWhole) - (range.lowest / kLargestWhole);
   }
-  samples.rule = ruleOf(samples, range, raster.type());
+  samples.rule = ruleOf(samples, range, raster.picture.type);
   samples.label = std::make_shared<const ImageLabel>(label);
   samples.sha256 = files.sha256;
-  readValues(raster, valid, Quantizer(range, samples.quantized), samples.values);
+  readValues(raster, valid, range, samples);
   return samples;
 }
 

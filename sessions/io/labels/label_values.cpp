@@ -194,6 +194,23 @@ std::string labelUnit(const json* value) {
   return "";
 }
 
+std::optional<BitPattern> bitPattern(std::string_view text) {
+  int base = 16;
+  if (text.starts_with("0x") || text.starts_with("0X")) {
+    text.remove_prefix(2);
+  } else {
+    const auto hash = text.find('#');
+    if (hash == std::string_view::npos) return std::nullopt;
+    base = numberIn<int>(text.substr(0, hash)).value_or(0);
+    if (base != 2 && base != 16) return std::nullopt;
+    text = text.substr(hash + 1);
+    if (text.ends_with('#')) text.remove_suffix(1);
+  }
+  const auto bits = numberIn<std::uint64_t>(text, base);
+  if (!bits) return std::nullopt;
+  return BitPattern{*bits, static_cast<int>(text.size()) * (base == 16 ? 4 : 1)};
+}
+
 std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of labels as people and programs wrote them: with units, blanks, line ends inside texts,
+// Values of labels as they were written: with units, blanks, line ends inside texts,
 // numbers as texts, and words for what is not there.
 #pragma once
 
@@ -51,6 +51,13 @@ std::optional<std::int64_t> labelInteger(const nlohmann::json* value);
 std::optional<Eigen::Vector3d> labelVector(const nlohmann::json* value);
 /// The unit of a value, upper case, "" without one; all units of a list, each once.
 std::string labelUnit(const nlohmann::json* value);
+
+/// Bits of a number as labels write them: 16#FF7FFFFB#, 0xFF7FFFFB or 2#1101#.
+struct BitPattern {
+  std::uint64_t bits = 0;
+  int width = 0;  ///< of the digits written, in bits
+};
+std::optional<BitPattern> bitPattern(std::string_view text);
 
 /// Several texts as one, separated by ", ".
 std::string joined(const std::vector<std::string>& texts);

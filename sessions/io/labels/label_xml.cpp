@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/labels/label_xml.h"
+#include "sessions/io/labels/label_files.h"
 
 #include <algorithm>
 #include <optional>

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-
 #include "sessions/annotation/landmarks.h"
 #include "sessions/annotation/marks_file.h"
 #include "sessions/evaluation/bop_scene.h"
@@ -191,68 +189,57 @@ TEST(ImageNames, AreRelativeToWhatHoldsAllImages) {
   EXPECT_FALSE(sessions::isEndOf("", "/data/b/7.png"));
 }
 
-std::string textOf(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+/// Both stations are marked, the marks of the OS one validated.
+class PoseExchange : public testing::Test {
+ protected:
+  PoseExchange() {
+    const auto subject = reviewSubject(session_, sessions::loadCase(*session_.findCase(os_)),
+                                       sessions::PoseSource::kAnnotation);
+    session_ =
+        validated(session_, subject, {JudgedCase::check("coverage", sessions::CheckState::kPassed)},
+                  {}, {"Ada", "right"});
+  }
+  TemporaryFolder folder_;
+  Session session_ = markedExample(0.1);
+  std::string os_ = caseOfStation(session_, "os");
+  std::string bc_ = caseOfStation(session_, "bc");
+};
 
-/// Both stations marked, the OS one's marks vouched for.
-Session halfValidated() {
-  const Session marked = markedExample(0.1);
-  const std::string id = caseOfStation(marked, "os");
-  const auto subject = reviewSubject(marked, sessions::loadCase(*marked.findCase(id)),
-                                     sessions::PoseSource::kAnnotation);
-  return validated(marked, subject, {JudgedCase::check("coverage", sessions::CheckState::kPassed)},
-                   {}, {"Ada", "right"});
-}
-
-TEST(PoseExchange, EveryFileSaysWhoValidatedAndWhatNobodyDid) {
-  const TemporaryFolder folder;
-  const Session session = halfValidated();
-  const std::string os = caseOfStation(session, "os");
-  const std::string bc = caseOfStation(session, "bc");
-  exportColmap(session, folder / "os", posesToHandOver(session, {os}));
-  exportColmap(session, folder / "bc", posesToHandOver(session, {bc}));
-  EXPECT_THAT(textOf(folder / "os" / "images.txt"), HasSubstr("image.png: validated by Ada"));
-  EXPECT_THAT(textOf(folder / "bc" / "images.txt"),
-              HasSubstr("image.png: NOT VALIDATED: annotated"));
-  exportBop(session, folder / "bop", posesToHandOver(session, {}));
-  const std::string truth = textOf(folder / "bop" / "scene_gt.json");
+TEST_F(PoseExchange, EveryFileSaysWhoValidatedAndWhatIsNotValidated) {
+  exportColmap(session_, folder_ / "os", posesToHandOver(session_, {os_}));
+  exportColmap(session_, folder_ / "bc", posesToHandOver(session_, {bc_}));
+  EXPECT_THAT(folder_.read("os/images.txt"), HasSubstr("image.png: validated by Ada"));
+  EXPECT_THAT(folder_.read("bc/images.txt"), HasSubstr("image.png: NOT VALIDATED: annotated"));
+  exportBop(session_, folder_ / "bop", posesToHandOver(session_, {}));
+  const std::string truth = folder_.read("bop/scene_gt.json");
   EXPECT_THAT(truth, HasSubstr("\"remark\": \"validated by Ada\""));
   EXPECT_THAT(truth, HasSubstr("\"remark\": \"NOT VALIDATED: annotated\""));
 }
 
-TEST(PoseExchange, ResultsThatNobodyValidatedNeedANameThatSaysSo) {
-  const TemporaryFolder folder;
-  const Session session = halfValidated();
-  const std::string os = caseOfStation(session, "os");
-  EXPECT_THROW(exportBopResults(session, folder / "r.csv", {}, 1), sessions::InputError);
-  EXPECT_FALSE(std::filesystem::exists(folder / "r.csv"));
-  EXPECT_EQ(exportBopResults(session, folder / "r.csv", {os}, 1).case_ids.size(), 1u);
-  EXPECT_EQ(
-      exportBopResults(session, folder / "a-NOT-VALIDATED_os-test.csv", {}, 7).case_ids.size(), 2u);
-  const auto read = readBopResults(folder / "a-NOT-VALIDATED_os-test.csv");
+TEST_F(PoseExchange, ResultsThatAreNotValidatedNeedANameThatSaysSo) {
+  EXPECT_THROW(exportBopResults(session_, folder_ / "r.csv", {}, 1), sessions::InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.csv"));
+  EXPECT_EQ(exportBopResults(session_, folder_ / "r.csv", {os_}, 1).case_ids.size(), 1u);
+  const auto named = folder_ / "a-NOT-VALIDATED_os-test.csv";
+  EXPECT_EQ(exportBopResults(session_, named, {}, 7).case_ids.size(), 2u);
+  const auto read = readBopResults(named);
   EXPECT_EQ(read[0].scene_id, 7);
   EXPECT_NE(read[0].object_id, read[1].object_id);
 }
 
-TEST(PoseExchange, APoseThatItsMarksDoNotGiveIsLeftOut) {
-  Session session = halfValidated();
-  const std::string os = caseOfStation(session, "os");
-  session.decisions.back().pose->camera_from_station.translation_m.z() = 0.5;
-  EXPECT_THROW(posesToHandOver(session, {os}), sessions::InputError);
-  const sessions::CasePoses others = posesToHandOver(session, {});
+TEST_F(PoseExchange, APoseThatItsMarksDoNotGiveIsLeftOut) {
+  session_.decisions.back().pose->camera_from_station.translation_m.z() = 0.5;
+  EXPECT_THROW(posesToHandOver(session_, {os_}), sessions::InputError);
+  const sessions::CasePoses others = posesToHandOver(session_, {});
   EXPECT_EQ(others.poses.size(), 1u);
   EXPECT_THAT(others.notes, testing::ElementsAre(HasSubstr("another pose comes out")));
 }
 
-TEST(PoseExchange, AnotherPoseOfAValidatedCaseIsNotTheValidatedOne) {
-  const TemporaryFolder folder;
-  const Session session = halfValidated();
-  sessions::CasePoses poses = posesToHandOver(session, {caseOfStation(session, "os")});
+TEST_F(PoseExchange, AnotherPoseOfAValidatedCaseIsNotTheValidatedOne) {
+  sessions::CasePoses poses = posesToHandOver(session_, {os_});
   poses.poses[0].camera_from_station.translation_m.x() += 1e-9;
-  exportColmap(session, folder / "os", poses);
-  EXPECT_THAT(textOf(folder / "os" / "images.txt"), HasSubstr("NOT VALIDATED: another pose"));
+  exportColmap(session_, folder_ / "os", poses);
+  EXPECT_THAT(folder_.read("os/images.txt"), HasSubstr("NOT VALIDATED: another pose"));
 }
 
 }  // namespace

@@ -20,6 +20,13 @@ namespace {
 using boresight::test::planetaryCameras;
 using boresight::test::TemporaryFolder;
 
+Camera cameraOf(const CahvModel& cahv, int width, int height) {
+  Camera camera;
+  Pose camera_from_reference;
+  EXPECT_EQ(cameraFromCahv(cahv, width, height, camera, camera_from_reference), Status::kOk);
+  return camera;
+}
+
 /// A camera with its optical axis along z, where CAHVOR is Brown's radial distortion but for what
 /// the inverse leaves of higher order.
 Camera cahvor(const Eigen::Vector3d& optical_axis) {
@@ -29,10 +36,7 @@ Camera cahvor(const Eigen::Vector3d& optical_axis) {
   cahv.v_px = {0.0, 990.0, 380.0};
   cahv.o = optical_axis.normalized();
   cahv.r = {0.0, -0.2, 0.05};
-  Camera camera;
-  Pose camera_from_reference;
-  EXPECT_EQ(cameraFromCahv(cahv, 1024, 768, camera, camera_from_reference), Status::kOk);
-  return camera;
+  return cameraOf(cahv, 1024, 768);
 }
 
 /// The pixel that OpenCV gives a point, by the file's own numbers.
@@ -67,14 +71,7 @@ std::vector<Camera> hazardCameras() {
   second.o = {0.7047929048180772, -0.000540999926938204, 0.7094129041941484};
   second.r = {8e-06, -0.013391, -0.007308};
   second.e_m = {0.001868, 0.001572, 0.001665};
-  std::vector<Camera> cameras;
-  for (const CahvModel& cahv : {first, second}) {
-    Camera camera;
-    Pose camera_from_reference;
-    EXPECT_EQ(cameraFromCahv(cahv, 1024, 1024, camera, camera_from_reference), Status::kOk);
-    cameras.push_back(camera);
-  }
-  return cameras;
+  return {cameraOf(first, 1024, 1024), cameraOf(second, 1024, 1024)};
 }
 
 TEST(CameraConversion, OfAnOpticalAxisAlongTheCamerasIsExact) {
@@ -113,10 +110,7 @@ TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
 
 TEST(CameraConversion, IsNoWorseThanAPinhole) {
   for (const auto& one : planetaryCameras()) {
-    Camera given;
-    Pose camera_from_reference;
-    ASSERT_EQ(cameraFromCahv(one.cahv, one.width, one.height, given, camera_from_reference),
-              Status::kOk);
+    const Camera given = cameraOf(one.cahv, one.width, one.height);
     if (isMirrored(given)) continue;
     const FittedCamera pinhole = fitCamera(given, CameraModel::kPinhole, 1.0);
     const FittedCamera brown = fitCamera(given, CameraModel::kBrownConrady, 1.0);
@@ -133,9 +127,7 @@ TEST(CameraConversion, OfAMovingPupilHoldsAtItsDistance) {
   cahv.e_m = {0.02, 0.0, 0.0};
   cahv.type = 3;
   cahv.parameter = 0.5;
-  Camera given;
-  Pose camera_from_reference;
-  ASSERT_EQ(cameraFromCahv(cahv, 640, 480, given, camera_from_reference), Status::kOk);
+  const Camera given = cameraOf(cahv, 640, 480);
   const FittedCamera near = fitCamera(given, CameraModel::kBrownConrady, 0.2);
   EXPECT_LT(near.worst_error_px, 0.05);
   EXPECT_GT(near.worst_error_far_px, 5.0 * near.worst_error_px);

@@ -21,12 +21,13 @@ using ::testing::HasSubstr;
 
 const FrameName kRover{"ROVER_FRAME", {194, 835, 1}};
 const FrameName kSite{"SITE_FRAME", {194}};
+const nlohmann::ordered_json kSiteJson = {{"name", "SITE_FRAME"}, {"index", {194}}};
 
 /// From the rover to the site: a quarter turn about z, and then some way.
 nlohmann::ordered_json transformJson() {
   return {{"format", "boresight-transform"},
           {"version", 1},
-          {"target", {{"name", "SITE_FRAME"}, {"index", {194}}}},
+          {"target", kSiteJson},
           {"source", {{"name", "ROVER_FRAME"}, {"index", {194, 835, 1}}}},
           {"target_from_source",
            {{0.0, -1.0, 0.0, 10.0}, {1.0, 0.0, 0.0, 20.0}, {0.0, 0.0, 1.0, -3.0}, {0, 0, 0, 1}}},
@@ -96,7 +97,6 @@ TEST_F(FrameTransforms, NamesWhatIsWrong) {
 
 TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {
   const CameraReference camera = roverCamera();
-  const nlohmann::ordered_json site = {{"name", "SITE_FRAME"}, {"index", {194}}};
   // By hand: (1, 2, 3) of the site less (10, 20, -3), turned back by a quarter.
   const Eigen::Vector3d in_rover(2.0 - 20.0, -(1.0 - 10.0), 6.0);
   const Eigen::Vector3d in_camera = camera.camera_from_reference * in_rover;
@@ -105,7 +105,7 @@ TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {
   std::swap(backward.target, backward.source);
   backward.target_from_source = forward.target_from_source.inverse();
   for (const FrameTransform& given : {forward, backward}) {
-    const PoseFile pose = read(site, {camera, {given}});
+    const PoseFile pose = read(kSiteJson, {camera, {given}});
     EXPECT_LT((pose.camera_from_station.translation_m - in_camera).norm(), 1e-12);
     EXPECT_EQ(pose.station_frame->frame, kSite);
     ASSERT_TRUE(pose.station_frame->joined_by);
@@ -115,12 +115,11 @@ TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {
 }
 
 TEST_F(FrameTransforms, ThatContradictEachOtherAreRefused) {
-  const nlohmann::ordered_json site = {{"name", "SITE_FRAME"}, {"index", {194}}};
   const FrameTransform first = transform();
   FrameTransform second = first;
   second.file = "sol13.json";
   second.target_from_source.translation_m.x() += 5e-7;  // rounded otherwise
-  EXPECT_EQ(read(site, {roverCamera(), {second, first}}).station_frame->joined_by->file,
+  EXPECT_EQ(read(kSiteJson, {roverCamera(), {second, first}}).station_frame->joined_by->file,
             "sol13.json");
   for (const bool inverse : {false, true}) {
     second = first;
@@ -130,7 +129,7 @@ TEST_F(FrameTransforms, ThatContradictEachOtherAreRefused) {
       std::swap(second.target, second.source);
       second.target_from_source = second.target_from_source.inverse();
     }
-    EXPECT_THAT(poseError(site, {roverCamera(), {first, second}}),
+    EXPECT_THAT(poseError(kSiteJson, {roverCamera(), {first, second}}),
                 EndsWith("sol12.json and sol13.json lead from SITE_FRAME (194) to ROVER_FRAME "
                          "(194, 835, 1) by different numbers; give the one that holds"));
   }
@@ -144,7 +143,7 @@ TEST_F(FrameTransforms, PoseIsGivenInOneOfTheTwoWays) {
   EXPECT_THAT(folder_.message([&] {
     (void)readPose(file, {roverCamera(), {}});
   }),
-              HasSubstr("reference_from_station: stands beside camera_from_station"));
+              HasSubstr("reference_from_station: given together with camera_from_station"));
 }
 
 TEST_F(FrameTransforms, AreNotAskedForInTheCamerasOwnFrame) {
@@ -173,11 +172,10 @@ TEST_F(FrameTransforms, FramesOfOneNameAndAnotherIndexAreTwo) {
 }
 
 TEST_F(FrameTransforms, AreNeverGuessed) {
-  const nlohmann::ordered_json site = {{"name", "SITE_FRAME"}, {"index", {194}}};
   CameraReference nameless = roverCamera();
   nameless.frame = {};
-  EXPECT_THAT(poseError(site, {nameless, {transform()}}), HasSubstr("a frame without a name"));
-  EXPECT_THAT(poseError(site, {std::nullopt, {transform()}}),
+  EXPECT_THAT(poseError(kSiteJson, {nameless, {transform()}}), HasSubstr("a frame without a name"));
+  EXPECT_THAT(poseError(kSiteJson, {std::nullopt, {transform()}}),
               HasSubstr("needs a camera of the CAHV family"));
   const auto file = folder_.write(
       "seed.json", R"({"format": "boresight-pose", "version": 1, "camera_from_station":

@@ -50,6 +50,22 @@ std::uint8_t byRule(double v, int n) {
   return static_cast<std::uint8_t>(std::floor(v * 255.0 / (std::pow(2.0, n) - 1.0) + 0.5));
 }
 
+/// Expects every pixel to be the rule's of the source's sample.
+template <class Sample>
+void expectByRule(const GrayImage& image, const cv::Mat& source, int n) {
+  ASSERT_EQ(cv::Size(image.width, image.height), source.size());
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x)
+      ASSERT_EQ(image.view().at(x, y), byRule(source.at<Sample>(y, x), n)) << x << ' ' << y;
+}
+
+/// Random samples of 12 bits.
+cv::Mat twelveBits() {
+  cv::Mat image = randomImage(CV_16UC1);
+  cv::bitwise_and(image, cv::Scalar(0x0fff), image);
+  return image;
+}
+
 class ReadImage : public ::testing::Test {
  protected:
   GrayImage read(const Bytes& bytes, const ImageReadOptions& options = {}) {
@@ -75,11 +91,9 @@ TEST_F(ReadImage, KeepsGrayBytesAsTheyAre) {
   for (const char* extension : {".png", ".tiff"}) {
     const Bytes bytes = encoded(source, extension);
     const GrayImage image = read(bytes);
-    ASSERT_EQ(image.width, source.cols);
-    ASSERT_EQ(image.height, source.rows);
-    for (int y = 0; y < source.rows; ++y)
-      for (int x = 0; x < source.cols; ++x)
-        ASSERT_EQ(image.view().at(x, y), source.at<std::uint8_t>(y, x)) << extension;
+    expectByRule<std::uint8_t>(image, source, 8);
+    EXPECT_TRUE(image.color.empty());
+    EXPECT_EQ(image.colorView().data, nullptr);
     EXPECT_EQ(image.rule, "8-bit values as they are");
     EXPECT_EQ(image.bit_depth, 8);
     EXPECT_FALSE(image.bit_depth_stated);
@@ -97,7 +111,7 @@ TEST_F(ReadImage, ReadsJpegAsOpenCvDoes) {
   EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr()));
 }
 
-TEST_F(ReadImage, TurnsColourGrayAsOpenCvDoes) {
+TEST_F(ReadImage, TurnsColourGrayAsOpenCvDoesAndKeepsIt) {
   const cv::Mat source = randomImage(CV_8UC3);
   cv::Mat expected;
   cv::cvtColor(source, expected, cv::COLOR_BGR2GRAY);
@@ -107,22 +121,11 @@ TEST_F(ReadImage, TurnsColourGrayAsOpenCvDoes) {
     EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr())) << extension;
     EXPECT_EQ(image.rule,
               "luma (9798 R + 19235 G + 3735 B + 16384) >> 15; 8-bit values as they are");
+    EXPECT_TRUE(std::equal(image.color.begin(), image.color.end(), source.ptr(),
+                           source.ptr() + 3 * source.total()));
+    EXPECT_EQ(image.colorView().stride, 3 * source.cols);
+    EXPECT_EQ(image.colorView().data, image.color.data());
   }
-}
-
-TEST_F(ReadImage, ColorImage_KeepsItsChannels) {
-  const cv::Mat source = randomImage(CV_8UC3);
-  const GrayImage image = read(encoded(source, ".png"));
-  EXPECT_TRUE(std::equal(image.color.begin(), image.color.end(), source.ptr(),
-                         source.ptr() + 3 * source.total()));
-  EXPECT_EQ(image.colorView().stride, 3 * source.cols);
-  EXPECT_EQ(image.colorView().data, image.color.data());
-}
-
-TEST_F(ReadImage, GrayImage_HasNoColor) {
-  const GrayImage image = read(encoded(randomImage(CV_8UC1), ".png"));
-  EXPECT_TRUE(image.color.empty());
-  EXPECT_EQ(image.colorView().data, nullptr);
 }
 
 TEST_F(ReadImage, DropsAlpha) {
@@ -147,16 +150,12 @@ TEST_F(ReadImage, ScalesSixteenBits) {
     EXPECT_EQ(image.bit_depth, 16);
     EXPECT_FALSE(image.bit_depth_stated);
     EXPECT_EQ(image.rule, "floor(v * 255 / (2^16 - 1) + 0.5), bit depth that of the file");
-    for (int y = 0; y < source.rows; ++y)
-      for (int x = 0; x < source.cols; ++x)
-        ASSERT_EQ(image.view().at(x, y), byRule(source.at<std::uint16_t>(y, x), 16)) << extension;
+    expectByRule<std::uint16_t>(image, source, 16);
   }
 }
 
 TEST_F(ReadImage, ScalesBetweenLevels) {
-  cv::Mat source = randomImage(CV_16UC1);
-  for (int y = 0; y < source.rows; ++y)
-    for (int x = 0; x < source.cols; ++x) source.at<std::uint16_t>(y, x) &= 0x0fff;
+  const cv::Mat source = twelveBits();
   ImageReadOptions options{12};
   options.levels = GrayLevels{300, 1500};
   const GrayImage image = read(encoded(source, ".png"), options);
@@ -195,24 +194,18 @@ TEST_F(ReadImage, TakesLumaOfSixteenBitColourBeforeScaling) {
   cv::Mat luma;
   cv::cvtColor(source, luma, cv::COLOR_BGR2GRAY);
   const GrayImage image = read(encoded(source, ".png"));
-  for (int y = 0; y < source.rows; ++y)
-    for (int x = 0; x < source.cols; ++x)
-      ASSERT_EQ(image.view().at(x, y), byRule(luma.at<std::uint16_t>(y, x), 16));
+  expectByRule<std::uint16_t>(image, luma, 16);
   ASSERT_EQ(image.color.size(), 3 * source.total());
   for (std::size_t i = 0; i < image.color.size(); ++i)
     ASSERT_EQ(image.color[i], byRule(source.ptr<std::uint16_t>()[i], 16));
 }
 
 TEST_F(ReadImage, UsesAStatedBitDepth) {
-  cv::Mat source = randomImage(CV_16UC1);
-  for (int y = 0; y < source.rows; ++y)
-    for (int x = 0; x < source.cols; ++x) source.at<std::uint16_t>(y, x) &= 0x0fff;
+  const cv::Mat source = twelveBits();
   const GrayImage image = read(encoded(source, ".png"), {12});
   EXPECT_TRUE(image.bit_depth_stated);
   EXPECT_EQ(image.rule, "floor(v * 255 / (2^12 - 1) + 0.5), bit depth stated");
-  for (int y = 0; y < source.rows; ++y)
-    for (int x = 0; x < source.cols; ++x)
-      ASSERT_EQ(image.view().at(x, y), byRule(source.at<std::uint16_t>(y, x), 12));
+  expectByRule<std::uint16_t>(image, source, 12);
 }
 
 TEST_F(ReadImage, RefusesABitDepthThatThePixelsContradict) {
@@ -232,7 +225,7 @@ TEST_F(ReadImage, RefusesWhatIsNotAnImage) {
   const std::string text = "{\"format\": \"boresight-pose\"}";
   const std::string none =
       "image: not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
-      "in it or beside it";
+      "in it or next to it";
   EXPECT_EQ(error(Bytes(text.begin(), text.end())), none);
   EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".bmp")), none);
   cv::Mat real(4, 4, CV_32FC1, cv::Scalar(1.0));

@@ -28,15 +28,33 @@ using ::testing::StartsWith;
 using ::testing::UnorderedElementsAreArray;
 using namespace boresight::sessions::test;  // NOLINT: the samples are this file's vocabulary
 
-double signedVolume_m3(const Mesh& mesh) {
-  double volume = 0.0;
+/// Sum over the faces of what `part` makes of their corners.
+template <class Part>
+double sumOver(const Mesh& mesh, Part&& part) {
+  double sum = 0.0;
   for (const Face& face : mesh.faces) {
     const auto corner = [&](std::size_t i) -> Eigen::Vector3d {
       return mesh.vertices_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
     };
-    volume += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
+    sum += part(corner(0), corner(1), corner(2));
   }
-  return volume;
+  return sum;
+}
+
+double signedVolume_m3(const Mesh& mesh) {
+  using V = const Eigen::Vector3d&;
+  return sumOver(mesh, [](V a, V b, V c) { return a.dot(b.cross(c)) / 6.0; });
+}
+
+double area_m2(const Mesh& mesh) {
+  using V = const Eigen::Vector3d&;
+  return sumOver(mesh, [](V a, V b, V c) { return 0.5 * (b - a).cross(c - a).norm(); });
+}
+
+Status validity(const Mesh& mesh) {
+  const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), 0);
+  const std::array<ScenePart, 1> parts = {};
+  return validateMesh({mesh.vertices_m, mesh.faces, part_of_face, parts});
 }
 
 class ReadMesh : public ::testing::Test {
@@ -51,17 +69,6 @@ class ReadMesh : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-double area_m2(const Mesh& mesh) {
-  double doubled = 0.0;
-  for (const Face& face : mesh.faces) {
-    const auto corner = [&](std::size_t i) -> Eigen::Vector3d {
-      return mesh.vertices_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
-    };
-    doubled += (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-  }
-  return 0.5 * doubled;
-}
-
 /// A closed, outward cube whatever the format: 8 vertices, 12 faces, the right place and volume.
 void expectCube(const Mesh& mesh, double scale = 1.0) {
   EXPECT_EQ(mesh.vertices_m.size(), 8u);
@@ -70,10 +77,7 @@ void expectCube(const Mesh& mesh, double scale = 1.0) {
   EXPECT_TRUE(mesh.info.maximum_m.isApprox(scale * Eigen::Vector3d(1, 1, 11), 1e-6));
   EXPECT_NEAR(signedVolume_m3(mesh) / std::pow(scale, 3), 8.0, 1e-5);
   EXPECT_NEAR(area_m2(mesh) / (scale * scale), 24.0, 1e-5);
-  const std::array<std::uint16_t, 1> part = {0};
-  const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), part[0]);
-  const std::array<ScenePart, 1> parts = {};
-  EXPECT_EQ(validateMesh({mesh.vertices_m, mesh.faces, part_of_face, parts}), Status::kOk);
+  EXPECT_EQ(validity(mesh), Status::kOk);
 }
 
 TEST_F(ReadMesh, ReadsEveryFormat) {
@@ -86,8 +90,7 @@ TEST_F(ReadMesh, ReadsEveryFormat) {
   expectCube(read("tricky.stl", binaryStl(cube(), "solid but binary")));
   expectCube(read("ascii.stl", asciiStl(cube())));
   expectCube(read("cube.glb", glb(cube(), node), ""));
-  std::size_t count = 0;
-  folder_.write("cube.bin", gltfBuffer(cube(), &count));
+  folder_.write("cube.bin", gltfBuffer(cube()));
   expectCube(read("cube.gltf", gltf(cube(), node, R"("uri":"cube.bin",)"), ""));
 }
 
@@ -209,8 +212,7 @@ TEST_F(ReadMesh, ReadsNothingButTheGeometryOfGltf) {
     return json.replace(json.find("\"asset\":"), 8, rest);
   };
   const std::string nodes = R"([{"mesh":0,"skin":0,"camera":-1,"extras":[[]]}])";
-  std::size_t count = 0;
-  folder_.write("cube.bin", gltfBuffer(cube(), &count));
+  folder_.write("cube.bin", gltfBuffer(cube()));
   expectCube(read("cube.gltf", with(gltf(cube(), nodes, R"("uri":"cube.bin",)")), ""));
   expectCube(read("cube.glb", glb(cube(), nodes), ""));
 }
@@ -241,16 +243,12 @@ class GltfBuffer : public ReadMesh {
     return error("mesh/cube.gltf", gltf(cube(), R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"),
                  "");
   }
-  std::string bytes() const {
-    std::size_t count = 0;
-    return gltfBuffer(cube(), &count);
-  }
 };
 
 TEST_F(GltfBuffer, IsReadOnlyInTheMeshsFolder) {
-  const auto outside = folder_.write("outside.bin", bytes());
-  folder_.write("mesh/inside.bin", bytes());
-  folder_.write("mesh/below/cube 1.bin", bytes());
+  const auto outside = folder_.write("outside.bin", gltfBuffer(cube()));
+  folder_.write("mesh/inside.bin", gltfBuffer(cube()));
+  folder_.write("mesh/below/cube 1.bin", gltfBuffer(cube()));
   std::filesystem::create_symlink("../outside.bin", folder_ / "mesh/link.bin");
   std::filesystem::create_symlink("..", folder_ / "mesh/up");
   std::filesystem::create_symlink("inside.bin", folder_ / "mesh/alias.bin");
@@ -284,7 +282,7 @@ TEST_F(GltfBuffer, TogetherWithTheOthersIsNotLargerThanAMeshMayBe) {
 
 /// Importers read other files by themselves where they are let.
 TEST_F(GltfBuffer, OfABinaryFileIsNotReadFromElsewhere) {
-  folder_.write("cube.bin", bytes());
+  folder_.write("cube.bin", gltfBuffer(cube()));
   std::string json =
       gltf(cube(), R"([{"mesh":0}])", R"("uri":")" + (folder_ / "cube.bin").string() + R"(",)");
   json.resize((json.size() + 3) / 4 * 4, ' ');
@@ -300,8 +298,7 @@ TEST_F(ReadMesh, HashesTheFileAndTheBuffersOfGltf) {
   const std::string text = asciiPly(cube());
   const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   EXPECT_EQ(read("mesh.ply", text).info.file_sha256, sha256Text(bytes));
-  std::size_t count = 0;
-  std::string buffer = gltfBuffer(cube(), &count);
+  std::string buffer = gltfBuffer(cube());
   folder_.write("mesh.bin", buffer);
   const std::string scene = gltf(cube(), R"([{"mesh":0}])", R"("uri":"mesh.bin",)");
   const std::string before = read("mesh.gltf", scene, "").info.file_sha256;
@@ -414,8 +411,7 @@ TEST_F(ReadMesh, RefusesEveryTruncation) {
   }
   EXPECT_EQ(error("cut.ply", binaryPly(cube(), false).substr(0, 300)),
             "cut.ply: the PLY mesh is truncated");
-  std::size_t count = 0;
-  folder_.write("cut.bin", gltfBuffer(cube(), &count).substr(0, 100));
+  folder_.write("cut.bin", gltfBuffer(cube()).substr(0, 100));
   EXPECT_NE(error("cut.gltf", gltf(cube(), R"([{"mesh":0}])", R"("uri":"cut.bin",)"), ""),
             "(nothing)");
 }
@@ -488,10 +484,7 @@ TEST_F(ReadMesh, SurvivesDamagedFiles) {
         damaged[random.below(static_cast<std::uint32_t>(damaged.size()))] =
             static_cast<char>(random.below(256));
       try {
-        const Mesh mesh = read(name, damaged);
-        const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), 0);
-        const std::array<ScenePart, 1> parts = {};
-        EXPECT_EQ(validateMesh({mesh.vertices_m, mesh.faces, part_of_face, parts}), Status::kOk);
+        EXPECT_EQ(validity(read(name, damaged)), Status::kOk);
       } catch (const InputError&) {
       }
     }

@@ -120,17 +120,16 @@ inline std::string asciiStl(const PolygonMesh& mesh) {
 }
 
 /// Positions, then 32-bit indices: the buffer of the glTF files below.
-inline std::string gltfBuffer(const PolygonMesh& mesh, std::size_t* index_count) {
+inline std::string gltfBuffer(const PolygonMesh& mesh, std::size_t* index_count = nullptr) {
   std::string bytes;
   for (const Eigen::Vector3f& v : mesh.vertices)
     for (int axis = 0; axis < 3; ++axis) appendNumber(bytes, v[axis], false);
-  *index_count = 0;
+  const std::size_t positions = bytes.size();
   for (const auto& polygon : mesh.polygons)
     for (std::size_t i = 2; i < polygon.size(); ++i)
-      for (const std::size_t corner : {std::size_t{0}, i - 1, i}) {
+      for (const std::size_t corner : {std::size_t{0}, i - 1, i})
         appendNumber(bytes, static_cast<std::uint32_t>(polygon[corner]), false);
-        ++*index_count;
-      }
+  if (index_count != nullptr) *index_count = (bytes.size() - positions) / 4;
   return bytes;
 }
 
@@ -165,8 +164,7 @@ inline std::string gltf(const PolygonMesh& mesh, const std::string& nodes,
 inline std::string glb(const PolygonMesh& mesh, const std::string& nodes) {
   std::string json = gltf(mesh, nodes, "");
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::size_t index_count = 0;
-  const std::string buffer = gltfBuffer(mesh, &index_count);
+  const std::string buffer = gltfBuffer(mesh);
   std::string bytes = "glTF";
   appendNumber(bytes, std::uint32_t{2}, false);
   appendNumber(bytes, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + buffer.size()), false);

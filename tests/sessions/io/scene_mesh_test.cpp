@@ -101,25 +101,20 @@ TEST_F(SceneMeshTest, SuspectsAWrongUnit) {
 }
 
 TEST_F(SceneMeshTest, NamesTheFileOfAWrongUnit) {
-  SceneMesh scene;
   Mesh large = cube_;
   for (Eigen::Vector3f& vertex : large.vertices_m) vertex *= 100.0F;
-  addPart(scene, large, Pose(), ScenePart());
-  EXPECT_EQ(folder_.message(
-                [&] { requirePlausibleScale(scene, turned(0.0, Eigen::Vector3d(0, 0, 0.4))); }),
-            "(nothing)")
-      << "the camera is 900 m from the box";
-  EXPECT_EQ(folder_.message(
-                [&] { requirePlausibleScale(scene, turned(0.0, Eigen::Vector3d(0, 0, -900.5))); }),
-            "(nothing)");
-  Mesh around = large;
-  for (Eigen::Vector3f& vertex : around.vertices_m) vertex.z() -= 1000.0F;
-  SceneMesh bad;
-  addPart(bad, around, Pose(), ScenePart());
-  EXPECT_EQ(
-      folder_.message([&] { requirePlausibleScale(bad, turned(0.0, Eigen::Vector3d(0, 0, 0.4))); }),
-      "cube.ply: mesh_unit: the mesh measures 346.4 m across, but the seed's camera is 400 mm "
-      "away (unit 'm'): is the unit right?");
+  const auto message = [&](double z_m) {
+    SceneMesh scene;
+    addPart(scene, large, Pose(), ScenePart());
+    return folder_.message(
+        [&] { requirePlausibleScale(scene, turned(0.0, Eigen::Vector3d(0, 0, z_m))); });
+  };
+  EXPECT_EQ(message(0.4), "(nothing)") << "the camera is 900 m from the box";
+  EXPECT_EQ(message(-900.5), "(nothing)");
+  for (Eigen::Vector3f& vertex : large.vertices_m) vertex.z() -= 1000.0F;
+  EXPECT_EQ(message(0.4),
+            "cube.ply: mesh_unit: the mesh measures 346.4 m across, but the seed's camera is 400 "
+            "mm away (unit 'm'): is the unit right?");
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <span>
 
-#include "sessions/run/runner.h"
-#include "tests/support/example_case.h"
+#include "tests/sessions/record/recorded_run.h"
 
 namespace boresight::test {
 namespace {
@@ -18,32 +18,7 @@ using sessions::RecordComparison;
 using sessions::RunPart;
 using sessions::RunVerdict;
 
-/// The record of a run of the example, as a change makes it.
-OnboardRecord recordOf(ExampleCase& example, const LocalizerOptions& options,
-                       std::size_t bytes_kept = SIZE_MAX) {
-  std::vector<std::uint8_t> bytes(65536);
-  RecordWriter record(bytes);
-  sessions::RunSettings settings;
-  settings.onboard_record = &record;
-  const LocalizationProblem problem = example.problem();
-  (void)sessions::localize(problem, sessions::RunPlan(options), settings);
-  const auto written = record.bytes();
-  return sessions::parseRecord("run.whsr", written.first(std::min(written.size(), bytes_kept)));
-}
-
-LocalizerOptions exampleOptions() {
-  LocalizerOptions options = defaultProfile();
-  options.templates.feature_size_m = 0.018;
-  return options;
-}
-
-const OnboardRecord& reference() {
-  static const OnboardRecord made = [] {
-    ExampleCase example("os");
-    return recordOf(example, exampleOptions());
-  }();
-  return made;
-}
+const OnboardRecord& reference() { return exampleRun().run.record; }
 
 TEST(CompareRecords, ARunIsEqualToItself) {
   const RecordComparison found = compareRecords(reference(), reference());
@@ -51,12 +26,11 @@ TEST(CompareRecords, ARunIsEqualToItself) {
   EXPECT_FALSE(found.first);
   EXPECT_EQ(found.translation_mm, 0.0);
   EXPECT_THAT(comparisonText(found), testing::HasSubstr("equal to the bit"));
-  ExampleCase again("os");
-  EXPECT_EQ(compareRecords(reference(), recordOf(again, exampleOptions())).verdict,
-            RunVerdict::kEqual);
+  const RecordedRun again = recordRun(exampleRun().problem, recordedOptions());
+  EXPECT_EQ(compareRecords(reference(), again.record).verdict, RunVerdict::kEqual);
 }
 
-/// Whatever one thing is changed in a copy is what is found first.
+/// Each change of one value in a copy is the first difference found.
 TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
   struct Change {
     RunPart part;
@@ -107,7 +81,7 @@ TEST(CompareRecords, OtherPixelsAreHeldToTheLimits) {
   for (std::size_t i = 0; i < noisy.image.pixels.size(); i += 7)
     noisy.image.pixels[i] = static_cast<std::uint8_t>(
         std::clamp(noisy.image.pixels[i] + (i % 2 == 0 ? 2 : -2), 0, 255));
-  const OnboardRecord other = recordOf(noisy, exampleOptions());
+  const OnboardRecord other = recordRun(noisy.problem(), recordedOptions()).record;
   const RecordComparison found = compareRecords(reference(), other);
   ASSERT_TRUE(found.first);
   EXPECT_EQ(found.first->part, RunPart::kPixels);
@@ -124,8 +98,8 @@ TEST(CompareRecords, OtherPixelsAreHeldToTheLimits) {
 }
 
 TEST(CompareRecords, ACutRecordIsComparedAsFarAsItGoes) {
-  ExampleCase example("os");
-  const OnboardRecord cut = recordOf(example, exampleOptions(), 4000);
+  const OnboardRecord cut =
+      sessions::parseRecord("cut.whsr", std::span(exampleRun().run.bytes).first(4000));
   ASSERT_FALSE(cut.whole());
   const RecordComparison found = compareRecords(reference(), cut);
   EXPECT_FALSE(found.first) << found.first->text;

@@ -19,23 +19,6 @@ using sessions::parseRecord;
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-/// The example's run, recorded and traced.
-struct ExampleRun {
-  ExampleCase example{"os"};
-  LocalizationProblem problem = example.problem();
-  LocalizerOptions options = recordedOptions();
-  RecordedRun run;
-  Bytes bytes;
-
-  explicit ExampleRun(std::size_t room = 65536)
-      : run(recordRun(problem, options, room)), bytes(run.bytes) {}
-};
-
-const ExampleRun& exampleRun() {
-  static const ExampleRun run;
-  return run;
-}
-
 void expectSameTemplates(const sessions::RecordedIteration& read,
                          const sessions::IterationTrace& traced) {
   ASSERT_EQ(read.templates.has_value(), !traced.templates.empty());
@@ -69,7 +52,7 @@ TEST(OnboardRecord, SaysWhatTheRunDid) {
   const sessions::LocalizationTrace& trace = example.run.trace;
   const OnboardRecord& read = example.run.record;
   EXPECT_TRUE(read.whole()) << read.missing.front();
-  EXPECT_LT(example.bytes.size(), 65536u);
+  EXPECT_LT(example.run.bytes.size(), 65536u);
   ASSERT_TRUE(read.inputs && read.end);
   EXPECT_EQ(read.inputs->width, example.example.camera.width);
   EXPECT_EQ(read.inputs->camera_from_station_seed, trace.camera_from_station_seed);
@@ -87,11 +70,11 @@ TEST(OnboardRecord, SaysWhatTheRunDid) {
 }
 
 TEST(OnboardRecord, HasEveryOption) {
-  const ExampleRun& run = exampleRun();
-  const OnboardRecord read = parseRecord("r.whsr", run.bytes);
+  const OnboardRecord& read = exampleRun().run.record;
   ASSERT_EQ(read.options.size(), 1u);
   std::size_t i = 0;
-  LocalizerOptions::visitFields(run.options, [&](const OptionInfo& info, const auto& field) {
+  const LocalizerOptions given = recordedOptions();
+  LocalizerOptions::visitFields(given, [&](const OptionInfo& info, const auto& field) {
     ASSERT_LT(i, read.options[0].options.size());
     const sessions::RecordedOption& option = read.options[0].options[i++];
     EXPECT_EQ(option.name, info.name);
@@ -133,8 +116,8 @@ std::vector<std::size_t> blockEnds(const Bytes& bytes) {
 }
 
 TEST(OnboardRecord, CutOffAnywhereYieldsAllBefore) {
-  const ExampleRun& run = exampleRun();
-  const OnboardRecord whole = parseRecord("r.whsr", run.bytes);
+  const RecordedRun& run = exampleRun().run;
+  const OnboardRecord& whole = run.record;
   const std::vector<std::size_t> ends = blockEnds(run.bytes);
   ASSERT_EQ(ends.back(), run.bytes.size());
   std::size_t blocks = 0;  // that are whole
@@ -161,8 +144,8 @@ TEST(OnboardRecord, CutOffAnywhereYieldsAllBefore) {
 }
 
 TEST(OnboardRecord, FlippedBitsAreNeverTaken) {
-  const ExampleRun& run = exampleRun();
-  const OnboardRecord whole = parseRecord("r.whsr", run.bytes);
+  const RecordedRun& run = exampleRun().run;
+  const OnboardRecord& whole = run.record;
   const std::vector<std::size_t> ends = blockEnds(run.bytes);
   Random random = randomFor("OnboardRecord.Flips");
   for (int trial = 0; trial < 3000; ++trial) {
@@ -194,20 +177,19 @@ TEST(OnboardRecord, FlippedBitsAreNeverTaken) {
 }
 
 TEST(OnboardRecord, SaysWhatFoundNoRoom) {
-  const ExampleRun& whole = exampleRun();
-  const ExampleRun small(whole.bytes.size() / 2);
-  const OnboardRecord read = parseRecord("r.whsr", small.bytes);
+  const RecordedRun& whole = exampleRun().run;
+  const OnboardRecord read =
+      recordRun(exampleRun().problem, recordedOptions(), whole.bytes.size() / 2).record;
   EXPECT_FALSE(read.whole());
   ASSERT_TRUE(read.end);
-  EXPECT_EQ(read.end->digest, whole.run.trace.digest);
+  EXPECT_EQ(read.end->digest, whole.trace.digest);
   EXPECT_THAT(read.missing, testing::Contains(HasSubstr("found no room on board")));
 }
 
 TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
-  const ExampleRun& run = exampleRun();
-  LocalizerOptions other = run.options;
+  LocalizerOptions other = recordedOptions();
   other.loop.render_again_px = 5.0;
-  const RecordedRun changed = recordRun(run.problem, {run.options, {{2, other}}});
+  const RecordedRun changed = recordRun(exampleRun().problem, {recordedOptions(), {{2, other}}});
   const OnboardRecord& read = changed.record;
   EXPECT_TRUE(read.whole());
   ASSERT_EQ(read.options.size(), 2u);
@@ -218,7 +200,7 @@ TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
 
 TEST(OnboardRecord, RefusesOtherFiles) {
   const TemporaryFolder folder;
-  const ExampleRun& run = exampleRun();
+  const RecordedRun& run = exampleRun().run;
   const auto message = [&](const Bytes& bytes) {
     const auto file = folder.write("r.whsr", bytes);
     return folder.message([&] { (void)sessions::readRecord(file); });

@@ -95,9 +95,8 @@ std::array<std::int32_t, 7> countsOf(const EdgeSupport& support) {
 }
 
 TEST(RecordOfRun, IsWhatTheFlightSideWrote) {
-  const ExampleCase example("os");
-  const LocalizationProblem problem = example.problem();
-  const RecordedRun run = recordRun(problem, recordedOptions());
+  const LocalizationProblem& problem = exampleRun().problem;
+  const RecordedRun& run = exampleRun().run;
   const OnboardRecord made = recordOf(run.trace, &problem);
   EXPECT_TRUE(made.whole());
   expectEqual(made, run.record);
@@ -112,24 +111,20 @@ TEST(RecordOfRun, IsWhatTheFlightSideWrote) {
 
 /// Attempts that failed, hypotheses, options taken up on the way, and stages that were not reached.
 TEST(RecordOfRun, OfRunsThatFailToo) {
-  const ExampleCase example("os");
-  const LocalizationProblem problem = example.problem();
+  const LocalizationProblem& problem = exampleRun().problem;
   std::vector<RunPlan> plans;
-  LocalizerOptions options = recordedOptions();
-  options.support.min_support = 1.0;
-  plans.emplace_back(options);
-  options = recordedOptions();
-  options.pnp.min_inliers = 80;
-  plans.emplace_back(options);
-  options = recordedOptions();
-  options.templates.count = 4;  // fewer than a run needs
-  plans.emplace_back(options);
-  options = recordedOptions();
-  options.render.max_edge_pixels = 1000;
-  plans.emplace_back(options);
-  options = recordedOptions();
-  options.loop.render_again_px = 5.0;
-  plans.push_back(RunPlan(recordedOptions(), {{2, options}, {90, recordedOptions()}}));
+  const auto with = [](auto change) {
+    LocalizerOptions options = recordedOptions();
+    change(options);
+    return options;
+  };
+  plans.emplace_back(with([](auto& options) { options.support.min_support = 1.0; }));
+  plans.emplace_back(with([](auto& options) { options.pnp.min_inliers = 80; }));
+  plans.emplace_back(with([](auto& options) { options.templates.count = 4; }));  // too few
+  plans.emplace_back(with([](auto& options) { options.render.max_edge_pixels = 1000; }));
+  plans.push_back(RunPlan(recordedOptions(),
+                          {{2, with([](auto& options) { options.loop.render_again_px = 5.0; })},
+                           {90, recordedOptions()}}));
   for (const RunPlan& plan : plans) {
     const RecordedRun run = recordRun(problem, plan);
     SCOPED_TRACE(localizationStatusText(run.trace.status));
@@ -138,9 +133,8 @@ TEST(RecordOfRun, OfRunsThatFailToo) {
 }
 
 TEST(RecordOfRun, SaysWhatATraceAloneLacks) {
-  const ExampleCase example("os");
-  const LocalizationProblem problem = example.problem();
-  const RecordedRun run = recordRun(problem, recordedOptions());
+  const LocalizationProblem& problem = exampleRun().problem;
+  const RecordedRun& run = exampleRun().run;
   const OnboardRecord alone = recordOf(run.trace, nullptr);
   EXPECT_FALSE(alone.inputs);
   EXPECT_THAT(alone.missing, testing::ElementsAre(testing::HasSubstr("hashes of the inputs")));
@@ -157,8 +151,7 @@ TEST(RecordOfRun, SaysWhatATraceAloneLacks) {
 }
 
 TEST(RecordOfRun, OfAHaltedRunHasNoEnd) {
-  const ExampleCase example("os");
-  const LocalizationProblem problem = example.problem();
+  const LocalizationProblem& problem = exampleRun().problem;
   sessions::Runner run(problem, recordedOptions(), {.level = sessions::RecordLevel::kStages});
   run.advance(sessions::StepUntil::kIteration);
   run.advance(sessions::StepUntil::kStage);

@@ -31,11 +31,22 @@ inline RecordedRun recordRun(const LocalizationProblem& problem, const sessions:
   return made;
 }
 
-/// The station's features are small; otherwise as the program has them.
+/// The default options, for the small features of the station.
 inline LocalizerOptions recordedOptions() {
   LocalizerOptions options = defaultProfile();
   options.templates.feature_size_m = 0.018;
   return options;
+}
+
+/// The run of the example "os" by recordedOptions.
+struct ExampleRun {
+  ExampleCase example{"os"};
+  LocalizationProblem problem = example.problem();
+  RecordedRun run = recordRun(problem, recordedOptions());
+};
+inline const ExampleRun& exampleRun() {
+  static const ExampleRun run;
+  return run;
 }
 
 }  // namespace boresight::test

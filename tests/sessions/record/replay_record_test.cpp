@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/record/replay_record.h"
+#include "sessions/record/onboard_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/record/onboard_record.h"
 #include "sessions/run/match_details.h"
 #include "sessions/run/run_text.h"
 #include "tests/sessions/record/recorded_run.h"
@@ -26,16 +25,10 @@ using testing::HasSubstr;
 /// Numbers of 32 bits near those of 64 that they were made of.
 constexpr double kFloat_px = 1e-4;
 
-struct Replayed {
-  ExampleCase example{"os"};
-  LocalizationProblem problem = example.problem();
-  RecordedRun run = recordRun(problem, recordedOptions());
-  LocalizationTrace replay = replayRecord(run.record, problem);
-};
-
-const Replayed& replayed() {
-  static const Replayed made;
-  return made;
+const LocalizationTrace& replayed() {
+  static const LocalizationTrace trace =
+      replayRecord(exampleRun().run.record, exampleRun().problem);
+  return trace;
 }
 
 /// The image with colours that differ from its gray.
@@ -116,8 +109,8 @@ void expectSameScores(const IterationTrace& a, const IterationTrace& b) {
 }
 
 TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
-  const LocalizationTrace& a = replayed().replay;
-  const sessions::LocalizationTrace& b = replayed().run.trace;
+  const LocalizationTrace& a = replayed();
+  const LocalizationTrace& b = exampleRun().run.trace;
   EXPECT_TRUE(a.replayed && a.finished);
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.digest, b.digest);
@@ -150,8 +143,7 @@ TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
 }
 
 TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
-  const ExampleCase example("os");
-  LocalizationProblem problem = example.problem();
+  LocalizationProblem problem = exampleRun().problem;
   problem.uncertainty.rotation_rad.z() = 0.4;
   problem.camera_from_station_seed = perturbed(
       (Vector6d() << 0.0, 0.0, 0.3, 0.0, 0.0, 0.0).finished(), problem.camera_from_station_seed);
@@ -192,7 +184,7 @@ void expectBeginning(const LocalizationTrace& part, const LocalizationTrace& who
 }
 
 TEST(ReplayRecord, ShowsWhatIsLeftOfACutOrDamagedRecord) {
-  const Replayed& whole = replayed();
+  const ExampleRun& whole = exampleRun();
   Random random = randomFor("ReplayRecord.Damage");
   const std::size_t size = whole.run.bytes.size();
   for (int trial = 0; trial < 40; ++trial) {
@@ -204,13 +196,13 @@ TEST(ReplayRecord, ShowsWhatIsLeftOfACutOrDamagedRecord) {
           static_cast<std::uint8_t>(1u << random.below(8));
     const OnboardRecord record = sessions::parseRecord("cut.whsr", bytes);
     EXPECT_FALSE(record.whole());
-    expectBeginning(replayRecord(record, whole.problem), whole.replay);
+    expectBeginning(replayRecord(record, whole.problem), replayed());
   }
 }
 
 /// Contents that nobody wrote, under checksums that hold: nothing crashes.
 TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
-  const Replayed& whole = replayed();
+  const ExampleRun& whole = exampleRun();
   Random random = randomFor("ReplayRecord.Nonsense");
   for (int trial = 0; trial < 30; ++trial) {
     OnboardRecord record = whole.run.record;
@@ -232,7 +224,7 @@ TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
 }
 
 TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
-  const Replayed& whole = replayed();
+  const ExampleRun& whole = exampleRun();
   const auto remarks = [&](const OnboardRecord& record, const LocalizationProblem& ground) {
     return replayRecord(record, ground).remarks;
   };
@@ -253,18 +245,17 @@ TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
   EXPECT_THAT(poses.remarks, Contains(HasSubstr("only its poses are shown")));
   EXPECT_TRUE(poses.iterations.front()->templates.empty());
   EXPECT_EQ(poses.iterations.front()->camera_from_station,
-            whole.replay.iterations.front()->camera_from_station);
+            replayed().iterations.front()->camera_from_station);
 }
 
 TEST(ReplayRecord, ColorOfTheImage_CountsOnlyWhereTheRunLookedAtIt) {
-  const ExampleCase example("os");
-  const LocalizationProblem gray = example.problem();
+  const LocalizationProblem& gray = exampleRun().problem;
   const std::vector<std::uint8_t> color = colorOf(gray.image);
   LocalizationProblem colored = gray;
   colored.color = {color.data(), gray.image.width, gray.image.height, 3 * gray.image.width};
   const auto other_pixels = Contains(HasSubstr("saw other pixels"));
 
-  const RecordedRun of_gray = recordRun(gray, recordedOptions());
+  const RecordedRun& of_gray = exampleRun().run;
   EXPECT_THAT(replayRecord(of_gray.record, colored).remarks, testing::Not(other_pixels));
   const RecordedRun of_color = recordRun(colored, recordedOptions());
   EXPECT_NE(of_color.trace.digest, of_gray.trace.digest);
@@ -277,7 +268,7 @@ TEST(ReplayRecord, ColorOfTheImage_CountsOnlyWhereTheRunLookedAtIt) {
 }
 
 TEST(RecordedPlan, SaysWhichOptionsItDoesNotKnow) {
-  OnboardRecord record = replayed().run.record;
+  OnboardRecord record = exampleRun().run.record;
   EXPECT_TRUE(planOf(record).remarks.empty());
   EXPECT_TRUE(sameOptions(planOf(record).plan.options, recordedOptions()));
   auto& options = record.options.front().options;

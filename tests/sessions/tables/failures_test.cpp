@@ -27,7 +27,7 @@ PoseError off(double lateral_mm, double geodesic_mrad) {
 
 /// A failed run from a seed 10 mm and 100 mrad off whose iterations leave these parts of that.
 RunResult runThatLeaves(const std::vector<double>& parts) {
-  RunResult run = madeRun("bc-1", "whs", false, 0.0, 0.0, 0.0);
+  RunResult run = madeRun("bc-1", "whs", false);
   run.seed_error = off(10.0, 100.0);
   for (const double part : parts) {
     RunStep step;
@@ -47,7 +47,7 @@ TEST(Failures, AreToldApartByTheNearestIteration) {
   EXPECT_EQ(whereAstray(runThatLeaves({0.8, 0.3, 3.0})), Astray::kPartOfWay);
   EXPECT_EQ(whereAstray(runThatLeaves({0.8, 0.09, 3.0})), Astray::kCameNear);
   EXPECT_EQ(whereAstray(runThatLeaves({})), Astray::kNoTruth);
-  EXPECT_EQ(whereAstray(madeRun("bc-1", "whs", true, 0.5, 0.0, 0.0)), Astray::kBeyondNeed);
+  EXPECT_EQ(whereAstray(madeRun("bc-1", "whs", true, 0.5)), Astray::kBeyondNeed);
   RunResult refused = runThatLeaves({0.5});
   refused.status = "input_error";
   EXPECT_EQ(whereAstray(refused), Astray::kNotBegun);
@@ -68,7 +68,7 @@ TEST(Failures, TheStoryNamesTheWayAndWhy) {
                                "first iteration (5 of 60 matches agree); nearest 0.50 mm, 0.14 deg "
                                "after iteration 2."));
   EXPECT_THAT(story, HasSubstr("near the truth"));
-  EXPECT_THAT(failureStory(madeRun("bc-1", "whs", true, 0.8, 0.0, 0.0)),
+  EXPECT_THAT(failureStory(madeRun("bc-1", "whs", true, 0.8)),
               HasSubstr("converged, 2.0 times beyond what is required."));
 }
 

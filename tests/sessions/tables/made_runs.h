@@ -7,10 +7,10 @@
 
 namespace boresight::test {
 
-/// A run with errors of its own and the requirement 0.4 mm, 0.4 mm, 0.25 deg (4.363 mrad).
+/// A run with these errors and the requirement 0.4 mm, 0.4 mm, 0.25 deg (4.363 mrad).
 inline sessions::RunResult madeRun(const std::string& case_id, const std::string& method,
-                                   bool completed, double normal_mm, double lateral_mm,
-                                   double rotation_mrad) {
+                                   bool completed = true, double normal_mm = 0.0,
+                                   double lateral_mm = 0.0, double rotation_mrad = 0.0) {
   sessions::RunResult run;
   run.case_id = case_id;
   run.station = case_id.substr(0, 2);

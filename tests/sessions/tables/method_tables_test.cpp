@@ -56,9 +56,8 @@ TEST(MethodFigures, AreThoseOfTheRuns) {
 }
 
 TEST(MethodFigures, KeepStationsAndRangesApartAndLeaveOutRefusedInputs) {
-  std::vector<RunResult> runs = {
-      madeRun("os-1", "whs", true, 0.0, 0.0, 0.0), madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0),
-      madeRun("bc-2", "whs", true, 0.0, 0.0, 0.0), madeRun("bc-3", "whs", false, 0.0, 0.0, 0.0)};
+  std::vector<RunResult> runs = {madeRun("os-1", "whs"), madeRun("bc-1", "whs"),
+                                 madeRun("bc-2", "whs"), madeRun("bc-3", "whs", false)};
   runs[2].tags = {"far"};
   runs[3].status = "input_error";
   std::string order;
@@ -68,10 +67,10 @@ TEST(MethodFigures, KeepStationsAndRangesApartAndLeaveOutRefusedInputs) {
 }
 
 TEST(MethodTimes, AreMeansOverRuns) {
-  std::vector<RunResult> runs(4, madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0));
+  std::vector<RunResult> runs(4, madeRun("bc-1", "whs"));
   for (int i = 0; i < 4; ++i) runs[static_cast<std::size_t>(i)].seconds.matching = 1.0 + i * i;
   runs[1].seconds.pose = 2.0;
-  runs.push_back(madeRun("bc-9", "whs", false, 0.0, 0.0, 0.0));
+  runs.push_back(madeRun("bc-9", "whs", false));
   runs.back().status = "bad_seed";  // nothing was run
   const auto rows = methodTimes(runs);
   ASSERT_EQ(rows.size(), 1u);
@@ -115,7 +114,7 @@ TEST(SummaryTable, AddsUpTheStationsOfAMethod) {
 TEST(SummaryTable, CountsGrossFalsePositivesAndRefusedInputs) {
   std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.5, 0.1, 0.5),
                                  madeRun("bc-2", "whs", true, -1.5, 0.1, 0.5),
-                                 madeRun("bc-3", "whs", false, 0.0, 0.0, 0.0)};
+                                 madeRun("bc-3", "whs", false)};
   runs[2].status = "input_error";
   const MethodFigures figures = methodFigures(runs).back();
   EXPECT_EQ(figures.runs, 2);
@@ -125,7 +124,7 @@ TEST(SummaryTable, CountsGrossFalsePositivesAndRefusedInputs) {
 }
 
 TEST(SummaryTable, WithoutTruth_LeavesSuccessAndErrorsOpen) {
-  RunResult blind = madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0);
+  RunResult blind = madeRun("bc-1", "whs");
   blind.error.reset();
   blind.seed_error.reset();
   blind.success.reset();
@@ -135,16 +134,15 @@ TEST(SummaryTable, WithoutTruth_LeavesSuccessAndErrorsOpen) {
 
 TEST(ToleranceTable, GrowsWithTheTolerance) {
   const std::vector<RunResult> runs = {
-      madeRun("bc-1", "whs", true, 0.03, 0.0, 0.0), madeRun("bc-2", "whs", true, 0.3, 0.0, 0.0),
-      madeRun("bc-3", "whs", true, 0.7, 0.0, 0.0), madeRun("bc-4", "whs", false, 0.0, 0.0, 0.0)};
+      madeRun("bc-1", "whs", true, 0.03), madeRun("bc-2", "whs", true, 0.3),
+      madeRun("bc-3", "whs", true, 0.7), madeRun("bc-4", "whs", false)};
   // 0.4 mm times 0.1, 0.25, 0.5, 1, 2, 3
   EXPECT_THAT(tableText(toleranceTable(runs, false), TableFormat::kCsv),
               HasSubstr("bc,near,whs,25,25,25,50,75,75"));
 }
 
 TEST(FailureList, NamesRunsThatWereNotSuccessful) {
-  std::vector<RunResult> runs = {madeRun("bc-7", "whs", true, 0.1, 0.0, 0.0),
-                                 madeRun("os-7", "whs", false, 0.0, 0.0, 0.0)};
+  std::vector<RunResult> runs = {madeRun("bc-7", "whs", true, 0.1), madeRun("os-7", "whs", false)};
   runs[1].reseed = 4;
   runs[1].message = "no pose agrees";
   EXPECT_THAT(failureList(runs, 10), AllOf(HasSubstr("os-7 reseed 4: pnp_failed: no pose agrees"),

@@ -86,8 +86,8 @@ TEST(ShareBelow, IsAStaircaseOverAllRuns) {
 TEST(SuccessAgainstTolerance, CountsCompletedRunsWithinEachMultiple) {
   // 0.2 mm is half of the requirement, 0.8 mm twice; the third is right but did not complete.
   const std::vector<RunResult> runs = {
-      madeRun("bc-1", "whs", true, 0.2, 0.0, 0.0), madeRun("bc-2", "whs", true, -0.8, 0.1, 0.0),
-      madeRun("bc-3", "whs", false, 0.0, 0.0, 0.0), madeRun("bc-4", "whs", true, 0.0, 0.0, 30.0)};
+      madeRun("bc-1", "whs", true, 0.2), madeRun("bc-2", "whs", true, -0.8, 0.1),
+      madeRun("bc-3", "whs", false), madeRun("bc-4", "whs", true, 0.0, 0.0, 30.0)};
   const double factors[] = {0.25, 0.6, 2.5, 10.0};
   EXPECT_THAT(successAgainstTolerance(pointers(runs), factors),
               ElementsAre(Point{0.25, 0.0}, Point{0.6, 25.0}, Point{2.5, 50.0}, Point{10.0, 75.0}));
@@ -98,7 +98,7 @@ TEST(SuccessAgainstTolerance, CountsCompletedRunsWithinEachMultiple) {
 }
 
 TEST(SeedMeasure, IsDistanceOrAngle) {
-  const RunResult run = madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0);
+  const RunResult run = madeRun("bc-1", "whs");
   EXPECT_DOUBLE_EQ(*seedMeasure(run, SeedMeasure::kDistance_mm), 5.0);
   EXPECT_DOUBLE_EQ(*seedMeasure(run, SeedMeasure::kAngle_mrad), 20.0);
 }
@@ -117,8 +117,8 @@ TEST(SuccessAgainstSeed, PutsRunsIntoBinsOfEqualSizeByHowFarTheyBegan) {
 }
 
 TEST(TimeAgainstError, TakesCompletedRuns) {
-  std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.0, 0.3, 0.0),
-                                 madeRun("bc-2", "whs", false, 0.0, 0.3, 0.0)};
+  std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, 0.0, 0.3),
+                                 madeRun("bc-2", "whs", false, 0.0, 0.3)};
   runs[0].seconds.matching = 1.5;
   runs[0].seconds.rendering = 0.5;
   EXPECT_THAT(timeAgainstError(pointers(runs)), ElementsAre(Point{2.0, 0.3}));

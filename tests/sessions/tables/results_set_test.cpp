@@ -37,11 +37,10 @@ class ReadResultsSet : public testing::Test {
 };
 
 TEST_F(ReadResultsSet, TakesFilesTogetherAndFilters) {
-  RunResult tagged = madeRun("os-1", "whs", true, 0.0, 0.0, 0.0);
+  RunResult tagged = madeRun("os-1", "whs");
   tagged.tags = {"real"};
-  const auto a = write("a", {madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0),
-                             madeRun("bc-1", "orb", true, 0.0, 0.0, 0.0)});
-  const auto b = write("b", {tagged, madeRun("bc-1", "mine", true, 0.0, 0.0, 0.0)});
+  const auto a = write("a", {madeRun("bc-1", "whs"), madeRun("bc-1", "orb")});
+  const auto b = write("b", {tagged, madeRun("bc-1", "mine")});
   EXPECT_EQ(readResultsSet({a, b}).runs.size(), 4u);
   EXPECT_THAT(readResultsSet({a, b}).methodNames(), ElementsAre("orb", "mine", "whs"));
   EXPECT_EQ(readResultsSet({a, b}, {.tags = {"real"}}).runs.size(), 1u);
@@ -49,16 +48,16 @@ TEST_F(ReadResultsSet, TakesFilesTogetherAndFilters) {
 }
 
 TEST_F(ReadResultsSet, NamesVariantsOfAMethodApart) {
-  const auto a = write("a", {madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0)});
-  const auto b = write("b", {madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0)}, "paper");
+  const auto a = write("a", {madeRun("bc-1", "whs")});
+  const auto b = write("b", {madeRun("bc-1", "whs")}, "paper");
   EXPECT_THAT(readResultsSet({a, b}).methodNames(), ElementsAre("whs default", "whs paper"));
 }
 
 TEST_F(ReadResultsSet, CountsNoRunTwice) {
-  const auto a = write("a", {madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0)});
-  const auto b = write("b", {madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0)});
+  const auto a = write("a", {madeRun("bc-1", "whs")});
+  const auto b = write("b", {madeRun("bc-1", "whs")});
   EXPECT_THAT(folder_.message([&] { (void)readResultsSet({a, b}); }), HasSubstr("it is also in"));
-  const auto c = write("c", {madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0)}, "default", "e");
+  const auto c = write("c", {madeRun("bc-1", "whs")}, "default", "e");
   EXPECT_EQ(readResultsSet({a, c}).runs.size(), 2u) << "the case of another dataset is another";
 }
 
@@ -78,14 +77,12 @@ ResultsSet setOf(std::vector<RunResult> runs) {
 }
 
 TEST(CompareResults, JudgesRunByRun) {
-  ResultsSet before = setOf(
-      {madeRun("bc-1", "whs", true, 0.1, 0.0, 0.0), madeRun("bc-2", "whs", true, 0.1, 0.0, 0.0),
-       madeRun("bc-3", "whs", false, 0.0, 0.0, 0.0), madeRun("bc-4", "whs", false, 0.0, 0.0, 0.0),
-       madeRun("bc-5", "whs", true, 2.0, 0.0, 0.0), madeRun("bc-6", "whs", true, 0.0, 0.0, 0.0)});
-  ResultsSet after = setOf(
-      {madeRun("bc-1", "whs", true, 0.1, 0.0, 0.0), madeRun("bc-2", "whs", true, 0.3, 0.0, 0.0),
-       madeRun("bc-3", "whs", true, 0.2, 0.0, 0.0), madeRun("bc-4", "whs", true, 5.0, 0.0, 0.0),
-       madeRun("bc-5", "whs", true, 1.0, 0.0, 0.0), madeRun("bc-7", "whs", true, 0.0, 0.0, 0.0)});
+  ResultsSet before = setOf({madeRun("bc-1", "whs", true, 0.1), madeRun("bc-2", "whs", true, 0.1),
+                             madeRun("bc-3", "whs", false), madeRun("bc-4", "whs", false),
+                             madeRun("bc-5", "whs", true, 2.0), madeRun("bc-6", "whs")});
+  ResultsSet after = setOf({madeRun("bc-1", "whs", true, 0.1), madeRun("bc-2", "whs", true, 0.3),
+                            madeRun("bc-3", "whs", true, 0.2), madeRun("bc-4", "whs", true, 5.0),
+                            madeRun("bc-5", "whs", true, 1.0), madeRun("bc-7", "whs")});
   for (RunResult& run : after.runs)
     if (run.case_id != "bc-1") run.digest += "'";
   const ResultsDifference made = compareResults(before, after);
@@ -103,8 +100,8 @@ TEST(CompareResults, JudgesRunByRun) {
 }
 
 TEST(CompareResults, PairsByMethodWhereThereAreSeveral) {
-  const ResultsSet whs = setOf({madeRun("bc-1", "whs", true, 0.1, 0.0, 0.0)});
-  const ResultsSet ncc = setOf({madeRun("bc-1", "ncc", true, 0.1, 0.0, 0.0)});
+  const ResultsSet whs = setOf({madeRun("bc-1", "whs", true, 0.1)});
+  const ResultsSet ncc = setOf({madeRun("bc-1", "ncc", true, 0.1)});
   const ResultsSet both = setOf({whs.runs[0], ncc.runs[0]});
   EXPECT_EQ(compareResults(whs, ncc).pairs.size(), 1u) << "one method against another";
   EXPECT_EQ(compareResults(both, ncc).pairs.size(), 1u);
@@ -112,7 +109,7 @@ TEST(CompareResults, PairsByMethodWhereThereAreSeveral) {
 }
 
 TEST(CompareResults, GoesByCompletionWithoutTruth) {
-  ResultsSet before = setOf({madeRun("bc-1", "whs", true, 0.0, 0.0, 0.0)});
+  ResultsSet before = setOf({madeRun("bc-1", "whs")});
   before.runs[0].error.reset();
   ResultsSet after = before;
   after.runs[0].completed = false;

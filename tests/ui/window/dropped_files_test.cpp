@@ -83,7 +83,7 @@ TEST(DroppedFiles, ALabelWithoutItsPixelsIsAProblemAndNoImage) {
                                   "OBJECT = IMAGE\r\nEND_OBJECT = IMAGE\r\nEND\r\n");
   const DroppedFiles dropped = classify({label, test::exampleFolder() / "os/model.ply"});
   ASSERT_EQ(dropped.problems.size(), 1u);
-  EXPECT_NE(dropped.problems[0].find("the file of its pixels, 'det.dat', is not beside it"),
+  EXPECT_NE(dropped.problems[0].find("the file of its pixels, 'det.dat', is not in its folder"),
             std::string::npos);
   EXPECT_EQ(dropped.missing(), "an image, a camera (json) and a seed pose (json)");
 }

@@ -10,7 +10,6 @@
 #include "core/base/random.h"
 #include "sessions/io/image_file.h"
 #include "tests/sessions/io/labels/label_fixture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
@@ -19,12 +18,8 @@ using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-Raster plain(int width = 64, int height = 48) {
-  return Raster::filled(width, height, 1, [](std::size_t i) { return double(i % 200); });
-}
-
 ImageLabel labelOf(const TemporaryFolder& folder, const Pds3File& pds,
-                   const Raster& raster = plain()) {
+                   const Raster& raster = Raster::plain()) {
   return readImageLabel(folder.write("image.img", pds.bytes(raster)));
 }
 
@@ -69,7 +64,7 @@ TEST(ImageLabel, ComponentsAreFoundByLetterOrNameInAnyOrder) {
       VicarFile vicar;
       vicar.items = vicarProperty(names[round % 3], items);
       vicar.items_at_end = round % 2 == 1;
-      const auto file = folder.write("image.vic", vicar.bytes(plain()));
+      const auto file = folder.write("image.vic", vicar.bytes(Raster::plain()));
       expectModel(readImageLabel(file), cahv);
       EXPECT_EQ(readCameraFile(file).camera, readImageLabel(file).camera->camera);
     }
@@ -133,8 +128,8 @@ TEST(ImageLabel, Pds4GivesTheSameModels) {
         "</img:sample_bit_mask></img:Sampling><img:Commanded_Parameters><img:Subframe>"
         "<img:first_line>500</img:first_line></img:Subframe></img:Commanded_Parameters>"
         "</img:Imaging>";
-    folder.write("pixels.img", pds.pixels(plain()));
-    const ImageLabel label = readImageLabel(folder.write("image.xml", pds.label(plain())));
+    folder.write("pixels.img", pds.pixels(Raster::plain()));
+    const ImageLabel label = readImageLabel(folder.write("image.xml", pds.label(Raster::plain())));
     expectModel(label, cahv);
     EXPECT_EQ(label.format, "PDS4");
     EXPECT_EQ(label.bit_depth, 12);
@@ -176,8 +171,8 @@ TEST(ImageLabel, ExponentsOfFortranAreExponents) {
   pds.items = "PRODUCT_ID = 1F483D5\r\n" + pds3Group("GEOMETRIC_CAMERA_MODEL", items);
   VicarFile vicar;
   vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", items);
-  for (const auto& file :
-       {folder.write("a.img", pds.bytes(plain())), folder.write("a.vic", vicar.bytes(plain()))}) {
+  for (const auto& file : {folder.write("a.img", pds.bytes(Raster::plain())),
+                           folder.write("a.vic", vicar.bytes(Raster::plain()))}) {
     const ImageLabel label = readImageLabel(file);
     ASSERT_TRUE(label.camera) << label.camera_remark;
     const Eigen::Vector3d centre_m =
@@ -196,7 +191,7 @@ std::string remarkFor(const TemporaryFolder& folder, const CahvModel& cahv,
   Pds3File pds;
   pds.items = items + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(cahv));
   pds.image_items = image_items;
-  const ImageLabel label = labelOf(folder, pds, plain(width, height));
+  const ImageLabel label = labelOf(folder, pds, Raster::plain(width, height));
   EXPECT_EQ(label.camera.has_value(), label.camera_remark.empty());
   return label.camera_remark;
 }
@@ -265,7 +260,7 @@ TEST(ImageLabel, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
   Pds3File pds;
   pds.items = rover + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(part));
   pds.image_items = cut;
-  const ImageLabel label = labelOf(folder, pds, plain(256, 128));
+  const ImageLabel label = labelOf(folder, pds, Raster::plain(256, 128));
   expectModel(label, part);
   ASSERT_TRUE(label.subframe);
   EXPECT_EQ(label.subframe->first_sample, 500);
@@ -294,7 +289,7 @@ TEST(ImageLabel, OfTwoLabelsInAFileTheOneWithAModelCounts) {
     if (in_vicar != nullptr)
       vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_vicar));
     Pds3File pds;
-    const Bytes whole = vicar.bytes(plain());
+    const Bytes whole = vicar.bytes(Raster::plain());
     pds.between.assign(whole.begin(), whole.end() - 2 * 64 * 48);
     if (in_pds != nullptr) pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_pds));
     return labelOf(folder, pds);
@@ -323,14 +318,8 @@ TEST(ImageLabel, FramesAreReadScalarFirst) {
   GroupItems bad = rover;
   bad[0].second = "\"ARM_FRAME\"";
   bad[3].second = "(1.0,1.0,0.0,0.0)";
-  Pds3File pds;
-  pds.items = pds3Group("ROVER_COORDINATE_SYSTEM", rover) + pds3Group("ARM_COORDINATE_SYSTEM", bad);
-  VicarFile vicar;
-  vicar.items =
-      vicarProperty("ROVER_COORDINATE_SYSTEM", rover) + vicarProperty("ARM_COORDINATE_SYSTEM", bad);
-  for (const auto& file :
-       {folder.write("a.img", pds.bytes(plain())), folder.write("a.vic", vicar.bytes(plain()))}) {
-    const ImageLabel label = readImageLabel(file);
+  for (const ImageLabel& label :
+       labelsOf(folder, {{"ROVER_COORDINATE_SYSTEM", rover}, {"ARM_COORDINATE_SYSTEM", bad}})) {
     ASSERT_EQ(label.frames.size(), 1u);
     EXPECT_EQ(label.frames[0].frame, (FrameName{"ROVER_NAV_FRAME", {14, 1262}}));
     EXPECT_EQ(label.frames[0].reference, (FrameName{"SITE_FRAME", {14}}));

@@ -9,9 +9,7 @@
 
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "sessions/io/labels/image_label.h"
 #include "tests/sessions/io/labels/label_fixture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
@@ -21,26 +19,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-Raster plain() {
-  return Raster::filled(64, 48, 1, [](std::size_t i) { return double(i % 200); });
-}
-
-/// The same groups in a PDS3 and in a VICAR label.
-std::vector<ImageLabel> labelsOf(const TemporaryFolder& folder,
-                                 const std::vector<std::pair<std::string, GroupItems>>& groups) {
-  Pds3File pds;
-  VicarFile vicar;
-  for (const auto& [name, items] : groups) {
-    pds.items += pds3Group(name, items);
-    vicar.items += vicarProperty(name, items);
-  }
-  VicarFile at_end = vicar;
-  at_end.items_at_end = true;
-  return {readImageLabel(folder.write("a.img", pds.bytes(plain()))),
-          readImageLabel(folder.write("a.vic", vicar.bytes(plain()))),
-          readImageLabel(folder.write("b.vic", at_end.bytes(plain())))};
-}
 
 std::string fitOf(const CahvModel& cahv, int width, int height, const LabelSubframe& subframe,
                   const std::vector<LabelItem>& identifiers) {
@@ -176,7 +154,7 @@ TEST(LabelCamera, UnitsOfAllValuesCount) {
     if (item.first == "MODEL_COMPONENT_1") item.second = "(1 <m>, -200 <mm>, -700 <mm>)";
   Pds3File pds;
   pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  EXPECT_THAT(readImageLabel(folder.write("a.img", pds.bytes(plain()))).camera_remark,
+  EXPECT_THAT(readImageLabel(folder.write("a.img", pds.bytes(Raster::plain()))).camera_remark,
               HasSubstr("the unit 'M, MM'"));
   const auto frames = [&](const std::string& offset) {
     pds.items =
@@ -184,7 +162,7 @@ TEST(LabelCamera, UnitsOfAllValuesCount) {
                                               {"ORIGIN_OFFSET_VECTOR", offset},
                                               {"ORIGIN_ROTATION_QUATERNION", "(1.0,0.0,0.0,0.0)"},
                                               {"REFERENCE_COORD_SYSTEM_NAME", "\"SITE_FRAME\""}});
-    return readImageLabel(folder.write("a.img", pds.bytes(plain()))).frames;
+    return readImageLabel(folder.write("a.img", pds.bytes(Raster::plain()))).frames;
   };
   EXPECT_EQ(frames("(1.0 <m>,2.0 <m>,3.0 <m>)").size(), 1u);
   EXPECT_EQ(frames("(1.0,2.0,3.0)").size(), 1u);

@@ -2,6 +2,7 @@
 // Images with labels, written byte by byte as their formats' descriptions have it.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/cahv_model.h"
+#include "sessions/io/labels/image_label.h"
+#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 
@@ -35,6 +38,10 @@ struct Raster {
     for (std::size_t i = 0; i < static_cast<std::size_t>(width * height * bands); ++i)
       raster.samples.push_back(value(i));
     return raster;
+  }
+  /// Of bytes, large enough for most labels.
+  static Raster plain(int width = 64, int height = 48) {
+    return filled(width, height, 1, [](std::size_t i) { return double(i % 200); });
   }
   /// Samples 0, 1, 2, ...
   static Raster counting(int width, int height, int bands = 1) {
@@ -146,50 +153,30 @@ struct VicarFile {
     for (int i = 0; i < header_records * record; ++i) bytes.push_back(0xa5);
     appendRecords(bytes, raster);
     if (items_at_end) {
+      const std::size_t begin = bytes.size();
       std::string end = "LBLSIZE=" + std::to_string(label_size);
       end.resize(24, ' ');
       appendText(bytes, end + items);
-      bytes.resize(
-          (bytes.size() / static_cast<std::size_t>(record) + 4) * static_cast<std::size_t>(record),
-          0);
-      const auto end_size = static_cast<std::size_t>(label_size);
-      const std::size_t begin = static_cast<std::size_t>(label_size) +
-                                static_cast<std::size_t>(header_records * record) +
-                                static_cast<std::size_t>(recordCount(raster) * record);
-      bytes.resize(begin + end_size, 0);
+      bytes.resize(begin + static_cast<std::size_t>(label_size), 0);
     }
     return bytes;
   }
 
  private:
-  int recordCount(const Raster& raster) const {
-    return organization == "BIP" ? raster.height * raster.width : raster.height * raster.bands;
-  }
   void appendRecords(Bytes& bytes, const Raster& r) const {
-    const auto prefix = [&] {
-      for (int i = 0; i < prefix_bytes; ++i) bytes.push_back(0x5a);
-    };
-    const auto sample = [&](int band, int line, int x) {
-      appendSample(bytes, r.at(band, line, x), store, big_endian);
-    };
-    if (organization == "BSQ")
-      for (int band = 0; band < r.bands; ++band)
-        for (int line = 0; line < r.height; ++line) {
-          prefix();
-          for (int x = 0; x < r.width; ++x) sample(band, line, x);
-        }
-    else if (organization == "BIL")
-      for (int line = 0; line < r.height; ++line)
-        for (int band = 0; band < r.bands; ++band) {
-          prefix();
-          for (int x = 0; x < r.width; ++x) sample(band, line, x);
-        }
-    else
-      for (int line = 0; line < r.height; ++line)
-        for (int x = 0; x < r.width; ++x) {
-          prefix();
-          for (int band = 0; band < r.bands; ++band) sample(band, line, x);
-        }
+    // Of a place (band, line, sample): what grows slowest, then faster.
+    const std::array<std::size_t, 3> order =
+        organization == "BSQ"   ? std::array<std::size_t, 3>{0, 1, 2}
+        : organization == "BIL" ? std::array<std::size_t, 3>{1, 0, 2}
+                                : std::array<std::size_t, 3>{1, 2, 0};
+    const std::array<int, 3> count = {r.bands, r.height, r.width};
+    std::array<int, 3> at = {0, 0, 0};
+    for (at[order[0]] = 0; at[order[0]] < count[order[0]]; ++at[order[0]])
+      for (at[order[1]] = 0; at[order[1]] < count[order[1]]; ++at[order[1]]) {
+        bytes.insert(bytes.end(), static_cast<std::size_t>(prefix_bytes), 0x5a);
+        for (at[order[2]] = 0; at[order[2]] < count[order[2]]; ++at[order[2]])
+          appendSample(bytes, r.at(at[0], at[1], at[2]), store, big_endian);
+      }
   }
 };
 
@@ -322,6 +309,23 @@ inline std::string vicarProperty(const std::string& name, const GroupItems& item
     text += key + "=" + quoted + "  ";
   }
   return text;
+}
+
+/// What the same groups say in a PDS3 label and in VICAR labels at the beginning and at the end.
+inline std::vector<ImageLabel> labelsOf(
+    const test::TemporaryFolder& folder,
+    const std::vector<std::pair<std::string, GroupItems>>& groups) {
+  Pds3File pds;
+  VicarFile vicar;
+  for (const auto& [name, items] : groups) {
+    pds.items += pds3Group(name, items);
+    vicar.items += vicarProperty(name, items);
+  }
+  VicarFile at_end = vicar;
+  at_end.items_at_end = true;
+  return {readImageLabel(folder.write("a.img", pds.bytes(Raster::plain()))),
+          readImageLabel(folder.write("a.vic", vicar.bytes(Raster::plain()))),
+          readImageLabel(folder.write("b.vic", at_end.bytes(Raster::plain())))};
 }
 
 /// The group of a camera model; `order` says which component stands where.

@@ -175,7 +175,7 @@ TEST(LabelPds4, NamesAreReadAsXmlHasThem) {
   EXPECT_THAT(folder.message([&] {
     readImage(folder.write("a.xml", altered(plain, "p.img", "&#47;etc&#47;passwd")));
   }),
-              HasSubstr("which is not one beside it"));
+              HasSubstr("which is not in its folder"));
 }
 
 TEST(LabelPds4, HashIsOfTheLabelAndTheFileOfItsArrayAlone) {
@@ -193,6 +193,7 @@ TEST(LabelPds4, HashIsOfTheLabelAndTheFileOfItsArrayAlone) {
   Bytes both(text.begin(), text.end());
   both.insert(both.end(), pixels.begin(), pixels.end());
   EXPECT_EQ(readImage(label).file_sha256, sha256Text(both));
+  EXPECT_EQ(readSamples(label).file_sha256, sha256Text(both));
   std::filesystem::remove(folder / "a.jpg");
   std::filesystem::remove(folder / "b.img");
   EXPECT_EQ(readImage(label).file_sha256, sha256Text(both));

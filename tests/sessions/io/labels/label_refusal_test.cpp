@@ -131,11 +131,11 @@ TEST(LabelRefusal, LabelsThatLieOfTheirPixelsAreRefused) {
                             "(\"/vsicurl/http://127.0.0.1/x.img\",1)", "\"..\"", "\"a\\b\""}) {
     pds.pointer = place;
     folder.write("d.lbl", pds.label(raster, 0));
-    EXPECT_THAT(read("d.lbl"), HasSubstr("which is not one beside it")) << place;
+    EXPECT_THAT(read("d.lbl"), HasSubstr("which is not in its folder")) << place;
   }
   pds.pointer = "(\"gone.img\",1)";
   folder.write("d.lbl", pds.label(raster, 0));
-  EXPECT_EQ(read("d.lbl"), "d.lbl: the file of its pixels, 'gone.img', is not beside it");
+  EXPECT_EQ(read("d.lbl"), "d.lbl: the file of its pixels, 'gone.img', is not in its folder");
   pds.pointer = "";
   Bytes bytes = pds.bytes(raster);
   bytes.resize(bytes.size() - 3);
@@ -159,7 +159,7 @@ TEST(LabelRefusal, LabelsThatLieOfTheirPixelsAreRefused) {
     return read("p.xml");
   };
   xml.pixels_file = "../pixels.img";
-  EXPECT_THAT(label(xml.label(raster)), HasSubstr("which is not one beside it"));
+  EXPECT_THAT(label(xml.label(raster)), HasSubstr("which is not in its folder"));
   xml.pixels_file = "pixels.img";
   xml.offset = 10;
   EXPECT_THAT(label(xml.label(raster)), HasSubstr("the pixels are truncated"));

@@ -17,7 +17,6 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/image_file.h"
 #include "tests/sessions/io/labels/label_fixture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
@@ -118,13 +117,29 @@ TEST(LabelSamples, ThreeBandsBecomeLumaInTheOrderRedGreenBlue) {
   }
 }
 
+/// A type of samples as labels call it.
+struct Kind {
+  std::string type;
+  Store store;
+  bool big_endian;
+};
+
+Raster randomRaster(Random& random, const Kind& kind, int width, int height) {
+  const bool is_unsigned =
+      kind.type.starts_with("Unsigned") || kind.type.find("UNSIGNED") != std::string::npos;
+  return Raster::filled(width, height, 1, [&](std::size_t) {
+    return is_unsigned && kind.store == Store::kHalf ? double(random.below(65536))
+                                                     : randomSample(random, kind.store);
+  });
+}
+
+void expectAsWritten(const ImageSamples& samples, const Raster& raster, const Kind& kind) {
+  const bool floating = kind.store >= Store::kIeee;
+  expectNear(samples.values, expected(raster, floating), floating ? 1 : 0, kind.type);
+}
+
 TEST(LabelSamples, Pds3OfEveryKindIsReadAsWritten) {
   const TemporaryFolder folder;
-  struct Kind {
-    const char* type;
-    Store store;
-    bool big_endian;
-  };
   Random random(5);
   for (const Kind& kind :
        {Kind{"MSB_INTEGER", Store::kHalf, true}, Kind{"LSB_INTEGER", Store::kHalf, false},
@@ -137,16 +152,10 @@ TEST(LabelSamples, Pds3OfEveryKindIsReadAsWritten) {
       pds.sample_type = kind.type;
       pds.store = kind.store;
       pds.big_endian = kind.big_endian;
-      const bool is_unsigned = std::string(kind.type).find("UNSIGNED") != std::string::npos;
-      const Raster raster = Raster::filled(
-          1 + static_cast<int>(random.below(70)), 1 + static_cast<int>(random.below(20)), 1,
-          [&](std::size_t) {
-            return is_unsigned && kind.store == Store::kHalf ? double(random.below(65536))
-                                                             : randomSample(random, kind.store);
-          });
+      const Raster raster = randomRaster(random, kind, 1 + static_cast<int>(random.below(70)),
+                                         1 + static_cast<int>(random.below(20)));
       const ImageSamples attached = readSamples(folder.write("a.img", pds.bytes(raster)));
-      const bool floating = kind.store == Store::kIeee;
-      expectNear(attached.values, expected(raster, floating), floating ? 1 : 0, kind.type);
+      expectAsWritten(attached, raster, kind);
 
       pds.pixels_file = "PIXELS.DAT";
       const auto label = folder.write("d.lbl", pds.label(raster, 0));
@@ -157,11 +166,6 @@ TEST(LabelSamples, Pds3OfEveryKindIsReadAsWritten) {
 
 TEST(LabelSamples, Pds4OfEveryKindIsReadAsWritten) {
   const TemporaryFolder folder;
-  struct Kind {
-    const char* type;
-    Store store;
-    bool big_endian;
-  };
   Random random(6);
   for (const Kind& kind :
        {Kind{"UnsignedByte", Store::kByte, true}, Kind{"UnsignedMSB2", Store::kHalf, true},
@@ -174,35 +178,10 @@ TEST(LabelSamples, Pds4OfEveryKindIsReadAsWritten) {
       pds.store = kind.store;
       pds.big_endian = kind.big_endian;
       pds.offset = offset;
-      const bool is_unsigned = std::string(kind.type).find("Unsigned") == 0;
-      const Raster raster = Raster::filled(37, 11, 1, [&](std::size_t) {
-        return is_unsigned && kind.store == Store::kHalf ? double(random.below(65536))
-                                                         : randomSample(random, kind.store);
-      });
+      const Raster raster = randomRaster(random, kind, 37, 11);
       folder.write("pixels.img", pds.pixels(raster));
-      const ImageSamples samples = readSamples(folder.write("image.xml", pds.label(raster)));
-      const bool floating = kind.store >= Store::kIeee;
-      expectNear(samples.values, expected(raster, floating), floating ? 1 : 0, kind.type);
+      expectAsWritten(readSamples(folder.write("image.xml", pds.label(raster))), raster, kind);
     }
-}
-
-TEST(LabelSamples, HashCoversTheLabelAndItsPixels) {
-  const TemporaryFolder folder;
-  Pds4File pds;
-  const Raster raster = Raster::counting(8, 4);
-  const auto label = folder.write("image.xml", pds.label(raster));
-  const Bytes pixels = pds.pixels(raster);
-  folder.write("pixels.img", pixels);
-  const std::string text = folder.read("image.xml");
-  Bytes both(text.begin(), text.end());
-  both.insert(both.end(), pixels.begin(), pixels.end());
-  EXPECT_EQ(readImage(label).file_sha256, sha256Text(both));
-  EXPECT_EQ(readSamples(label).file_sha256, sha256Text(both));
-  // Read by the name of its pixels it is the same image.
-  pds.pixels_file = "image.img";
-  folder.write("image.img", pixels);
-  folder.write("image.xml", pds.label(raster));
-  EXPECT_EQ(readImage(folder.path() / "image.img").pixels, readImage(label).pixels);
 }
 
 TEST(LabelSamples, SamplesWithoutAValueAreZeroAndCounted) {
