@@ -57,7 +57,7 @@ double evidenceOfPlace_nats(const EvidencePlace& place, const DirectedEdges& edg
   const Shares around = sharesAround(place, edges, distance, window_px);
   const std::size_t k =
       intervalOf(distance[static_cast<std::size_t>(place.y * edges.width + place.x)]);
-  return naturalLogarithm((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
+  return log((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
 }
 
 double ContourEvidence::weakest_nats() const {

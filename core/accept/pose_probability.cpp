@@ -12,7 +12,7 @@ constexpr double kSlope = 12.0;  ///< per unit of the score
 }  // namespace
 
 double poseProbability(const ContourEvidence& evidence, const EdgeSupport& support) {
-  return 1.0 / (1.0 + exponential(kSlope * (kEven - acceptanceScore(evidence, support))));
+  return 1.0 / (1.0 + exp(kSlope * (kEven - acceptanceScore(evidence, support))));
 }
 
 }  // namespace boresight

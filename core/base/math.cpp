@@ -55,7 +55,7 @@ ReducedAngle reduceAngle(double x_rad) {
 }
 
 /// Taylor series about 0: on |x| <= pi / 4 the first term left out is below 1e-19.
-double sineOfReduced(const ReducedAngle& angle) {
+double sinOfReduced(const ReducedAngle& angle) {
   static constexpr std::array<double, 8> kTerms = {
       -1.0 / 6.0,        1.0 / 120.0,        -1.0 / 5040.0,          1.0 / 362880.0,
       -1.0 / 39916800.0, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
@@ -64,7 +64,7 @@ double sineOfReduced(const ReducedAngle& angle) {
   return x + (x * square * polynomial(kTerms, square) + angle.low * (1.0 - 0.5 * square));
 }
 
-double cosineOfReduced(const ReducedAngle& angle) {
+double cosOfReduced(const ReducedAngle& angle) {
   static constexpr std::array<double, 8> kTerms = {
       1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
       1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
@@ -77,12 +77,12 @@ double cosineOfReduced(const ReducedAngle& angle) {
 }
 
 /// atan(x) for 0 <= x <= 1: addition theorem about the nearest k / 8, then Taylor on |t| <= 1 / 16.
-double arcTangentOfFraction(double x) {
+double atanOfFraction(double x) {
   struct Value {
     double high;
     double low;
   };
-  static constexpr std::array<Value, 9> kArcTangentOfEighths = {
+  static constexpr std::array<Value, 9> kAtanOfEighths = {
       {{0.0, 0.0},
        {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
        {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
@@ -98,7 +98,7 @@ double arcTangentOfFraction(double x) {
   const double knot = 0.125 * eighths;
   const double t = (x - knot) / (1.0 + x * knot);
   const double square = t * t;
-  const Value& value = kArcTangentOfEighths[static_cast<std::size_t>(eighths)];
+  const Value& value = kAtanOfEighths[static_cast<std::size_t>(eighths)];
   return value.high + (t + (t * square * polynomial(kTerms, square) + value.low));
 }
 
@@ -113,35 +113,34 @@ constexpr double kOneOverLog2 = 0x1.71547652b82fep+0;
 
 }  // namespace
 
-double sine(double x_rad) {
+double sin(double x_rad) {
   const ReducedAngle angle = reduceAngle(x_rad);
-  const double value = (angle.quadrant & 1) != 0 ? cosineOfReduced(angle) : sineOfReduced(angle);
+  const double value = (angle.quadrant & 1) != 0 ? cosOfReduced(angle) : sinOfReduced(angle);
   return (angle.quadrant & 2) != 0 ? -value : value;
 }
 
-double cosine(double x_rad) {
+double cos(double x_rad) {
   const ReducedAngle angle = reduceAngle(x_rad);
-  const double value = (angle.quadrant & 1) != 0 ? sineOfReduced(angle) : cosineOfReduced(angle);
+  const double value = (angle.quadrant & 1) != 0 ? sinOfReduced(angle) : cosOfReduced(angle);
   return angle.quadrant == 1 || angle.quadrant == 2 ? -value : value;
 }
 
-double tangent(double x_rad) {
+double tan(double x_rad) {
   const ReducedAngle angle = reduceAngle(x_rad);
-  const double sine_value = sineOfReduced(angle);
-  const double cosine_value = cosineOfReduced(angle);
-  return (angle.quadrant & 1) != 0 ? -cosine_value / sine_value : sine_value / cosine_value;
+  const double sin_value = sinOfReduced(angle);
+  const double cos_value = cosOfReduced(angle);
+  return (angle.quadrant & 1) != 0 ? -cos_value / sin_value : sin_value / cos_value;
 }
 
-double arcTangent(double x) {
+double atan(double x) {
   if (x != x) return x;
   const double magnitude = x < 0.0 ? -x : x;
-  const double value = magnitude <= 1.0
-                           ? arcTangentOfFraction(magnitude)
-                           : kHalfPi - (arcTangentOfFraction(1.0 / magnitude) - kHalfPiTail);
+  const double value = magnitude <= 1.0 ? atanOfFraction(magnitude)
+                                        : kHalfPi - (atanOfFraction(1.0 / magnitude) - kHalfPiTail);
   return x < 0.0 ? -value : value;
 }
 
-double arcTangent2(double y, double x) {
+double atan2(double y, double x) {
   if (x != x || y != y) return std::numeric_limits<double>::quiet_NaN();
   const double x_size = x < 0.0 ? -x : x;
   const double y_size = y < 0.0 ? -y : y;
@@ -152,21 +151,21 @@ double arcTangent2(double y, double x) {
   if (x_size == y_size) {
     angle = 0.5 * kHalfPi;
   } else if (y_size < x_size) {
-    angle = arcTangentOfFraction(y_size / x_size);
+    angle = atanOfFraction(y_size / x_size);
   } else {
-    angle = kHalfPi - (arcTangentOfFraction(x_size / y_size) - kHalfPiTail);
+    angle = kHalfPi - (atanOfFraction(x_size / y_size) - kHalfPiTail);
   }
   if (x < 0.0) angle = 2.0 * kHalfPi - (angle - 2.0 * kHalfPiTail);
   return y < 0.0 ? -angle : angle;
 }
 
-double arcSine(double x) {
+double asin(double x) {
   if (x >= 1.0) return kHalfPi;
   if (x <= -1.0) return -kHalfPi;
-  return arcTangent2(x, std::sqrt((1.0 - x) * (1.0 + x)));
+  return atan2(x, std::sqrt((1.0 - x) * (1.0 + x)));
 }
 
-double exponential(double x) {
+double exp(double x) {
   if (x != x) return x;
   if (x > 709.8) return std::numeric_limits<double>::infinity();
   if (x < -745.2) return 0.0;
@@ -183,7 +182,7 @@ double exponential(double x) {
   return value * powerOfTwo(half) * powerOfTwo(exponent - half);
 }
 
-double naturalLogarithm(double x) {
+double log(double x) {
   if (x != x) return x;
   if (x <= 0.0) return -1e308;
   if (x > std::numeric_limits<double>::max()) return x;

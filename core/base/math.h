@@ -11,20 +11,19 @@ inline constexpr double kUniformSigma = 0.57735026918962576;
 /// Neither infinite nor a NaN.
 inline bool isFinite(double x) { return x - x == 0.0; }
 
-/// Elementary functions made of + - * / and sqrt in a fixed order, so that every machine gives the
-/// same bits; the C library's differ between versions and processors. Absolute error below 4e-16
-/// times max(1, |result|) for |x| <= 100 (sin, cos, tan away from its poles), any x (the rest).
-/// Sine and cosine lose accuracy beyond |x| = 1e6 but stay in [-1, 1]; a NaN gives a NaN, and so
-/// does an infinite angle.
-double sine(double x_rad);
-double cosine(double x_rad);
-double tangent(double x_rad);
-double arcTangent(double x);
+/// Elementary functions from + - * / and sqrt in a fixed order, so that every machine gives the
+/// same bits; those of the C library differ between versions and processors. Absolute error below
+/// 4e-16 times max(1, |result|) for |x| <= 100 (sin, cos, tan away from its poles), any x (others).
+/// sin and cos lose accuracy beyond |x| = 1e6 but stay in [-1, 1]. A NaN or an infinite angle gives
+/// a NaN. Inside the namespace these names hide the C library's.
+double sin(double x_rad);
+double cos(double x_rad);
+double tan(double x_rad);
+double atan(double x);
 /// Angle of (x, y) in (-pi, pi]; 0 for (0, 0).
-double arcTangent2(double y, double x);
-double arcSine(double x);  ///< x clamped to [-1, 1]
-/// exp and natural logarithm, for tests' noise and statistics; log(x <= 0) gives -1e308.
-double exponential(double x);
-double naturalLogarithm(double x);
+double atan2(double y, double x);
+double asin(double x);  ///< x clamped to [-1, 1]
+double exp(double x);
+double log(double x);  ///< natural logarithm; -1e308 for x <= 0
 
 }  // namespace boresight

@@ -54,8 +54,7 @@ double Random::normal() {
     const double a = 2.0 * uniform() - 1.0;
     const double b = 2.0 * uniform() - 1.0;
     const double square = a * a + b * b;
-    if (square < 1.0 && square > 0.0)
-      return a * std::sqrt(-2.0 * naturalLogarithm(square) / square);
+    if (square < 1.0 && square > 0.0) return a * std::sqrt(-2.0 * log(square) / square);
   }
   return 0.0;
 }

@@ -94,7 +94,7 @@ GaussianKernel gaussianKernel(double sigma_px) {
   double sum = 0.0;
   for (int i = kernel.radius; i > 0; --i) {
     value[static_cast<std::size_t>(i)] =
-        exponential(-0.5 * static_cast<double>(i * i) / (sigma_px * sigma_px));
+        exp(-0.5 * static_cast<double>(i * i) / (sigma_px * sigma_px));
     sum += value[static_cast<std::size_t>(i)];
   }
   sum = 2.0 * sum + 1.0;

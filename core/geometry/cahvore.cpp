@@ -38,18 +38,18 @@ double radialSlope(const Eigen::Vector3d& r, double x) {
 }
 
 double chiOf(double linearity, double theta) {
-  if (linearity > 0.0) return tangent(linearity * theta) / linearity;
-  if (linearity < 0.0) return sine(linearity * theta) / linearity;
+  if (linearity > 0.0) return tan(linearity * theta) / linearity;
+  if (linearity < 0.0) return sin(linearity * theta) / linearity;
   return theta;
 }
 double chiSlope(double linearity, double theta) {
-  const double cosine_of = cosine(linearity * theta);
-  if (linearity > 0.0) return 1.0 / (cosine_of * cosine_of);
-  return linearity < 0.0 ? cosine_of : 1.0;
+  const double cos_angle = cos(linearity * theta);
+  if (linearity > 0.0) return 1.0 / (cos_angle * cos_angle);
+  return linearity < 0.0 ? cos_angle : 1.0;
 }
 double thetaOf(double linearity, double chi) {
-  if (linearity > 0.0) return arcTangent(linearity * chi) / linearity;
-  if (linearity < 0.0) return arcSine(linearity * chi) / linearity;
+  if (linearity > 0.0) return atan(linearity * chi) / linearity;
+  if (linearity < 0.0) return asin(linearity * chi) / linearity;
   return chi;
 }
 
@@ -60,23 +60,23 @@ struct PupilEquation {
   const Eigen::Vector3d& entrance_m;
 
   double value(double theta) const {
-    const double sine_of = sine(theta);
-    return along * sine_of - across_length * cosine(theta) -
-           (theta - sine_of) * evenTerms(entrance_m, theta * theta);
+    const double sin_theta = sin(theta);
+    return along * sin_theta - across_length * cos(theta) -
+           (theta - sin_theta) * evenTerms(entrance_m, theta * theta);
   }
   double slope(double theta) const {
     const double s = theta * theta;
-    const double sine_of = sine(theta);
-    const double cosine_of = cosine(theta);
+    const double sin_theta = sin(theta);
+    const double cos_theta = cos(theta);
     const double by_theta = theta * (2.0 * entrance_m[1] + s * (4.0 * entrance_m[2]));
-    return along * cosine_of + across_length * sine_of -
-           (1.0 - cosine_of) * evenTerms(entrance_m, s) - (theta - sine_of) * by_theta;
+    return along * cos_theta + across_length * sin_theta -
+           (1.0 - cos_theta) * evenTerms(entrance_m, s) - (theta - sin_theta) * by_theta;
   }
 };
 
 double pupilAt(const Camera& camera, double theta) {
   if (!(theta > 0.0)) return 0.0;
-  return (theta / sine(theta) - 1.0) * evenTerms(camera.cahv.entrance_m, theta * theta);
+  return (theta / sin(theta) - 1.0) * evenTerms(camera.cahv.entrance_m, theta * theta);
 }
 
 /// An interval around the angle of a still pupil in which F changes its sign. There is none within
@@ -92,7 +92,7 @@ bool bracket(const PupilEquation& pupil, double start, double limit, double& low
 /// near to the pupil that neighbouring rays cross there.
 bool solveAngle(const Camera& camera, const Split& split, double& theta) {
   const double limit = camera.valid_radius;
-  theta = arcTangent2(split.across_length, split.along);
+  theta = atan2(split.across_length, split.along);
   const Eigen::Vector3d& e = camera.cahv.entrance_m;
   if (e[0] == 0.0 && e[1] == 0.0 && e[2] == 0.0) return theta <= limit;
   const PupilEquation pupil{split.along, split.across_length, e};
@@ -187,8 +187,7 @@ Eigen::Matrix3d pupilJacobian(const Camera& camera, const Split& split, double t
   const RowVector axis = lens.optical_axis.transpose();
   const RowVector outwards = split.across.transpose() / split.across_length;
   const PupilEquation pupil{split.along, split.across_length, lens.entrance_m};
-  const RowVector theta_by_point =
-      (cosine(theta) * outwards - sine(theta) * axis) / pupil.slope(theta);
+  const RowVector theta_by_point = (cos(theta) * outwards - sin(theta) * axis) / pupil.slope(theta);
   const double chi = chiOf(lens.linearity, theta);
   const RowVector chi_by_point = chiSlope(lens.linearity, theta) * theta_by_point;
   const RowVector along_by_point =
@@ -228,7 +227,7 @@ double increasingUpTo(const Eigen::Vector3d& r, double limit) {
 
 double widestAngle(double linearity) {
   double limit = kWidestAngle_rad;
-  if (linearity > 0.0) limit = std::min(limit, arcTangent(kLargestRadius * linearity) / linearity);
+  if (linearity > 0.0) limit = std::min(limit, atan(kLargestRadius * linearity) / linearity);
   if (linearity < 0.0) limit = std::min(limit, -0.5 * kPi / linearity);
   return limit;
 }
@@ -250,7 +249,7 @@ void measurePupil(Camera& camera) {
         continue;
       }
       const Split split(camera, ray.direction);
-      widest = std::max(widest, arcTangent2(split.across_length, split.along));
+      widest = std::max(widest, atan2(split.across_length, split.along));
     }
   }
   double low = 0.0;
@@ -322,7 +321,7 @@ bool distortCahvDirection(const Camera& camera, const Eigen::Vector3d& direction
   if (camera.model != CameraModel::kCahvore) return distortCahv(camera, direction, q);
   if (!isAhead(direction)) return false;
   const Split split(camera, direction);
-  const double theta = arcTangent2(split.across_length, split.along);
+  const double theta = atan2(split.across_length, split.along);
   return theta <= camera.valid_radius && onImagePlane(camera, distortedAt(camera, split, theta), q);
 }
 
@@ -339,8 +338,8 @@ bool undistortCahv(const Camera& camera, const Eigen::Vector2d& q, Ray& ray) {
   double chi = 0.0;
   if (!solveRadius(lens.radial, split.across_length / split.along, limit, chi)) return false;
   const double theta = has_pupil ? thetaOf(lens.linearity, chi) : 0.0;
-  const double along = has_pupil ? cosine(theta) : 1.0;
-  const double across = has_pupil ? sine(theta) : chi;
+  const double along = has_pupil ? cos(theta) : 1.0;
+  const double across = has_pupil ? sin(theta) : chi;
   Eigen::Vector3d direction = along * lens.optical_axis;
   if (split.across_length > 0.0) direction += split.across * (across / split.across_length);
   if (!(direction.z() > 0.0)) return false;
@@ -354,7 +353,7 @@ double pupilOf(const Camera& camera, const Eigen::Vector3d& point) {
   const Split split(camera, point);
   double theta = 0.0;
   if (!solveAngle(camera, split, theta))
-    theta = std::min(arcTangent2(split.across_length, split.along), camera.valid_radius);
+    theta = std::min(atan2(split.across_length, split.along), camera.valid_radius);
   const double at = pupilAt(camera, theta);
   return std::clamp(at, camera.cahv.pupil_low_m, camera.cahv.pupil_high_m);
 }

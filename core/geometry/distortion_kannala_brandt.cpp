@@ -28,13 +28,13 @@ double kannalaBrandtValidAngle_rad(const Camera& camera) {
   const auto& k = camera.distortion;
   const Polynomial distorted{{0.0, 1.0, 0.0, k[0], 0.0, k[1], 0.0, k[2], 0.0, k[3]}};
   const Polynomial room = Polynomial{{kLargestRadius}} + -1.0 * distorted;
-  const double limit = positiveUpTo(room, arcTangent(kLargestRadius));
+  const double limit = positiveUpTo(room, atan(kLargestRadius));
   return positiveUpTo(distorted.derivative(), limit);
 }
 
 bool distortKannalaBrandt(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q) {
   const double r = p.norm();
-  const double theta = arcTangent(r);
+  const double theta = atan(r);
   if (!(theta <= camera.valid_radius)) return false;
   q = p * (r > 0.0 ? distortedAngle(camera, theta) / r : 1.0);
   return true;
@@ -43,7 +43,7 @@ bool distortKannalaBrandt(const Camera& camera, const Eigen::Vector2d& p, Eigen:
 bool distortKannalaBrandt(const Camera& camera, const Eigen::Vector2d& p, Eigen::Vector2d& q,
                           Eigen::Matrix2d& jacobian) {
   const double r = p.norm();
-  const double theta = arcTangent(r);
+  const double theta = atan(r);
   if (!(theta <= camera.valid_radius)) return false;
   if (!(r > 0.0)) {
     q = p;
@@ -80,7 +80,7 @@ bool undistortKannalaBrandt(const Camera& camera, const Eigen::Vector2d& q, Eige
     if (next == theta || next <= low || next >= high) break;
     theta = next;
   }
-  p = distorted > 0.0 ? Eigen::Vector2d(q * (tangent(theta) / distorted)) : q;
+  p = distorted > 0.0 ? Eigen::Vector2d(q * (tan(theta) / distorted)) : q;
   return true;
 }
 

@@ -65,9 +65,9 @@ Eigen::Quaterniond rotationExp(const Eigen::Vector3d& rotation_rad) {
   // sin(angle / 2) / angle; by its series where the quotient would be 0 / 0 or loses digits.
   const double scale = square < 1e-6
                            ? 0.5 - square * (1.0 / 48.0) + square * square * (1.0 / 3840.0)
-                           : sine(0.5 * angle) / angle;
+                           : sin(0.5 * angle) / angle;
   const Eigen::Vector3d vector = scale * rotation_rad;
-  return unit({cosine(0.5 * angle), vector.x(), vector.y(), vector.z()});
+  return unit({cos(0.5 * angle), vector.x(), vector.y(), vector.z()});
 }
 
 Eigen::Vector3d rotationLog(const Eigen::Quaterniond& rotation) {
@@ -76,7 +76,7 @@ Eigen::Vector3d rotationLog(const Eigen::Quaterniond& rotation) {
   const Eigen::Vector3d vector = sign * rotation.vec();
   const double norm = vector.norm();
   // angle / sin(angle / 2); 2 in the limit, where norm has underflown or is exactly zero.
-  const double scale = norm > 0.0 ? 2.0 * arcTangent2(norm, w) / norm : 2.0;
+  const double scale = norm > 0.0 ? 2.0 * atan2(norm, w) / norm : 2.0;
   return scale * vector;
 }
 

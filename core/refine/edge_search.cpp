@@ -48,7 +48,7 @@ EdgeSearch::EdgeSearch(double sigma_px) {
   std::array<double, kMaxTaps> weights{};
   for (int k = 1; k <= taps_; ++k) {
     const double s_px = k * kStep_px;
-    const double weight = s_px * exponential(-0.5 * s_px * s_px / (sigma_px * sigma_px));
+    const double weight = s_px * exp(-0.5 * s_px * s_px / (sigma_px * sigma_px));
     weights[static_cast<std::size_t>(k - 1)] = weight;
     ramp += 2.0 * s_px * weight;
   }

@@ -75,8 +75,7 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
   if (kept.countsOnly()) return Status::kOk;
   if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
-    scene.cos_normal_threshold[i] =
-        cosine(std::clamp(mesh.parts[i].normal_threshold_rad, 0.0, kPi));
+    scene.cos_normal_threshold[i] = cos(std::clamp(mesh.parts[i].normal_threshold_rad, 0.0, kPi));
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) scene.setFlags(i);
   scene.measureBox();
   return Status::kOk;

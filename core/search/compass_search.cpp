@@ -35,8 +35,8 @@ bool CompassSearch::takePlaces(const MeshView& mesh, const EdgeRender& render) {
 int CompassSearch::sumAt(const SlideSums& maps, const State& state) const {
   const Eigen::Matrix3d rotation = state.view_from_station.matrix();
   const Eigen::Vector3d& translation_m = state.view_from_station.translation_m;
-  const double c = cosine(state.roll_rad);
-  const double s = sine(state.roll_rad);
+  const double c = cos(state.roll_rad);
+  const double s = sin(state.roll_rad);
   int sum = 0;
   for (int i = 0; i < count_; ++i) {
     const Place& place = places_[static_cast<std::size_t>(i)];

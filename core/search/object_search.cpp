@@ -104,10 +104,9 @@ bool ObjectSearch::layOut(ViewSize& size) {
   const Eigen::Vector3d box_rad =
       problem.uncertainty.rotation_rad.cwiseMin(Eigen::Vector3d::Constant(kPi));
   // What is seen from aside is seen tilted.
-  rotations_ =
-      RotationGrid({box_rad,
-                    view_from_camera.rotation,
-                    {arcTangent(reach_m.y() / depth_m_), arcTangent(reach_m.x() / depth_m_)}});
+  rotations_ = RotationGrid({box_rad,
+                             view_from_camera.rotation,
+                             {atan(reach_m.y() / depth_m_), atan(reach_m.x() / depth_m_)}});
   depth_range_ = std::min(reach_m.z() / depth_m_, kMostDepth);
   depths_ = placesFor(depth_range_, kDepth);
   size.span_px = kSpan_px;
@@ -118,7 +117,7 @@ bool ObjectSearch::layOut(ViewSize& size) {
   // Half of the largest side that a tilt brings into view.
   const double tilt_rad = std::min((turn * box_rad).head<2>().maxCoeff(), 0.5 * kPi);
   const Eigen::Vector3d extent_m = problem.scene.maximum_m - problem.scene.minimum_m;
-  size.least_half = sine(tilt_rad) * 0.5 * extent_m.maxCoeff() / depth_m_;
+  size.least_half = sin(tilt_rad) * 0.5 * extent_m.maxCoeff() / depth_m_;
   return true;
 }
 
@@ -225,8 +224,8 @@ void ObjectSearch::takePoints() {
 
 /// The outline turned, at all depths and slides.
 void ObjectSearch::scoreTurn(int turn) {
-  const double c = cosine(turn * RotationGrid::kSpacing_rad);
-  const double s = sine(turn * RotationGrid::kSpacing_rad);
+  const double c = cos(turn * RotationGrid::kSpacing_rad);
+  const double s = sin(turn * RotationGrid::kSpacing_rad);
   std::array<SlideSums::Place, SlideSums::kMaxPlaces> places;
   const auto used = std::span(places).first(static_cast<std::size_t>(point_count_));
   for (int depth = 0; depth < depths_; ++depth) {

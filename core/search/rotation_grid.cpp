@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/math.h"
 #include "core/geometry/pose.h"
 
 namespace boresight {
@@ -15,7 +16,7 @@ constexpr double kTurnReach_rad = 0.5 * RotationGrid::kSpacing_rad;
 constexpr double kTiltReach_rad = 0.6 * RotationGrid::kSpacing_rad;
 
 int placesOn(int ring) {
-  const double circumference = RotationGrid::kTurns * sine(ring * RotationGrid::kSpacing_rad);
+  const double circumference = RotationGrid::kTurns * sin(ring * RotationGrid::kSpacing_rad);
   const int places = -static_cast<int>(std::floor(1e-9 - circumference));
   return places > 1 ? places : 1;
 }
@@ -27,8 +28,7 @@ bool isNearBox(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& box_r
   const double angle2 = rotation_rad.squaredNorm();
   const double half = 0.5 * std::sqrt(angle2);
   // Derivative of the rotation vector (inverse left Jacobian of the exponential).
-  const double of_square =
-      half > 0.01 ? (1.0 - half * cosine(half) / sine(half)) / angle2 : 1.0 / 12.0;
+  const double of_square = half > 0.01 ? (1.0 - half * cos(half) / sin(half)) / angle2 : 1.0 / 12.0;
   Eigen::Matrix3d cross;
   cross << 0.0, -rotation_rad.z(), rotation_rad.y(),  //
       rotation_rad.z(), 0.0, -rotation_rad.x(),       //
@@ -43,7 +43,7 @@ bool isNearBox(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& box_r
 
 Eigen::Vector3d RotationGrid::tilt_rad() const {
   const double azimuth = 2.0 * kPi * place_ / placesOn(ring_);
-  return ring_ * kSpacing_rad * Eigen::Vector3d(cosine(azimuth), sine(azimuth), 0.0);
+  return ring_ * kSpacing_rad * Eigen::Vector3d(cos(azimuth), sin(azimuth), 0.0);
 }
 
 bool RotationGrid::next() {

@@ -18,7 +18,7 @@ constexpr double kGrossFactor = 3.0;
 double twistAboutZ_rad(const Eigen::Quaterniond& rotation) {
   // q and -q are one rotation; w >= 0 keeps the angle within a half turn.
   const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
-  const double twist_rad = 2.0 * arcTangent2(sign * rotation.z(), sign * rotation.w());
+  const double twist_rad = 2.0 * atan2(sign * rotation.z(), sign * rotation.w());
   return twist_rad <= -kPi ? twist_rad + 2.0 * kPi : twist_rad;
 }
 
@@ -53,7 +53,7 @@ PoseError poseError(const Pose& camera_from_station_true, const Pose& camera_fro
   error.normal_mm = kMillimetres * d_m.z();
   error.lateral_mm = kMillimetres * std::hypot(d_m.x(), d_m.y());
   // atan2 keeps small angles exact where acos of the dot product would not.
-  error.rotation_mrad = kMilliradians * arcTangent2(std::hypot(axis.x(), axis.y()), axis.z());
+  error.rotation_mrad = kMilliradians * atan2(std::hypot(axis.x(), axis.y()), axis.z());
   error.in_plane_mrad = kMilliradians * twistAboutZ_rad(true_from_estimated.rotation);
   error.geodesic_mrad = kMilliradians * rotationLog(true_from_estimated.rotation).norm();
   return error;

@@ -76,8 +76,8 @@ inline Pose randomCameraFromStation(Random& random, double distance_m, double of
   const double azimuth_rad = random.uniform(-kPi, kPi);
   const double off_rad = random.uniform(0.0, off_axis_rad);
   camera_from_station.translation_m =
-      distance_m * Eigen::Vector3d(sine(off_rad) * cosine(azimuth_rad),
-                                   sine(off_rad) * sine(azimuth_rad), cosine(off_rad));
+      distance_m * Eigen::Vector3d(sin(off_rad) * cos(azimuth_rad), sin(off_rad) * sin(azimuth_rad),
+                                   cos(off_rad));
   return camera_from_station;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -84,6 +85,23 @@ std::string fault(const std::string& including_folder, const Include& include) {
   return "";
 }
 
+std::string textOf(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Whether a source calls sin, exp and the like of the C library, whose bits differ between
+/// machines: as std::sin(), or as sin() without the header that declares core's own.
+bool callsTheCLibrary(const std::string& text) {
+  static const std::regex comment("//[^\n]*");
+  static const std::regex of_std(R"(std::(a?(sin|cos|tan)h?|atan2|exp|log|pow)\()");
+  static const std::regex unqualified(R"([^\w:.>](a?(sin|cos|tan)h?|atan2|exp|log|pow)\()");
+  static const std::regex declared(R"(#include "core/base/math\.h")");
+  const std::string code = std::regex_replace(text, comment, "");
+  return std::regex_search(code, of_std) ||
+         (std::regex_search(code, unqualified) && !std::regex_search(code, declared));
+}
+
 TEST(Layering, NoStageIncludesALaterOneOrAnythingForeign) {
   const fs::path source_dir = BORESIGHT_SOURCE_DIR;
   const std::vector<Include> includes = includesOfCore(source_dir);
@@ -93,6 +111,18 @@ TEST(Layering, NoStageIncludesALaterOneOrAnythingForeign) {
     const std::string problem = fault(relative.begin()->string(), include);
     EXPECT_EQ(problem, "") << relative;
   }
+}
+
+TEST(Layering, ElementaryFunctionsInCore_AreCoresOwn) {
+  const fs::path source_dir = BORESIGHT_SOURCE_DIR;
+  for (const auto& entry : fs::recursive_directory_iterator(source_dir / "core"))
+    if (entry.path().extension() == ".cpp") {
+      EXPECT_FALSE(callsTheCLibrary(textOf(entry.path()))) << entry.path();
+    }
+  EXPECT_TRUE(callsTheCLibrary("double a = std::sin(x);"));
+  EXPECT_TRUE(callsTheCLibrary("#include <cmath>\ndouble a = exp(x);"));
+  EXPECT_FALSE(callsTheCLibrary("#include \"core/base/math.h\"\ndouble a = exp(x);"));
+  EXPECT_FALSE(callsTheCLibrary("double a = std::sqrt(x);  // not sin(x)"));
 }
 
 TEST(Layering, NoticesWhatItIsThereFor) {

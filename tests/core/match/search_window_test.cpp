@@ -328,7 +328,7 @@ TEST(SearchWindow, HoldsARotationAboutOneAxisWhereAnotherWouldDoNothing) {
   camera.cx = camera.cy = 4095.5;
   const SeedUncertainty uncertainty = uncertaintyOf(0.0, {0.0, 5.0, 40.0}, {0.0, 0.0, 0.0});
   const SearchWindow window = searchWindow(camera, {0.0, 0.0, 0.5}, uncertainty, 16);
-  const double reach_px = camera.fx * tangent(5.0 * kDegree_rad);
+  const double reach_px = camera.fx * tan(5.0 * kDegree_rad);
   EXPECT_GE(window.x_max, camera.cx + reach_px);
   EXPECT_LE(window.x_min, camera.cx - reach_px);
 }

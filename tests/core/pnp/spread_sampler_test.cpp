@@ -27,7 +27,7 @@ TEST(SpreadSampler, DrawsDistinctIndicesWithEqualFrequency) {
   constexpr int kPlaces = 12;
   for (int i = 0; i < kPlaces; ++i) {
     const double azimuth_rad = 2.0 * kPi * i / kPlaces;
-    places.emplace_back(100.0 * cosine(azimuth_rad), 100.0 * sine(azimuth_rad));
+    places.emplace_back(100.0 * cos(azimuth_rad), 100.0 * sin(azimuth_rad));
   }
   for (const int size : {3, 4}) {
     SpreadSampler sampler;
