@@ -8,6 +8,7 @@
 #include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/labels/image_label.h"
+#include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sigmas.h"
@@ -22,6 +23,8 @@ namespace {
 constexpr double kSmallestStation_px = 24.0;
 /// The number of stations that `InputSheets` keeps: meshes are large.
 constexpr std::size_t kMostStations = 8;
+/// The same of images.
+constexpr std::size_t kMostImages = 8;
 
 std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
@@ -85,7 +88,7 @@ bool contains(const BoundingBox& bounds, const Eigen::Vector3d& point_m) {
 }
 
 void flagSeed(const SheetSources& sources, InputSheet& sheet) {
-  const auto& [one, image, image_sheet, scene, bounds, ignored_count] = sources;
+  const auto& [one, image, image_sheet, scene, bounds, ignore, ignored_count] = sources;
   const Pose& seed = one.camera_from_station_seed;
   const std::string scale = scaleConcern(bounds, seed);
   if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": is the mesh's unit right?"});
@@ -128,6 +131,10 @@ void describe(const SheetSources& sources, InputSheet& sheet) {
   add("gray", std::to_string(sources.image_sheet.lowest_gray) + " .. " +
                   std::to_string(sources.image_sheet.highest_gray) + ", " +
                   fixedText(100.0 * sources.image_sheet.saturated_share, 2) + " % saturated");
+  add("image at the seed",
+      imageQualityText(measureImageQuality(
+          image.view(), sources.ignore,
+          stationRegion(one.camera, sources.scene.view(), one.camera_from_station_seed))));
   add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
                     sizeText(one.camera.width, one.camera.height) + " px");
   for (const FrameLine& line : frameLines(one)) add(line.label.c_str(), line.value);
@@ -267,11 +274,13 @@ InputSheet inputSheet(const LoadedCase& loaded) {
   const BoundingBox bounds = matchedBounds(loaded.scene.view());
   std::optional<std::int64_t> ignored_count;
   if (loaded.ignore) ignored_count = loaded.ignore->ignored_count;
+  const BitImage* ignore = loaded.ignore ? &loaded.ignore_bits : nullptr;
   return inputSheet(
-      {loaded.source, loaded.image, image_sheet, loaded.scene, bounds, ignored_count});
+      {loaded.source, loaded.image, image_sheet, loaded.scene, bounds, ignore, ignored_count});
 }
 
 const InputSheets::Image& InputSheets::imageOf(const ImageInput& input) {
+  if (images_.size() >= kMostImages && !images_.contains(input.source.file)) images_.clear();
   const auto [place, added] = images_.try_emplace(input.source.file);
   Image& known = place->second;
   if (added || !(known.input == input)) {
@@ -280,7 +289,7 @@ const InputSheets::Image& InputSheets::imageOf(const ImageInput& input) {
     try {
       known.image = loadImage(input);
       known.sheet = imageSheet(known.image);
-      known.image.pixels = {};
+      known.image.color = {};
     } catch (...) {
       known.problem = std::current_exception();
     }
@@ -312,7 +321,8 @@ InputSheet InputSheets::of(const SessionCase& one) {
   if (one.ignore || !one.ignore_strokes.empty()) return inputSheet(*loadCase(one));
   const Image& image = imageOf(one.image);
   const Station& station = stationOf(one.parts);
-  return inputSheet({one, image.image, image.sheet, station.scene, station.bounds, std::nullopt});
+  return inputSheet(
+      {one, image.image, image.sheet, station.scene, station.bounds, nullptr, std::nullopt});
 }
 
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m) {

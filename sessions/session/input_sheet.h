@@ -70,13 +70,14 @@ struct InputSheet {
   std::vector<RedFlag> flags;  ///< of image, camera, meshes, and of how they fit each other
 };
 
-/// What a sheet is made from. Of the image all but its pixels, which are looked at once.
+/// What a sheet is made from.
 struct SheetSources {
   const SessionCase& one;
   const GrayImage& image;
   const ImageSheet& image_sheet;  ///< of that image
   const SceneMesh& scene;
   const BoundingBox& bounds;                  ///< of its matched parts, station frame
+  const BitImage* ignore = nullptr;           ///< of a case with a mask
   std::optional<std::int64_t> ignored_count;  ///< px, of a case with a mask
 };
 
@@ -95,7 +96,7 @@ class InputSheets {
  private:
   struct Image {
     ImageInput input;
-    GrayImage image;  ///< without its pixels
+    GrayImage image;  ///< without colour
     ImageSheet sheet;
     std::exception_ptr problem;
   };
