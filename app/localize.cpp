@@ -8,6 +8,8 @@
 #include "sessions/io/image_file.h"
 #include "sessions/report/result_file.h"
 #include "sessions/review/review_subject.h"
+#include "sessions/run/acceptance.h"
+#include "sessions/run/image_quality.h"
 #include "sessions/run/overlay.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/run_text.h"
@@ -88,16 +90,16 @@ void printNamedPoses(const sessions::SessionCase& one, const Pose& camera_from_s
 }
 
 void printResult(const sessions::LocalizationTrace& trace, const sessions::SessionCase& one,
+                 const std::optional<sessions::ImageQuality>& quality,
                  const std::optional<sessions::PoseError>& error) {
   using sessions::fixedText;
   std::cout << sessions::iterationTable(trace) << "\n";
+  std::cout << "image at the seed: " << sessions::imageQualityText(quality) << "\n";
   if (trace.converged()) {
     std::cout << "converged in " << trace.iterations.size() << " iterations, edge support "
               << fixedText(100.0 * trace.support.share(), 1) << " %, "
-              << (trace.evidence.places > 0
-                      ? "probability " + fixedText(100.0 * trace.probability, 1) + " %, "
-                      : std::string())
-              << fixedText(trace.seconds.total(), 2) << " s\n\n"
+              << fixedText(trace.seconds.total(), 2) << " s\n"
+              << sessions::acceptanceText(trace) << "\n\n"
               << sessions::poseText(trace.camera_from_station, trace.covariance)
               << "(by the picture alone: errors of the mesh's scale and of the calibration are not "
                  "in it)\n";
@@ -105,6 +107,8 @@ void printResult(const sessions::LocalizationTrace& trace, const sessions::Sessi
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)
               << "; the best estimate remains the seed\n";
+    if (const std::string text = sessions::acceptanceText(trace); !text.empty())
+      std::cout << text << "\n";
   }
   if (error) {
     std::cout << (trace.converged() ? "against the truth" : "the seed against the truth")
@@ -165,7 +169,7 @@ int localizeImage(const LocalizeArguments& arguments) {
                                     {arguments.mesh, ""},
                                     {arguments.seed, ""}});
   const auto error = sessions::truthError(loaded, trace.camera_from_station);
-  printResult(trace, loaded.source, error);
+  printResult(trace, loaded.source, sessions::imageQualityOf(loaded.problem()), error);
   if (settings.memory_limit > 0) std::cout << "\n" << sessions::memoryTable(trace) << std::flush;
   if (!arguments.out.empty())
     sessions::writeResult(arguments.out, trace, error, provenance(arguments, input, options));

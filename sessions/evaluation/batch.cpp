@@ -17,6 +17,7 @@
 #include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/errors.h"
+#include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
 #include "sessions/text/text_table.h"
@@ -227,6 +228,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   result.camera_from_station = problem.camera_from_station_seed;
   result.seed_error = errorOf(one, problem.camera, problem.camera_from_station_seed, scene);
 
+  result.image_quality = imageQualityOf(problem);
   LocalizerOptions options = options_.localizer;
   if (options.templates.feature_size_m == 0.0 && item.work->mesh_station->feature_size_m)
     options.templates.feature_size_m = *item.work->mesh_station->feature_size_m;

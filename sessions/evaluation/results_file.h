@@ -19,7 +19,7 @@ namespace boresight::sessions {
 
 /// Marks an SQLite file as ours ("BSRT"), and of which form.
 inline constexpr std::int64_t kResultsApplication = 0x42535254;
-inline constexpr std::int64_t kResultsVersion = 2;
+inline constexpr std::int64_t kResultsVersion = 3;
 
 /// A results file but its runs.
 struct ResultsFacts {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/json_writer.h"
+#include "sessions/run/acceptance.h"
 #include "sessions/run/run_text.h"
 
 namespace boresight::sessions {
@@ -63,6 +64,14 @@ void noteTrace(const LocalizationTrace& trace, RunResult& result) {
     result.inliers = iteration->pnp.inlier_count;
   }
   result.edge_support = trace.support.share();
+  if (hasProbability(trace)) {
+    result.probability = trace.probability;
+    result.evidence_nats = trace.evidence.strongest_nats();
+    result.weakest_quadrant_nats = trace.evidence.weakest_nats();
+  }
+  result.competing_poses = static_cast<std::int32_t>(trace.competing_poses.size());
+  if (const CompetingPose* closest = closestCompetingPose(trace))
+    result.least_margin_nats = closest->margin_nats;
   result.seconds = trace.seconds;
   result.digest = trace.digest;
 }
@@ -95,6 +104,12 @@ nlohmann::ordered_json toJson(const StageSeconds& seconds) {
   return json;
 }
 
+nlohmann::ordered_json toJson(const ImageQuality& quality) {
+  nlohmann::ordered_json json;
+  for (const auto& [name, part] : kImageQualityParts) json[name] = quality.*part;
+  return json;
+}
+
 nlohmann::ordered_json toJson(const RunResult& result) {
   nlohmann::ordered_json json = {{"id", result.case_id},         {"reseed", result.reseed},
                                  {"station", result.station},    {"tags", result.tags},
@@ -111,6 +126,14 @@ nlohmann::ordered_json toJson(const RunResult& result) {
   json["matches"] = result.matches;
   json["inliers"] = result.inliers;
   json["edge_support"] = result.edge_support;
+  if (result.probability) {
+    json["probability"] = *result.probability;
+    json["evidence_nats"] = *result.evidence_nats;
+    json["weakest_quadrant_nats"] = *result.weakest_quadrant_nats;
+  }
+  json["competing_poses"] = result.competing_poses;
+  if (result.least_margin_nats) json["least_margin_nats"] = *result.least_margin_nats;
+  if (result.image_quality) json["image_quality"] = toJson(*result.image_quality);
   if (result.error) json["error"] = toJson(*result.error);
   if (result.seed_error) json["seed_error"] = toJson(*result.seed_error);
   json["seconds"] = toJson(result.seconds);

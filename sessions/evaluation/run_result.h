@@ -11,6 +11,7 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/dataset_file.h"
+#include "sessions/run/image_quality.h"
 #include "sessions/run/match_details.h"
 #include "sessions/run/trace.h"
 
@@ -91,6 +92,13 @@ struct RunResult {
   std::int32_t matches = 0;  ///< of the last iteration that matched
   std::int32_t inliers = 0;
   double edge_support = 0.0;
+  /// Of runs that search and came to a pose: that it is right, and the evidence for it.
+  std::optional<double> probability;
+  std::optional<double> evidence_nats;          ///< ContourEvidence::strongest_nats()
+  std::optional<double> weakest_quadrant_nats;  ///< ContourEvidence::weakest_nats()
+  std::int32_t competing_poses = 0;             ///< that the image supports, too
+  std::optional<double> least_margin_nats;      ///< of the pose's evidence beyond theirs
+  std::optional<ImageQuality> image_quality;    ///< at the seed's projection of the station
   std::optional<PoseError> error;
   std::optional<PoseError> seed_error;
   std::optional<Requirement> requirement;
@@ -111,6 +119,7 @@ void judge(bool wrong_mesh, RunResult& result);
 
 nlohmann::ordered_json toJson(const PoseError& error);
 nlohmann::ordered_json toJson(const StageSeconds& seconds);
+nlohmann::ordered_json toJson(const ImageQuality& quality);
 /// One object as in conventions.md, for a line of results.jsonl.
 nlohmann::ordered_json toJson(const RunResult& result);
 

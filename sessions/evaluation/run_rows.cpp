@@ -44,6 +44,14 @@ Column<Row> real(const char* name, double Row::*field, const char* type = "REAL"
           }};
 }
 
+/// A number that may be unknown: NULL.
+template <class Row>
+Column<Row> known(const char* name, std::optional<double> Row::*field) {
+  return {
+      name, "REAL", [field](const Row& row) { return sqlReal(row.*field); },
+      [field](Row& row, const SqlValue& value, const fs::path&) { row.*field = realOf(value); }};
+}
+
 template <class Row>
 Column<Row> pose(const char* name, Pose Row::*field) {
   return {name, "TEXT NOT NULL",
@@ -113,6 +121,21 @@ Column<Row> flag(const char* name, bool Row::*field) {
           }};
 }
 
+void addImageQuality(std::vector<Column<RunResult>>& columns) {
+  for (const auto& [name, part] : kImageQualityParts)
+    columns.push_back({name, "REAL",
+                       [part = part](const RunResult& run) {
+                         return run.image_quality ? SqlValue((*run.image_quality).*part)
+                                                  : SqlValue();
+                       },
+                       [part = part](RunResult& run, const SqlValue& value, const fs::path&) {
+                         const std::optional<double> real = realOf(value);
+                         if (!real) return;
+                         if (!run.image_quality) run.image_quality.emplace();
+                         (*run.image_quality).*part = *real;
+                       }});
+}
+
 /// A rotation as it is, [w, x, y, z]: a matrix would not give the same bits back.
 SqlValue quaternionText(const RunResult& run) {
   const Eigen::Quaterniond& q = run.camera_from_station_seed.rotation;
@@ -147,7 +170,13 @@ std::vector<Column<RunResult>> makeRunColumns() {
       integer("iterations", &Run::iterations),
       integer("matches", &Run::matches),
       integer("inliers", &Run::inliers),
-      real("edge_support", &Run::edge_support)};
+      real("edge_support", &Run::edge_support),
+      known("probability", &Run::probability),
+      known("evidence_nats", &Run::evidence_nats),
+      known("weakest_quadrant_nats", &Run::weakest_quadrant_nats),
+      integer("competing_poses", &Run::competing_poses),
+      known("least_margin_nats", &Run::least_margin_nats)};
+  addImageQuality(columns);
   addError(columns, "", &Run::error, true);
   addError(columns, "seed_", &Run::seed_error, true);
   columns.push_back({"requirement", "TEXT", requirementText, readRequirementText});

@@ -9,6 +9,9 @@
 #include "sessions/io/config_file.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/run/acceptance.h"
+#include "sessions/run/alternatives.h"
+#include "sessions/run/image_quality.h"
 #include "sessions/run/run_text.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/session/session_file.h"
@@ -48,6 +51,53 @@ ordered_json iterationJson(const IterationTrace& iteration) {
   json["camera_from_station"] = toJson(iteration.camera_from_station);
   json["seconds"] = toJson(iteration.seconds);
   return json;
+}
+
+/// What the acceptance of the pose rests on; members that the run did not come to are missing.
+ordered_json acceptanceJson(const LocalizationTrace& trace, bool in_colour) {
+  const SupportOptions& asked = trace.lastOptions().support;
+  ordered_json json;
+  if (hasProbability(trace)) {
+    const ContourEvidence& evidence = trace.evidence;
+    json["probability"] = trace.probability;
+    json["min_probability"] = asked.min_probability;
+    json["evidence_nats"] = evidence.strongest_nats();
+    json["edges_nats"] = evidence.edges_nats;
+    json["outline_nats"] = evidence.outline_nats;
+    json["weakest_quadrant_nats"] = evidence.weakest_nats();
+    json["quadrant_nats"] = evidence.quadrant_nats;
+    json["edge_places"] = evidence.places;
+    json["in_colour"] = in_colour;
+  } else {
+    json["min_edge_support"] = asked.min_support;
+  }
+  json["edge_support"] = trace.support.share();
+  if (trace.edge_width.widestDirection() >= 0) {
+    json["edge_width_px"] = trace.edge_width.widest_px();
+    json["max_edge_width_px"] = EdgeWidth::kWidest_px;
+  }
+  return json;
+}
+
+/// Candidates of the search, the most evidence first.
+ordered_json candidatesJson(const LocalizationTrace& trace) {
+  ordered_json list = ordered_json::array();
+  for (const Alternative& one : alternativesOf(trace))
+    if (one.kind == AlternativeKind::kCandidate)
+      list.push_back({{"camera_from_station", toJson(one.camera_from_station)},
+                      {"evidence_nats", one.evidence_nats},
+                      {"taken", trace.converged() && one.chosen}});
+  return list;
+}
+
+/// Other poses that show about the same edges as the pose found.
+ordered_json competingPosesJson(const LocalizationTrace& trace) {
+  ordered_json list = ordered_json::array();
+  for (const CompetingPose& pose : trace.competing_poses)
+    list.push_back({{"camera_from_station", toJson(pose.camera_from_station)},
+                    {"similarity", pose.similarity},
+                    {"margin_nats", pose.margin_nats}});
+  return list;
 }
 
 ordered_json imageJson(const GrayImage& image) {
@@ -108,6 +158,12 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["matches"] = result.matches;
   json["inliers"] = result.inliers;
   json["edge_support"] = result.edge_support;
+  const LocalizationProblem problem = provenance.loaded->problem();
+  json["acceptance"] =
+      acceptanceJson(trace, trace.lastOptions().search.color && problem.color.data != nullptr);
+  json["candidates"] = candidatesJson(trace);
+  json["competing_poses"] = competingPosesJson(trace);
+  if (const auto quality = imageQualityOf(problem)) json["image_quality"] = toJson(*quality);
   if (error) json["error"] = toJson(*error);
   if (!provenance.warnings.empty()) json["warnings"] = provenance.warnings;
   json["seconds"] = toJson(trace.seconds);

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "sessions/run/acceptance.h"
 #include "sessions/run/match_details.h"
 #include "sessions/session/check.h"
 
@@ -33,10 +34,11 @@ constexpr double kLeastDepthShare = 0.01;
 std::string count(double value) { return std::to_string(static_cast<long>(std::lround(value))); }
 
 Check convergedCheck(const LocalizationTrace& run) {
-  const std::string found =
+  std::string found =
       run.converged()
           ? "The run converged after " + std::to_string(run.iterations.size()) + " iterations."
           : std::string("The run ended as ") + localizationStatusText(run.status) + ".";
+  if (hasProbability(run)) found += " " + acceptanceText(run);
   return statedCheck(
       kConverged, run.converged(), found,
       "Look at the iteration in which it failed; begin nearer, or mark what cannot be trusted.");

@@ -52,17 +52,32 @@ Alternative ofCandidate(const PoseCandidate& from, std::size_t index) {
   return alternative;
 }
 
-/// The candidate nearest to the run's result, which may come from a later one than the first; of a
-/// run without a result the first.
-std::size_t chosenCandidate(const LocalizationTrace& run) {
-  std::size_t nearest = 0;
+/// The first iteration of an iteration's attempt. An attempt that repeats an earlier iteration
+/// counts as the attempt of that one.
+const IterationTrace& startOf(const LocalizationTrace& run, std::size_t index) {
+  const auto at = [&run](std::size_t i) -> const IterationTrace& { return *run.iterations[i]; };
+  std::size_t first = index;
+  while (first > 0 && at(first - 1).attempt == at(index).attempt) --first;
+  for (std::size_t i = 0; i < first; ++i)
+    if (at(i).camera_from_station_before == at(first).camera_from_station_before)
+      return startOf(run, i);
+  return at(first);
+}
+
+/// The candidate from which the run came to its pose, the nearest to where that attempt began; of a
+/// run without a pose the first. -1: the pose comes from the seed.
+int chosenCandidate(const LocalizationTrace& run) {
+  if (run.candidates.empty()) return -1;
+  if (!run.converged() || run.iterations.empty()) return 0;
+  const Pose start = startOf(run, run.iterations.size() - 1).camera_from_station_before;
+  if (start == run.camera_from_station_seed) return -1;
+  int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < run.candidates.size() && run.converged(); ++i) {
-    Vector6d xi =
-        perturbationBetween(run.candidates[i].camera_from_station, run.camera_from_station);
-    xi.head<3>() *= run.camera_from_station.translation_m.norm();  // a turn, seen at its distance
+  for (std::size_t i = 0; i < run.candidates.size(); ++i) {
+    Vector6d xi = perturbationBetween(run.candidates[i].camera_from_station, start);
+    xi.head<3>() *= start.translation_m.norm();  // a turn, seen at its distance
     const double apart = xi.squaredNorm();
-    if (apart < least) nearest = i;
+    if (apart < least) nearest = static_cast<int>(i);
     least = std::min(least, apart);
   }
   return nearest;
@@ -99,11 +114,12 @@ std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
     all.push_back(ofCompeting(run.competing_poses[i], i));
     compare(best, all.back());
   }
-  const std::size_t chosen = chosenCandidate(run);
+  const int chosen = chosenCandidate(run);
+  const auto compared = static_cast<std::size_t>(std::max(chosen, 0));
   for (std::size_t i = 0; i < run.candidates.size(); ++i) {
     all.push_back(ofCandidate(run.candidates[i], i));
-    all.back().chosen = i == chosen;
-    compare(run.candidates[chosen].camera_from_station, all.back());
+    all.back().chosen = static_cast<int>(i) == chosen;
+    compare(run.candidates[compared].camera_from_station, all.back());
   }
   for (std::size_t i = 0; i < run.iterations.size(); ++i) addHypotheses(run, i, all);
   return all;

@@ -12,6 +12,7 @@
 #include "core/refine/edge_refinement.h"
 #include "core/render/band_painter.h"
 #include "core/templates/template_selection.h"
+#include "sessions/run/acceptance.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 
@@ -110,21 +111,9 @@ std::string faultText(const LocalizationTrace& trace) {
   return text;
 }
 
-/// What the probability of a searched run's pose rests on.
-std::string probabilityText(const LocalizationTrace& trace) {
-  return format(
-      "%.1f %%, needed %.1f %%: evidence of its edges %.2f nats, of the weakest quadrant "
-      "%.2f nats, edge support %.1f %%",
-      100.0 * trace.probability, 100.0 * trace.lastOptions().support.min_probability,
-      trace.evidence.strongest_nats(), trace.evidence.weakest_nats(),
-      100.0 * trace.support.share());
-}
-
-bool hasProbability(const LocalizationTrace& trace) { return trace.evidence.places > 0; }
-
 std::string notSupportedText(const LocalizationTrace& trace) {
   if (hasProbability(trace))
-    return "the probability that the pose is right is " + probabilityText(trace) +
+    return probabilityText(trace) +
            "; check mesh and camera, and state a larger uncertainty if the seed may be farther off";
   const EdgeSupport& support = trace.support;
   return format(
@@ -136,16 +125,8 @@ std::string notSupportedText(const LocalizationTrace& trace) {
       100.0 * support.chanceExplanation());
 }
 
-/// The competing pose with the most evidence, or nullptr.
-const CompetingPose* closestCompetitor(const LocalizationTrace& trace) {
-  const auto closest =
-      std::min_element(trace.competing_poses.begin(), trace.competing_poses.end(),
-                       [](const auto& a, const auto& b) { return a.margin_nats < b.margin_nats; });
-  return closest == trace.competing_poses.end() ? nullptr : &*closest;
-}
-
 std::string ambiguousText(const LocalizationTrace& trace) {
-  const CompetingPose* other = closestCompetitor(trace);
+  const CompetingPose* other = closestCompetingPose(trace);
   if (other == nullptr || trace.iterations.empty())
     return "another pose explains the image as well";
   const Pose& best = trace.iterations.back()->camera_from_station;
@@ -230,23 +211,20 @@ std::string convergedText(const LocalizationTrace& trace) {
       "Converged in " + countText(trace.iterations.size(), "iteration", "iterations");
   if (trace.attempts > 1) text += format(" and %d attempts", trace.attempts);
   text += trace.replayed ? "." : format(", %.2f s.", trace.seconds.total());
-  const SupportOptions& asked = trace.lastOptions().support;
-  if (asked.gate && hasProbability(trace))
-    text += " The probability that the pose is right is " + probabilityText(trace) + ".";
-  else if (asked.gate)
-    text += format(" Edge support is %.1f %%, needed %.1f %%.", 100.0 * trace.support.share(),
-                   100.0 * asked.min_support);
-  if (trace.edge_width.widestDirection() >= 0)
-    text += format(" The image's edges are %.1f px wide, at most %.0f px are accepted.",
-                   trace.edge_width.widest_px(), EdgeWidth::kWidest_px);
-  if (const CompetingPose* other = closestCompetitor(trace))
-    text += format(" The best of the poses that look alike has %.0f nats less evidence.",
-                   other->margin_nats);
+  if (trace.lastOptions().support.gate) text += " " + acceptanceText(trace);
   return text + format(
                     " 1 sigma by the picture alone, at the camera, along its x, y, z: %.3f, %.3f, "
                     "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",
                     toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
                     1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+}
+
+/// With the probability of a pose that was refused for another reason.
+std::string failedText(const LocalizationTrace& trace) {
+  std::string text = "Did not converge. " + sentence(explanation(trace));
+  if (hasProbability(trace) && trace.status != LocalizationStatus::kNotSupported)
+    text += " " + sentence(probabilityText(trace));
+  return text;
 }
 
 /// An onboard run, so that nobody takes it for one of the ground.
@@ -256,14 +234,14 @@ std::string replayedText(const LocalizationTrace& trace) {
   if (trace.finished && trace.iterations.empty())
     return begin + "It ended as " + localizationStatusText(trace.status) +
            "; none of its iterations is known.";
-  if (trace.finished) return begin + "Did not converge. " + sentence(explanation(trace));
+  if (trace.finished) return begin + failedText(trace);
   return begin + "It ends after " + countText(trace.iterations.size(), "iteration", "iterations") +
          ": how the run ended is not known.";
 }
 
 std::string aloneText(const LocalizationTrace& trace) {
   if (trace.converged()) return convergedText(trace);
-  if (trace.finished) return "Did not converge. " + sentence(explanation(trace));
+  if (trace.finished) return failedText(trace);
   if (trace.iterations.empty())
     return trace.edges ? "The image's edges are found." : "Nothing has run yet.";
   const std::string number = std::to_string(trace.iterations.size());

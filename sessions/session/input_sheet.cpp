@@ -8,6 +8,7 @@
 #include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/labels/image_label.h"
+#include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sigmas.h"
@@ -120,6 +121,10 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
   add("gray", std::to_string(image_sheet.lowest_gray) + " .. " +
                   std::to_string(image_sheet.highest_gray) + ", " +
                   fixedText(100.0 * image_sheet.saturated_share, 2) + " % saturated");
+  add("image at the seed",
+      imageQualityText(measureImageQuality(
+          image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
+          stationRegion(one.camera, loaded.scene.view(), one.camera_from_station_seed))));
   add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
                     sizeText(one.camera.width, one.camera.height) + " px");
   for (const LabelItem& line : frameLines(one)) add(line.name.c_str(), line.value);

@@ -47,6 +47,34 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
   EXPECT_EQ(sessions::readImage(folder / "overlay.png").width, 1024);
 }
 
+TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runWhs(
+      localizeArguments({{"--out", folder / "result.json"}, {"--trace", folder / "run.trace"}}), 0);
+  const sessions::LocalizationTrace trace = sessions::loadTrace(folder / "run.trace");
+  const auto result = nlohmann::json::parse(folder.read("result.json"));
+  const nlohmann::json& acceptance = result["acceptance"];
+  EXPECT_EQ(acceptance["probability"], trace.probability);
+  EXPECT_EQ(acceptance["evidence_nats"], trace.evidence.strongest_nats());
+  EXPECT_EQ(acceptance["weakest_quadrant_nats"], trace.evidence.weakest_nats());
+  EXPECT_EQ(acceptance["edge_support"], trace.support.share());
+  EXPECT_EQ(acceptance["edge_width_px"], trace.edge_width.widest_px());
+  EXPECT_FALSE(acceptance["in_colour"].get<bool>()) << "the example is gray";
+  ASSERT_EQ(result["candidates"].size(), trace.candidates.size());
+  int taken = 0;
+  for (std::size_t i = 0; i < trace.candidates.size(); ++i) {
+    EXPECT_EQ(result["candidates"][i]["evidence_nats"], trace.candidates[i].rank_nats());
+    taken += result["candidates"][i]["taken"].get<bool>() ? 1 : 0;
+  }
+  EXPECT_EQ(taken, 1);
+  ASSERT_EQ(result["competing_poses"].size(), trace.competing_poses.size());
+  for (std::size_t i = 0; i < trace.competing_poses.size(); ++i)
+    EXPECT_EQ(result["competing_poses"][i]["margin_nats"], trace.competing_poses[i].margin_nats);
+  EXPECT_GT(result["image_quality"]["contrast_gray"], 10.0);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("The probability that the pose is right is"),
+                             HasSubstr("of the search."), HasSubstr("image at the seed: noise")));
+}
+
 TEST(WhsLocalize, GivesTheSameDigestByAllKernelsAndThreadsAndWithRecording) {
   const TemporaryFolder folder;
   const std::string plain = digestOf(runWhs(localizeArguments(), 0));

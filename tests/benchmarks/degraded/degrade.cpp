@@ -168,6 +168,12 @@ void overexpose(double share, const cv::Mat& silhouette, cv::Mat& picture) {
   cv::Mat(near + 0.5 * bloom).convertTo(picture, CV_8U);
 }
 
+/// About the mean of the silhouette; gray levels are whole numbers, so that small steps are lost.
+void flatten(double share, const cv::Mat& silhouette, cv::Mat& picture) {
+  const double mean = cv::mean(picture, silhouette)[0];
+  picture.convertTo(picture, CV_8U, share, (1.0 - share) * mean);
+}
+
 void dust(double grade, Random& random, cv::Mat& picture) {
   const double scale = scaleOf(picture);
   picture.convertTo(picture, CV_8U, 1.0 - 0.8 * grade, 0.8 * grade * 110.0);
@@ -259,7 +265,8 @@ const std::vector<DegradationKind>& degradationKinds() {
       {"cables", "of the silhouette", {0.1, 0.2, 0.3, 0.4, 0.5}},
       {"straight_shadow", "light left", {0.5, 0.25, 0.1}},
       {"curved_shadow", "light left", {0.5, 0.25, 0.1}},
-      {"overexposed", "of the silhouette", {0.1, 0.25, 0.5}},
+      {"overexposed", "of the silhouette", {0.1, 0.25, 0.5, 0.75, 0.9}},
+      {"contrast", "left", {0.5, 0.25, 0.1, 0.05}},
       {"dust", "grade", {0.3, 0.6, 0.9}},
       {"motion", "px", {4, 8, 16, 32}},
       {"defocus", "px", {2, 4, 8, 16}},
@@ -302,6 +309,7 @@ void degrade(const Degradation& what, const cv::Mat& silhouette, std::uint64_t s
   if (what.kind == "straight_shadow") return shadeStraight(strength, silhouette, random, picture);
   if (what.kind == "curved_shadow") return shadeCurved(strength, silhouette, random, picture);
   if (what.kind == "overexposed") return overexpose(strength, silhouette, picture);
+  if (what.kind == "contrast") return flatten(strength, silhouette, picture);
   if (what.kind == "dust") return dust(strength, random, picture);
   if (what.kind == "motion") return blurAlong(strength, random, picture);
   if (what.kind == "defocus") return blurDisc(strength, picture);

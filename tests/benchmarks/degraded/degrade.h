@@ -32,6 +32,7 @@ struct DegradationKind {
 ///   ellipse, by an ellipse that shows another place of the picture, by dark straight bands;
 /// - straight_shadow, curved_shadow: so much light is left beyond a line, or within a disc;
 /// - overexposed: so much of the silhouette is saturated, and its light spreads;
+/// - contrast: so much of the differences to the silhouette's mean is left;
 /// - dust: a veil and specks, graded 0 ... 1;
 /// - motion, defocus: length of the line and radius of the disc that a point becomes, px;
 /// - dead_columns, hot_pixels, row_noise: columns; share of pixels; standard deviation, gray;

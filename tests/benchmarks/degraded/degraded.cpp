@@ -115,7 +115,7 @@ class Measurement {
   void run(const sessions::Dataset& dataset, const sessions::Case& one,
            const sessions::SceneMesh& scene, const Degradation& what, const cv::Mat& picture);
   void note(const sessions::RunResult& result, const Degradation& what,
-            const sessions::LocalizationTrace& trace);
+            const sessions::LocalizationTrace& trace, const sessions::ImageQuality& quality);
 
   const Arguments& arguments_;
   std::ofstream runs_;
@@ -162,11 +162,12 @@ void Measurement::run(const sessions::Dataset& dataset, const sessions::Case& on
       sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kSummary);
   const sessions::RunResult result =
       judged(one, problem.camera, !arguments_.wrong.empty(), scene, station.symmetries, trace);
-  note(result, what, trace);
+  note(result, what, trace, sessions::imageQualityOf(problem).value_or(sessions::ImageQuality{}));
 }
 
 void Measurement::note(const sessions::RunResult& result, const Degradation& what,
-                       const sessions::LocalizationTrace& trace) {
+                       const sessions::LocalizationTrace& trace,
+                       const sessions::ImageQuality& quality) {
   Row& row = rows_[{what.kind, what.strength}];
   ++row.runs;
   const bool success = result.success.value_or(false);
@@ -183,8 +184,10 @@ void Measurement::note(const sessions::RunResult& result, const Degradation& wha
         << result.error->normal_mm << '\t' << result.error->lateral_mm << '\t'
         << result.error->rotation_mrad << '\t' << result.edge_support << '\t' << support.coverage()
         << '\t' << support.chanceCoverage() << '\t' << support.explanation() << '\t'
-        << support.chanceExplanation() << '\t' << trace.attempts << '\t' << result.digest
-        << std::endl;
+        << support.chanceExplanation() << '\t' << trace.attempts << '\t' << result.digest << '\t'
+        << trace.probability;
+  for (const auto& [name, part] : sessions::kImageQualityParts) runs_ << '\t' << quality.*part;
+  runs_ << std::endl;
 }
 
 void Measurement::print() const {

@@ -39,6 +39,8 @@ TEST(RunBatch, LocalizesTheExample) {
     EXPECT_LT(*result.error->projection_px, 1.0);
     EXPECT_GT(*result.seed_error->projection_px, 5.0);
     EXPECT_EQ(result.digest.size(), 64u);
+    EXPECT_GT(result.probability.value_or(0.0), 0.9);
+    EXPECT_TRUE(result.image_quality);
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/example_run.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -64,6 +66,28 @@ TEST(RunResultJson, HasTheFieldsOfALine) {
   EXPECT_EQ(json["error"]["normal_mm"], 0.01);
   EXPECT_EQ(json["error"]["projection_px"], 0.3);
   EXPECT_EQ(json.dump().find('\n'), std::string::npos);
+}
+
+TEST(NoteTrace, TakesTheProbabilityWithItsPartsFromTheRun) {
+  const LocalizationTrace& run = test::exampleTrace();
+  ASSERT_GT(run.evidence.places, 0);
+  RunResult result;
+  noteTrace(run, result);
+  EXPECT_EQ(result.probability, run.probability);
+  EXPECT_EQ(result.evidence_nats, run.evidence.strongest_nats());
+  EXPECT_EQ(result.weakest_quadrant_nats, run.evidence.weakest_nats());
+  EXPECT_EQ(toJson(result)["probability"], run.probability);
+}
+
+TEST(NoteTrace, CountsCompetingPosesAndTakesTheLeastMargin) {
+  LocalizationTrace run;
+  for (const double margin_nats : {7.5, -2.5, 4.0})
+    run.competing_poses.push_back({Pose(), 0.9, margin_nats});
+  RunResult result;
+  noteTrace(run, result);
+  EXPECT_EQ(result.competing_poses, 3);
+  EXPECT_EQ(result.least_margin_nats, -2.5);
+  EXPECT_EQ(result.probability, std::nullopt) << "the run measured no evidence";
 }
 
 TEST(RunResultJson, WritesNullForASuccessThatCannotBeJudged) {

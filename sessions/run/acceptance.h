@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the acceptance of a run's pose rests on.
+#pragma once
+
+#include <string>
+
+#include "sessions/run/trace.h"
+
+namespace boresight::sessions {
+
+/// Whether the run searched, and ended with or because of the evidence of a pose.
+bool hasProbability(const LocalizationTrace& trace);
+
+/// The competing pose with the smallest margin, or nullptr.
+const CompetingPose* closestCompetingPose(const LocalizationTrace& trace);
+
+/// Of a run that hasProbability(), for the middle of a sentence: "the probability that the pose is
+/// right is 99.1 %, needed 50.0 %: evidence of its edges 0.92 nats, ...".
+std::string probabilityText(const LocalizationTrace& trace);
+
+/// Sentences: the probability with its parts (without a search the edge support), the width of the
+/// image's edges, the candidate that was taken, and the competing poses. Empty of a run that came
+/// to no pose.
+std::string acceptanceText(const LocalizationTrace& trace);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well an image can carry a pose, measured before a run and without one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/base/image.h"
+#include "core/geometry/camera.h"
+#include "core/geometry/mesh.h"
+#include "core/geometry/pose.h"
+#include "core/localizer/problem.h"
+
+namespace boresight::sessions {
+
+/// Of the pixels of an image's region that are not ignored.
+struct ImageQuality {
+  /// One sigma, gray levels: median absolute response of the Laplacian difference kernel of
+  /// Immerkaer (1996) at pixels that are neither black nor saturated.
+  double noise_gray = 0.0;
+  double contrast_gray = 0.0;    ///< standard deviation, gray levels (RMS contrast)
+  double range_gray = 0.0;       ///< between the 1st and the 99th percentile, gray levels
+  double saturated_share = 0.0;  ///< of the pixels, at the largest gray level
+  double black_share = 0.0;      ///< of the pixels, at gray level 0
+  /// Width of the strongest edges in the direction in which they are widest (EdgeWidth): motion and
+  /// defocus. 0: too few edges.
+  double edge_width_px = 0.0;
+};
+
+/// The figures by their names in files.
+inline constexpr std::pair<const char*, double ImageQuality::*> kImageQualityParts[] = {
+    {"noise_gray", &ImageQuality::noise_gray},
+    {"contrast_gray", &ImageQuality::contrast_gray},
+    {"range_gray", &ImageQuality::range_gray},
+    {"saturated_share", &ImageQuality::saturated_share},
+    {"black_share", &ImageQuality::black_share},
+    {"image_edge_width_px", &ImageQuality::edge_width_px}};
+
+/// Pixels of an image, all bounds included; empty when x_max < x_min or y_max < y_min.
+struct PixelRegion {
+  int x_min = 0;
+  int y_min = 0;
+  int x_max = -1;
+  int y_max = -1;
+};
+
+/// The bounding box of the matched parts' projection, within the image.
+PixelRegion stationRegion(const Camera& camera, const MeshView& mesh,
+                          const Pose& camera_from_station);
+
+/// Nothing when no pixel of the region counts. `ignore` may be nullptr.
+std::optional<ImageQuality> measureImageQuality(const ImageView& image, const BitImage* ignore,
+                                                const PixelRegion& region);
+
+/// Of the region where the problem's seed shows the station.
+std::optional<ImageQuality> imageQualityOf(const LocalizationProblem& problem);
+
+/// "noise 1.2 gray, contrast 41 gray (range 180), 0.3 % saturated, 0.0 % black, edges 3.1 px wide".
+std::string imageQualityText(const std::optional<ImageQuality>& quality);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/image_quality.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/random.h"
+#include "tests/support/example_case.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr int kSize = 200;
+constexpr PixelRegion kAll{0, 0, kSize - 1, kSize - 1};
+
+/// Stripes 40 px wide of two gray levels, with ramps `ramp_px` long between them, and noise.
+struct Chart {
+  std::vector<std::uint8_t> pixels;
+
+  Chart(double dark, double bright, double ramp_px, double noise_gray) : pixels(kSize * kSize) {
+    Random random = test::randomFor("image quality");
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        const double within = std::abs(std::fmod(x, 80.0) - 40.0) - 20.0;  // 0 on a border
+        const double share = std::clamp(0.5 + within / ramp_px, 0.0, 1.0);
+        const double gray = dark + (bright - dark) * share + noise_gray * random.normal();
+        at(x, y) = static_cast<std::uint8_t>(std::clamp(std::round(gray), 0.0, 255.0));
+      }
+  }
+  std::uint8_t& at(int x, int y) { return pixels[static_cast<std::size_t>(y * kSize + x)]; }
+  ImageView view() const { return {pixels.data(), kSize, kSize, kSize}; }
+  ImageQuality quality(const PixelRegion& region = kAll) const {
+    return measureImageQuality(view(), nullptr, region).value();
+  }
+};
+
+TEST(ImageQuality, NoiseOfKnownSigma_IsMeasuredDespiteEdges) {
+  for (const double sigma : {2.0, 5.0, 15.0})
+    EXPECT_NEAR(Chart(80, 160, 3.0, sigma).quality().noise_gray, sigma, 0.1 * sigma);
+  EXPECT_LT(Chart(80, 160, 3.0, 0.0).quality().noise_gray, 0.1);
+}
+
+TEST(ImageQuality, ContrastOfTwoLevels_IsHalfTheirDifference) {
+  const ImageQuality quality = Chart(60, 180, 1.0, 0.0).quality();
+  EXPECT_NEAR(quality.contrast_gray, 60.0, 1.5);
+  EXPECT_EQ(quality.range_gray, 120.0);
+}
+
+TEST(ImageQuality, ClippedPixels_CountAsTheirShares) {
+  Chart chart(60, 180, 1.0, 0.0);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x)
+      if (y < 20) chart.at(x, y) = y < 10 ? 0 : 255;
+  EXPECT_DOUBLE_EQ(chart.quality().black_share, 0.05);
+  EXPECT_DOUBLE_EQ(chart.quality().saturated_share, 0.05);
+  EXPECT_EQ(chart.quality({0, 20, kSize - 1, kSize - 1}).saturated_share, 0.0);
+}
+
+TEST(ImageQuality, EdgeWidth_GrowsWithTheRamp) {
+  EXPECT_NEAR(Chart(40, 200, 4.0, 0.0).quality().edge_width_px, 4.0, 1.0);
+  EXPECT_NEAR(Chart(40, 200, 12.0, 0.0).quality().edge_width_px, 12.0, 2.0);
+}
+
+TEST(ImageQuality, RegionOutsideTheImage_HasNone) {
+  const Chart chart(60, 180, 1.0, 0.0);
+  EXPECT_FALSE(measureImageQuality(chart.view(), nullptr, {300, 300, 400, 400}));
+  EXPECT_FALSE(measureImageQuality(chart.view(), nullptr, {}));
+}
+
+TEST(StationRegion, HoldsTheProjectionOfEveryVertexInTheImage) {
+  const test::ExampleCase example("os");
+  const LocalizationProblem problem = example.problem();
+  const PixelRegion region =
+      stationRegion(problem.camera, problem.mesh, problem.camera_from_station_seed);
+  EXPECT_LT(region.x_min, region.x_max);
+  for (const Eigen::Vector3f& vertex : problem.mesh.vertices_in_station_m) {
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(
+        project(problem.camera, problem.camera_from_station_seed * vertex.cast<double>(), pixel));
+    const Eigen::Vector2d seen = pixel.cwiseMax(0.0).cwiseMin(
+        Eigen::Vector2d(problem.camera.width - 1, problem.camera.height - 1));
+    EXPECT_GE(seen.x(), region.x_min);
+    EXPECT_LE(seen.x(), region.x_max);
+    EXPECT_GE(seen.y(), region.y_min);
+    EXPECT_LE(seen.y(), region.y_max);
+  }
+}
+
+}  // namespace
+}  // namespace boresight::sessions
