@@ -23,7 +23,7 @@ const std::filesystem::path kRendered = BORESIGHT_SYNTHETIC_EXAMPLE;
 class WhsBop : public testing::Test {
  protected:
   WhsBop() {
-    const sessions::Case& one = *dataset_.findCase("bc-000001");
+    const sessions::Case& one = *dataset_.findCase("bc-000000");
     truth_ = *one.truth_camera_from_station;
     sessions::PosedImage image;
     image.id = 4;
@@ -75,7 +75,7 @@ TEST_F(WhsBop, EvaluatesAndWritesTheChallengesResults) {
          0);
   const auto result = nlohmann::json::parse(folder_.read("r.jsonl"));
   EXPECT_EQ(result["id"], "000003-000004-000005");
-  ASSERT_TRUE(result["completed"]);
+  ASSERT_TRUE(result["completed"]) << result["message"];
   const auto& error = result["error"];
   EXPECT_LT(error["mssd_mm"], 0.5);
   EXPECT_LT(error["mspd_px"], 1.0);
