@@ -2,6 +2,7 @@
 #include "sessions/tables/table.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "sessions/io/json_reader.h"
 #include "sessions/text/text_table.h"
@@ -64,32 +65,20 @@ std::string csvText(const Table& table) {
 }
 
 std::string latexEscaped(const std::string& text) {
-  std::string made;
+  std::string escaped;
   for (const char letter : text) {
-    switch (letter) {
-      case '\\':
-        made += "\\textbackslash{}";
-        break;
-      case '~':
-        made += "\\textasciitilde{}";
-        break;
-      case '^':
-        made += "\\textasciicircum{}";
-        break;
-      case '%':
-      case '&':
-      case '#':
-      case '_':
-      case '$':
-      case '{':
-      case '}':
-        made += '\\';
-        [[fallthrough]];
-      default:
-        made += letter;
+    if (letter == '\\') {
+      escaped += "\\textbackslash{}";
+    } else if (letter == '~') {
+      escaped += "\\textasciitilde{}";
+    } else if (letter == '^') {
+      escaped += "\\textasciicircum{}";
+    } else {
+      if (std::string_view("%&#_${}").find(letter) != std::string_view::npos) escaped += '\\';
+      escaped += letter;
     }
   }
-  return made;
+  return escaped;
 }
 
 std::string latexText(const Table& table) {
@@ -114,15 +103,8 @@ std::string latexText(const Table& table) {
 }  // namespace
 
 std::string tableText(const Table& table, TableFormat format) {
-  switch (format) {
-    case TableFormat::kCsv:
-      return csvText(table);
-    case TableFormat::kLatex:
-      return latexText(table);
-    case TableFormat::kText:
-      break;
-  }
-  return plainText(table);
+  if (format == TableFormat::kCsv) return csvText(table);
+  return format == TableFormat::kLatex ? latexText(table) : plainText(table);
 }
 
 }  // namespace boresight::sessions
