@@ -10,6 +10,7 @@
 #include "sessions/io/labels/image_label.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
@@ -109,7 +110,27 @@ void flagSeed(const SheetSources& sources, InputSheet& sheet) {
                                                 "unit right?"});
 }
 
-void describe(const SheetSources& sources, InputSheet& sheet) {
+/// Beyond these figures a pose is hardly ever found (resources/evidence/trust.md).
+void flagQuality(const std::optional<ImageQuality>& quality, InputSheet& sheet) {
+  if (!quality) return;  // seedConcern says why
+  const CheckLimits limits;
+  const auto flag = [&sheet](const char* code, const std::string& found, const char* remedy) {
+    sheet.flags.push_back({code, "where the seed shows the station " + found + ": " + remedy});
+  };
+  if (quality->edge_width_px > limits.edge_width_px)
+    flag("image_blurred", "edges are " + fixedText(quality->edge_width_px, 1) + " px wide",
+         "use a sharper image (motion or focus)");
+  if (100.0 * quality->saturated_share > limits.saturated_percent)
+    flag("image_overexposed",
+         fixedText(100.0 * quality->saturated_share, 0) + " % of the pixels are saturated",
+         "use an image with less exposure");
+  if (quality->range_gray < limits.range_gray)
+    flag("image_flat", "pixels span " + fixedText(quality->range_gray, 0) + " gray levels",
+         "use an image with more exposure, or state the bit depth");
+}
+
+void describe(const SheetSources& sources, const std::optional<ImageQuality>& quality,
+              InputSheet& sheet) {
   const SessionCase& one = sources.one;
   const GrayImage& image = sources.image;
   const CameraSheet camera = cameraSheet(one.camera);
@@ -131,10 +152,7 @@ void describe(const SheetSources& sources, InputSheet& sheet) {
   add("gray", std::to_string(sources.image_sheet.lowest_gray) + " .. " +
                   std::to_string(sources.image_sheet.highest_gray) + ", " +
                   fixedText(100.0 * sources.image_sheet.saturated_share, 2) + " % saturated");
-  add("image at the seed",
-      imageQualityText(measureImageQuality(
-          image.view(), sources.ignore,
-          stationRegion(one.camera, sources.scene.view(), one.camera_from_station_seed))));
+  add("image at the seed", imageQualityText(quality));
   add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
                     sizeText(one.camera.width, one.camera.height) + " px");
   for (const FrameLine& line : frameLines(one)) add(line.label.c_str(), line.value);
@@ -255,8 +273,12 @@ InputSheet inputSheet(const SheetSources& sources) {
   InputSheet sheet;
   const SessionCase& one = sources.one;
   const GrayImage& image = sources.image;
-  describe(sources, sheet);
+  const std::optional<ImageQuality> quality = measureImageQuality(
+      image.view(), sources.ignore,
+      stationRegion(one.camera, sources.scene.view(), one.camera_from_station_seed));
+  describe(sources, quality, sheet);
   sheet.flags = sources.image_sheet.flags;
+  flagQuality(quality, sheet);
   if (image.width != one.camera.width || image.height != one.camera.height)
     sheet.flags.push_back(
         {"camera_size", "the camera is of " + sizeText(one.camera.width, one.camera.height) +
