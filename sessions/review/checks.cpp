@@ -99,6 +99,7 @@ std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& li
                          subject.camera_from_station);
   addRunChecks(subject, limits, checks);
   addPrecisionChecks(subject, limits, checks);
+  addImageChecks(subject, limits, checks);
   addEdgeChecks(subject, limits, edges, checks);
   addBasinChecks(basin, limits, checks);
   addAgreementChecks(subject, limits, checks);

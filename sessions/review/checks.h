@@ -94,6 +94,11 @@ double deviationOf(std::span<const double> values);
 /// The value in the middle, the lower of two; values must not be empty.
 double medianOf(std::span<const double> values);
 
+/// Whether the image can carry a pose where the station is: saturation and range of gray levels
+/// (ImageQuality).
+void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                    std::vector<Check>& checks);
+
 /// What the image's edges say of the final pose, measured anew and not by the run's own gate:
 /// coverage, clutter and fall-off kept apart, and whether they ask for another camera.
 void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,

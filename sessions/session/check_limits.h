@@ -23,6 +23,8 @@ struct CheckLimits {
   double border_percent = 40.0;
   double peak_margin_percent = 2.0;
   double sigmas = 3.0;
+  double saturated_percent = 75.0;
+  double range_gray = 10.0;
   double coverage_percent = 30.0;
   double clutter_percent = 95.0;
   double explained_percent = 40.0;
@@ -63,6 +65,13 @@ struct CheckLimits {
     visit(OptionInfo{"check.sigmas", "", 0.0, 100.0,
                      "So many standard deviations of the pose must fit into the requirement."},
           self.sigmas);
+    visit(OptionInfo{"check.saturated_percent", "%", 0.0, 100.0,
+                     "Largest share of saturated pixels in the box that the station fills."},
+          self.saturated_percent);
+    visit(
+        OptionInfo{"check.range_gray", "", 0.0, 255.0,
+                   "Least range of gray levels in that box, from the 1st to the 99th percentile."},
+        self.range_gray);
     visit(OptionInfo{"check.coverage_percent", "%", 0.0, 100.0,
                      "Least share of the predicted edges that the image shows."},
           self.coverage_percent);

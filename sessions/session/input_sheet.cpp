@@ -10,6 +10,7 @@
 #include "sessions/io/labels/image_label.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
@@ -99,8 +100,27 @@ void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet)
                                                 "unit right?"});
 }
 
+/// Beyond these figures a pose is hardly ever found (resources/evidence/trust.md).
+void flagQuality(const std::optional<ImageQuality>& quality, InputSheet& sheet) {
+  if (!quality) return;  // seedConcern says why
+  const CheckLimits limits;
+  const auto flag = [&sheet](const char* code, const std::string& found, const char* remedy) {
+    sheet.flags.push_back({code, "where the seed shows the station " + found + ": " + remedy});
+  };
+  if (quality->edge_width_px > limits.edge_width_px)
+    flag("image_blurred", "edges are " + fixedText(quality->edge_width_px, 1) + " px wide",
+         "use a sharper image (motion or focus)");
+  if (100.0 * quality->saturated_share > limits.saturated_percent)
+    flag("image_overexposed",
+         fixedText(100.0 * quality->saturated_share, 0) + " % of the pixels are saturated",
+         "use an image with less exposure");
+  if (quality->range_gray < limits.range_gray)
+    flag("image_flat", "pixels span " + fixedText(quality->range_gray, 0) + " gray levels",
+         "use an image with more exposure, or state the bit depth");
+}
+
 void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const CameraSheet& camera,
-              InputSheet& sheet) {
+              const std::optional<ImageQuality>& quality, InputSheet& sheet) {
   const SessionCase& one = loaded.source;
   const GrayImage& image = loaded.image;
   const BoundingBox bounds = matchedBounds(loaded.scene.view());
@@ -121,10 +141,7 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
   add("gray", std::to_string(image_sheet.lowest_gray) + " .. " +
                   std::to_string(image_sheet.highest_gray) + ", " +
                   fixedText(100.0 * image_sheet.saturated_share, 2) + " % saturated");
-  add("image at the seed",
-      imageQualityText(measureImageQuality(
-          image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
-          stationRegion(one.camera, loaded.scene.view(), one.camera_from_station_seed))));
+  add("image at the seed", imageQualityText(quality));
   add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
                     sizeText(one.camera.width, one.camera.height) + " px");
   for (const LabelItem& line : frameLines(one)) add(line.name.c_str(), line.value);
@@ -247,8 +264,12 @@ InputSheet inputSheet(const LoadedCase& loaded) {
   const GrayImage& image = loaded.image;
   const ImageSheet image_sheet = imageSheet(image);
   const CameraSheet camera = cameraSheet(one.camera);
-  describe(loaded, image_sheet, camera, sheet);
+  const std::optional<ImageQuality> quality = measureImageQuality(
+      image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
+      stationRegion(one.camera, loaded.scene.view(), one.camera_from_station_seed));
+  describe(loaded, image_sheet, camera, quality, sheet);
   sheet.flags = image_sheet.flags;
+  flagQuality(quality, sheet);
   if (image.width != one.camera.width || image.height != one.camera.height)
     sheet.flags.push_back(
         {"camera_size", "the camera is of " + sizeText(one.camera.width, one.camera.height) +

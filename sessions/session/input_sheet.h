@@ -61,7 +61,9 @@ bool looksLikeMosaic(const ImageView& image);
 /// A case's inputs. Lengths of a station are those of its matched parts.
 struct InputSheet {
   std::vector<SheetLine> lines;
-  std::vector<RedFlag> flags;  ///< of image, camera, meshes, and of how they fit each other
+  /// Of image (also image_blurred, image_overexposed, image_flat where the seed shows the station),
+  /// camera, meshes, and of how they fit each other.
+  std::vector<RedFlag> flags;
 };
 
 /// Also of inputs that could not be run: sizes that do not fit are a flag, not an error.

@@ -81,6 +81,30 @@ TEST_F(EdgeChecks, BlurredImage_FailsBySharpness) {
   const auto checks = checksOf(subject);
   EXPECT_GT(figureOf(checks, "edge_width"), 10.0);
   EXPECT_EQ(findCheck(checks, "edge_width").state, CheckState::kFailed);
+  std::vector<Check> of_image;
+  addImageChecks(subject, CheckLimits(), of_image);
+  EXPECT_EQ(findCheck(of_image, "image_sharpness").state, CheckState::kFailed);
+}
+
+TEST(ImageChecks, GoodImagePassesAndSpoiledImagesFailByTheirOwnCheck) {
+  const DrawnBox box;
+  const auto checksWith = [&box](double factor, double offset) {
+    ReviewSubject subject = box.subject(box.camera_from_station_);
+    const auto spoiled = copyOf(*subject.loaded);
+    cv::Mat pixels(spoiled->image.height, spoiled->image.width, CV_8U,
+                   spoiled->image.pixels.data());
+    pixels.convertTo(pixels, CV_8U, factor, offset);
+    subject.loaded = spoiled;
+    std::vector<Check> checks;
+    addImageChecks(subject, CheckLimits(), checks);
+    return checks;
+  };
+  for (const Check& check : checksWith(1.0, 0.0))
+    EXPECT_EQ(check.state, CheckState::kPassed) << check.id << ": " << check.sentence;
+  EXPECT_EQ(findCheck(checksWith(1.0, 250.0), "image_saturated").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(checksWith(0.02, 100.0), "image_range").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(checksWith(0.02, 100.0), "image_sharpness").state,
+            CheckState::kNotApplicable);
 }
 
 TEST_F(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {

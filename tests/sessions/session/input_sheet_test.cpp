@@ -17,8 +17,10 @@ namespace {
 
 using sessions::InputSheet;
 using sessions::SessionCase;
+using testing::AllOf;
 using testing::Contains;
 using testing::IsEmpty;
+using testing::Not;
 
 SessionCase exampleOs() { return sessions::makeCase(filesOf(exampleFolder() / "os")).made; }
 
@@ -75,6 +77,28 @@ TEST(InputSheet, FlagsWhatIsProbablyWrong) {
                                       c.camera.fx, {-3.0, 0.0, 0.0, 0.0});
               }),
               Contains("camera_corners"));
+}
+
+/// The example with its pixels changed, since a file with other pixels would be refused.
+template <class Change>
+InputSheet sheetWithPixels(Change&& change) {
+  const auto loaded = sessions::loadCase(exampleOs());
+  sessions::LoadedCase changed;
+  changed.source = loaded->source;
+  changed.scene = loaded->scene;
+  changed.image = loaded->image;
+  for (std::uint8_t& gray : changed.image.pixels) gray = static_cast<std::uint8_t>(change(gray));
+  return sessions::inputSheet(changed);
+}
+
+TEST(InputSheet, ImageThatCannotCarryAPose_IsFlagged) {
+  EXPECT_THAT(codes(sheetWithPixels([](std::uint8_t) { return 255; }).flags),
+              AllOf(Contains("image_overexposed"), Contains("image_flat")));
+  EXPECT_THAT(codes(sheetWithPixels([](std::uint8_t gray) { return 100 + gray / 64; }).flags),
+              AllOf(Contains("image_flat"), Not(Contains("image_overexposed"))));
+  const InputSheet same = sheetWithPixels([](std::uint8_t gray) { return gray; });
+  EXPECT_THAT(codes(same.flags), testing::ElementsAre("image_saturated"));
+  EXPECT_THAT(lineOf(same, "image at the seed"), testing::StartsWith("noise "));
 }
 
 TEST(InputSheet, TellsTheInsideOfASurface) {
