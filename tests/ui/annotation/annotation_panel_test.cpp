@@ -5,7 +5,6 @@
 
 #include "sessions/session/rig_links.h"
 #include "tests/ui/annotation/annotation_fixture.h"
-#include "ui/annotation/solution_html.h"
 #include "ui/annotation/twin_view.h"
 
 namespace boresight::ui {
@@ -167,11 +166,12 @@ TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
   ASSERT_TRUE(controller_.solution()->twin_camera_from_station()) << "the case is not ambiguous";
   EXPECT_TRUE(twins->isVisibleTo(panel_.get()));
   EXPECT_TRUE(summary().contains(QStringLiteral("Two poses explain")));
-  auto& theirs = find<QLabel>("twinOther");
-  ASSERT_TRUE(
-      QTest::qWaitFor([&] { return !theirs.pixmap(Qt::ReturnByValue).isNull(); }, kPatience_ms));
-  EXPECT_NE(theirs.pixmap(Qt::ReturnByValue).toImage(),
-            find<QLabel>("twinOurs").pixmap(Qt::ReturnByValue).toImage());
+  const auto edges = [this](const char* view) -> const std::vector<Mark>& {
+    return find<ImageView>(view).layer(LayerId::kAnnotationBand).marks;
+  };
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !edges("twinOther").empty(); }, kPatience_ms));
+  EXPECT_NE(edges("twinOther").front().outline, edges("twinOurs").front().outline);
+  EXPECT_EQ(find<ImageView>("twinOurs").layer(LayerId::kPoints).marks.size(), 4u);
   Pose asked;
   QObject::connect(twins, &TwinView::otherRequested, twins,
                    [&](const Pose& pose) { asked = pose; });
