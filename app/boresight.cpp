@@ -19,7 +19,6 @@
 #include "sessions/version.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
-#include "ui/window/screenshot.h"
 #include "ui/window/shortcut_sheet.h"
 
 namespace boresight::app {

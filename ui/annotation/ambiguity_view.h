@@ -1,31 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <optional>
 
-#include <memory>
-
-#include <QImage>
+#include <QRectF>
 #include <QWidget>
+
+#include "ui_ambiguity_view.h"
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/station_snapper.h"
 
 namespace boresight::ui {
 
-namespace Ui {
-class AmbiguityView;
-}
-
-/// Both poses that marks in a plane may mean, side by side: the image round the marks with the
-/// model's edges as each pose has them. Hidden while there is one pose only.
+/// Both poses that marks in a plane allow, side by side: the image round the marks with the model's
+/// edges under each pose. Hidden while there is one pose only.
 class AmbiguityView : public QWidget {
   Q_OBJECT
 
  public:
   AmbiguityView(AnnotationController& controller, ViewState& state, StationSnapper& snapper,
                 QWidget* parent = nullptr);
-  ~AmbiguityView() override;
 
  Q_SIGNALS:
   /// The other pose is to be looked at in all views.
@@ -36,15 +31,16 @@ class AmbiguityView : public QWidget {
 
  private:
   void showSolution();
-  void showPictures();
+  void drawEdges(const std::array<Pose, 2>& camera_from_station);
+  void zoomToMarks();
   std::optional<Pose> other() const;
 
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;
-  std::array<QImage, 2> drawn_;  ///< the solved pose's picture and the other's
+  QRectF area_;  ///< a square round the marks in the image, px
   TaskRunner runner_;
-  const std::unique_ptr<Ui::AmbiguityView> ui_;
+  Ui::AmbiguityView ui_;
 };
 
 }  // namespace boresight::ui

@@ -6,7 +6,7 @@
 
 #include "core/geometry/mesh.h"
 #include "sessions/annotation/marks.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
@@ -82,12 +82,6 @@ AnnotationController::AnnotationController(Document& document, ViewState& state,
   showDocument();
 }
 
-std::string AnnotationController::caseId() const {
-  const ViewState::CasePtr& one = state_.currentCase();
-  const bool known = one && document_.session().findCase(one->source.id);
-  return known ? one->source.id : std::string();
-}
-
 const PointPair* AnnotationController::selectedPoint() const {
   return sessions::findPoint(marks_, selected_);
 }
@@ -102,7 +96,7 @@ std::optional<Pose> AnnotationController::solvedPose() const {
 
 /// The document's marks are shown, unless a gesture is about to replace them.
 void AnnotationController::showDocument() {
-  const std::string id = caseId();
+  const std::string id = shownCaseId(document_, state_);
   const bool other_case = id != case_id_;
   if (other_case) {
     case_id_ = id;

@@ -24,7 +24,7 @@ class Document;
 
 /// What a click on the image or the station does.
 enum class PlaceMode : std::uint8_t {
-  kOff,    ///< nobody annotates: clicks belong to the views
+  kOff,    ///< annotating is off: clicks belong to the views
   kPoint,  ///< one side of a pair of points
   kLine,   ///< one side of a pair of lines: two clicks on the image, one on an edge of the station
 };
@@ -49,15 +49,16 @@ struct RoundAnswer {
 
 struct AnnotationAnswer {
   std::shared_ptr<const sessions::CaseMarksSolution> solution;
-  std::vector<sessions::Proposal> proposals;
-  std::vector<RoundAnswer> rounds;
-  std::optional<Matrix6d> covariance;  ///< of the case's camera, in its own frame
+  std::vector<sessions::Proposal> proposals;  ///< where landmarks should be, to be confirmed
+  std::vector<RoundAnswer> rounds;            ///< of other annotators of this case
+  std::optional<Matrix6d> covariance;         ///< of the case's camera, in its own frame
 };
 
-/// What somebody annotates: the marks of the current case, the one that is chosen, the pair that is
-/// half made, and the pose that solves them. Views tell it where somebody pointed; it edits the
-/// document, by names that Undo shows, and has the pose solved anew after each edit, off the UI's
-/// thread. Nothing here is computed: what a place snaps to and what a pose is, sessions/ says.
+/// What the operator annotates: the marks of the current case, the one that is chosen, the pair
+/// that is half made, and the pose that solves them. Views tell it where the operator pointed; it
+/// edits the document, by names that Undo shows, and has the pose solved again after each edit, off
+/// the UI's thread. Nothing here is computed: what a place snaps to and what a pose is, sessions/
+/// says.
 class AnnotationController : public QObject {
   Q_OBJECT
 
@@ -81,11 +82,7 @@ class AnnotationController : public QObject {
   bool stale() const { return stale_; }
   /// The solved pose of the current case, stale or not; nothing where there is none.
   std::optional<Pose> solvedPose() const;
-  /// Of the solved pose, in the camera's frame.
-  const std::optional<Matrix6d>& covariance() const { return answer_.covariance; }
   const AnnotationAnswer& answer() const { return answer_; }
-  /// The other people's rounds over this case, and how the marks at work differ from each.
-  const std::vector<RoundAnswer>& rounds() const { return answer_.rounds; }
   bool robust() const { return robust_; }
   /// The other cases of the rig are solved with this one.
   bool together() const { return together_; }
@@ -93,8 +90,6 @@ class AnnotationController : public QObject {
   double sigma_px() const { return sigma_px_; }
   /// Named points of the station, from the case's file of landmarks.
   const std::vector<sessions::Landmark>& landmarks() const { return landmarks_; }
-  /// Where they should be in this image, to be confirmed.
-  const std::vector<sessions::Proposal>& proposals() const { return answer_.proposals; }
 
   void setMode(boresight::ui::PlaceMode mode);
   void select(const std::string& id);
@@ -123,7 +118,7 @@ class AnnotationController : public QObject {
                    const QString& text);
   void remove(const std::string& id);
   void setMarks(const sessions::Marks& marks, const QString& text);
-  /// Marks a proposal at the place of the image where somebody sees it: the prediction alone
+  /// Marks a proposal at the place of the image where the operator sees it: the prediction alone
   /// would be no measurement.
   void confirm(const sessions::Proposal& proposal, const Eigen::Vector2d& pixel);
   /// Proposals that nothing of the station hides.
@@ -154,11 +149,10 @@ class AnnotationController : public QObject {
   void marksChanged();  ///< any of them, also during a gesture
   void selectionChanged();
   void solutionChanged();  ///< also when it goes stale; proposals and rounds with it
-  /// One sentence for people: what was refused, and what to do.
+  /// One sentence for the operator: what was refused, and what to do.
   void told(const QString& sentence);
 
  private:
-  std::string caseId() const;
   void showDocument();
   void showLandmarks();
   void askIfChanged(bool anyway);

@@ -10,7 +10,7 @@
 #include "sessions/annotation/marks_on_image.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/text/utc_time.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
@@ -188,7 +188,7 @@ void AnnotationController::confirm(const sessions::Proposal& proposal,
 }
 
 int AnnotationController::seenProposals() const {
-  return static_cast<int>(std::count_if(proposals().begin(), proposals().end(),
+  return static_cast<int>(std::count_if(answer_.proposals.begin(), answer_.proposals.end(),
                                         [](const auto& proposal) { return proposal.seen; }));
 }
 
@@ -199,7 +199,7 @@ void AnnotationController::confirmSeen() {
   Marks confirmed = marks_;
   int found = 0;
   const int seen = seenProposals();
-  for (const sessions::Proposal& proposal : proposals()) {
+  for (const sessions::Proposal& proposal : answer_.proposals) {
     if (!proposal.seen || sessions::findPoint(marks_, proposal.landmark.name)) continue;
     const auto pixel = sessions::featureOf(proposal, one->image.view());
     if (!pixel) continue;
@@ -307,7 +307,7 @@ void AnnotationController::unlinkCase() {
 void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
   const sessions::SessionCase* one = document_.session().findCase(case_id_);
   if (!one) return;
-  landmarks_file_.reset();  // read anew, also where only its content has changed
+  landmarks_file_.reset();  // read again, also where only its content has changed
   const std::vector<sessions::MeshInput> parts = one->parts;
   sessions::Session session = document_.session();
   for (const auto& each : document_.session().cases) {

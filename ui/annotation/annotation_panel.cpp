@@ -2,19 +2,198 @@
 #include "ui/annotation/annotation_panel.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include <QCoreApplication>
+#include <QStringList>
 #include <QtWidgets>
 
-#include "ui_annotation_panel.h"
-
+#include "core/base/math.h"
 #include "sessions/annotation/marks.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/session/rig_links.h"
-#include "ui/models/number_text.h"
-#include "ui/panels/paste_pose_dialog.h"
+#include "ui/models/text.h"
+#include "ui/panels/pose_comparison.h"
+#include "ui/panels/pose_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
+namespace {
+
+using sessions::MarksSolution;
+
+constexpr double kMradPerDegree = 1e3 * kDegree_rad;
+
+QString solutionText(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
+
+/// In the order of `GeometryWeakness`.
+constexpr std::array<const char*, 7> kWeaknesses = {"too few marks",
+                                                    "no mark to spare",
+                                                    "all on one line",
+                                                    "all in one plane",
+                                                    "all in one corner of the station",
+                                                    "all at one depth",
+                                                    "imprecise"};
+
+QString warningsHtml(const sessions::CaseMarksSolution& solution) {
+  QStringList items;
+  for (const sessions::GeometryWarning& warning : solution.warnings)
+    items << QStringLiteral("<li>%1%2</li>")
+                 .arg(warning.prevents ? solutionText("<b>No pose:</b> ") : QString(),
+                      fromText(warning.text).toHtmlEscaped());
+  if (items.isEmpty()) return {};
+  return QStringLiteral("<p><b>%1</b></p><ul style='margin-left:14px;-qt-list-indent:0'>%2</ul>")
+      .arg(solutionText("Geometry"), items.join(QString()));
+}
+
+/// Where translations are judged.
+QString placeText(const sessions::CaseMarks& marks) {
+  return marks.camera_from_end_effector ? solutionText("end effector") : solutionText("camera");
+}
+
+QString sigmaHtml(const AnnotationAnswer& answer) {
+  const MarksSolution& solution = *answer.solution->result.solution;
+  const sessions::CaseMarks& marks = answer.solution->marks;
+  const auto sigma = answer.covariance
+                         ? sessions::poseSigma(*answer.covariance, marks.camera_from_end_effector)
+                         : std::nullopt;
+  if (!sigma) return {};
+  const QString title = solutionText(
+                            "One sigma at the %1, by the marks alone (noise %2 times what their "
+                            "sigmas say)")
+                            .arg(placeText(marks))
+                            .arg(QString::number(solution.noise_factor, 'f', 2));
+  QVector<QStringList> rows = sigmaRows(*sigma, marks.requirement);
+  // Without an end effector these are the camera's own already.
+  const auto at_camera = marks.camera_from_end_effector
+                             ? sessions::poseSigma(*answer.covariance, std::nullopt)
+                             : std::nullopt;
+  if (at_camera)
+    rows << axesRow(solutionText("at the camera"), at_camera->translation_mm, solutionText("mm"));
+  return titledTable(title, rows);
+}
+
+QStringList poseCells(const Pose& pose) {
+  const Eigen::Vector3d turn_deg = rotationLog(pose.rotation) / kDegree_rad;
+  QStringList cells;
+  for (int i = 0; i < 3; ++i) cells << QString::number(1e3 * pose.translation_m[i], 'f', 3);
+  for (int i = 0; i < 3; ++i) cells << QString::number(turn_deg[i], 'f', 4);
+  return cells;
+}
+
+QString ambiguityHtml(const sessions::CaseMarksSolution& solved) {
+  const MarksSolution& solution = *solved.result.solution;
+  const auto other_pose = solved.ambiguous_camera_from_station();
+  if (!other_pose) return {};
+  const QStringList ours = poseCells(solution.camera_from_station.front());
+  const QStringList other = poseCells(*other_pose);
+  const QStringList names = {solutionText("x, mm"),       solutionText("y, mm"),
+                             solutionText("z, mm"),       solutionText("turn x, deg"),
+                             solutionText("turn y, deg"), solutionText("turn z, deg")};
+  QVector<QStringList> rows = {
+      {QString(), solutionText("this pose"), solutionText("the other pose")}};
+  for (int i = 0; i < names.size(); ++i) rows.append({names[i], ours[i], other[i]});
+  rows.append({solutionText("rms, px"), QString::number(solution.rms_px, 'f', 3),
+               QString::number(solution.ambiguous->rms_px, 'f', 3)});
+  return titledTable(solutionText("Two poses explain marks in a plane"), rows);
+}
+
+QString viewsHtml(const sessions::CaseMarksSolution& solved) {
+  const auto& views = solved.marks.views;
+  if (views.size() < 2) return {};
+  QVector<QStringList> rows;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    double squares_px2 = 0.0;
+    int count = 0;
+    for (const sessions::SolvedMark& mark : solved.result.solution->marks) {
+      if (mark.address.view != i || !mark.projected) continue;
+      squares_px2 += mark.residual_px.squaredNorm();
+      ++count;
+    }
+    const double rms_px = count > 0 ? std::sqrt(squares_px2 / (2.0 * count)) : 0.0;
+    rows.append({fromText(views[i].name).toHtmlEscaped(), solutionText("%1 marks").arg(count),
+                 solutionText("%1 px rms").arg(QString::number(rms_px, 'f', 3))});
+  }
+  return titledTable(solutionText("Cameras solved together"), rows);
+}
+
+QStringList differenceRow(const QString& name, const Pose& other, const Pose& annotated,
+                          const sessions::CaseMarks& marks, const QString& more) {
+  const sessions::PoseError error =
+      sessions::poseError(other, annotated, marks.camera_from_end_effector);
+  return {name.toHtmlEscaped(), QString::number(error.normal_mm, 'f', 3),
+          QString::number(error.lateral_mm, 'f', 3),
+          QString::number(error.geodesic_mrad / kMradPerDegree, 'f', 4), more};
+}
+
+QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others,
+                     const Pose& annotated) {
+  const sessions::CaseMarks& marks = answer.solution->marks;
+  QVector<QStringList> rows;
+  for (const ComparedPose& other : others)
+    rows << differenceRow(other.name, other.camera_from_station, annotated, marks, {});
+  for (const RoundAnswer& round : answer.rounds) {
+    const int shared = static_cast<int>(round.repeatability.marks.size());
+    const QString repeated = shared > 0
+                                 ? solutionText("%1 marks, %2 px per mark and axis")
+                                       .arg(shared)
+                                       .arg(QString::number(round.repeatability.sigma_px, 'f', 3))
+                                 : solutionText("no mark in common");
+    const QString name = solutionText("round of %1").arg(fromText(round.by));
+    if (round.camera_from_station)
+      rows << differenceRow(name, *round.camera_from_station, annotated, marks, repeated);
+    else
+      rows.append({name.toHtmlEscaped(), solutionText("no pose"), QString(), QString(), repeated});
+  }
+  if (rows.isEmpty()) return {};
+  rows.prepend({QString(), solutionText("normal, mm"), solutionText("lateral, mm"),
+                solutionText("angle, deg"), QString()});
+  return titledTable(solutionText("The annotated pose is from, at the %1").arg(placeText(marks)),
+                     rows);
+}
+
+}  // namespace
+
+QString solutionHeadline(const AnnotationAnswer& answer, bool stale) {
+  if (!answer.solution)
+    return stale ? solutionText("Solving ...") : solutionText("Nothing is marked yet.");
+  const sessions::MarksResult& result = answer.solution->result;
+  QString text = fromText(result.reason);
+  if (result.solution)
+    text = solutionText("Solved from %1 marks, %2 px rms.")
+               .arg(result.solution->marks.size())
+               .arg(QString::number(result.solution->rms_px, 'f', 3));
+  else if (text.isEmpty())
+    text = solutionText("Nothing is marked yet.");
+  return stale ? solutionText("Stale, solving again: %1").arg(text) : text;
+}
+
+QString geometryMeterText(const AnnotationAnswer& answer) {
+  if (!answer.solution) return {};
+  QStringList weak;
+  for (const sessions::GeometryWarning& warning : answer.solution->warnings)
+    weak << (warning.weakness == sessions::GeometryWeakness::kImprecise
+                 ? solutionText("one sigma is %1").arg(fromText(answer.solution->sigmaExcess()))
+                 : solutionText(kWeaknesses[static_cast<std::size_t>(warning.weakness)]));
+  const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
+  return solutionText("Geometry: %1 %2")
+      .arg(sign)
+      .arg(weak.isEmpty() ? solutionText("nothing weak") : weak.join(QStringLiteral(", ")));
+}
+
+QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others) {
+  if (!answer.solution) return {};
+  QString html = warningsHtml(*answer.solution);
+  const auto annotated = answer.solution->camera_from_station();
+  if (!annotated) return html;
+  html += sigmaHtml(answer);
+  html += ambiguityHtml(*answer.solution);
+  html += viewsHtml(*answer.solution);
+  html += comparedHtml(answer, others, *annotated);
+  return html;
+}
 
 LandmarksMenu::LandmarksMenu(AnnotationController& controller, QWidget* parent)
     : QMenu(parent), controller_(controller) {
@@ -57,8 +236,7 @@ RigMenu::RigMenu(Document& document, ViewState& state, AnnotationController& con
 void RigMenu::fill() {
   clear();
   const sessions::Session& session = document_.session();
-  const ViewState::CasePtr& one = state_.currentCase();
-  const sessions::SessionCase* shown = one ? session.findCase(one->source.id) : nullptr;
+  const sessions::SessionCase* shown = shownCase(document_, state_);
   if (!shown) {
     addAction(tr("No case is open"))->setEnabled(false);
     return;
@@ -105,17 +283,16 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
       controller_(controller),
       state_(state),
       files_menu_(new QMenu(this)),
-      landmarks_menu_(new LandmarksMenu(controller, this)),
-      ui_(std::make_unique<Ui::AnnotationPanel>()) {
+      landmarks_menu_(new LandmarksMenu(controller, this)) {
   filter_.setSourceModel(&model_);
-  ui_->setupUi(this);
-  ui_->splitter->setSizes({500, 400});
+  ui_.setupUi(this);
+  ui_.splitter->setSizes({500, 400});
   auto* rig = new RigMenu(document, state, controller, this);
   connect(rig, &RigMenu::openRequested, this, &AnnotationPanel::openCaseRequested);
-  ui_->markFiles->setMenu(files_menu_);
-  ui_->landmarks->setMenu(landmarks_menu_);
-  ui_->rounds->setMenu(new QMenu(this));
-  ui_->rig->setMenu(rig);
+  ui_.markFiles->setMenu(files_menu_);
+  ui_.landmarks->setMenu(landmarks_menu_);
+  ui_.rounds->setMenu(new QMenu(this));
+  ui_.rig->setMenu(rig);
   buildTable();
   connectTools();
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationPanel::showMode);
@@ -132,61 +309,59 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
   showSolution();
 }
 
-AnnotationPanel::~AnnotationPanel() = default;
-
-QTableView& AnnotationPanel::table() { return *ui_->marks; }
+QTableView& AnnotationPanel::table() { return *ui_.marks; }
 
 void AnnotationPanel::addBeside(QWidget* widget) {
-  ui_->splitter->addWidget(widget);
-  ui_->splitter->setCollapsible(ui_->splitter->count() - 1, false);
-  for (int i = 0; i < ui_->splitter->count(); ++i) ui_->splitter->setStretchFactor(i, 1);
+  ui_.splitter->addWidget(widget);
+  ui_.splitter->setCollapsible(ui_.splitter->count() - 1, false);
+  for (int i = 0; i < ui_.splitter->count(); ++i) ui_.splitter->setStretchFactor(i, 1);
 }
 
 void AnnotationPanel::connectTools() {
-  ui_->newSigma->setValue(controller_.sigma_px());
-  ui_->newSigma->setMinimumWidth(
-      ui_->newSigma->fontMetrics().horizontalAdvance(QStringLiteral("\u00b1 00.00 px")) + 30);
-  ui_->together->setChecked(controller_.together());
+  ui_.newSigma->setValue(controller_.sigma_px());
+  ui_.newSigma->setMinimumWidth(
+      ui_.newSigma->fontMetrics().horizontalAdvance(QStringLiteral("\u00b1 00.00 px")) + 30);
+  ui_.together->setChecked(controller_.together());
   for (const auto& [button, mode] :
-       {std::pair(ui_->placePoints, PlaceMode::kPoint), {ui_->placeLines, PlaceMode::kLine}})
+       {std::pair(ui_.placePoints, PlaceMode::kPoint), {ui_.placeLines, PlaceMode::kLine}})
     connect(button, &QToolButton::clicked, this, [this, chosen = mode](bool on) {
       controller_.setMode(on ? chosen : PlaceMode::kOff);
       showMode();
     });
-  connect(ui_->rounds->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showRounds);
-  connect(ui_->newSigma, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
+  connect(ui_.rounds->menu(), &QMenu::aboutToShow, this, &AnnotationPanel::showRounds);
+  connect(ui_.newSigma, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &controller_,
           &AnnotationController::setSigma);
-  connect(ui_->robust, &QCheckBox::toggled, &controller_, &AnnotationController::setRobust);
-  connect(ui_->together, &QCheckBox::toggled, &controller_, &AnnotationController::setTogether);
-  connect(ui_->annotationAsTruth, &QPushButton::clicked, &controller_,
+  connect(ui_.robust, &QCheckBox::toggled, &controller_, &AnnotationController::setRobust);
+  connect(ui_.together, &QCheckBox::toggled, &controller_, &AnnotationController::setTogether);
+  connect(ui_.annotationAsTruth, &QPushButton::clicked, &controller_,
           &AnnotationController::useAsTruth);
-  connect(ui_->annotationAsSeed, &QPushButton::clicked, this, [this] {
+  connect(ui_.annotationAsSeed, &QPushButton::clicked, this, [this] {
     if (const auto pose = controller_.solvedPose()) Q_EMIT useAsSeedRequested(*pose);
   });
 }
 
 void AnnotationPanel::buildTable() {
-  setUpTable(*ui_->marks, filter_);
-  ui_->marks->installEventFilter(this);
-  ui_->marks->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
-  ui_->marks->sortByColumn(-1, Qt::AscendingOrder);
-  ui_->showMarks->addItems(MarksModel::showNames());
-  connect(ui_->showMarks, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+  setUpTable(*ui_.marks, filter_);
+  ui_.marks->installEventFilter(this);
+  ui_.marks->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+  ui_.marks->sortByColumn(-1, Qt::AscendingOrder);
+  ui_.showMarks->addItems(MarksModel::showNames());
+  connect(ui_.showMarks, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           [this](int index) {
             filter_.setCondition([this, show = static_cast<MarksModel::Show>(index)](int row) {
               return model_.isShown(row, show);
             });
             showMarks();
           });
-  connect(ui_->marks->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  connect(ui_.marks->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &AnnotationPanel::chooseRow);
   connect(&model_, &MarksModel::pointEdited, &controller_, &AnnotationController::replacePoint);
   connect(&model_, &MarksModel::lineEdited, &controller_, &AnnotationController::replaceLine);
 }
 
 void AnnotationPanel::showMode() {
-  ui_->placePoints->setChecked(controller_.mode() == PlaceMode::kPoint);
-  ui_->placeLines->setChecked(controller_.mode() == PlaceMode::kLine);
+  ui_.placePoints->setChecked(controller_.mode() == PlaceMode::kPoint);
+  ui_.placeLines->setChecked(controller_.mode() == PlaceMode::kLine);
 }
 
 void AnnotationPanel::showMarks() {
@@ -194,8 +369,8 @@ void AnnotationPanel::showMarks() {
   showing_ = true;
   model_.setMarks(controller_.marks());
   showing_ = false;
-  if (model_.rowCount() != before) ui_->marks->resizeColumnsToContents();
-  ui_->count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  if (model_.rowCount() != before) ui_.marks->resizeColumnsToContents();
+  ui_.count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
   showSelection();
 }
 
@@ -203,10 +378,10 @@ void AnnotationPanel::showSelection() {
   const int row = model_.rowOf(controller_.selected());
   const QModelIndex shown = filter_.mapFromSource(model_.index(row, 0));
   showing_ = true;
-  const int column = std::max(ui_->marks->currentIndex().column(), 0);
+  const int column = std::max(ui_.marks->currentIndex().column(), 0);
   const QModelIndex current = shown.isValid() ? shown.siblingAtColumn(column) : shown;
-  if (current != ui_->marks->currentIndex()) ui_->marks->setCurrentIndex(current);
-  if (shown.isValid()) ui_->marks->scrollTo(current);
+  if (current != ui_.marks->currentIndex()) ui_.marks->setCurrentIndex(current);
+  if (shown.isValid()) ui_.marks->scrollTo(current);
   showing_ = false;
 }
 
@@ -231,28 +406,28 @@ std::vector<ComparedPose> AnnotationPanel::otherPoses() const {
 void AnnotationPanel::showSolution() {
   const AnnotationAnswer& answer = controller_.answer();
   model_.setSolution(answer.solution, controller_.stale());
-  ui_->headline->setText(solutionHeadline(answer, controller_.stale()));
-  ui_->geometryMeter->setText(geometryMeterText(answer));
-  ui_->solution->setEnabled(!controller_.stale());  // dimmed until it is true again
-  const int place = ui_->solution->verticalScrollBar()->value();
-  ui_->solution->setHtml(solutionHtml(answer, otherPoses()));
-  ui_->solution->verticalScrollBar()->setValue(place);
+  ui_.headline->setText(solutionHeadline(answer, controller_.stale()));
+  ui_.geometryMeter->setText(geometryMeterText(answer));
+  ui_.solution->setEnabled(!controller_.stale());  // dimmed until it is true again
+  const int place = ui_.solution->verticalScrollBar()->value();
+  ui_.solution->setHtml(solutionHtml(answer, otherPoses()));
+  ui_.solution->verticalScrollBar()->setValue(place);
   const bool solved = controller_.solvedPose().has_value();
-  ui_->annotationAsTruth->setEnabled(solved && !controller_.stale());
-  ui_->annotationAsSeed->setEnabled(solved && !controller_.stale());
+  ui_.annotationAsTruth->setEnabled(solved && !controller_.stale());
+  ui_.annotationAsSeed->setEnabled(solved && !controller_.stale());
   const ViewState::CasePtr& one = state_.currentCase();
-  ui_->together->setVisible(one && one->source.rig);
+  ui_.together->setVisible(one && one->source.rig);
 }
 
 void AnnotationPanel::showRounds() {
-  QMenu& menu = *ui_->rounds->menu();
+  QMenu& menu = *ui_.rounds->menu();
   menu.clear();
   QAction* aside = menu.addAction(tr("Put these marks aside, begin a blind round ..."), this,
                                   &AnnotationPanel::askForName);
   aside->setEnabled(!controller_.marks().empty());
   menu.addSeparator();
-  for (int i = 0; i < static_cast<int>(controller_.rounds().size()); ++i) {
-    const auto& round = controller_.rounds()[static_cast<std::size_t>(i)];
+  for (int i = 0; i < static_cast<int>(controller_.answer().rounds.size()); ++i) {
+    const auto& round = controller_.answer().rounds[static_cast<std::size_t>(i)];
     QMenu* one =
         menu.addMenu(QStringLiteral("%1, %2").arg(fromText(round.by), fromText(round.time)));
     one->addAction(tr("Take up"), this, [this, i] { controller_.takeUp(i); });
@@ -271,7 +446,7 @@ void AnnotationPanel::askForName() {
 /// Letters typed at the table look for a row; they do not switch layers. Enter goes on to the
 /// chosen mark in the image.
 bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == ui_->marks && event->type() == QEvent::KeyPress) {
+  if (watched == ui_.marks && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !controller_.selected().empty()) {
       controller_.setMode(controller_.selectedLine() ? PlaceMode::kLine : PlaceMode::kPoint);
@@ -279,7 +454,7 @@ bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
   }
-  if (watched == ui_->marks && event->type() == QEvent::ShortcutOverride) {
+  if (watched == ui_.marks && event->type() == QEvent::ShortcutOverride) {
     const auto& key = *static_cast<QKeyEvent*>(event);
     const bool plain = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier;
     if (plain && !key.text().isEmpty() && key.text().front().isLetterOrNumber()) event->accept();

@@ -2,26 +2,39 @@
 #pragma once
 
 #include <string>
-
-#include <memory>
+#include <vector>
 
 #include <QMenu>
 #include <QString>
 #include <QWidget>
 
-#include "ui/annotation/annotation_controller.h"
-#include "ui/annotation/solution_html.h"
-#include "ui/models/marks_model.h"
+#include "ui_annotation_panel.h"
 
-class QTableView;
+#include "sessions/io/dataset_file.h"
+#include "ui/annotation/annotation_controller.h"
+#include "ui/models/marks_model.h"
 
 namespace boresight::ui {
 
-namespace Ui {
-class AnnotationPanel;
-}
-
 class Document;
+
+/// A pose that the annotated one is compared with.
+struct ComparedPose {
+  QString name;
+  Pose camera_from_station;
+};
+
+/// "Solved from 8 marks, 0.21 px rms.", or why there is no pose.
+QString solutionHeadline(const AnnotationAnswer& answer, bool stale);
+
+/// "Geometry: all in one plane, all at one depth.": what of the marks is weak, in a few words that
+/// stand there before and after solving.
+QString geometryMeterText(const AnnotationAnswer& answer);
+
+/// Everything else that an annotator reads of a solution: what is weak in the marks, one sigma
+/// against the requirement, the second pose of a plane beside the first, residuals per camera, and
+/// how far the other poses (seed, run, truth) and rounds are. Colour never says anything alone.
+QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others);
 
 /// The station's named points that this image has no mark of: where they should be is confirmed,
 /// or one is begun by name and then clicked. Also where landmarks come from and go to.
@@ -70,7 +83,6 @@ class AnnotationPanel : public QWidget {
  public:
   AnnotationPanel(Document& document, AnnotationController& controller, ViewState& state,
                   QWidget* parent = nullptr);
-  ~AnnotationPanel() override;
 
   QTableView& table();
   /// The menu of marks and poses from and to files; to be filled.
@@ -109,7 +121,7 @@ class AnnotationPanel : public QWidget {
   QMenu* files_menu_;
   LandmarksMenu* landmarks_menu_;
   bool showing_ = false;
-  const std::unique_ptr<Ui::AnnotationPanel> ui_;
+  Ui::AnnotationPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -8,12 +8,12 @@
 #include "ui/annotation/loupe.h"
 #include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/run/pose_renderer.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
-#include "ui/views/layer_content.h"
+#include "ui/views/layer.h"
 
 namespace boresight::ui {
 namespace {
@@ -111,7 +111,7 @@ void ImageAnnotation::showMarks() {
   const MarkLook shown = look();
   const sessions::Marks& marks = controller_.marks();
   image_.setMarks(LayerId::kPoints, markSigns(marks, shown));
-  image_.setMarks(LayerId::kProposals, proposalSigns(controller_.proposals()));
+  image_.setMarks(LayerId::kProposals, proposalSigns(controller_.answer().proposals));
   std::vector<Mark> residuals;
   if (const std::optional<Pose> solved = controller_.solvedPose()) {
     const sessions::MarkedView view{{}, shown.camera, {}, marks};
@@ -178,7 +178,7 @@ void ImageAnnotation::lookThroughLoupe() {
                  tool_->aim());
 }
 
-/// What somebody does next, for the pair at work.
+/// What the operator does next, for the pair at work.
 QString ImageAnnotation::nextStep() const {
   const QString id = QString::fromStdString(controller_.selected());
   if (controller_.mode() == PlaceMode::kLine) {

@@ -11,63 +11,14 @@
 
 #include "sessions/annotation/marks_on_image.h"
 #include "sessions/run/surface_point.h"
+#include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {
 
-double screenDistance(const ViewTransform& transform, const Eigen::Vector2d& pixel,
-                      const QPointF& place) {
-  const QPointF away = transform.toWidget(QPointF(pixel.x(), pixel.y())) - place;
-  return std::hypot(away.x(), away.y());
-}
-
-std::optional<MarkHandle> handleAt(const sessions::Marks& marks, const ViewTransform& transform,
-                                   const QPointF& place) {
-  std::optional<MarkHandle> found;
-  double nearest = kHandle;
-  const auto offer = [&](const std::string& id, int end, const Eigen::Vector2d& pixel) {
-    const double distance = screenDistance(transform, pixel, place);
-    if (distance > nearest) return;
-    nearest = distance;
-    found = MarkHandle{id, end, pixel};
-  };
-  for (const sessions::PointPair& point : marks.points)
-    if (point.pixel) offer(point.id, 0, *point.pixel);
-  for (const sessions::LinePair& line : marks.lines) {
-    if (!line.line) continue;
-    offer(line.id, 0, line.line->start);
-    offer(line.id, 1, line.line->end);
-  }
-  return found;
-}
-
-const sessions::Proposal* proposalAt(const std::vector<sessions::Proposal>& proposals,
-                                     const ViewTransform& transform, const QPointF& place) {
-  const sessions::Proposal* found = nullptr;
-  double nearest = kHandle;
-  for (const sessions::Proposal& proposal : proposals) {
-    const double distance = screenDistance(transform, proposal.pixel, place);
-    if (distance > nearest) continue;
-    nearest = distance;
-    found = &proposal;
-  }
-  return found;
-}
-
-std::string stationOnlyAt(const sessions::Marks& marks, const Camera& camera,
-                          const Pose& camera_from_station, const ViewTransform& transform,
-                          const QPointF& place) {
-  for (const sessions::PointPair& point : marks.points) {
-    if (point.pixel || !point.point_in_station_m) continue;
-    const auto at = sessions::predictPlace(camera, camera_from_station, *point.point_in_station_m);
-    if (at.valid && screenDistance(transform, at.pixel, place) <= kHandle) return point.id;
-  }
-  return {};
-}
-
-namespace {
-
 using sessions::ImageSnap;
 using sessions::MeshSnap;
+
+namespace {
 
 constexpr double kSnapRadius = 12.0;  ///< on the screen
 constexpr double kLeastRadius_px = 2.0;
@@ -187,17 +138,6 @@ void paintFound(QPainter& painter, const ViewTransform& transform, const MarkAim
 }
 
 }  // namespace
-
-void paintTicks(QPainter& painter, const QPointF& at, double from, double to) {
-  for (const QPointF& way :
-       {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
-    painter.drawLine(at + from * way, at + to * way);
-}
-
-QPolygonF diamond(const QPointF& at, double half) {
-  return {{at + QPointF(0.0, -half), at + QPointF(half, 0.0), at + QPointF(0.0, half),
-           at + QPointF(-half, 0.0)}};
-}
 
 void paintAim(QPainter& painter, const ViewTransform& transform, const MarkAim& aim,
               const QPointF& pointer) {

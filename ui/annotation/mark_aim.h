@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the marks lies under the pointer, and how it is drawn.
+// Where a click would place a mark, and how that is drawn.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <QPainter>
-#include <QPolygonF>
 #include <QString>
 
 #include "sessions/annotation/image_snap.h"
@@ -16,33 +15,6 @@
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
-
-/// How near one must point, on the screen.
-inline constexpr double kHandle = 8.0;
-
-/// A place of the image that can be taken hold of.
-struct MarkHandle {
-  std::string id;
-  int end = 0;  ///< of a line
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-};
-
-/// On the widget, from a pixel to a place of the widget.
-double screenDistance(const ViewTransform& transform, const Eigen::Vector2d& pixel,
-                      const QPointF& place);
-
-/// The nearest point or end of a line within reach.
-std::optional<MarkHandle> handleAt(const sessions::Marks& marks, const ViewTransform& transform,
-                                   const QPointF& place);
-
-/// The nearest proposal within reach, or nullptr.
-const sessions::Proposal* proposalAt(const std::vector<sessions::Proposal>& proposals,
-                                     const ViewTransform& transform, const QPointF& place);
-
-/// A point without a place in the image that the pose predicts within reach, or "".
-std::string stationOnlyAt(const sessions::Marks& marks, const Camera& camera,
-                          const Pose& camera_from_station, const ViewTransform& transform,
-                          const QPointF& place);
 
 /// Which side of a pair a click gives.
 enum class AimSide : std::uint8_t { kNone, kImage, kStation };
@@ -55,7 +27,7 @@ struct MarkAim {
   std::optional<sessions::ModelEdge> edge;     ///< of the station
   std::vector<Eigen::Vector2d> edge_on_image;  ///< where the pose puts it
   std::optional<sessions::ImageSnap> snap;     ///< of the image; nothing: the pointer's own place
-  QString text;                                ///< what it snaps to, for people
+  QString text;                                ///< what it snaps to, for the operator
   int found = 0;                               ///< how many things there were to snap to
   int chosen = 0;                              ///< which of these it is; by turns
 };
@@ -65,7 +37,7 @@ struct AimRules {
   bool snaps = true;
   bool line = false;       ///< aims for lines: edges first
   double radius_px = 4.0;  ///< image pixels
-  int turn = 0;            ///< how often somebody asked for another one
+  int turn = 0;            ///< how often the operator asked for another one
 };
 
 /// Image pixels within which things are snapped to, at so many screen pixels to an image pixel.
@@ -79,10 +51,6 @@ MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& point
 MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
                      const Eigen::Vector2d& pointer, std::vector<sessions::MeshSnap> snaps,
                      const AimRules& rules);
-
-/// Four short lines that leave the place itself free.
-void paintTicks(QPainter& painter, const QPointF& at, double from, double to);
-QPolygonF diamond(const QPointF& at, double half);
 
 /// Draws where a click would go and what it snaps to: the place, the way from the pointer, the
 /// ellipse or the edge that was found. Seen on any image: bright over a dark rim.

@@ -6,7 +6,7 @@
 #include <QCoreApplication>
 
 #include "sessions/annotation/marks_on_image.h"
-#include "ui/views/pixel_point.h"
+#include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {

@@ -8,12 +8,12 @@
 #include "sessions/annotation/marks_on_image.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_view.h"
-#include "ui/views/pixel_point.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {
 
+constexpr double kReach = 8.0;         ///< how near one must point, on the screen
 constexpr double kPressSlack = 3.0;    ///< on the screen
 constexpr double kShortestLine = 6.0;  ///< on the screen
 /// Those that change what a click does.
@@ -123,23 +123,57 @@ bool MarkTool::lacksImageSide() const {
   return point && point->point_in_station_m && !point->pixel;
 }
 
-/// While a chosen pair waits for its place, a click is that place.
+double MarkTool::screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const {
+  const QPointF away = view_.transform().toWidget(pointOf(pixel)) - place;
+  return std::hypot(away.x(), away.y());
+}
+
+/// The nearest within reach. While a chosen pair waits for its place, a click is that place.
 const sessions::Proposal* MarkTool::proposalUnder(const QPointF& place) const {
   if (marksLines() || lacksImageSide()) return nullptr;
   if (!view_.layer(LayerId::kProposals).style.visible) return nullptr;
-  return proposalAt(controller_.proposals(), view_.transform(), place);
+  const sessions::Proposal* found = nullptr;
+  double nearest = kReach;
+  for (const sessions::Proposal& proposal : controller_.answer().proposals) {
+    const double distance = screenDistance(proposal.pixel, place);
+    if (distance > nearest) continue;
+    nearest = distance;
+    found = &proposal;
+  }
+  return found;
 }
 
-std::optional<MarkHandle> MarkTool::handleUnder(const QPointF& place) const {
-  return handleAt(controller_.marks(), view_.transform(), place);
+/// The nearest point or end of a line within reach.
+std::optional<MarkTool::Handle> MarkTool::handleUnder(const QPointF& place) const {
+  std::optional<Handle> found;
+  double nearest = kReach;
+  const auto offer = [&](const std::string& id, int end, const Eigen::Vector2d& pixel) {
+    const double distance = screenDistance(pixel, place);
+    if (distance > nearest) return;
+    nearest = distance;
+    found = Handle{id, end, pixel};
+  };
+  for (const sessions::PointPair& point : controller_.marks().points)
+    if (point.pixel) offer(point.id, 0, *point.pixel);
+  for (const sessions::LinePair& line : controller_.marks().lines) {
+    if (!line.line) continue;
+    offer(line.id, 0, line.line->start);
+    offer(line.id, 1, line.line->end);
+  }
+  return found;
 }
 
-/// A half-made pair that is drawn where the pose predicts it.
+/// A point without a place in the image that the pose predicts within reach, or "".
 std::string MarkTool::stationOnlyUnder(const QPointF& place) const {
   const ViewState::CasePtr& one = state_.currentCase();
   if (!one || lacksImageSide()) return {};
-  return stationOnlyAt(controller_.marks(), one->source.camera, stationPose(), view_.transform(),
-                       place);
+  for (const sessions::PointPair& point : controller_.marks().points) {
+    if (point.pixel || !point.point_in_station_m) continue;
+    const auto at =
+        sessions::predictPlace(one->source.camera, stationPose(), *point.point_in_station_m);
+    if (at.valid && screenDistance(at.pixel, place) <= kReach) return point.id;
+  }
+  return {};
 }
 
 bool MarkTool::eventFilter(QObject* watched, QEvent* event) {
@@ -186,7 +220,7 @@ bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
   press_ = last_ = place;
   panning_ = false;
   if (line_start_ || (modifiers_ & Qt::ControlModifier) != 0) return true;
-  if (const std::optional<MarkHandle> handle = handleUnder(place)) {
+  if (const std::optional<Handle> handle = handleUnder(place)) {
     drag_ = Drag{*handle, false};
     end_ = handle->end;
     controller_.select(handle->id);
@@ -197,8 +231,8 @@ bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
   return true;
 }
 
-/// A proposal is marked where somebody clicks, or on what that snaps to; by another button or with
-/// Ctrl it is begun.
+/// A proposal is marked where the operator clicks, or on what that snaps to; by another button or
+/// with Ctrl it is begun.
 bool MarkTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
   const sessions::Proposal* proposal = proposalUnder(place);
   if (!proposal || (event.button() == Qt::LeftButton && handleUnder(place))) return false;
@@ -238,7 +272,7 @@ bool MarkTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers) {
 
 /// The mark keeps its distance from the pointer, so that taking hold of it moves nothing.
 void MarkTool::dragTo(const QPointF& pixel) {
-  MarkHandle& handle = drag_->handle;
+  Handle& handle = drag_->handle;
   const Eigen::Vector2d by = vectorOf(pixel - view_.transform().toPixel(*press_));
   aim_ = aimAtImage(*state_.currentCase(), handle.pixel + by, rules());
   if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) return;

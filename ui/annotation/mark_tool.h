@@ -19,7 +19,7 @@ namespace boresight::ui {
 class ImageView;
 class StationSnapper;
 
-/// Marks with the pointer on the image while somebody annotates. A click marks a place of the
+/// Marks with the pointer on the image while the operator annotates. A click marks a place of the
 /// image, Ctrl+click the place of the station that is drawn there (on the edges of the annotation
 /// while these show, else of the shown pose); in line mode two clicks mark a line, Ctrl+click an
 /// edge. Before the click it shows where the mark would go and what it snaps to; Tab goes on to
@@ -38,7 +38,7 @@ class MarkTool : public QObject {
 
   /// Where a click would go now; side kNone where it would do nothing.
   const MarkAim& aim() const { return aim_; }
-  /// What the pointer, or somebody who moves a mark by keys, looks at; px. Nothing: nowhere.
+  /// What the pointer, or an operator who moves a mark by keys, looks at; px. Nothing: nowhere.
   const std::optional<QPointF>& focus() const { return focus_; }
   /// camera_from_station of the edges on which the station is picked.
   Pose stationPose() const;
@@ -52,8 +52,14 @@ class MarkTool : public QObject {
   void snapsChanged();
 
  private:
+  /// A place of the image that can be taken hold of.
+  struct Handle {
+    std::string id;
+    int end = 0;  ///< of a line
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  };
   struct Drag {
-    MarkHandle handle;
+    Handle handle;
     bool moved = false;
   };
 
@@ -64,7 +70,7 @@ class MarkTool : public QObject {
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
   bool release(const QMouseEvent& event);
   void dragTo(const QPointF& pixel);
-  /// Keys that a shortcut of the window must not take away while somebody annotates.
+  /// Keys that a shortcut of the window must not take away while the operator annotates.
   static bool isOwnKey(const QKeyEvent& event);
   bool keyPress(const QKeyEvent& event);
   bool nudge(const QKeyEvent& event);
@@ -72,7 +78,8 @@ class MarkTool : public QObject {
   void showMode();
 
   bool lacksImageSide() const;
-  std::optional<MarkHandle> handleUnder(const QPointF& place) const;
+  double screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const;
+  std::optional<Handle> handleUnder(const QPointF& place) const;
   const sessions::Proposal* proposalUnder(const QPointF& place) const;
   std::string stationOnlyUnder(const QPointF& place) const;
   bool takeProposal(const QMouseEvent& event, const QPointF& place);

@@ -5,8 +5,6 @@
 
 #include <QtWidgets>
 
-#include "ui_manual_window.h"
-
 namespace boresight::ui {
 namespace {
 
@@ -84,9 +82,8 @@ ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
     : QMainWindow(parent, Qt::Window),
       folder_(folder),
       browser_(new Browser(this)),
-      find_(new QLineEdit),
-      ui_(std::make_unique<Ui::ManualWindow>()) {
-  ui_->setupUi(this);
+      find_(new QLineEdit) {
+  ui_.setupUi(this);
   setObjectName(QStringLiteral("manualWindow"));
   setCentralWidget(browser_);
   browser_->setOpenLinks(false);
@@ -94,22 +91,22 @@ ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
   find_->setObjectName(QStringLiteral("manualFind"));
   find_->setPlaceholderText(tr("Find in the manual"));
   find_->setClearButtonEnabled(true);
-  ui_->bar->insertWidget(ui_->next, find_);
+  ui_.bar->insertWidget(ui_.next, find_);
   const auto on = [this](QAction* action, auto&& act) {
     connect(action, &QAction::triggered, this, act);
   };
-  on(ui_->back, [this] { browser_->backward(); });
-  on(ui_->forward, [this] { browser_->forward(); });
-  on(ui_->contents, [this] { goTo(QStringLiteral("index.md")); });
-  on(ui_->next, [this] { find(false); });
-  on(ui_->previous, [this] { find(true); });
-  on(ui_->findField, [this] {
+  on(ui_.back, [this] { browser_->backward(); });
+  on(ui_.forward, [this] { browser_->forward(); });
+  on(ui_.contents, [this] { goTo(QStringLiteral("index.md")); });
+  on(ui_.next, [this] { find(false); });
+  on(ui_.previous, [this] { find(true); });
+  on(ui_.findField, [this] {
     find_->setFocus();
     find_->selectAll();
   });
-  on(ui_->closeWindow, [this] { close(); });
-  connect(browser_, &QTextBrowser::backwardAvailable, ui_->back, &QAction::setEnabled);
-  connect(browser_, &QTextBrowser::forwardAvailable, ui_->forward, &QAction::setEnabled);
+  on(ui_.closeWindow, [this] { close(); });
+  connect(browser_, &QTextBrowser::backwardAvailable, ui_.back, &QAction::setEnabled);
+  connect(browser_, &QTextBrowser::forwardAvailable, ui_.forward, &QAction::setEnabled);
   connect(browser_, &QTextBrowser::anchorClicked, this, &ManualWindow::follow);
   connect(browser_, &QTextBrowser::sourceChanged, this, &ManualWindow::dress);
   connect(find_, &QLineEdit::returnPressed, this, [this] { find(false); });
@@ -119,8 +116,6 @@ ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
         tr("The manual is not there: share/boresight/manual is neither next to the program nor in "
            "its build tree. Install the program again, or build the target 'manual'."));
 }
-
-ManualWindow::~ManualWindow() = default;
 
 void ManualWindow::showPage(const QString& page) {
   show();  // headings have their place only in a window that has its size

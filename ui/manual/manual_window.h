@@ -9,11 +9,9 @@ class QLineEdit;
 class QTextBrowser;
 class QUrl;
 
-namespace boresight::ui {
+#include "ui_manual_window.h"
 
-namespace Ui {
-class ManualWindow;
-}
+namespace boresight::ui {
 
 /// The manual's folder: share/boresight/manual beside an installed program or in the build tree of
 /// one that was not installed. "" when there is none.
@@ -33,7 +31,6 @@ class ManualWindow : public QMainWindow {
  public:
   /// `folder`: of the manual, "" where there is none.
   explicit ManualWindow(const QString& folder, QWidget* parent = nullptr);
-  ~ManualWindow() override;
 
   /// Shows a page, "annotate.md" or "window.md#queue", and comes to the front.
   void showPage(const QString& page);
@@ -48,7 +45,7 @@ class ManualWindow : public QMainWindow {
   QString folder_;
   QTextBrowser* browser_;
   QLineEdit* find_;
-  const std::unique_ptr<Ui::ManualWindow> ui_;
+  Ui::ManualWindow ui_;
 };
 
 /// Opens the manual at what an operator works at: the section of the panel that has the focus.

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "sessions/session/case_marks.h"
 #include "ui/models/rows_model.h"
@@ -31,7 +30,7 @@ struct MarkRow {
 };
 
 /// The marks of one image, points before lines, one row each, with what the solved pose says of
-/// them. What a person edits is told, not done: who owns the marks answers by setting them anew.
+/// them. What a person edits is told, not done: who owns the marks answers by setting them again.
 class MarksModel : public RowsModel<MarkRow> {
   Q_OBJECT
 

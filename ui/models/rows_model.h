@@ -9,7 +9,7 @@
 #include <QAbstractTableModel>
 #include <QSortFilterProxyModel>
 
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 
 namespace boresight::ui {
 
@@ -78,14 +78,6 @@ class RowsModel : public QAbstractTableModel {
     return role == Qt::ToolTipRole ? column.help : QVariant();
   }
 
- protected:
-  /// What a cell has for a role beyond its column's value; an invalid one leaves it to the column.
-  virtual QVariant look(const Row& /*row*/, int /*column*/, int /*role*/) const { return {}; }
-
-  QVariant valueOf(const Row& row, int column) const {
-    return columns_[static_cast<std::size_t>(column)].value(row);
-  }
-
   /// Rows that continue those before change in place and are appended, so that selections and
   /// editors stay.
   void setRows(std::vector<Row> rows, bool continues) {
@@ -106,9 +98,18 @@ class RowsModel : public QAbstractTableModel {
   /// In place where `key` gives the same for all rows.
   template <class Key>
   void setRowsByKey(std::vector<Row> rows, Key&& key) {
-    const bool same = std::equal(rows.begin(), rows.end(), rows_.begin(), rows_.end(),
-                                 [&key](const Row& a, const Row& b) { return key(a) == key(b); });
+    const bool same = std::equal(
+        rows.begin(), rows.end(), rows_.begin(), rows_.end(),
+        [&key](const Row& a, const Row& b) { return std::invoke(key, a) == std::invoke(key, b); });
     setRows(std::move(rows), same);
+  }
+
+ protected:
+  /// What a cell has for a role beyond its column's value; an invalid one leaves it to the column.
+  virtual QVariant look(const Row& /*row*/, int /*column*/, int /*role*/) const { return {}; }
+
+  QVariant valueOf(const Row& row, int column) const {
+    return columns_[static_cast<std::size_t>(column)].value(row);
   }
 
  private:

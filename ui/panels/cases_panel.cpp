@@ -2,15 +2,91 @@
 #include "ui/panels/cases_panel.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include <QIcon>
+#include <QPixmap>
 #include <QtWidgets>
-
-#include "ui_cases_panel.h"
 
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {
+namespace {
+
+/// In the order of `CaseState`.
+constexpr const char* kStateTexts[kCaseStateCount] = {
+    QT_TR_NOOP("○ new"),       QT_TR_NOOP("✓ converged"), QT_TR_NOOP("✗ failed"),
+    QT_TR_NOOP("✎ annotated"), QT_TR_NOOP("★ validated"), QT_TR_NOOP("⊘ rejected"),
+    QT_TR_NOOP("… running")};
+
+QString tooltipOf(const CaseRow& row) {
+  QString text = row.id;
+  if (!row.station.isEmpty()) text += CasesModel::tr(", station %1").arg(row.station);
+  text += QLatin1Char('\n') + CasesModel::stateText(row.state);
+  if (row.stale)
+    text += CasesModel::tr("\nStale: the inputs or options have changed since its run.");
+  if (!row.detail.isEmpty()) text += QLatin1Char('\n') + row.detail;
+  return text;
+}
+
+std::vector<TableColumn<CaseRow>> caseColumns() {
+  using Row = const CaseRow&;
+  constexpr auto tr = [](const char* text) { return CasesModel::tr(text); };
+  const auto error = [](std::optional<double> CaseRow::*value) {
+    return [value](Row row) {
+      return (row.*value).value_or(std::numeric_limits<double>::quiet_NaN());
+    };
+  };
+  return {
+      {tr("Case"), tr("The image's name."), -1, [](Row row) { return row.id; }},
+      {tr("State"),
+       tr("What has become of the case: new, running, converged, failed, annotated, validated, "
+          "rejected. Stale: its inputs or options have changed since its run."),
+       -1,
+       [](Row row) {
+         return CasesModel::stateText(row.state) +
+                (row.stale ? CasesModel::tr(", stale") : QString());
+       },
+       [](Row row) { return static_cast<int>(row.state); }},
+      {tr("Normal,\nmm"),
+       tr("Error of the result along the view axis at the end effector (at the camera where that "
+          "is not known), in mm, where the truth is known."),
+       3, error(&CaseRow::normal_mm)},
+      {tr("Lateral,\nmm"),
+       tr("Error of the result across the view axis at the end effector (at the camera where that "
+          "is not known), in mm, where the truth is known."),
+       3, error(&CaseRow::lateral_mm)},
+      {tr("Turned,\ndeg"),
+       tr("Angle between the view axes of the result and the truth, in degrees, where that is "
+          "known."),
+       3, error(&CaseRow::rotation_deg)},
+  };
+}
+
+}  // namespace
+
+CasesModel::CasesModel(QObject* parent) : RowsModel(caseColumns(), parent) {}
+
+void CasesModel::setRows(std::vector<CaseRow> rows) {
+  if (rows != this->rows())
+    setRowsByKey(std::move(rows), [](const CaseRow& row) { return row.id; });
+}
+
+int CasesModel::rowOf(const QString& id) const {
+  return firstRow([&id](const CaseRow& row) { return row.id == id; });
+}
+
+QString CasesModel::stateText(CaseState state) {
+  return tr(kStateTexts[static_cast<std::size_t>(state)]);
+}
+
+QVariant CasesModel::look(const CaseRow& row, int column, int role) const {
+  if (role == Qt::ToolTipRole) return tooltipOf(row);
+  if (role != Qt::DecorationRole || column != kCase || row.thumbnail.isNull()) return {};
+  return QIcon(QPixmap::fromImage(row.thumbnail));  // drawn in the view's size
+}
+
 namespace {
 
 constexpr int kThumbnail_px = 40;
@@ -33,26 +109,24 @@ class NameAndState final : public QStyledItemDelegate {
 
 }  // namespace
 
-CasesPanel::CasesPanel(QWidget* parent) : QWidget(parent), ui_(std::make_unique<Ui::CasesPanel>()) {
+CasesPanel::CasesPanel(QWidget* parent) : QWidget(parent) {
   filter_.setSourceModel(&model_);
-  ui_->setupUi(this);
+  ui_.setupUi(this);
   for (int i = 0; i < kCaseStateCount; ++i)
-    ui_->state->addItem(CasesModel::stateText(static_cast<CaseState>(i)));
+    ui_.state->addItem(CasesModel::stateText(static_cast<CaseState>(i)));
   buildTable();
-  connect(ui_->text, &QLineEdit::textChanged, this, &CasesPanel::applyFilter);
-  connect(ui_->state, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+  connect(ui_.text, &QLineEdit::textChanged, this, &CasesPanel::applyFilter);
+  connect(ui_.state, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           &CasesPanel::applyFilter);
-  connect(ui_->run, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(chosen()); });
-  connect(ui_->runAll, &QPushButton::clicked, this, [this] { Q_EMIT runAllRequested(listed()); });
+  connect(ui_.run, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(chosen()); });
+  connect(ui_.runAll, &QPushButton::clicked, this, [this] { Q_EMIT runAllRequested(listed()); });
   showCount();
 }
 
-CasesPanel::~CasesPanel() = default;
-
 /// Cases whose id or station holds the text, in the state or in any.
 void CasesPanel::applyFilter() {
-  const int state = ui_->state->currentIndex() - 1;
-  filter_.setCondition([this, state, text = ui_->text->text().trimmed()](int row) {
+  const int state = ui_.state->currentIndex() - 1;
+  filter_.setCondition([this, state, text = ui_.text->text().trimmed()](int row) {
     const CaseRow& one = model_.at(row);
     return (state < 0 || one.state == static_cast<CaseState>(state)) &&
            (one.id.contains(text, Qt::CaseInsensitive) ||
@@ -62,31 +136,31 @@ void CasesPanel::applyFilter() {
 }
 
 void CasesPanel::buildTable() {
-  setUpTable(*ui_->cases, filter_);
-  ui_->cases->verticalHeader()->setDefaultSectionSize(kThumbnail_px + 4);
-  ui_->cases->setItemDelegateForColumn(CasesModel::kCase, new NameAndState(ui_->cases));
+  setUpTable(*ui_.cases, filter_);
+  ui_.cases->verticalHeader()->setDefaultSectionSize(kThumbnail_px + 4);
+  ui_.cases->setItemDelegateForColumn(CasesModel::kCase, new NameAndState(ui_.cases));
   // The state is in the first column too; its own one is there to sort by.
-  ui_->cases->horizontalHeader()->moveSection(CasesModel::kState, CasesModel::kRotation_deg);
-  ui_->cases->sortByColumn(CasesModel::kCase, Qt::AscendingOrder);
-  connect(ui_->cases->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  ui_.cases->horizontalHeader()->moveSection(CasesModel::kState, CasesModel::kRotation_deg);
+  ui_.cases->sortByColumn(CasesModel::kCase, Qt::AscendingOrder);
+  connect(ui_.cases->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &CasesPanel::chooseRow);
-  hint_ = new EmptyHint(*ui_->cases);
+  hint_ = new EmptyHint(*ui_.cases);
 }
 
 void CasesPanel::setRows(std::vector<CaseRow> rows) {
   showing_ = true;
   model_.setRows(std::move(rows));
   showing_ = false;
-  ui_->cases->resizeColumnsToContents();
-  whole_case_ = ui_->cases->columnWidth(CasesModel::kCase);
+  ui_.cases->resizeColumnsToContents();
+  whole_case_ = ui_.cases->columnWidth(CasesModel::kCase);
   // Headers would keep room for the sign of the order in every column.
-  const QFontMetrics metrics = ui_->cases->fontMetrics();
+  const QFontMetrics metrics = ui_.cases->fontMetrics();
   for (const int error :
        {CasesModel::kNormal_mm, CasesModel::kLateral_mm, CasesModel::kRotation_deg})
-    ui_->cases->setColumnWidth(error,
-                               std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
-                                        metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
-                                   8);
+    ui_.cases->setColumnWidth(error,
+                              std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
+                                       metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
+                                  8);
   fitCaseColumn();
   setCurrent(current_);
 }
@@ -94,20 +168,20 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
 /// States are told whole; a usual name may push all errors but the first out of sight, a longer one
 /// none (the tooltip has it whole).
 void CasesPanel::fitCaseColumn() {
-  const QFontMetrics metrics = ui_->cases->fontMetrics();
+  const QFontMetrics metrics = ui_.cases->fontMetrics();
   int state = 0;
   for (int i = 0; i < kCaseStateCount; ++i)
     state = std::max(state,
                      metrics.horizontalAdvance(CasesModel::stateText(static_cast<CaseState>(i))));
   // The style keeps this margin on both sides of picture and text.
-  const int margin = style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, ui_->cases) + 1;
+  const int margin = style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, ui_.cases) + 1;
   const int beside_text = kThumbnail_px + 4 * margin + 1;
-  const int view = ui_->cases->width() - 2 * ui_->cases->frameWidth() -
-                   style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, ui_->cases);
-  const int error = ui_->cases->columnWidth(CasesModel::kNormal_mm);
+  const int view = ui_.cases->width() - 2 * ui_.cases->frameWidth() -
+                   style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, ui_.cases);
+  const int error = ui_.cases->columnWidth(CasesModel::kNormal_mm);
   const int usual = beside_text + kUsualName * metrics.averageCharWidth();
   const int most = std::max({beside_text + state, std::min(view - error, usual), view - 3 * error});
-  ui_->cases->setColumnWidth(CasesModel::kCase, std::min(whole_case_, most));
+  ui_.cases->setColumnWidth(CasesModel::kCase, std::min(whole_case_, most));
 }
 
 void CasesPanel::resizeEvent(QResizeEvent* event) {
@@ -119,8 +193,8 @@ void CasesPanel::setCurrent(const QString& id) {
   current_ = id;
   showing_ = true;
   const QModelIndex row = filter_.mapFromSource(model_.index(model_.rowOf(id), 0));
-  ui_->cases->setCurrentIndex(row);
-  if (row.isValid()) ui_->cases->scrollTo(row);
+  ui_.cases->setCurrentIndex(row);
+  if (row.isValid()) ui_.cases->scrollTo(row);
   showing_ = false;
   showCount();
 }
@@ -138,7 +212,7 @@ QStringList CasesPanel::listed() const {
 }
 
 QString CasesPanel::chosen() const {
-  return ui_->cases->currentIndex().siblingAtColumn(CasesModel::kCase).data().toString();
+  return ui_.cases->currentIndex().siblingAtColumn(CasesModel::kCase).data().toString();
 }
 
 void CasesPanel::chooseRow(const QModelIndex& current) {
@@ -149,13 +223,13 @@ void CasesPanel::chooseRow(const QModelIndex& current) {
 }
 
 void CasesPanel::showCount() {
-  ui_->count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  ui_.count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
   hint_->setText(model_.rowCount() > 0
                      ? tr("No matching cases.")
                      : tr("No case yet. Open a session (Ctrl+O), or drop an image, a camera, a "
                           "mesh and a seed, or a dataset.json, anywhere on the window."));
-  ui_->run->setEnabled(runnable_ && ui_->cases->currentIndex().isValid());
-  ui_->runAll->setEnabled(runnable_ && filter_.rowCount() > 0);
+  ui_.run->setEnabled(runnable_ && ui_.cases->currentIndex().isValid());
+  ui_.runAll->setEnabled(runnable_ && filter_.rowCount() > 0);
 }
 
 }  // namespace boresight::ui

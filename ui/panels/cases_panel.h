@@ -1,20 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <optional>
+#include <vector>
 
+#include <QImage>
+#include <QString>
 #include <QStringList>
 #include <QWidget>
 
-#include "ui/models/cases_model.h"
+#include "ui_cases_panel.h"
+
+#include "sessions/review/review_status.h"
+#include "ui/models/rows_model.h"
 
 namespace boresight::ui {
 
-namespace Ui {
-class CasesPanel;
-}
-
 class EmptyHint;
+
+/// In the order of sessions::ReviewState, which does not know of runs under way.
+enum class CaseState { kNew, kConverged, kFailed, kAnnotated, kValidated, kRejected, kRunning };
+inline constexpr int kCaseStateCount = 7;
+
+inline CaseState caseStateOf(sessions::ReviewState status) {
+  return static_cast<CaseState>(status);
+}
+static_assert(static_cast<int>(sessions::ReviewState::kRejected) ==
+              static_cast<int>(CaseState::kRejected));
+
+/// One case as the list shows it.
+struct CaseRow {
+  QString id;       ///< unique
+  QString station;  ///< may be empty
+  QImage thumbnail;
+  CaseState state = CaseState::kNew;
+  bool stale = false;  ///< its last run was made with other inputs or options
+  QString detail;      ///< e.g. why it failed, for the tooltip
+  /// Against the truth, where it is known and a pose came out.
+  std::optional<double> normal_mm;
+  std::optional<double> lateral_mm;
+  std::optional<double> rotation_deg;
+
+  bool operator==(const CaseRow&) const = default;
+};
+
+/// The images of a session. New rows of the same ids change in place, so that selections stay.
+class CasesModel : public RowsModel<CaseRow> {
+  Q_OBJECT
+
+ public:
+  enum Column { kCase, kState, kNormal_mm, kLateral_mm, kRotation_deg };
+
+  explicit CasesModel(QObject* parent = nullptr);
+
+  void setRows(std::vector<CaseRow> rows);
+  /// -1 where there is none.
+  int rowOf(const QString& id) const;
+  /// A word with a sign of its own shape before it.
+  static QString stateText(CaseState state);
+
+ protected:
+  QVariant look(const CaseRow& row, int column, int role) const override;
+};
 
 /// The images of the session: filter, sort, open, run one, run those that are listed.
 class CasesPanel : public QWidget {
@@ -22,7 +69,6 @@ class CasesPanel : public QWidget {
 
  public:
   explicit CasesPanel(QWidget* parent = nullptr);
-  ~CasesPanel() override;
 
   void setRows(std::vector<CaseRow> rows);
   /// The case that is open; shows it without asking for it.
@@ -56,7 +102,7 @@ class CasesPanel : public QWidget {
   int whole_case_ = 0;  ///< width in which the longest name would be shown whole, 0 before any
   bool runnable_ = true;
   bool showing_ = false;  ///< the table follows the window, not a person
-  const std::unique_ptr<Ui::CasesPanel> ui_;
+  Ui::CasesPanel ui_;
 };
 
 }  // namespace boresight::ui

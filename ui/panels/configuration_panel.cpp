@@ -4,12 +4,9 @@
 #include <QtWidgets>
 
 #include "sessions/io/config_file.h"
-#include "ui/models/number_text.h"
-
-#include "ui_configuration_panel.h"
+#include "ui/models/text.h"
 
 namespace boresight::ui {
-
 namespace {
 
 QStringList profiles() {
@@ -23,38 +20,36 @@ LocalizerOptions optionsOf(const QString& profile) {
 }  // namespace
 
 ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
-    : QWidget(parent), view_(view), ui_(std::make_unique<Ui::ConfigurationPanel>()) {
-  ui_->setupUi(this);
-  ui_->profile->addItems(profiles());
-  ui_->stale->setAction(tr("Run again with these"), {});
-  ui_->help->setMinimumHeight(2 * ui_->help->fontMetrics().lineSpacing());
+    : QWidget(parent), view_(view) {
+  ui_.setupUi(this);
+  ui_.profile->addItems(profiles());
+  ui_.stale->setAction(tr("Run again with these"), {});
+  ui_.help->setMinimumHeight(2 * ui_.help->fontMetrics().lineSpacing());
   const auto filter = [this] {
-    ui_->options->setFilter(ui_->words->text(), ui_->changedOnly->isChecked());
+    ui_.options->setFilter(ui_.words->text(), ui_.changedOnly->isChecked());
   };
-  connect(ui_->words, &QLineEdit::textChanged, this, filter);
-  connect(ui_->changedOnly, &QCheckBox::toggled, this, filter);
-  connect(ui_->profile, QOverload<int>::of(&QComboBox::activated), this,
-          [this] { setProfile(ui_->profile->currentText()); });
-  connect(ui_->resetAll, &QPushButton::clicked, this, [this] { setProfile(profile_); });
-  connect(&ui_->options->options(), &OptionsModel::edited, this, &ConfigurationPanel::change);
-  connect(ui_->options, &OptionsTable::helpChanged, this, [this](const QString& help) {
-    ui_->help->setText(help.isEmpty() ? tr("Choose an option to read what it does.") : help);
+  connect(ui_.words, &QLineEdit::textChanged, this, filter);
+  connect(ui_.changedOnly, &QCheckBox::toggled, this, filter);
+  connect(ui_.profile, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { setProfile(ui_.profile->currentText()); });
+  connect(ui_.resetAll, &QPushButton::clicked, this, [this] { setProfile(profile_); });
+  connect(&ui_.options->options(), &OptionsModel::edited, this, &ConfigurationPanel::change);
+  connect(ui_.options, &OptionsTable::helpChanged, this, [this](const QString& help) {
+    ui_.help->setText(help.isEmpty() ? tr("Choose an option to read what it does.") : help);
   });
-  connect(ui_->stale, &Banner::actionRequested, this, &ConfigurationPanel::runAgainRequested);
+  connect(ui_.stale, &Banner::actionRequested, this, &ConfigurationPanel::runAgainRequested);
   view_.onChange(ViewChange::kSnapshot, this, &ConfigurationPanel::showStale);
   setOptions(profiles().front(), defaultProfile());
 }
 
-ConfigurationPanel::~ConfigurationPanel() = default;
-
 void ConfigurationPanel::setOptions(const QString& profile, const LocalizerOptions& options) {
   profile_ = profiles().contains(profile) ? profile : profiles().front();
   options_ = options;
-  ui_->options->setOptions(sessions::listOptions(options),
-                           sessions::listOptions(optionsOf(profile_)));
-  const QSignalBlocker blocked(ui_->profile);
-  ui_->profile->setCurrentText(profile_);
-  ui_->resetAll->setEnabled(ui_->options->options().changedCount() > 0);
+  ui_.options->setOptions(sessions::listOptions(options),
+                          sessions::listOptions(optionsOf(profile_)));
+  const QSignalBlocker blocked(ui_.profile);
+  ui_.profile->setCurrentText(profile_);
+  ui_.resetAll->setEnabled(ui_.options->options().changedCount() > 0);
   showStale();
 }
 
@@ -73,7 +68,7 @@ void ConfigurationPanel::change(const std::string& name, const std::string& valu
   try {
     sessions::applyOptionText(changed, name, value);
   } catch (const sessions::OptionError& error) {
-    ui_->help->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
+    ui_.help->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
     return;
   }
   setOptions(profile_, changed);
@@ -98,13 +93,13 @@ QStringList ConfigurationPanel::differences() const {
 void ConfigurationPanel::showStale() {
   constexpr int kMostNamed = 4;
   QStringList names = differences();
-  ui_->stale->setVisible(!names.isEmpty());
+  ui_.stale->setVisible(!names.isEmpty());
   const auto more = names.size() - kMostNamed;
   if (more > 0) {
     names = names.mid(0, kMostNamed);
     names.append(tr("%1 more").arg(more));
   }
-  ui_->stale->setMessage(
+  ui_.stale->setMessage(
       QStringLiteral("⚠"),
       tr("The shown run has other options: %1.").arg(names.join(QStringLiteral(", "))),
       Banner::Tone::kPlain);

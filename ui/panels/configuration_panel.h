@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include <QWidget>
+
+#include "ui_configuration_panel.h"
 
 #include "core/localizer/localizer_options.h"
 #include "sessions/io/option_value.h"
@@ -12,17 +13,12 @@
 
 namespace boresight::ui {
 
-namespace Ui {
-class ConfigurationPanel;
-}
-
 /// Every parameter of the next run. Says so when the run that is shown was made with other ones.
 class ConfigurationPanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit ConfigurationPanel(ViewState& view, QWidget* parent = nullptr);
-  ~ConfigurationPanel() override;
 
   /// From the document; emits nothing. An unknown profile is replaced by the default one.
   void setOptions(const QString& profile, const LocalizerOptions& options);
@@ -44,7 +40,7 @@ class ConfigurationPanel : public QWidget {
   void showStale();
 
   ViewState& view_;
-  const std::unique_ptr<Ui::ConfigurationPanel> ui_;
+  Ui::ConfigurationPanel ui_;
   QString profile_;
   LocalizerOptions options_;
   double case_feature_size_m_ = 0.0;

@@ -3,12 +3,41 @@
 
 #include <QWidget>
 
-#include "ui/models/alternatives_model.h"
+#include "sessions/run/alternatives.h"
+#include "ui/models/rows_model.h"
 #include "ui/state/view_state.h"
 
 class QTableView;
 
 namespace boresight::ui {
+
+/// The poses that a run compared with those that it went on with, one row each: competing
+/// poses first, then candidates, then rolled hypotheses by iteration.
+class AlternativesModel : public RowsModel<sessions::Alternative> {
+  Q_OBJECT
+
+ public:
+  enum Column {
+    kPose,
+    kIteration,
+    kEnded,
+    kMargin_nats,
+    kSimilarity,
+    kEvidence_nats,
+    kInliers,
+    kMatches,
+    kApart_mm,
+    kApart_deg,
+  };
+
+  explicit AlternativesModel(QObject* parent = nullptr);
+
+  /// The first row of an iteration (an index into the run's), or -1.
+  int firstRowOf(int iteration) const;
+
+ protected:
+  QVariant look(const sessions::Alternative& row, int column, int role) const override;
+};
 
 /// What else a run compared: poses that compete with its result, candidates, rolled hypotheses. The
 /// chosen one is drawn on the image with the pose that the run went on with; one that belongs to an

@@ -3,20 +3,16 @@
 
 #include <optional>
 
-#include <memory>
-
 #include <QDialog>
 #include <QWidget>
+
+#include "ui_input_sheet_panel.h"
+#include "ui_input_sigmas_dialog.h"
 
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/session.h"
 
 namespace boresight::ui {
-
-namespace Ui {
-class InputSigmasDialog;
-class InputSheetPanel;
-}  // namespace Ui
 
 /// Asks how well the mesh's scale and the camera's calibration are known, which one image cannot
 /// tell. What is not stated is assumed, and the boxes show with which values.
@@ -25,13 +21,12 @@ class InputSigmasDialog : public QDialog {
 
  public:
   InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent);
-  ~InputSigmasDialog() override;
 
   std::optional<double> meshScaleSigma() const;
   std::optional<sessions::CalibrationSigma> calibrationSigma() const;
 
  private:
-  const std::unique_ptr<Ui::InputSigmasDialog> ui_;
+  Ui::InputSigmasDialog ui_;
 };
 
 /// What the inputs of the case are, in figures with units; what is probably wrong comes first, in
@@ -41,7 +36,6 @@ class InputSheetPanel : public QWidget {
 
  public:
   explicit InputSheetPanel(QWidget* parent = nullptr);
-  ~InputSheetPanel() override;
 
   /// Nothing: no case is open.
   void setSheet(const std::optional<sessions::InputSheet>& sheet);
@@ -56,7 +50,7 @@ class InputSheetPanel : public QWidget {
   void showFlags(const std::vector<sessions::RedFlag>& flags);
   void copyChosen() const;
 
-  const std::unique_ptr<Ui::InputSheetPanel> ui_;
+  Ui::InputSheetPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -1,22 +1,381 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/iterations_panel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include <QtWidgets>
 
-#include "ui_iterations_panel.h"
-
+#include "core/base/math.h"
+#include "sessions/text/units.h"
+#include "ui/models/text.h"
 #include "ui/panels/widgets.h"
-#include "ui/plots/double_plot.h"
+#include "ui/plots/plots.h"
 
 namespace boresight::ui {
 
-IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent)
-    : QWidget(parent), view_(view), ui_(std::make_unique<Ui::IterationsPanel>()) {
-  ui_->setupUi(this);
+std::vector<Stage> stagesOf(const sessions::IterationTrace& iteration) {
+  const bool refines = iteration.kind == IterationKind::kRefine;
+  const std::vector<Stage> all =
+      refines ? std::vector<Stage>{Stage::kRender, Stage::kRefine}
+              : std::vector<Stage>{Stage::kRender, Stage::kTemplates, Stage::kMatch, Stage::kPose};
+  std::vector<Stage> reached;
+  for (const Stage stage : all)
+    if (stage == Stage::kRender || stage <= iteration.reached) reached.push_back(stage);
+  return reached;
+}
+
+int shownStage(const std::vector<Stage>& stages, Stage cursor) {
+  int shown = 0;
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (stages[i] <= cursor) shown = static_cast<int>(i);
+  return shown;
+}
+
+RunCursor stageFrom(const sessions::LocalizationTrace& run, const RunCursor& cursor, int steps) {
+  std::vector<RunCursor> all = {{-1, Stage::kFinished}};
+  int at = 0;
+  for (int i = 0; i < static_cast<int>(run.iterations.size()); ++i)
+    for (const Stage stage : stagesOf(*run.iterations[static_cast<std::size_t>(i)])) {
+      const bool reached = stage == Stage::kRender || stage <= cursor.stage;
+      if (i < cursor.iteration || (i == cursor.iteration && reached))
+        at = static_cast<int>(all.size());
+      all.push_back({i, stage});
+    }
+  const int last = static_cast<int>(all.size()) - 1;
+  const int next = std::clamp(at + steps, 0, last);
+  if (next == at) return cursor;
+  RunCursor found = all[static_cast<std::size_t>(next)];
+  const bool ends =
+      next == last || all[static_cast<std::size_t>(next) + 1].iteration != found.iteration;
+  if (ends) found.stage = Stage::kFinished;
+  return found;
+}
+
+namespace {
+
+struct StageText {
+  Stage stage;
+  const char* name;
+  const char* help;
+};
+constexpr StageText kStageTexts[] = {
+    {Stage::kRender, QT_TR_NOOP("Render"),
+     QT_TR_NOOP("Show the edges rendered from the iteration's first pose.")},
+    {Stage::kTemplates, QT_TR_NOOP("Templates"),
+     QT_TR_NOOP("Show the templates cut from the render.")},
+    {Stage::kMatch, QT_TR_NOOP("Match"),
+     QT_TR_NOOP("Show where the templates were found in the image.")},
+    {Stage::kPose, QT_TR_NOOP("Pose"),
+     QT_TR_NOOP("Show the pose solved from the matches, its inliers and residuals.")},
+    {Stage::kRefine, QT_TR_NOOP("Refine"),
+     QT_TR_NOOP("Show the pose moved until rendered edges meet the image's own.")},
+};
+
+const StageText& textOf(Stage stage) {
+  for (const StageText& text : kStageTexts)
+    if (text.stage == stage) return text;
+  return kStageTexts[std::size(kStageTexts) - 1];
+}
+
+}  // namespace
+
+RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
+  ui_.setupUi(this);
+  actions_ = {ui_.goFirst, ui_.goPrevious,      ui_.goNext,
+              ui_.goLast,  ui_.goPreviousStage, ui_.goNextStage};
+  const std::array buttons = {ui_.first, ui_.previous,      ui_.next,
+                              ui_.last,  ui_.previousStage, ui_.nextStage};
+  for (std::size_t i = 0; i < buttons.size(); ++i) {
+    buttons[i]->setDefaultAction(actions_[i]);
+    buttons[i]->setAccessibleName(actions_[i]->text());
+    connect(actions_[i], &QAction::triggered, this, [this, i] { go(static_cast<Step>(i)); });
+  }
+  ui_.shownIteration->setMinimumWidth(
+      fontMetrics().horizontalAdvance(QStringLiteral("8.88 (88 of 88)")));
+  stages_ = new QButtonGroup(this);
+  for (QToolButton* each : {ui_.stage1, ui_.stage2, ui_.stage3, ui_.stage4})
+    stages_->addButton(each, stages_->buttons().size());
+  connect(stages_, &QButtonGroup::idClicked, this, &RunScrubber::chooseStage);
+  connect(ui_.iterations, &QSlider::valueChanged, this, [this](int value) {
+    view_.setCursor({value, Stage::kFinished});
+  });
+  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this, &RunScrubber::showCursor);
+  showCursor();
+}
+
+void RunScrubber::setPlace(const QString& text) { ui_.shownIteration->setText(text); }
+
+void RunScrubber::go(Step step) {
+  const RunCursor& cursor = view_.cursor();
+  const bool by_stage = step == Step::kPreviousStage || step == Step::kNextStage;
+  if (by_stage) {
+    if (!view_.snapshot()) return;
+    view_.setCursor(stageFrom(*view_.snapshot(), cursor, step == Step::kNextStage ? 1 : -1));
+    return;
+  }
+  const int target = step == Step::kFirst      ? -1
+                     : step == Step::kPrevious ? cursor.iteration - 1
+                     : step == Step::kNext     ? cursor.iteration + 1
+                                               : ui_.iterations->maximum();
+  view_.setCursor({target, Stage::kFinished});
+}
+
+void RunScrubber::chooseStage(int index) {
+  const auto shown = view_.iteration();
+  if (shown == nullptr) return;
+  const std::vector<Stage> stages = stagesOf(*shown);
+  const bool last = index + 1 >= static_cast<int>(stages.size());
+  view_.setCursor({view_.cursor().iteration,
+                   last ? Stage::kFinished : stages[static_cast<std::size_t>(index)]});
+}
+
+void RunScrubber::showCursor() {
+  const int last =
+      view_.snapshot() ? static_cast<int>(view_.snapshot()->iterations.size()) - 1 : -1;
+  const QSignalBlocker blocked(ui_.iterations);
+  ui_.iterations->setRange(-1, last);
+  ui_.iterations->setValue(view_.cursor().iteration);
+  ui_.iterations->setEnabled(last >= 0);
+  const bool at_start = view_.cursor().iteration < 0;
+  const bool at_end = view_.cursor().iteration >= last;
+  action(Step::kFirst)->setEnabled(!at_start);
+  action(Step::kPrevious)->setEnabled(!at_start);
+  action(Step::kNext)->setEnabled(!at_end);
+  action(Step::kLast)->setEnabled(!at_end);
+  showStages();
+}
+
+void RunScrubber::showStages() {
+  const auto shown = view_.iteration();
+  const std::vector<Stage> stages = shown ? stagesOf(*shown) : std::vector<Stage>();
+  const int chosen = shown ? shownStage(stages, view_.cursor().stage) : -1;
+  // An exclusive group cannot have none checked.
+  stages_->setExclusive(false);
+  for (int i = 0; i < stages_->buttons().size(); ++i) {
+    auto* button = qobject_cast<QToolButton*>(stages_->button(i));
+    const bool exists = i < static_cast<int>(stages.size());
+    button->setVisible(exists);
+    button->setChecked(i == chosen);
+    QFont weight = font();
+    weight.setBold(i == chosen);
+    button->setFont(weight);
+    if (!exists) continue;
+    button->setText(tr(textOf(stages[static_cast<std::size_t>(i)]).name));
+    button->setToolTip(tr(textOf(stages[static_cast<std::size_t>(i)]).help));
+  }
+  stages_->setExclusive(chosen >= 0);
+  const auto* run = view_.snapshot().get();
+  action(Step::kPreviousStage)->setEnabled(run && view_.cursor().iteration >= 0);
+  action(Step::kNextStage)
+      ->setEnabled(run && !(stageFrom(*run, view_.cursor(), 1) == view_.cursor()));
+}
+
+using sessions::IterationTrace;
+using sessions::kUnknown;
+
+namespace {
+
+/// Whether a pose came out of the iteration.
+bool isSolved(const IterationTrace& one) {
+  return one.reached >= Stage::kPose && one.status != LocalizationStatus::kPnpFailed &&
+         one.status != LocalizationStatus::kFault;
+}
+
+const HypothesisSummary* chosenOf(const IterationTrace& one) {
+  const auto chosen = static_cast<std::size_t>(one.chosen_hypothesis);
+  if (one.kind == IterationKind::kRefine || chosen >= one.hypotheses.size()) return nullptr;
+  return &one.hypotheses[chosen];
+}
+
+/// "+40.0 deg".
+QString placeText(const HypothesisSummary& one) {
+  const double turn_deg = one.roll_rad / kDegree_rad;
+  return QLatin1String(turn_deg < 0.0 ? "" : "+") + numberText(turn_deg, 1) +
+         QStringLiteral(" deg");
+}
+
+double ofPose(const IterationTrace& one, double value) { return isSolved(one) ? value : kUnknown; }
+
+double ofStage(const IterationTrace& one, Stage stage, double value) {
+  return one.reached >= stage ? value : kUnknown;
+}
+
+/// Counts of a refinement are of places along edges.
+double countOf(const IterationTrace& one, Stage stage, int of_match, int of_refinement) {
+  const bool refines = one.kind == IterationKind::kRefine;
+  return ofStage(one, refines ? Stage::kRefine : stage, refines ? of_refinement : of_match);
+}
+
+double ofMatch(const IterationTrace& one, Stage stage, double value) {
+  return one.kind == IterationKind::kMatch ? ofStage(one, stage, value) : kUnknown;
+}
+
+QString hypothesisText(const IterationTrace& one) {
+  const HypothesisSummary* chosen = chosenOf(one);
+  if (chosen == nullptr) return {};
+  return IterationsModel::tr("%1 (of %2)").arg(placeText(*chosen)).arg(one.hypotheses.size());
+}
+
+/// One line per hypothesis, the one chosen marked.
+QString hypothesesList(const IterationTrace& one) {
+  constexpr auto tr = [](const char* text) { return IterationsModel::tr(text); };
+  if (chosenOf(one) == nullptr) return {};
+  QStringList lines;
+  for (std::size_t i = 0; i < one.hypotheses.size(); ++i) {
+    const HypothesisSummary& each = one.hypotheses[i];
+    QString line =
+        tr("%1: %2 of %3 inliers").arg(placeText(each)).arg(each.inliers).arg(each.matches);
+    if (!each.solved) line += tr(", no pose");
+    if (static_cast<int>(i) == one.chosen_hypothesis) line += tr(" (chosen)");
+    lines << line;
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+QString kindText(const IterationTrace& one) {
+  return one.kind == IterationKind::kRefine ? IterationsModel::tr("refine")
+                                            : IterationsModel::tr("match");
+}
+
+using Line = const IterationRow&;
+using Trace = const IterationTrace&;
+
+/// A column's value of iterations; the seed has none.
+auto number(double (*value)(Trace)) {
+  return [value](Line row) { return row.trace ? value(*row.trace) : kUnknown; };
+}
+auto text(QString (*value)(Trace)) {
+  return [value](Line row) { return row.trace ? value(*row.trace) : QString(); };
+}
+
+std::vector<TableColumn<IterationRow>> iterationColumns() {
+  constexpr auto tr = [](const char* text) { return IterationsModel::tr(text); };
+  return {
+      {tr("Iteration"),
+       tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. An attempt "
+          "that fails is followed by one from the seed."),
+       -1, [](Line row) { return row.name; }},
+      {tr("Kind"),
+       tr("match: templates are searched and a pose is solved from them; refine: the pose moves "
+          "until rendered edges meet the image's own."),
+       -1, text(kindText)},
+      {tr("Hypothesis"),
+       tr("Which render the iteration went on with: its turn in degrees, and how many there were. "
+          "Point at a cell for all of them."),
+       -1, text(hypothesisText)},
+      {tr("Level"),
+       tr("Level of the image pyramid: 0 is the full image, each further one has half its size."),
+       0, number([](Trace one) -> double { return one.level; })},
+      {tr("Moved, mm"), tr("How far this iteration moved the pose, in mm."), 3,
+       number([](Trace one) { return ofPose(one, 1e3 * one.correction_translation_m); })},
+      {tr("Turned, deg"), tr("How far this iteration turned the pose, in degrees."), 3,
+       number([](Trace one) { return ofPose(one, one.correction_rotation_rad / kDegree_rad); })},
+      {tr("In image, px"),
+       tr("How far the correction moves the scene in the image: mean over the corners of its box, "
+          "in pixels of the full image."),
+       2, number([](Trace one) { return ofPose(one, one.correction_image_px); })},
+      {tr("Templates"),
+       tr("Templates cut from the render; of a refinement: places along the rendered edges."), 0,
+       number([](Trace one) {
+         return countOf(one, Stage::kTemplates, one.template_count, one.refinement.sample_count);
+       })},
+      {tr("Matches"),
+       tr("Templates that could be searched in the image; of a refinement: places where an image "
+          "edge was found."),
+       0, number([](Trace one) {
+         return countOf(one, Stage::kMatch, one.searched_count, one.refinement.found_count);
+       })},
+      {tr("Inliers"),
+       tr("Matches that agree with the pose; of a refinement: places that were used."), 0,
+       number([](Trace one) {
+         return countOf(one, Stage::kPose, one.support(), one.refinement.used_count);
+       })},
+      {tr("Threshold, px"),
+       tr("Residual up to which a match is an inlier, in pixels of the full image; of a "
+          "refinement: how far an edge is looked for."),
+       1, number([](Trace one) { return one.threshold_px; })},
+      {tr("Best score"), tr("Highest similarity S of a match; 2 is perfect."), 3,
+       number([](Trace one) { return ofMatch(one, Stage::kMatch, one.best_score); })},
+      {tr("Mean score"), tr("Mean similarity S over the matches; 2 is perfect."), 3,
+       number([](Trace one) { return ofMatch(one, Stage::kMatch, one.mean_score); })},
+      {tr("RMS, px"), tr("Root mean square residual of the inliers, in pixels of the full image."),
+       2, number([](Trace one) { return ofPose(one, one.rms_px()); })},
+      {tr("Render, ms"), tr("Wall time of rendering the scene's edges, in ms."), 0,
+       number([](Trace one) { return 1e3 * one.seconds.rendering; })},
+      {tr("Match, ms"), tr("Wall time of choosing and searching templates, in ms."), 0,
+       number(
+           [](Trace one) { return ofMatch(one, Stage::kTemplates, 1e3 * one.seconds.matching); })},
+      {tr("Pose, ms"), tr("Wall time of solving for the pose, or of refining it, in ms."), 0,
+       number([](Trace one) {
+         return ofStage(one, Stage::kPose, 1e3 * (one.seconds.pose + one.seconds.refinement));
+       })},
+      {tr("Status"), tr("How the iteration ended, or the last stage of it that is complete."), -1,
+       [](Line row) { return row.status; }},
+  };
+}
+
+QString statusText(const sessions::LocalizationTrace& run, std::size_t index) {
+  const IterationTrace& one = *run.iterations[index];
+  const bool last = index + 1 == run.iterations.size();
+  if (last && run.last_under_way)
+    return IterationsModel::tr("%1 done").arg(QString::fromLatin1(stageText(one.reached)));
+  // The end of the run is not noted in the iteration that brought it.
+  const LocalizationStatus status =
+      last && one.status == LocalizationStatus::kRunning ? run.status : one.status;
+  if (status == LocalizationStatus::kRunning)
+    return last ? IterationsModel::tr("halted") : IterationsModel::tr("went on");
+  return QString::fromLatin1(localizationStatusText(status))
+      .replace(QLatin1Char('_'), QLatin1Char(' '));
+}
+
+/// All iterations but the last one are the same records, and none was lost.
+bool continues(const sessions::LocalizationTrace* former, const sessions::LocalizationTrace* next) {
+  if (!former || !next || former->iterations.empty()) return false;
+  const auto& before = former->iterations;
+  return next->iterations.size() >= before.size() &&
+         std::equal(before.begin(), before.end() - 1, next->iterations.begin());
+}
+
+}  // namespace
+
+IterationsModel::IterationsModel(QObject* parent) : RowsModel(iterationColumns(), parent) {}
+
+void IterationsModel::setSnapshot(SnapshotPtr snapshot) {
+  std::vector<IterationRow> rows;
+  if (snapshot) rows.push_back({tr("seed"), nullptr, {}});
+  int number = 0;
+  for (std::size_t i = 0; snapshot && i < snapshot->iterations.size(); ++i) {
+    const auto& one = snapshot->iterations[i];
+    number = i > 0 && one->attempt == snapshot->iterations[i - 1]->attempt ? number + 1 : 1;
+    rows.push_back(
+        {QStringLiteral("%1.%2").arg(one->attempt + 1).arg(number), one, statusText(*snapshot, i)});
+  }
+  const bool goes_on = continues(snapshot_.get(), snapshot.get());
+  snapshot_ = std::move(snapshot);
+  setRows(std::move(rows), goes_on);
+}
+
+QString IterationsModel::iterationName(int iteration) const {
+  const int row = rowOf(iteration);
+  return row > 0 && row < rowCount() ? at(row).name : tr("seed");
+}
+
+double IterationsModel::number(int iteration, Column column) const {
+  const QVariant value = index(rowOf(iteration), column).data(kSortRole);
+  return value.isValid() ? value.toDouble() : kUnknown;
+}
+
+QVariant IterationsModel::look(const IterationRow& row, int column, int role) const {
+  const bool lists = role == Qt::ToolTipRole && column == kHypothesis && row.trace;
+  return lists ? hypothesesList(*row.trace) : QVariant();
+}
+
+IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
+  ui_.setupUi(this);
   scrubber_ = new RunScrubber(view_, this);
-  ui_->column->insertWidget(1, scrubber_);
+  ui_.column->insertWidget(1, scrubber_);
   buildTable();
   buildPlots();
   view_.onChange(ViewChange::kSnapshot, this, &IterationsPanel::showSnapshot);
@@ -25,13 +384,11 @@ IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent)
   showCursor();
 }
 
-IterationsPanel::~IterationsPanel() = default;
-
 void IterationsPanel::buildTable() {
-  setUpTable(*ui_->iterations, model_);
-  connect(ui_->iterations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  setUpTable(*ui_.iterations, model_);
+  connect(ui_.iterations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &IterationsPanel::chooseRow);
-  auto* hint = new EmptyHint(*ui_->iterations, IterationsModel::rowOf(0));
+  auto* hint = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));
   hint->setText(
       tr("Run the case to its end (F5), an iteration (F6) or a stage (F7) at a time: each "
          "iteration becomes a row here, and every view shows the chosen one."));
@@ -42,7 +399,7 @@ void IterationsPanel::buildPlots() {
   fit_ = new DoublePlot({tr("inliers"), true}, {tr("rms, px"), false});
   for (DoublePlot* plot : {corrections_, fit_}) {
     plot->setNames([this](int iteration) { return model_.iterationName(iteration); });
-    ui_->plotRow->addWidget(plot);
+    ui_.plotRow->addWidget(plot);
     connect(plot, &DoublePlot::chosen, this, [this](int iteration) {
       view_.setCursor({iteration, Stage::kFinished});
     });
@@ -69,9 +426,9 @@ void IterationsPanel::showSnapshot() {
   showing_ = true;
   model_.setSnapshot(view_.snapshot());
   showing_ = false;
-  ui_->runStatus->showRun(view_.snapshot().get());
-  ui_->iterations->resizeColumnsToContents();
-  ui_->plots->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
+  ui_.runStatus->showRun(view_.snapshot().get());
+  ui_.iterations->resizeColumnsToContents();
+  ui_.plots->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
   fillPlots();
 }
 
@@ -79,8 +436,8 @@ void IterationsPanel::showCursor() {
   const int iteration = view_.cursor().iteration;
   showing_ = true;
   const QModelIndex row = model_.index(IterationsModel::rowOf(iteration), 0);
-  ui_->iterations->setCurrentIndex(row);
-  if (row.isValid()) ui_->iterations->scrollTo(row);
+  ui_.iterations->setCurrentIndex(row);
+  if (row.isValid()) ui_.iterations->scrollTo(row);
   showing_ = false;
   corrections_->setMarked(iteration);
   fit_->setMarked(iteration);

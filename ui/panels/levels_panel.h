@@ -3,18 +3,14 @@
 
 #include <optional>
 
-#include <memory>
-
 #include <QWidget>
+
+#include "ui_levels_panel.h"
 
 #include "sessions/session/session.h"
 #include "ui/views/display_image.h"
 
 namespace boresight::ui {
-
-namespace Ui {
-class LevelsPanel;
-}
 
 /// Gray levels: how the image is shown, which changes no run, and apart from it how the file's
 /// samples become the 8 bits that the core is given, which is an edit of the document.
@@ -23,7 +19,6 @@ class LevelsPanel : public QWidget {
 
  public:
   explicit LevelsPanel(DisplayImage& display, QWidget* parent = nullptr);
-  ~LevelsPanel() override;
 
   /// nullptr: no conversion can be edited. `image` is the case's as it was read: its rule and depth
   /// are those that hold now, which a label may have stated.
@@ -47,10 +42,10 @@ class LevelsPanel : public QWidget {
   DisplayImage& display_;
   std::optional<sessions::ImageReadOptions> current_;
   int current_bits_ = 8;        ///< of the rule that holds now
-  bool bits_of_label_ = false;  ///< nobody stated them but the image's label
+  bool bits_of_label_ = false;  ///< only the image's label states them
   int cases_of_camera_ = 0;
   int shown_bits_ = 0;  ///< of the samples that the conversion was shown for
-  const std::unique_ptr<Ui::LevelsPanel> ui_;
+  Ui::LevelsPanel ui_;
 };
 
 }  // namespace boresight::ui

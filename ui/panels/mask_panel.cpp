@@ -3,9 +3,7 @@
 
 #include <QtWidgets>
 
-#include "ui_mask_panel.h"
-
-#include "sessions/session/session.h"
+#include "sessions/session/mask_edits.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {
@@ -16,40 +14,37 @@ using sessions::MaskStrokes;
 
 }  // namespace
 
-MaskPanel::MaskPanel(MaskEditor& editor, QWidget* parent)
-    : QWidget(parent), editor_(editor), ui_(std::make_unique<Ui::MaskPanel>()) {
-  ui_->setupUi(this);
-  ui_->takeStroke->setMenu(new QMenu(ui_->takeStroke));
-  (new EmptyHint(*ui_->strokes))
+MaskPanel::MaskPanel(MaskEditor& editor, QWidget* parent) : QWidget(parent), editor_(editor) {
+  ui_.setupUi(this);
+  ui_.takeStroke->setMenu(new QMenu(ui_.takeStroke));
+  (new EmptyHint(*ui_.strokes))
       ->setText(tr("Nothing yet: paint with the brush, draw a polygon, or ignore bright pixels."));
-  connect(ui_->brush, &QToolButton::clicked, this,
+  connect(ui_.brush, &QToolButton::clicked, this,
           [this](bool on) { editor_.setTool(on ? MaskTool::kBrush : MaskTool::kNone); });
-  connect(ui_->polygon, &QToolButton::clicked, this,
+  connect(ui_.polygon, &QToolButton::clicked, this,
           [this](bool on) { editor_.setTool(on ? MaskTool::kPolygon : MaskTool::kNone); });
-  connect(ui_->erase, &QToolButton::clicked, &editor_, &MaskEditor::setErase);
-  connect(ui_->brushSize, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &editor_,
+  connect(ui_.erase, &QToolButton::clicked, &editor_, &MaskEditor::setErase);
+  connect(ui_.brushSize, QOverload<double>::of(&QDoubleSpinBox::valueChanged), &editor_,
           [this](double width) { editor_.setRadius(0.5 * width); });
-  connect(ui_->saturated, &QPushButton::clicked, this, &MaskPanel::askForSaturated);
-  connect(ui_->strokes, &QListWidget::currentRowChanged, this, &MaskPanel::updateButtons);
-  connect(ui_->strokes, &QListWidget::itemActivated, this, &MaskPanel::nameChosen);
-  connect(ui_->nameStroke, &QPushButton::clicked, this, &MaskPanel::nameChosen);
-  connect(ui_->copyStroke, &QPushButton::clicked, this, [this] { Q_EMIT copyRequested(chosen()); });
-  connect(ui_->removeStroke, &QPushButton::clicked, this, &MaskPanel::removeChosen);
-  connect(ui_->clearMask, &QPushButton::clicked, this, &MaskPanel::clearAll);
+  connect(ui_.saturated, &QPushButton::clicked, this, &MaskPanel::askForSaturated);
+  connect(ui_.strokes, &QListWidget::currentRowChanged, this, &MaskPanel::updateButtons);
+  connect(ui_.strokes, &QListWidget::itemActivated, this, &MaskPanel::nameChosen);
+  connect(ui_.nameStroke, &QPushButton::clicked, this, &MaskPanel::nameChosen);
+  connect(ui_.copyStroke, &QPushButton::clicked, this, [this] { Q_EMIT copyRequested(chosen()); });
+  connect(ui_.removeStroke, &QPushButton::clicked, this, &MaskPanel::removeChosen);
+  connect(ui_.clearMask, &QPushButton::clicked, this, &MaskPanel::clearAll);
   connect(&editor_, &MaskEditor::changed, this, &MaskPanel::showTool);
   showTool();
   setCase(nullptr, {}, 0);
 }
 
-MaskPanel::~MaskPanel() = default;
-
 void MaskPanel::showTool() {
-  ui_->brush->setChecked(editor_.tool() == MaskTool::kBrush);
-  ui_->polygon->setChecked(editor_.tool() == MaskTool::kPolygon);
-  ui_->erase->setChecked(editor_.erases());
-  ui_->saturated->setText(editor_.erases() ? tr("Trust again") : tr("Ignore"));
-  const QSignalBlocker blocker(ui_->brushSize);
-  ui_->brushSize->setValue(2.0 * editor_.radius_px());
+  ui_.brush->setChecked(editor_.tool() == MaskTool::kBrush);
+  ui_.polygon->setChecked(editor_.tool() == MaskTool::kPolygon);
+  ui_.erase->setChecked(editor_.erases());
+  ui_.saturated->setText(editor_.erases() ? tr("Trust again") : tr("Ignore"));
+  const QSignalBlocker blocker(ui_.brushSize);
+  ui_.brushSize->setValue(2.0 * editor_.radius_px());
 }
 
 void MaskPanel::setCase(const sessions::SessionCase* one, const MaskStrokes& named,
@@ -62,14 +57,14 @@ void MaskPanel::setCase(const sessions::SessionCase* one, const MaskStrokes& nam
 
 void MaskPanel::setIgnored(std::int64_t ignored, std::int64_t pixels) {
   if (!case_ || ignored < 0 || pixels <= 0) {
-    ui_->maskSummary->setText(case_ ? QString() : tr("No case that can be edited is open."));
+    ui_.maskSummary->setText(case_ ? QString() : tr("No case that can be edited is open."));
     return;
   }
   const QString file =
       case_->ignore ? tr(" Mask image: %1.")
                           .arg(QString::fromStdString(case_->ignore->file.filename().string()))
                     : QString();
-  ui_->maskSummary->setText(
+  ui_.maskSummary->setText(
       tr("%1 pixels are ignored, %2 % of the image.%3")
           .arg(ignored)
           .arg(100.0 * static_cast<double>(ignored) / static_cast<double>(pixels), 0, 'f', 2)
@@ -77,35 +72,34 @@ void MaskPanel::setIgnored(std::int64_t ignored, std::int64_t pixels) {
 }
 
 void MaskPanel::showStrokes() {
-  const int row = ui_->strokes->currentRow();
+  const int row = ui_.strokes->currentRow();
   {
-    const QSignalBlocker blocker(ui_->strokes);
-    ui_->strokes->clear();
+    const QSignalBlocker blocker(ui_.strokes);
+    ui_.strokes->clear();
     if (case_)
       for (const MaskStroke& stroke : case_->ignore_strokes)
-        ui_->strokes->addItem(QString::fromStdString(sessions::strokeText(stroke)));
-    ui_->strokes->setCurrentRow(std::min(row, ui_->strokes->count() - 1));
+        ui_.strokes->addItem(QString::fromStdString(sessions::strokeText(stroke)));
+    ui_.strokes->setCurrentRow(std::min(row, ui_.strokes->count() - 1));
   }
-  ui_->takeStroke->menu()->clear();
+  ui_.takeStroke->menu()->clear();
   for (const MaskStroke& stroke : named_)
-    ui_->takeStroke->menu()->addAction(QString::fromStdString(sessions::strokeText(stroke)), this,
-                                       [this, stroke] { Q_EMIT strokeRequested(stroke); });
+    ui_.takeStroke->menu()->addAction(QString::fromStdString(sessions::strokeText(stroke)), this,
+                                      [this, stroke] { Q_EMIT strokeRequested(stroke); });
   updateButtons();
 }
 
-int MaskPanel::chosen() const { return ui_->strokes->currentRow(); }
+int MaskPanel::chosen() const { return ui_.strokes->currentRow(); }
 
 void MaskPanel::updateButtons() {
   const bool open = case_.has_value();
-  for (QWidget* each :
-       std::initializer_list<QWidget*>{ui_->brush, ui_->polygon, ui_->erase, ui_->brushSize,
-                                       ui_->saturationLevel, ui_->saturated})
+  for (QWidget* each : std::initializer_list<QWidget*>{
+           ui_.brush, ui_.polygon, ui_.erase, ui_.brushSize, ui_.saturationLevel, ui_.saturated})
     each->setEnabled(open);
-  ui_->nameStroke->setEnabled(chosen() >= 0);
-  ui_->copyStroke->setEnabled(chosen() >= 0 && cases_of_camera_ > 0);
-  ui_->removeStroke->setEnabled(chosen() >= 0);
-  ui_->takeStroke->setEnabled(!named_.empty());
-  ui_->clearMask->setEnabled(open && case_->ignore_strokes != sessions::clearedStrokes(*case_));
+  ui_.nameStroke->setEnabled(chosen() >= 0);
+  ui_.copyStroke->setEnabled(chosen() >= 0 && cases_of_camera_ > 0);
+  ui_.removeStroke->setEnabled(chosen() >= 0);
+  ui_.takeStroke->setEnabled(!named_.empty());
+  ui_.clearMask->setEnabled(open && case_->ignore_strokes != sessions::clearedStrokes(*case_));
 }
 
 void MaskPanel::askForSaturated() {
@@ -113,7 +107,7 @@ void MaskPanel::askForSaturated() {
   MaskStroke stroke;
   stroke.kind = sessions::StrokeKind::kSaturation;
   stroke.erase = editor_.erases();
-  stroke.level = ui_->saturationLevel->value();
+  stroke.level = ui_.saturationLevel->value();
   Q_EMIT strokeRequested(stroke);
 }
 

@@ -2,21 +2,15 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
-
-#include <memory>
 
 #include <QWidget>
+
+#include "ui_mask_panel.h"
 
 #include "sessions/session/session.h"
 #include "ui/views/mask_editor.h"
 
 namespace boresight::ui {
-
-namespace Ui {
-class MaskPanel;
-}
 
 /// The ignore mask of the case: tools to draw on the image, pixels above a level, and the strokes
 /// made so far, which can be named, copied to the camera's other cases, and taken away. It only
@@ -26,7 +20,6 @@ class MaskPanel : public QWidget {
 
  public:
   explicit MaskPanel(MaskEditor& editor, QWidget* parent = nullptr);
-  ~MaskPanel() override;
 
   /// nullptr: nothing can be edited. `named` are strokes that other cases of the camera offer.
   void setCase(const sessions::SessionCase* one, const sessions::MaskStrokes& named,
@@ -56,7 +49,7 @@ class MaskPanel : public QWidget {
   std::optional<sessions::SessionCase> case_;
   sessions::MaskStrokes named_;
   int cases_of_camera_ = 0;
-  const std::unique_ptr<Ui::MaskPanel> ui_;
+  Ui::MaskPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -4,14 +4,11 @@
 #include <QtWidgets>
 
 #include "sessions/run/sample_statistics.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/panels/widgets.h"
-#include "ui/plots/histogram_plot.h"
-
-#include "ui_match_inspector_panel.h"
+#include "ui/plots/plots.h"
 
 namespace boresight::ui {
-
 namespace {
 
 constexpr int kBins = 41;
@@ -28,23 +25,23 @@ QVector<int> asVector(const std::vector<std::int32_t>& counts) {
 }  // namespace
 
 MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
-    : QWidget(parent), view_(view), ui_(std::make_unique<Ui::MatchInspectorPanel>()) {
+    : QWidget(parent), view_(view) {
   filter_.setSourceModel(&model_);
-  ui_->setupUi(this);
-  ui_->splitter->setStretchFactor(0, 1);
-  ui_->splitter->setStretchFactor(1, 3);
-  ui_->splitter->setSizes({360, 1000});
-  setUpTable(*ui_->templates, filter_);
-  ui_->templates->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
-  ui_->show->addItems(TemplatesModel::showNames());
-  styleTable(*ui_->edges);
+  ui_.setupUi(this);
+  ui_.splitter->setStretchFactor(0, 1);
+  ui_.splitter->setStretchFactor(1, 3);
+  ui_.splitter->setSizes({360, 1000});
+  setUpTable(*ui_.templates, filter_);
+  ui_.templates->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
+  ui_.show->addItems(TemplatesModel::showNames());
+  styleTable(*ui_.edges);
   histogram_ = new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"),
-                                 tr("used"), ui_->refinement);
+                                 tr("used"), ui_.refinement);
   histogram_->setToolTip(
       tr("Distance of the image's edges from the rendered ones after this refinement, in pixels of "
          "the full image. A good pose has a narrow peak at 0."));
-  ui_->refinementRow->addWidget(histogram_, 1);
-  connect(ui_->show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
+  ui_.refinementRow->addWidget(histogram_, 1);
+  connect(ui_.show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
     showing_ = true;
     filter_.setCondition([this, show = static_cast<TemplatesModel::Show>(index)](int source_row) {
       return model_.isShown(source_row, show);
@@ -53,7 +50,7 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
     showCount();
     showTemplate();
   });
-  connect(ui_->templates->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  connect(ui_.templates->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &MatchInspectorPanel::chooseRow);
   view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this,
                  &MatchInspectorPanel::showIteration);
@@ -61,36 +58,31 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   showIteration();
 }
 
-MatchInspectorPanel::~MatchInspectorPanel() = default;
-
 void MatchInspectorPanel::showCount() {
-  ui_->count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+  ui_.count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
 }
 
 void MatchInspectorPanel::showIteration() {
-  const auto* run = view_.snapshot().get();
-  const int index = view_.cursor().iteration;
-  const bool exists = run && index >= 0 && index < static_cast<int>(run->iterations.size());
-  const auto next = exists ? run->iterations[static_cast<std::size_t>(index)] : nullptr;
+  const auto next = view_.iteration();
   if (next != iteration_ || !next) {
     iteration_ = next;
     showing_ = true;
     model_.setIteration(iteration_.get());
     showing_ = false;
-    ui_->templates->resizeColumnsToContents();
+    ui_.templates->resizeColumnsToContents();
     showCount();
   }
   const bool refines = iteration_ && iteration_->kind == IterationKind::kRefine;
   if (refines && iteration_->reached >= Stage::kRefine) {
     showRefinement();
-    ui_->pages->setCurrentWidget(ui_->refinement);
+    ui_.pages->setCurrentWidget(ui_.refinement);
   } else if (model_.rowCount() > 0) {
-    ui_->pages->setCurrentWidget(ui_->matches);
+    ui_.pages->setCurrentWidget(ui_.matches);
   } else {
-    ui_->hint->setText(!run          ? tr("Nothing has run yet.")
-                       : !iteration_ ? tr("The seed has no matches; choose an iteration.")
-                                     : tr("This iteration has no templates yet."));
-    ui_->pages->setCurrentWidget(ui_->nothing);
+    ui_.hint->setText(!view_.snapshot() ? tr("Nothing has run yet.")
+                      : !iteration_     ? tr("The seed has no matches; choose an iteration.")
+                                        : tr("This iteration has no templates yet."));
+    ui_.pages->setCurrentWidget(ui_.nothing);
   }
   showTemplate();
 }
@@ -103,7 +95,7 @@ void MatchInspectorPanel::showRefinement() {
       {tr("outline"), statistics.border},
       {tr("occluding"), statistics.occluding},
       {tr("creases"), statistics.creases}};
-  QTableWidget& table = *ui_->edges;
+  QTableWidget& table = *ui_.edges;
   table.setRowCount(0);
   for (const auto& [name, counts] : rows)
     addRow(table,
@@ -119,15 +111,15 @@ void MatchInspectorPanel::showTemplate() {
   const int selected = view_.selectedTemplate();
   showing_ = true;
   const QModelIndex row = filter_.mapFromSource(model_.index(selected, 0));
-  ui_->templates->setCurrentIndex(row);
-  if (row.isValid()) ui_->templates->scrollTo(row);
+  ui_.templates->setCurrentIndex(row);
+  if (row.isValid()) ui_.templates->scrollTo(row);
   showing_ = false;
   const auto* run = view_.snapshot().get();
   if (selected < 0 || selected >= model_.rowCount() || !run || !run->edges) {
-    ui_->match->showNote(tr("Choose a template in the table or in the image."));
+    ui_.match->showNote(tr("Choose a template in the table or in the image."));
     return;
   }
-  ui_->match->showMatch(run->edges, iteration_, selected);
+  ui_.match->showMatch(run->edges, iteration_, selected);
 }
 
 void MatchInspectorPanel::chooseRow(const QModelIndex& current) {

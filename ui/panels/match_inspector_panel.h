@@ -5,16 +5,14 @@
 
 #include <QWidget>
 
-#include "ui/models/templates_model.h"
+#include "ui_match_inspector_panel.h"
+
+#include "ui/panels/match_view.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
 class HistogramPlot;
-
-namespace Ui {
-class MatchInspectorPanel;
-}
 
 /// The templates of the iteration under the cursor in a table, and the story of the chosen one; of
 /// a refinement, what was found along the edges. Shows and changes the view state's template.
@@ -23,7 +21,6 @@ class MatchInspectorPanel : public QWidget {
 
  public:
   explicit MatchInspectorPanel(ViewState& view, QWidget* parent = nullptr);
-  ~MatchInspectorPanel() override;
 
   const TemplatesModel& model() const { return model_; }
   const RowsFilter& filter() const { return filter_; }
@@ -41,7 +38,7 @@ class MatchInspectorPanel : public QWidget {
   std::shared_ptr<const sessions::IterationTrace> iteration_;
   HistogramPlot* histogram_ = nullptr;  ///< of a refinement
   bool showing_ = false;                ///< the table follows the view state, not a person
-  const std::unique_ptr<Ui::MatchInspectorPanel> ui_;
+  Ui::MatchInspectorPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -1,18 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/match_view.h"
 
+#include <array>
 #include <cmath>
 
 #include <QtWidgets>
 
-#include "ui_match_view.h"
-
 #include "core/base/math.h"
-#include "ui/models/html_table.h"
-#include "ui/models/number_text.h"
-#include "ui/models/templates_model.h"
+#include "ui/models/text.h"
 
 namespace boresight::ui {
+
+using sessions::MatchDetails;
+
+namespace {
+
+std::vector<TableColumn<MatchDetails>> templateColumns() {
+  using Row = const MatchDetails&;
+  constexpr auto tr = [](const char* text) { return TemplatesModel::tr(text); };
+  return {
+      {tr("Template"), tr("Number of the template, from 1."), 0,
+       [](Row one) { return one.index + 1; }},
+      {tr("x, px"),
+       tr("Predicted place of its centre, pixels of the full image to the right of the centre of "
+          "the top-left pixel."),
+       1, [](Row one) { return one.predicted_px.x(); }},
+      {tr("y, px"),
+       tr("Predicted place of its centre, pixels of the full image below the centre of the "
+          "top-left pixel."),
+       1, [](Row one) { return one.predicted_px.y(); }},
+      {tr("Depth, m"), tr("Distance of its point from the camera along the view axis, in metres."),
+       3, [](Row one) { return one.depth_m; }},
+      {tr("Distinctness"),
+       tr("How many edge pixels hold the template in its weakest direction; 0 slides along a "
+          "straight edge."),
+       1, [](Row one) { return one.distinctness; }},
+      {tr("dx, px"), tr("From the predicted to the found place, in pixels of the full image."), 2,
+       [](Row one) { return one.moved_px().x(); }},
+      {tr("dy, px"), tr("From the predicted to the found place, in pixels of the full image."), 2,
+       [](Row one) { return one.moved_px().y(); }},
+      {tr("Score S"),
+       tr("Weighted Hamming similarity at the found place, S+/c+ plus S-/c-; 2 is perfect."), 3,
+       [](Row one) { return one.score; }},
+      {tr("S+/c+"), tr("Share of the template's edge pixels that meet an edge of the image."), 3,
+       [](Row one) { return one.edge_share; }},
+      {tr("S-/c-"), tr("Share of the template's empty pixels inside its mask that meet none."), 3,
+       [](Row one) { return one.empty_share; }},
+      {tr("Margin, %"),
+       tr("By how much the best score exceeds the second peak's, in per cent of the best; a low "
+          "one may be the wrong place."),
+       1, [](Row one) { return 100.0 * one.margin; }},
+      {tr("Residual, px"),
+       tr("Distance of the found place from where the solved pose puts the point, in pixels of the "
+          "full image."),
+       2, [](Row one) { return one.residual_px; }},
+      {tr("Verdict"), tr("Whether the match agrees with the solved pose within the threshold."), -1,
+       [](Row one) { return TemplatesModel::verdictOf(one); },
+       [](Row one) {
+         return one.inlier ? 0 : one.solved ? 1 : one.searched ? 2 : 3;
+       }},
+      {tr("Border"),
+       tr("The peak lies on the border of the search window: the true place may lie beyond, and "
+          "the seed's uncertainty may be stated too small."),
+       -1, [](Row one) { return one.at_border ? TemplatesModel::tr("at border") : QString(); },
+       [](Row one) { return one.at_border ? 0 : 1; }},
+  };
+}
+
+}  // namespace
+
+TemplatesModel::TemplatesModel(QObject* parent) : RowsModel(templateColumns(), parent) {}
+
+void TemplatesModel::setIteration(const sessions::IterationTrace* iteration) {
+  reached_match_ = iteration && iteration->reached >= Stage::kMatch;
+  setRows(iteration ? sessions::matchDetails(*iteration) : std::vector<MatchDetails>(), false);
+}
+
+QString TemplatesModel::verdictOf(const MatchDetails& details) {
+  if (details.inlier) return tr("inlier");
+  if (details.solved) return tr("outlier");
+  return details.searched ? tr("found") : tr("not searched");
+}
+
+QVariant TemplatesModel::look(const MatchDetails& /*row*/, int column, int role) const {
+  const bool unknown = column == kVerdict && role == Qt::DisplayRole && !reached_match_;
+  return unknown ? QString() : QVariant();
+}
+
+QStringList TemplatesModel::showNames() {
+  return {tr("All"),
+          tr("Inliers"),
+          tr("Outliers"),
+          tr("Low margin (under %1 %)").arg(100.0 * sessions::kLowMargin),
+          tr("At the window's border"),
+          tr("Not searched")};
+}
+
+bool TemplatesModel::isShown(int row, Show show) const {
+  const MatchDetails& details = at(row);
+  const std::array<bool, 6> holds = {true,
+                                     details.inlier,
+                                     details.solved && !details.inlier,
+                                     details.hasLowMargin(),
+                                     details.at_border,
+                                     !details.searched};
+  return holds[static_cast<std::size_t>(show)];
+}
 
 using sessions::MatchDetails;
 
@@ -41,19 +134,15 @@ QString countText(int part, int whole, double share) {
 
 }  // namespace
 
-MatchView::MatchView(QWidget* parent) : QWidget(parent), ui_(std::make_unique<Ui::MatchView>()) {
-  ui_->setupUi(this);
-}
-
-MatchView::~MatchView() = default;
+MatchView::MatchView(QWidget* parent) : QWidget(parent) { ui_.setupUi(this); }
 
 void MatchView::showNote(const QString& note) {
   runner_.cancel(taskKey());
-  for (PixelPicture* picture : {ui_->templatePicture, ui_->foundPicture, ui_->agreementPicture})
+  for (PixelPicture* picture : {ui_.templatePicture, ui_.foundPicture, ui_.agreementPicture})
     picture->setPicture({}, {});
-  ui_->places->clear();
-  ui_->scores->clear();
-  ui_->map->setNote(note);
+  ui_.places->clear();
+  ui_.scores->clear();
+  ui_.map->setNote(note);
 }
 
 void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
@@ -66,14 +155,14 @@ void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
   showPictures(*edges, *iteration, index, match);
   showFigures(*iteration, sessions::matchDetails(*iteration)[index]);
   if (!searched) {
-    ui_->map->setNote(
+    ui_.map->setNote(
         iteration->reached < Stage::kMatch
             ? tr("The templates have not been searched yet.")
             : tr("This template was not searched: no part of its window lies far enough "
                  "inside the image."));
     return;
   }
-  ui_->map->setNote(tr("Computing the score map ..."));
+  ui_.map->setNote(tr("Computing the score map ..."));
   const Template& item = iteration->templates[index];
   const ScoreMapView::Marks marks = {item.center_x, item.center_y, match->peak};
   runner_.start(
@@ -83,9 +172,9 @@ void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
       },
       [this, marks](std::optional<sessions::ScoreMap> map) {
         if (map)
-          ui_->map->setMap(std::make_shared<const sessions::ScoreMap>(std::move(*map)), marks);
+          ui_.map->setMap(std::make_shared<const sessions::ScoreMap>(std::move(*map)), marks);
         else
-          ui_->map->setNote(tr("The run's record does not hold what the score map needs."));
+          ui_.map->setNote(tr("The run's record does not hold what the score map needs."));
       });
 }
 
@@ -96,21 +185,21 @@ void MatchView::showPictures(const sessions::EdgeMapTrace& edges,
   const PatchPlace place{item.center_x, item.center_y, iteration.template_side_px};
   const BitImage rendered = iteration.render.edges.view();
   const BitImage mask = iteration.render.mask.view();
-  ui_->templatePicture->setPicture(
+  ui_.templatePicture->setPicture(
       templatePicture(rendered, mask, place),
       tr("%1 x %1 px, level %2").arg(iteration.template_side_px).arg(iteration.level));
   if (match == nullptr) {
-    for (PixelPicture* picture : {ui_->foundPicture, ui_->agreementPicture})
+    for (PixelPicture* picture : {ui_.foundPicture, ui_.agreementPicture})
       picture->setPicture({}, tr("not searched"));
     return;
   }
   const BitImage seen = edges.level[static_cast<std::size_t>(iteration.level)].view();
   const PatchPlace there{match->peak.x, match->peak.y, iteration.template_side_px};
-  ui_->foundPicture->setPicture(seenPicture(seen, there), tr("edges of the image"));
-  ui_->agreementPicture->setPicture(agreementPicture(rendered, mask, place, seen, there),
-                                    colorText(patch_colors::kEdge, tr("both")) +
-                                        colorText(patch_colors::kOnlyRendered, tr("render")) +
-                                        colorText(patch_colors::kOnlySeen, tr("image")));
+  ui_.foundPicture->setPicture(seenPicture(seen, there), tr("edges of the image"));
+  ui_.agreementPicture->setPicture(agreementPicture(rendered, mask, place, seen, there),
+                                   colorText(patch_colors::kEdge, tr("both")) +
+                                       colorText(patch_colors::kOnlyRendered, tr("render")) +
+                                       colorText(patch_colors::kOnlySeen, tr("image")));
 }
 
 void MatchView::showFigures(const sessions::IterationTrace& iteration,
@@ -145,8 +234,8 @@ void MatchView::showFigures(const sessions::IterationTrace& iteration,
     scores.append({tr("Residual"), tr("%1 px, threshold %2 px")
                                        .arg(numberText(details.residual_px, 2),
                                             numberText(iteration.threshold_px, 2))});
-  ui_->places->setText(htmlTable(places));
-  ui_->scores->setText(htmlTable(scores));
+  ui_.places->setText(htmlTable(places));
+  ui_.scores->setText(htmlTable(scores));
 }
 
 }  // namespace boresight::ui

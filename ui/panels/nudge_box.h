@@ -1,21 +1,116 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <optional>
 
-#include <memory>
-
+#include <QObject>
+#include <QTimer>
 #include <QWidget>
 
-#include "ui/panels/nudge_controller.h"
+#include "ui_nudge_box.h"
 
-class QDoubleSpinBox;
+#include "core/geometry/pose.h"
+#include "ui/state/view_state.h"
+
+class QKeyEvent;
 
 namespace boresight::ui {
 
-namespace Ui {
-class NudgeBox;
-}
+/// Along and about whose axes a pose is nudged.
+enum class NudgeAxes { kCamera, kStation };
+/// What stays where it is while the pose is turned.
+enum class NudgePivot { kStationCentre, kCameraCentre };
+
+/// How nudges are meant; `centre_in_station_m` is the centre of the matched parts.
+struct NudgeFrame {
+  NudgeAxes axes = NudgeAxes::kCamera;
+  NudgePivot pivot = NudgePivot::kStationCentre;
+  Eigen::Vector3d centre_in_station_m = Eigen::Vector3d::Zero();
+};
+
+/// A pose displaced by (rotation vector rad, translation m): the station is turned about the pivot,
+/// then moved, along the camera's axes or its own. Seen from the camera the station moves that way,
+/// whichever of the two really does. The station's axes and the pivot are those of the given pose.
+Pose nudged(const Pose& camera_from_station, const Vector6d& offset, const NudgeFrame& frame);
+
+/// The offset that `nudged` would need to get from the first pose to the second.
+Vector6d nudgeBetween(const Pose& camera_from_station_base, const Pose& camera_from_station,
+                      const NudgeFrame& frame);
+
+/// Sizes of one step.
+struct NudgeStep {
+  double translation_m = 1e-3;
+  double rotation_rad = 0.0034906585039886592;  ///< 0.2 deg
+};
+
+/// Moves the nudged pose of the view state, by keys and by values, and tells where one gesture
+/// ends: what a person does in one go is undone in one go.
+///
+/// Keys, on whatever widget the controller is installed: the arrows move along x and y, Page Up and
+/// Page Down along z (up is away); with Ctrl they turn about y, x and z. Shift makes steps ten
+/// times coarser, Alt ten times finer.
+class NudgeController : public QObject {
+  Q_OBJECT
+
+ public:
+  static constexpr double kCoarse = 10.0;
+  static constexpr double kFine = 0.1;
+  static constexpr int kPause_ms = 600;  ///< a gesture without a visible end is over after this
+
+  explicit NudgeController(ViewState& state, QObject* parent = nullptr);
+
+  const NudgeFrame& frame() const { return frame_; }
+  void setAxes(NudgeAxes axes);
+  void setPivot(NudgePivot pivot);
+  const NudgeStep& step() const { return step_; }
+  void setStep(const NudgeStep& step) { step_ = step; }
+
+  /// The pose that offsets count from: where nudging began.
+  Pose base() const;
+  /// From the base to the nudged pose (rotation rad, translation m); zero while nothing is nudged.
+  Vector6d offset() const;
+
+  /// Moves by steps (of rotation, then translation) from where the pose is.
+  void nudgeBy(const Vector6d& steps);
+  /// Moves to this offset from the base.
+  void setOffset(const Vector6d& offset);
+  /// One value of the offset; the others stay.
+  void setOffset(int axis, double value);
+  /// As a whole gesture: a pose that was pasted.
+  void setPose(const Pose& camera_from_station);
+  /// As a whole gesture: the nudged pose becomes what it was nudged from.
+  void backToEstimate();
+  /// As a whole gesture: nothing is nudged any more.
+  void drop();
+
+  /// True when the key nudges; installed as an event filter it takes such keys.
+  bool takes(const QKeyEvent& event) const;
+  /// Ends the gesture under way, if any.
+  void finishGesture();
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ Q_SIGNALS:
+  /// The base, the offset or the frame has changed.
+  void changed();
+  /// Something was moved, from the first key press or value to the release.
+  void gestureFinished(const boresight::Pose& before, const boresight::Pose& after);
+
+ private:
+  Pose estimate() const;
+  void move(const Pose& camera_from_station);
+  void caseChanged();
+  void stateChanged();
+
+  ViewState& state_;
+  NudgeFrame frame_;
+  NudgeStep step_;
+  std::optional<Pose> base_;    ///< while something is nudged
+  std::optional<Pose> before_;  ///< of the gesture under way
+  QTimer pause_;
+};
 
 /// The controls of a nudge: six values, the axes and the pivot they are meant in, the size of a
 /// step, and a field that takes the keys while it has the focus.
@@ -24,7 +119,6 @@ class NudgeBox : public QWidget {
 
  public:
   NudgeBox(NudgeController& controller, ViewState& state, QWidget* parent = nullptr);
-  ~NudgeBox() override;
 
  Q_SIGNALS:
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
@@ -41,7 +135,7 @@ class NudgeBox : public QWidget {
   NudgeController& controller_;
   ViewState& state_;
   std::array<QDoubleSpinBox*, 6> values_{};  ///< rotation in deg, then translation in mm
-  const std::unique_ptr<Ui::NudgeBox> ui_;
+  Ui::NudgeBox ui_;
 };
 
 }  // namespace boresight::ui

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/pose_comparison.h"
 
-#include <cmath>
-
 #include <QtWidgets>
 
-#include "ui_pose_comparison.h"
-
 #include "core/base/math.h"
-#include "ui/models/html_table.h"
+#include "ui/models/text.h"
 
 namespace boresight::ui {
 namespace {
@@ -29,6 +25,13 @@ QString poseText(const char* text) { return PoseComparison::tr(text); }
 
 }  // namespace
 
+QString poseRoleName(PoseRole role) {
+  constexpr std::array<const char*, kPoseRoles> kNames = {QT_TR_NOOP("seed"), QT_TR_NOOP("current"),
+                                                          QT_TR_NOOP("nudged"), QT_TR_NOOP("truth"),
+                                                          QT_TR_NOOP("annotated")};
+  return PoseComparison::tr(kNames[static_cast<std::size_t>(role)]);
+}
+
 QStringList axesRow(const QString& name, const Eigen::Vector3d& values, const QString& unit) {
   return {name, QStringLiteral("%1, %2, %3 %4")
                     .arg(QString::number(values.x(), 'f', 4), QString::number(values.y(), 'f', 4),
@@ -48,31 +51,28 @@ QVector<QStringList> sigmaRows(const sessions::PoseSigma& sigma,
 }
 
 std::optional<Matrix6d> shownCovariance(const ViewState& state) {
-  const sessions::IterationTrace* shown = state.iteration();
+  const auto shown = state.iteration();
   if (shown == nullptr || state.cursor().stage < Stage::kPose) return std::nullopt;
   const sessions::LocalizationTrace& run = *state.snapshot();
-  const bool last = shown == run.iterations.back().get();
+  const bool last = shown == run.iterations.back();
   if (last && run.finished && run.converged()) return run.covariance;
   if (run.replayed) return std::nullopt;  // a record has the last one alone
   return shown->kind == IterationKind::kRefine ? shown->refinement.covariance
                                                : shown->pnp.covariance;
 }
 
-PoseComparison::PoseComparison(QWidget* parent)
-    : QWidget(parent), ui_(std::make_unique<Ui::PoseComparison>()) {
-  ui_->setupUi(this);
+PoseComparison::PoseComparison(QWidget* parent) : QWidget(parent) {
+  ui_.setupUi(this);
   const auto offer_roles = [this](QComboBox* box, PoseRole role) {
     for (int i = 0; i < kPoseRoles; ++i) box->addItem(poseRoleName(static_cast<PoseRole>(i)));
     box->setCurrentIndex(static_cast<int>(role));
     connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
             &PoseComparison::showDifference);
   };
-  offer_roles(ui_->differenceOf, PoseRole::kEstimate);
-  offer_roles(ui_->differenceFrom, PoseRole::kTruth);
+  offer_roles(ui_.differenceOf, PoseRole::kEstimate);
+  offer_roles(ui_.differenceFrom, PoseRole::kTruth);
   setJudgement({});
 }
-
-PoseComparison::~PoseComparison() = default;
 
 void PoseComparison::setPoses(const Poses& poses) {
   poses_ = poses;
@@ -88,9 +88,9 @@ void PoseComparison::setJudgement(const PoseJudgement& judgement) {
   judgement_ = judgement;
   const QString place =
       QString::fromUtf8(sessions::judgedPlace(judgement_.camera_from_end_effector));
-  ui_->sure->setTitle(
+  ui_.sure->setTitle(
       tr("One sigma of the current pose at the %1, by the picture alone").arg(place));
-  ui_->apart->setTitle(tr("Difference at the %1").arg(place));
+  ui_.apart->setTitle(tr("Difference at the %1").arg(place));
   showSigma();
   showDifference();
 }
@@ -100,18 +100,18 @@ void PoseComparison::showSigma() {
                          ? sessions::poseSigma(*covariance_, judgement_.camera_from_end_effector)
                          : std::nullopt;
   if (!sigma) {
-    ui_->sigma->setText(tr("No covariance: no pose has been solved here."));
+    ui_.sigma->setText(tr("No covariance: no pose has been solved here."));
     return;
   }
-  ui_->sigma->setText(htmlTable(sigmaRows(*sigma, judgement_.requirement)));
+  ui_.sigma->setText(htmlTable(sigmaRows(*sigma, judgement_.requirement)));
 }
 
 void PoseComparison::showDifference() {
-  const auto from_role = static_cast<PoseRole>(ui_->differenceFrom->currentIndex());
-  const auto to_role = static_cast<PoseRole>(ui_->differenceOf->currentIndex());
+  const auto from_role = static_cast<PoseRole>(ui_.differenceFrom->currentIndex());
+  const auto to_role = static_cast<PoseRole>(ui_.differenceOf->currentIndex());
   for (const PoseRole role : {to_role, from_role})
     if (!poses_[static_cast<std::size_t>(role)]) {
-      ui_->difference->setText(tr("There is no pose \"%1\".").arg(poseRoleName(role)));
+      ui_.difference->setText(tr("There is no pose \"%1\".").arg(poseRoleName(role)));
       return;
     }
   const sessions::PoseError error = sessions::poseError(
@@ -135,7 +135,7 @@ void PoseComparison::showDifference() {
                       normal_limit)
          << judgedRow(tr("one sigma of the truth, lateral"), sigma->lateral_mm, tr("mm"),
                       lateral_limit);
-  ui_->difference->setText(htmlTable(rows));
+  ui_.difference->setText(htmlTable(rows));
 }
 
 }  // namespace boresight::ui

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
-
-#include <memory>
 
 #include <QStringList>
 #include <QVector>
 #include <QWidget>
 
+#include "ui_pose_comparison.h"
+
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/dataset_file.h"
-#include "ui/panels/pose_table_model.h"
+#include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
-namespace Ui {
-class PoseComparison;
-}
+using Poses = std::array<std::optional<Pose>, kPoseRoles>;  ///< by role
+
+/// "seed", "current", "nudged", "truth", "annotated".
+QString poseRoleName(PoseRole role);
 
 /// What poses are judged by.
 struct PoseJudgement {
@@ -44,7 +46,6 @@ class PoseComparison : public QWidget {
 
  public:
   explicit PoseComparison(QWidget* parent = nullptr);
-  ~PoseComparison() override;
 
   void setPoses(const Poses& poses);
   void setCovariance(const std::optional<Matrix6d>& covariance);
@@ -57,7 +58,7 @@ class PoseComparison : public QWidget {
   Poses poses_;
   std::optional<Matrix6d> covariance_;
   PoseJudgement judgement_;
-  const std::unique_ptr<Ui::PoseComparison> ui_;
+  Ui::PoseComparison ui_;
 };
 
 }  // namespace boresight::ui

@@ -3,24 +3,40 @@
 
 #include <optional>
 
-#include <memory>
-
+#include <QDialog>
 #include <QWidget>
 
+#include "ui_paste_pose_dialog.h"
+#include "ui_pose_panel.h"
+
 #include "sessions/io/pose_text.h"
-#include "ui/panels/nudge_controller.h"
+#include "ui/panels/nudge_box.h"
 #include "ui/panels/pose_comparison.h"
-#include "ui/panels/pose_table_model.h"
 
 class QMenu;
+class QPushButton;
 
 namespace boresight::ui {
 
-namespace Ui {
-class PosePanel;
-}
+/// Takes a pose as text and asks what the text does not say: direction, order, unit. What will be
+/// taken, or why nothing can be, is shown while it is typed.
+class PastePoseDialog : public QDialog {
+  Q_OBJECT
 
-class NudgeBox;
+ public:
+  explicit PastePoseDialog(const QString& text, QWidget* parent = nullptr);
+
+  const sessions::ParsedPose& parsed() const { return parsed_; }
+
+ private:
+  void guess();
+  void parse();
+  sessions::PoseReading reading() const;
+
+  QPushButton* take_ = nullptr;
+  sessions::ParsedPose parsed_;
+  Ui::PastePoseDialog ui_;
+};
 
 /// The poses of the case side by side, to read, copy and paste; how sure the current one is; how
 /// far any two are apart; and the nudging of one in six degrees of freedom.
@@ -34,7 +50,6 @@ class PosePanel : public QWidget {
   void setJudgement(const PoseJudgement& judgement);
   /// For other widgets that take the nudging keys: install it on them as an event filter.
   NudgeController& nudgeController() { return controller_; }
-  const PoseTableModel& model() const { return model_; }
 
   /// To the clipboard; nothing when there is no such pose.
   void copyPose(PoseRole role, sessions::PoseForm form);
@@ -47,6 +62,9 @@ class PosePanel : public QWidget {
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
 
  private:
+  const std::optional<Pose>& pose(PoseRole role) const {
+    return poses_[static_cast<std::size_t>(role)];
+  }
   void buildTable();
   void connectAll();
   void addCopyActions(QMenu& menu, PoseRole role);
@@ -57,8 +75,8 @@ class PosePanel : public QWidget {
 
   ViewState& state_;
   NudgeController controller_;
-  PoseTableModel model_;
-  const std::unique_ptr<Ui::PosePanel> ui_;
+  Poses poses_;
+  Ui::PosePanel ui_;
 };
 
 }  // namespace boresight::ui

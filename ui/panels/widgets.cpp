@@ -3,6 +3,11 @@
 
 #include <QtWidgets>
 
+#include "sessions/run/run_text.h"
+#include "ui/models/text.h"
+#include "ui/panels/cases_panel.h"
+#include "ui/plots/plot_colors.h"
+
 namespace boresight::ui {
 
 void styleTable(QTableView& table) {
@@ -66,6 +71,119 @@ void EmptyHint::showOrHide() {
 bool EmptyHint::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize) setGeometry(view_.viewport()->rect());
   return QLabel::eventFilter(watched, event);
+}
+
+using sessions::ReviewState;
+
+namespace {
+
+constexpr int kMostShown = 2;  // warnings
+
+/// A tick beside "NOT VALIDATED" would be read as a yes: what converged, but has not been
+/// validated, is an open circle here.
+QString signOf(const sessions::ReviewStatus& status) {
+  if (!status.dropped.empty()) return QStringLiteral("⚠");
+  const bool open =
+      status.state == ReviewState::kConverged || status.state == ReviewState::kAnnotated;
+  return CasesModel::stateText(open ? CaseState::kNew : caseStateOf(status.state)).left(1);
+}
+
+}  // namespace
+
+Banner::Banner(QWidget* parent)
+    : QFrame(parent),
+      sign_(new QLabel(this)),
+      text_(named(new QLabel(this), "bannerText")),
+      action_(named(new QToolButton(this), "bannerAction")) {
+  setFrameShape(QFrame::StyledPanel);
+  setAutoFillBackground(true);
+  QFont large = font();
+  large.setPointSizeF(1.4 * large.pointSizeF());
+  large.setBold(true);
+  sign_->setFont(large);
+  text_->setWordWrap(true);
+  text_->setTextFormat(Qt::PlainText);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  action_->hide();
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(8, 3, 8, 3);
+  row->addWidget(sign_);
+  row->addWidget(text_, 1);
+  row->addWidget(action_);
+  connect(action_, &QToolButton::clicked, this, &Banner::actionRequested);
+}
+
+void Banner::setAction(const QString& text, const QString& tip) {
+  action_->setText(text);
+  action_->setToolTip(tip);
+  action_->show();
+}
+
+QString Banner::text() const { return text_->text(); }
+
+void Banner::showRun(const sessions::LocalizationTrace* run) {
+  if (run == nullptr) {
+    setMessage(QStringLiteral("○"), tr("Nothing has run yet."), Tone::kPlain);
+    return;
+  }
+  const QString text = fromText(sessions::runStatusText(*run));
+  if (run->converged())
+    setMessage(QStringLiteral("✓"), text, Tone::kGood);
+  else if (run->finished)
+    setMessage(QStringLiteral("✗"), text, Tone::kBad);
+  else
+    setMessage(QStringLiteral("…"), text, Tone::kPlain);
+}
+
+void Banner::showReviewStatus(const sessions::ReviewStatus* status) {
+  if (status == nullptr) {
+    setMessage({}, tr("No case is shown."), Tone::kPlain);
+    return;
+  }
+  // The decision that no longer holds stands out: it was relied on.
+  const bool bad = status->state == ReviewState::kFailed ||
+                   status->state == ReviewState::kRejected || !status->dropped.empty();
+  QString text = fromText(sessions::reviewStatusText(*status));
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  setMessage(signOf(*status), text,
+             status->state == ReviewState::kValidated ? Tone::kGood
+             : bad                                    ? Tone::kBad
+                                                      : Tone::kPlain);
+}
+
+void Banner::setMessage(const QString& sign, const QString& text, Tone tone) {
+  sign_->setText(sign);
+  sign_->setVisible(!sign.isEmpty());
+  text_->setText(text);
+  text_->setToolTip(text);
+  tone_ = tone;
+  applyPalette();
+}
+
+void Banner::showWarnings(const QStringList& sentences) {
+  const int more = static_cast<int>(sentences.size()) - kMostShown;
+  QStringList shown = sentences.mid(0, kMostShown);
+  if (more > 0) shown.append(tr("and %1 more").arg(more));
+  setMessage(QStringLiteral("⚠"), shown.join(QLatin1Char('\n')), Tone::kBad);
+  text_->setToolTip(sentences.join(QLatin1Char('\n')));
+  setVisible(!sentences.isEmpty());
+}
+
+void Banner::applyPalette() {
+  tinting_ = true;
+  const QPalette base = QApplication::palette();
+  const PlotColors colors = plotColors(base);
+  setPalette(tone_ == Tone::kGood  ? tinted(base, colors.first)
+             : tone_ == Tone::kBad ? tinted(base, colors.second)
+                                   : base);
+  tinting_ = false;
+}
+
+void Banner::changeEvent(QEvent* event) {
+  QFrame::changeEvent(event);
+  const bool look =
+      event->type() == QEvent::ApplicationPaletteChange || event->type() == QEvent::StyleChange;
+  if (look && !tinting_ && action_ != nullptr) applyPalette();
 }
 
 }  // namespace boresight::ui

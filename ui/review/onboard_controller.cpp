@@ -62,20 +62,13 @@ void OnboardController::readAgain() {
     tasks_.cancel(reviewKey());
     return;
   }
-  struct Read {
-    ReviewPtr review;
-    QString problem;
-  };
   tasks_.start(
       reviewKey(),
-      [one, file = *attached](const std::stop_token& stop) {
-        try {
-          return Read{sessions::reviewRecord(file.file, file.sha256, one->problem(), stop), {}};
-        } catch (const std::exception& error) {
-          return Read{nullptr, QString::fromUtf8(error.what())};
-        }
+      [one, file = *attached](const std::stop_token& stop) -> ReviewPtr {
+        return sessions::reviewRecord(file.file, file.sha256, one->problem(), stop);
       },
-      [this, one](const Read& read) { takeReview(one, read.review, read.problem); });
+      [this, one](ReviewPtr review) { takeReview(one, std::move(review), {}); },
+      [this, one](const QString& problem) { takeReview(one, nullptr, problem); });
 }
 
 void OnboardController::takeReview(const ViewState::CasePtr& one, ReviewPtr review,
@@ -143,9 +136,7 @@ void OnboardController::compareAgain() {
 }
 
 void OnboardController::attachAs(std::optional<sessions::InputFile> record, const QString& text) {
-  const ViewState::CasePtr& shown = state_.currentCase();
-  const sessions::SessionCase* one =
-      shown ? document_.session().findCase(shown->source.id) : nullptr;
+  const sessions::SessionCase* one = shownCase(document_, state_);
   if (!one) {
     Q_EMIT failed(tr("Open the case that the record belongs to first."));
     return;

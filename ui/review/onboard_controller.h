@@ -59,7 +59,7 @@ class OnboardController : public QObject {
   void changed();
   void rerunRequested(const boresight::sessions::RunPlan& plan);
   void failed(const QString& message);
-  /// A remark for people.
+  /// A remark for the operator.
   void told(const QString& message);
 
  private:

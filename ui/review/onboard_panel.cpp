@@ -3,10 +3,7 @@
 
 #include <QtWidgets>
 
-#include "ui_onboard_panel.h"
-
-#include "ui/models/html_table.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/panels/widgets.h"
 #include "ui/run/run_controller.h"
 
@@ -35,27 +32,23 @@ QString signOf(const sessions::RecordComparison& comparison) {
 
 OnboardPanel::OnboardPanel(OnboardController& onboard, ViewState& state, RunController& run,
                            QWidget* parent)
-    : QWidget(parent),
-      onboard_(onboard),
-      state_(state),
-      run_(run),
-      ui_(std::make_unique<Ui::OnboardPanel>()) {
-  ui_->setupUi(this);
-  ui_->halves->setStretchFactor(0, 2);
-  ui_->halves->setStretchFactor(1, 3);
-  styleTable(*ui_->comparison);
+    : QWidget(parent), onboard_(onboard), state_(state), run_(run) {
+  ui_.setupUi(this);
+  ui_.halves->setStretchFactor(0, 2);
+  ui_.halves->setStretchFactor(1, 3);
+  styleTable(*ui_.comparison);
   QFont bold = font();
   bold.setBold(true);
-  ui_->verdict->setFont(bold);
-  connect(ui_->showOnboard, &QPushButton::clicked, &onboard_, &OnboardController::showOnboard);
-  connect(ui_->showGround, &QPushButton::clicked, &onboard_, &OnboardController::showGround);
-  connect(ui_->rerunOnGround, &QPushButton::clicked, &onboard_, &OnboardController::rerun);
-  connect(ui_->loadRecord, &QPushButton::clicked, this,
+  ui_.verdict->setFont(bold);
+  connect(ui_.showOnboard, &QPushButton::clicked, &onboard_, &OnboardController::showOnboard);
+  connect(ui_.showGround, &QPushButton::clicked, &onboard_, &OnboardController::showGround);
+  connect(ui_.rerunOnGround, &QPushButton::clicked, &onboard_, &OnboardController::rerun);
+  connect(ui_.loadRecord, &QPushButton::clicked, this,
           [this] { askForOnboardRecord(onboard_, this); });
-  connect(ui_->removeRecord, &QPushButton::clicked, &onboard_, &OnboardController::detach);
-  connect(ui_->firstDifference, &QLabel::linkActivated, &onboard_,
+  connect(ui_.removeRecord, &QPushButton::clicked, &onboard_, &OnboardController::detach);
+  connect(ui_.firstDifference, &QLabel::linkActivated, &onboard_,
           &OnboardController::goToFirstDifference);
-  connect(ui_->comparison, &QTableWidget::cellActivated, this, [this](int row, int) {
+  connect(ui_.comparison, &QTableWidget::cellActivated, this, [this](int row, int) {
     if (state_.snapshot() && row < static_cast<int>(state_.snapshot()->iterations.size()))
       state_.setCursor({row, Stage::kFinished});
   });
@@ -63,8 +56,6 @@ OnboardPanel::OnboardPanel(OnboardController& onboard, ViewState& state, RunCont
   connect(&run_, &RunController::stateChanged, this, &OnboardPanel::updateButtons);
   update();
 }
-
-OnboardPanel::~OnboardPanel() = default;
 
 void OnboardPanel::update() {
   updateButtons();
@@ -76,26 +67,26 @@ void OnboardPanel::updateButtons() {
   const bool has = onboard_.review() != nullptr;
   const bool onboard = onboard_.showsOnboard();
   const bool idle = run_.state() != RunState::kWorking;
-  ui_->showOnboard->setEnabled(has && !onboard && idle);
-  ui_->showGround->setEnabled(onboard && idle);
-  ui_->rerunOnGround->setEnabled(has && idle && onboard_.review()->plan.has_options);
-  ui_->loadRecord->setEnabled(state_.currentCase() != nullptr);
-  ui_->removeRecord->setEnabled(!onboard_.file().empty());
+  ui_.showOnboard->setEnabled(has && !onboard && idle);
+  ui_.showGround->setEnabled(onboard && idle);
+  ui_.rerunOnGround->setEnabled(has && idle && onboard_.review()->plan.has_options);
+  ui_.loadRecord->setEnabled(state_.currentCase() != nullptr);
+  ui_.removeRecord->setEnabled(!onboard_.file().empty());
   if (onboard)
-    ui_->shownRun->setMessage(QStringLiteral("▲"), tr("ONBOARD run in every view, replayed"),
-                              Banner::Tone::kBad);
+    ui_.shownRun->setMessage(QStringLiteral("▲"), tr("ONBOARD run in every view, replayed"),
+                             Banner::Tone::kBad);
   else if (state_.snapshot())
-    ui_->shownRun->setMessage(QStringLiteral("▼"), tr("Ground run in every view"),
-                              Banner::Tone::kPlain);
+    ui_.shownRun->setMessage(QStringLiteral("▼"), tr("Ground run in every view"),
+                             Banner::Tone::kPlain);
   else
-    ui_->shownRun->setMessage({}, tr("No run is shown."), Banner::Tone::kPlain);
+    ui_.shownRun->setMessage({}, tr("No run is shown."), Banner::Tone::kPlain);
 }
 
 void OnboardPanel::showRecord() {
   const std::filesystem::path file = onboard_.file();
-  ui_->recordRemarks->clear();
+  ui_.recordRemarks->clear();
   if (file.empty()) {
-    ui_->recordSheet->setText(
+    ui_.recordSheet->setText(
         state_.currentCase()
             ? tr("No onboard record is attached to this case. Drop one (.whsr) on the "
                  "window, or load it.")
@@ -103,8 +94,8 @@ void OnboardPanel::showRecord() {
     return;
   }
   if (!onboard_.review()) {
-    ui_->recordSheet->setText(onboard_.problem().isEmpty() ? tr("Reading the record ...")
-                                                           : onboard_.problem().toHtmlEscaped());
+    ui_.recordSheet->setText(onboard_.problem().isEmpty() ? tr("Reading the record ...")
+                                                          : onboard_.problem().toHtmlEscaped());
     return;
   }
   QVector<QStringList> rows;
@@ -114,27 +105,27 @@ void OnboardPanel::showRecord() {
   line(tr("File"), QString::fromStdString(file.filename().string()));
   for (const auto& [label, value] : sessions::recordSheet(onboard_.review()->record))
     line(fromText(label), fromText(value).replace(QLatin1Char('_'), QLatin1Char(' ')));
-  ui_->recordSheet->setText(htmlTable(rows));
+  ui_.recordSheet->setText(htmlTable(rows));
   QString whole = QString::fromStdString(file.string());
   if (const auto& end = onboard_.review()->record.end)
     whole += QLatin1Char('\n') + tr("Digest %1").arg(fromText(end->digest));
-  ui_->recordSheet->setToolTip(whole);
+  ui_.recordSheet->setToolTip(whole);
   QStringList remarks;
   for (const std::string& text : onboard_.review()->replay->remarks)
     remarks << QStringLiteral("• ") + fromText(text);
-  ui_->recordRemarks->setText(remarks.join(QLatin1Char('\n')));
+  ui_.recordRemarks->setText(remarks.join(QLatin1Char('\n')));
 }
 
 void OnboardPanel::showComparison() {
   const OnboardController::ComparisonPtr& found = onboard_.comparison();
   showTable(found.get());
-  ui_->limits->setVisible(found && found->verdict != RunVerdict::kEqual);
-  ui_->firstDifference->setVisible(found && found->verdict != RunVerdict::kEqual);
+  ui_.limits->setVisible(found && found->verdict != RunVerdict::kEqual);
+  ui_.firstDifference->setVisible(found && found->verdict != RunVerdict::kEqual);
   if (!found) {
-    ui_->verdict->setText(onboard_.whyNotCompared());
+    ui_.verdict->setText(onboard_.whyNotCompared());
     return;
   }
-  ui_->verdict->setText(signOf(*found) + fromText(sessions::verdictText(*found)));
+  ui_.verdict->setText(signOf(*found) + fromText(sessions::verdictText(*found)));
   QString text;
   if (found->first) {
     const QString part = QString::fromLatin1(sessions::runPartText(found->first->part));
@@ -149,26 +140,26 @@ void OnboardPanel::showComparison() {
         QStringLiteral("<br>") + tr("Beyond the limits: %1").arg(fromText(beyond)).toHtmlEscaped();
   for (const std::string& missing : found->missing)
     text += QStringLiteral("<br>") + tr("Missing, %1").arg(fromText(missing)).toHtmlEscaped();
-  ui_->firstDifference->setText(text);
-  ui_->limits->setText(fromText(sessions::limitsText({})));
+  ui_.firstDifference->setText(text);
+  ui_.limits->setText(fromText(sessions::limitsText({})));
 }
 
 void OnboardPanel::showTable(const sessions::RecordComparison* comparison) {
-  ui_->comparison->setVisible(comparison != nullptr);
-  ui_->comparison->setRowCount(0);
+  ui_.comparison->setVisible(comparison != nullptr);
+  ui_.comparison->setRowCount(0);
   if (comparison == nullptr) return;
   for (const IterationComparison& one : comparison->iterations)
-    addRow(*ui_->comparison,
+    addRow(*ui_.comparison,
            {QString::number(one.index + 1), shareText(one.found_alike, one.templates),
             shareText(one.inliers_both, one.inliers_either), numberText(one.translation_mm, 4),
             numberText(one.rotation_mrad, 4)});
   const QString sigmas = comparison->pose_sigmas
                              ? tr("%1 sigmas").arg(numberText(*comparison->pose_sigmas, 2))
                              : QStringLiteral("–");
-  addRow(*ui_->comparison,
+  addRow(*ui_.comparison,
          {tr("Final"), sigmas, QString(), numberText(comparison->translation_mm, 4),
           numberText(comparison->rotation_mrad, 4)});
-  ui_->comparison->resizeColumnsToContents();
+  ui_.comparison->resizeColumnsToContents();
 }
 
 void askForOnboardRecord(OnboardController& onboard, QWidget* parent) {

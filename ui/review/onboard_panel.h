@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
-#include <QString>
 #include <QWidget>
+
+#include "ui_onboard_panel.h"
 
 #include "ui/review/onboard_controller.h"
 
 namespace boresight::ui {
-
-namespace Ui {
-class OnboardPanel;
-}
 
 class RunController;
 
@@ -27,7 +22,6 @@ class OnboardPanel : public QWidget {
  public:
   OnboardPanel(OnboardController& onboard, ViewState& state, RunController& run,
                QWidget* parent = nullptr);
-  ~OnboardPanel() override;
 
  private:
   void update();
@@ -39,7 +33,7 @@ class OnboardPanel : public QWidget {
   OnboardController& onboard_;
   ViewState& state_;
   RunController& run_;
-  const std::unique_ptr<Ui::OnboardPanel> ui_;
+  Ui::OnboardPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -9,10 +9,8 @@
 #include "sessions/report/pose_report.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/run/task_runner.h"
-#include "ui/state/document.h"
-#include "ui/state/view_state.h"
 
 namespace boresight::ui {
 
@@ -30,6 +28,18 @@ QString exportNote(const sessions::ExportReport& report, const std::filesystem::
   return PoseExport::tr("%1 poses written to %2. %3")
       .arg(report.case_ids.size())
       .arg(fileNameOf(path), joinedNotes(report.notes));
+}
+
+QString inSessionFolder(const Document& document, const QString& name) {
+  return fromText((document.file().parent_path() / name.toStdString()).string());
+}
+
+std::filesystem::path askForNewFile(QWidget& window, const QString& title, const QString& proposed,
+                                    const QString& filter) {
+  QString file = QFileDialog::getSaveFileName(&window, title, proposed, filter);
+  if (!file.isEmpty() && QFileInfo(file).suffix().isEmpty())
+    file += QLatin1Char('.') + QFileInfo(proposed).suffix();
+  return file.toStdString();
 }
 
 PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, TaskRunner& tasks)
@@ -53,19 +63,9 @@ void PoseExport::addTo(QMenu& menu) {
   });
 }
 
-std::string PoseExport::caseId() const {
-  const ViewState::CasePtr& one = state_.currentCase();
-  return one && document_.session().findCase(one->source.id) ? one->source.id : std::string();
-}
-
 bool PoseExport::isValidated(const std::string& case_id) const {
   return sessions::reviewStatusOf(document_.session(), case_id).state ==
          sessions::ReviewState::kValidated;
-}
-
-QString PoseExport::reviewStatus() const {
-  return fromText(
-      sessions::reviewStatusText(sessions::reviewStatusOf(document_.session(), caseId())));
 }
 
 QString PoseExport::poseFileName() const {
@@ -80,11 +80,6 @@ QString PoseExport::bopResultsFileName() const {
   return all ? QStringLiteral("boresight_results.csv")
              : QStringLiteral("boresight_%1_results.csv")
                    .arg(QLatin1String(sessions::kNotValidatedName));
-}
-
-/// Where people look for what belongs to the session.
-QString PoseExport::inSessionFolder(const QString& name) const {
-  return QString::fromStdString(document_.file().parent_path().string()) + QLatin1Char('/') + name;
 }
 
 /// The pose is measured again: off this thread.
@@ -146,28 +141,26 @@ void PoseExport::askForBopResults() {
                                             tr("Number of the scene that the images are of"), 1, 0,
                                             999999, 1, &chosen);
   if (!chosen) return;
-  const QString file =
-      QFileDialog::getSaveFileName(&window_, tr("Poses of all cases as BOP results"),
-                                   inSessionFolder(bopResultsFileName()), tr("Table (*.csv)"));
-  if (!file.isEmpty()) exportBopResults(file.toStdString(), scene_id);
+  const auto file =
+      askForNewFile(window_, tr("Poses of all cases as BOP results"),
+                    inSessionFolder(document_, bopResultsFileName()), tr("Table (*.csv)"));
+  if (!file.empty()) exportBopResults(file, scene_id);
 }
 
 void PoseExport::askForColmap() {
   const QString folder =
       QFileDialog::getSaveFileName(&window_, tr("New folder for a COLMAP text model"),
-                                   inSessionFolder(QStringLiteral("colmap_poses")));
+                                   inSessionFolder(document_, QStringLiteral("colmap_poses")));
   if (!folder.isEmpty()) exportColmap(folder.toStdString());
 }
 
-/// A file for the shown case's pose; empty without a case or an answer.
 std::filesystem::path PoseExport::askForFile(const QString& title, const QString& name,
                                              const QString& filter) {
   if (caseId().empty()) return {};
-  QString file = QFileDialog::getSaveFileName(
-      &window_, title.arg(fromText(caseId()), reviewStatus()), inSessionFolder(name), filter);
-  if (!file.isEmpty() && QFileInfo(file).suffix().isEmpty())
-    file += QLatin1Char('.') + QFileInfo(name).suffix();
-  return file.toStdString();
+  const auto status = sessions::reviewStatusOf(document_.session(), caseId());
+  return askForNewFile(window_,
+                       title.arg(fromText(caseId()), fromText(sessions::reviewStatusText(status))),
+                       inSessionFolder(document_, name), filter);
 }
 
 void PoseExport::askForPose() {

@@ -9,15 +9,15 @@
 #include <QString>
 
 #include "sessions/exchange/annotation_exchange.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
 
 class QMenu;
 class QWidget;
 
 namespace boresight::ui {
 
-class Document;
 class TaskRunner;
-class ViewState;
 
 /// Of a file or a folder, without where it lies.
 QString fileNameOf(const std::filesystem::path& file);
@@ -26,9 +26,15 @@ QString joinedNotes(const std::vector<std::string>& notes);
 /// What came of an export to `path`, for the status bar.
 QString exportNote(const sessions::ExportReport& report, const std::filesystem::path& path);
 
+/// A path in the session's folder.
+QString inSessionFolder(const Document& document, const QString& name);
+/// Asks for a file to write; a name without a suffix gets that of the proposed path. Empty when the
+/// operator cancels.
+std::filesystem::path askForNewFile(QWidget& window, const QString& title, const QString& proposed,
+                                    const QString& filter);
+
 /// Poses to hand over, as files. What is not validated is called so in its name and in the file.
-/// The functions with a path do what the ones without do after they have asked for one; they are
-/// done when `noted` says so, and the task runner says what could not be done.
+/// An export is done when `noted` says so; the task runner reports failures.
 class PoseExport : public QObject {
   Q_OBJECT
 
@@ -39,7 +45,7 @@ class PoseExport : public QObject {
   void addTo(QMenu& menu);
   /// The shown case's pose, with its checks and where everything in it comes from.
   void exportPose(const std::filesystem::path& file);
-  /// The same on two pages for people.
+  /// The same on two pages for the reader.
   void exportReport(const std::filesystem::path& file);
   /// Proposed for the pose: says in its name when the case is not validated.
   QString poseFileName() const;
@@ -49,29 +55,25 @@ class PoseExport : public QObject {
   void exportColmap(const std::filesystem::path& folder);
   QString bopResultsFileName() const;
 
- public Q_SLOTS:
-  void askForPose();
-  void askForReport();
-  void askForBopResults();
-  void askForColmap();
-
  Q_SIGNALS:
   /// What happened, for the status bar.
   void noted(const QString& message);
 
  private:
-  std::string caseId() const;
+  void askForPose();
+  void askForReport();
+  void askForBopResults();
+  void askForColmap();
+  std::string caseId() const { return shownCaseId(document_, state_); }
   bool isValidated(const std::string& case_id) const;
   template <class Write>
   void exportOne(const QString& key, const std::filesystem::path& file, const QString& note,
                  Write write);
   template <class Write>
   void exportAll(const std::filesystem::path& path, Write write);
-  /// "NOT VALIDATED: converged", for titles.
-  QString reviewStatus() const;
+  /// For the shown case; `title` takes its id and its review status.
   std::filesystem::path askForFile(const QString& title, const QString& name,
                                    const QString& filter);
-  QString inSessionFolder(const QString& name) const;
 
   QWidget& window_;
   Document& document_;

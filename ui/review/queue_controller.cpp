@@ -6,7 +6,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/review/thumbnail.h"
 #include "sessions/session/case_run.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {

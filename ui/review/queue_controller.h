@@ -61,7 +61,7 @@ class CaseByCase {
     changed_();
   }
 
-  /// Nothing is made while nobody looks, or while it is halted.
+  /// Nothing is made while it is not in sight, or while it is halted.
   void setActive(bool active) {
     active_ = active;
     goOn();
@@ -145,7 +145,8 @@ struct DifferenceEntry {
 };
 
 /// The queue of the document's cases, and what changed between their two last runs: both filled
-/// off the UI's thread while somebody looks. Decides on cases of it; every decision is one edit.
+/// off the UI's thread while the operator looks. Decides on cases of it; every decision is one
+/// edit.
 class QueueController : public QObject {
   Q_OBJECT
 
@@ -156,7 +157,7 @@ class QueueController : public QObject {
   /// The pictures have at most this size, in device pixels.
   QueueController(Document& document, const QSize& thumbnail_px, QObject* parent = nullptr);
 
-  /// Which of the two somebody looks at; the other one is not filled.
+  /// Which of the two the operator looks at; the other one is not filled.
   void setLookedAt(List list);
 
   /// One per case, in the order of the session.

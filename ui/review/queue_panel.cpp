@@ -2,17 +2,213 @@
 #include "ui/review/queue_panel.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include <QIcon>
+#include <QPixmap>
 #include <QtWidgets>
 
-#include "ui_queue_panel.h"
-
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
+#include "ui/panels/cases_panel.h"
 #include "ui/panels/widgets.h"
-#include "ui/review/decision_form.h"
+#include "ui/review/review_panel.h"
 
 namespace boresight::ui {
+
+using sessions::QueueGroup;
+using sessions::QueueRow;
+using sessions::RunChange;
+using sessions::RunDifference;
+
+namespace {
+
+QString signOf(RunChange change) {
+  return change == RunChange::kBetter  ? DifferencesModel::tr("▲ better")
+         : change == RunChange::kWorse ? DifferencesModel::tr("▼ worse")
+                                       : DifferencesModel::tr("= same");
+}
+
+QString beforeAndNow(int before, int now) { return QStringLiteral("%1 → %2").arg(before).arg(now); }
+
+QString apartText(const RunDifference& made) {
+  if (!made.before.converged || !made.after.converged) return {};
+  return DifferencesModel::tr("%1 mm, %2 mrad")
+      .arg(numberText(made.comparison.translation_mm, 3),
+           numberText(made.comparison.rotation_mrad, 3));
+}
+
+using Difference = const RunDifference&;
+
+/// A cell of a case that has a difference; nothing of others.
+template <class Value>
+auto ofDifference(Value value) {
+  return [value](const DifferenceEntry& entry) {
+    return entry.difference ? QVariant(value(*entry.difference)) : QVariant();
+  };
+}
+
+/// Sorted with the worse ones first when it ascends.
+std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
+  constexpr auto tr = [](const char* text) { return DifferencesModel::tr(text); };
+  return {
+      {tr("Case"), tr("The case."), -1,
+       [](const DifferenceEntry& entry) { return fromText(entry.case_id); }},
+      {tr("Change"),
+       tr("Whether the last run is better than the one before: by the truth where it is known, "
+          "else by the checks."),
+       -1, ofDifference([](Difference made) { return signOf(made.change); }),
+       ofDifference([](Difference made) {
+         return made.change == RunChange::kWorse ? 0 : made.change == RunChange::kBetter ? 1 : 2;
+       })},
+      {tr("Failed checks"), tr("How many failed: before, and now."), 0,
+       ofDifference([](Difference made) {
+         return beforeAndNow(made.before.checks_failed, made.after.checks_failed);
+       }),
+       ofDifference(
+           [](Difference made) { return made.after.checks_failed - made.before.checks_failed; })},
+      {tr("Inliers"), tr("Inliers of the last matching iteration: before, and now."), 0,
+       ofDifference(
+           [](Difference made) { return beforeAndNow(made.before.inliers, made.after.inliers); }),
+       ofDifference([](Difference made) { return made.after.inliers - made.before.inliers; })},
+      {tr("Poses apart"), tr("How far the two results are apart at the camera, in mm and mrad."), 0,
+       ofDifference(apartText),
+       ofDifference([](Difference made) { return made.comparison.translation_mm; })},
+      {tr("Why, and where they differ first"),
+       tr("What the change is judged by, and the first thing in which the runs are not the same to "
+          "the bit."),
+       -1, ofDifference([](Difference made) { return fromText(sessions::changeText(made)); })},
+  };
+}
+
+QString tableHtml(const RunDifference& made) {
+  QVector<QStringList> rows = {
+      {QString(), DifferencesModel::tr("before"), DifferencesModel::tr("now")}};
+  for (const sessions::DifferenceLine& line : sessions::differenceLines(made))
+    rows.append({fromText(line.label).toHtmlEscaped(), fromText(line.before).toHtmlEscaped(),
+                 fromText(line.after).toHtmlEscaped()});
+  return htmlTable(rows) +
+         QStringLiteral("<p>%1</p>").arg(fromText(sessions::changeText(made)).toHtmlEscaped());
+}
+
+}  // namespace
+
+DifferencesModel::DifferencesModel(QObject* parent) : RowsModel(differenceColumns(), parent) {}
+
+QVariant DifferencesModel::look(const DifferenceEntry& entry, int column, int role) const {
+  const bool tip = role == Qt::ToolTipRole;
+  if (entry.difference) return tip ? tableHtml(*entry.difference) : QVariant();
+  if (!tip && (role != Qt::DisplayRole || column != kWhy)) return {};
+  return entry.problem.isEmpty() ? tr("… being compared") : entry.problem;
+}
+
+namespace {
+
+constexpr double kToPercent = 100.0;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Whether what the row says of its checks is of the document as it is.
+QString remarkOf(const QueueEntry& entry) {
+  if (entry.checked) return {};
+  return entry.row.checks.empty() ? QueueModel::tr("… being checked")
+                                  : QueueModel::tr(" … being checked again");
+}
+
+QString troubleOf(const QueueEntry& entry) {
+  const QueueRow& row = entry.row;
+  const bool unknown = !entry.checked && row.checks.empty() && row.group == QueueGroup::kOpen;
+  QString text = unknown ? QString() : fromText(sessions::troubleText(row));
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  return text + (row.group == QueueGroup::kOpen ? remarkOf(entry) : QString());
+}
+
+QString fromSeedText(const QueueRow& row) {
+  if (!row.from_seed) return {};
+  return QueueModel::tr("%1 %\n%2 mm\n%3 mrad")
+      .arg(numberText(kToPercent * row.from_seed->share, 0),
+           numberText(row.from_seed->translation_mm, 1),
+           numberText(row.from_seed->rotation_mrad, 1));
+}
+
+QString tooltipOf(const QueueEntry& entry, int column) {
+  const QueueRow& row = entry.row;
+  if (column == QueueModel::kMargin && !row.margin_of.empty())
+    return QueueModel::tr("Of the check '%1'").arg(fromText(row.margin_of));
+  QString text = fromText(row.case_id) + QLatin1Char('\n') + fromText(row.review_status_text) +
+                 QLatin1Char('\n') + troubleOf(entry);
+  for (const sessions::Check& check : row.checks)
+    if (check.state == sessions::CheckState::kFailed)
+      text += QStringLiteral("\n✗ ") + fromText(check.title) + QStringLiteral(": ") +
+              fromText(check.sentence);
+  return text;
+}
+
+std::vector<TableColumn<QueueEntry>> queueColumns() {
+  using Entry = const QueueEntry&;
+  constexpr auto tr = [](const char* text) { return QueueModel::tr(text); };
+  return {
+      {tr("Case"),
+       tr("The case, with the edges of its result over the image; red: those of the seed, as "
+          "there is no result."),
+       -1, [](Entry entry) { return fromText(entry.row.case_id); }},
+      {tr("State"), tr("Where the case stands."), -1,
+       [](Entry entry) { return QueueModel::reviewStatusText(entry.row); }},
+      {tr("Trouble"),
+       tr("What to look at. Sorted by it: failed runs, then failed checks, then the margin, then "
+          "the distance from the seed; what is decided comes last."),
+       -1, troubleOf},
+      {tr("Margin,\n%"),
+       tr("How far the worst check's figure is on the good side of its limit, in percent of the "
+          "limit; negative: beyond it."),
+       0, [](Entry entry) { return kToPercent * entry.row.margin.value_or(kNaN); }},
+      {tr("From\nseed"),
+       tr("How far the result is from the seed, in mm and mrad, and as a part of the seed's stated "
+          "uncertainty (100 %: on its border)."),
+       0, [](Entry entry) { return fromSeedText(entry.row); },
+       [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kNaN; }},
+      {tr("Inliers"), tr("Inliers of the last matching iteration."), 0,
+       [](Entry entry) { return entry.row.iterations > 0 ? entry.row.inliers : kNaN; }},
+  };
+}
+
+}  // namespace
+
+QueueModel::QueueModel(QObject* parent) : RowsModel(queueColumns(), parent) {}
+
+int QueueModel::rowOf(const QString& id) const {
+  return firstRow(
+      [wanted = id.toStdString()](const QueueEntry& entry) { return entry.row.case_id == wanted; });
+}
+
+QString QueueModel::reviewStatusText(const QueueRow& row) {
+  if (row.group == QueueGroup::kAwaits) return tr("☆ to be approved");
+  return CasesModel::stateText(caseStateOf(row.review_state));
+}
+
+QVariant QueueModel::look(const QueueEntry& entry, int column, int role) const {
+  if (role == Qt::ToolTipRole) return tooltipOf(entry, column);
+  if (role != Qt::DecorationRole || column != kCase || entry.thumbnail.isNull()) return {};
+  return QIcon(QPixmap::fromImage(entry.thumbnail));
+}
+
+QueueFilter::QueueFilter(QueueModel& model, QObject* parent) : RowsFilter(parent), model_(model) {
+  setSourceModel(&model);
+}
+
+void QueueFilter::setText(const QString& text) {
+  setCondition([this, words = text.trimmed()](int row) {
+    for (const int column : {QueueModel::kCase, QueueModel::kStatus, QueueModel::kTrouble})
+      if (model_.index(row, column).data().toString().contains(words, Qt::CaseInsensitive))
+        return true;
+    return false;
+  });
+}
+
+bool QueueFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
+  if (left.column() != QueueModel::kTrouble) return RowsFilter::lessThan(left, right);
+  return sessions::moreTrouble(model_.at(left.row()).row, model_.at(right.row()).row);
+}
+
 namespace {
 
 constexpr QSize kQueueThumbnail_px{76, 57};  // of a screen without scaling
@@ -25,74 +221,71 @@ constexpr int kDifferencesTab = 1;
 QueuePanel::QueuePanel(Document& document, QWidget* parent)
     : QWidget(parent),
       controller_(document, kQueueThumbnail_px * devicePixelRatioF()),
-      filter_(model_),
-      ui_(std::make_unique<Ui::QueuePanel>()) {
-  ui_->setupUi(this);
-  ui_->queueTabs->addTab(tr("By trouble"));
-  ui_->queueTabs->addTab(tr("Last two runs"));
-  ui_->queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the most troubled first"));
-  ui_->queueTabs->setTabToolTip(
+      filter_(model_) {
+  ui_.setupUi(this);
+  ui_.queueTabs->addTab(tr("By trouble"));
+  ui_.queueTabs->addTab(tr("Last two runs"));
+  ui_.queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the most troubled first"));
+  ui_.queueTabs->setTabToolTip(
       kDifferencesTab, tr("Each case's last run against the one before it (D in the list)"));
   buildTables();
   buildForm();
-  connect(ui_->queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
-  connect(ui_->queueFilter, &QLineEdit::textChanged, this, [this](const QString& text) {
+  connect(ui_.queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
+  connect(ui_.queueFilter, &QLineEdit::textChanged, this, [this](const QString& text) {
     filter_.setText(text);
     differences_filter_.setFilterFixedString(text.trimmed());
   });
-  connect(ui_->queueHalt, &QPushButton::clicked, this,
+  connect(ui_.queueHalt, &QPushButton::clicked, this,
           [this] { controller_.setHalted(!controller_.isHalted()); });
   connect(&controller_, &QueueController::changed, this, &QueuePanel::showEntries);
   showEntries();
 }
 
-QueuePanel::~QueuePanel() = default;
-
 void QueuePanel::buildTables() {
-  setUpTable(*ui_->queue, filter_);
-  ui_->queue->verticalHeader()->setDefaultSectionSize(
+  setUpTable(*ui_.queue, filter_);
+  ui_.queue->verticalHeader()->setDefaultSectionSize(
       std::max(kQueueThumbnail_px.height(), 3 * fontMetrics().lineSpacing()) + 4);
-  ui_->queue->setWordWrap(true);
-  ui_->queue->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
-  queue_hint_ = new EmptyHint(*ui_->queue);
+  ui_.queue->setWordWrap(true);
+  ui_.queue->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
+  queue_hint_ = new EmptyHint(*ui_.queue);
   differences_filter_.setSourceModel(&differences_);
   differences_filter_.setSortRole(kSortRole);
   differences_filter_.setFilterKeyColumn(-1);
   differences_filter_.setFilterCaseSensitivity(Qt::CaseInsensitive);
-  setUpTable(*ui_->differences, differences_filter_);
-  ui_->differences->sortByColumn(DifferencesModel::kChange, Qt::AscendingOrder);
-  differences_hint_ = new EmptyHint(*ui_->differences);
-  for (QTableView* each : {ui_->queue, ui_->differences}) {
-    each->horizontalHeader()->setStretchLastSection(each == ui_->differences);
+  setUpTable(*ui_.differences, differences_filter_);
+  ui_.differences->sortByColumn(DifferencesModel::kChange, Qt::AscendingOrder);
+  differences_hint_ = new EmptyHint(*ui_.differences);
+  for (QTableView* each : {ui_.queue, ui_.differences}) {
+    each->horizontalHeader()->setStretchLastSection(each == ui_.differences);
     each->installEventFilter(this);
     connect(each, &QTableView::doubleClicked, this, &QueuePanel::openChosen);
   }
-  ui_->queue->horizontalHeader()->setSectionResizeMode(QueueModel::kTrouble, QHeaderView::Stretch);
+  ui_.queue->horizontalHeader()->setSectionResizeMode(QueueModel::kTrouble, QHeaderView::Stretch);
 }
 
 void QueuePanel::buildForm() {
-  for (QLineEdit* field : {ui_->queueName, ui_->queueComment}) {
+  for (QLineEdit* field : {ui_.queueName, ui_.queueComment}) {
     field->installEventFilter(this);
     connect(field, &QLineEdit::returnPressed, this, &QueuePanel::signedNow);
   }
-  connect(ui_->queueOpen, &QPushButton::clicked, this, &QueuePanel::openChosen);
-  connect(ui_->queueAccept, &QPushButton::clicked, this, &QueuePanel::accept);
-  connect(ui_->queueReject, &QPushButton::clicked, this, &QueuePanel::reject);
+  connect(ui_.queueOpen, &QPushButton::clicked, this, &QueuePanel::openChosen);
+  connect(ui_.queueAccept, &QPushButton::clicked, this, &QueuePanel::accept);
+  connect(ui_.queueReject, &QPushButton::clicked, this, &QueuePanel::reject);
 }
 
 QTableView* QueuePanel::table() const {
-  return ui_->queueTabs->currentIndex() == kDifferencesTab ? ui_->differences : ui_->queue;
+  return ui_.queueTabs->currentIndex() == kDifferencesTab ? ui_.differences : ui_.queue;
 }
 
 QString QueuePanel::chosenCase() const {
   return table()->currentIndex().siblingAtColumn(0).data().toString();
 }
 
-QString QueuePanel::message() const { return ui_->queueMessage->text(); }
+QString QueuePanel::message() const { return ui_.queueMessage->text(); }
 
 void QueuePanel::tell(const QString& text) {
-  ui_->queueMessage->setText(text);
-  ui_->queueMessage->setVisible(!text.isEmpty());
+  ui_.queueMessage->setText(text);
+  ui_.queueMessage->setVisible(!text.isEmpty());
 }
 
 void QueuePanel::focusList() {
@@ -101,13 +294,13 @@ void QueuePanel::focusList() {
 }
 
 void QueuePanel::showDifferences(bool shown) {
-  ui_->queueTabs->setCurrentIndex(shown ? kDifferencesTab : kTroubleTab);
+  ui_.queueTabs->setCurrentIndex(shown ? kDifferencesTab : kTroubleTab);
   focusList();
 }
 
 void QueuePanel::lookAt() {
-  ui_->lists->setCurrentWidget(table());
-  const bool differences = table() == ui_->differences;
+  ui_.lists->setCurrentWidget(table());
+  const bool differences = table() == ui_.differences;
   controller_.setLookedAt(!in_sight_    ? QueueController::List::kNone
                           : differences ? QueueController::List::kDifferences
                                         : QueueController::List::kTrouble);
@@ -116,8 +309,8 @@ void QueuePanel::lookAt() {
 
 void QueuePanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  if (ui_->queueName->text().isEmpty())
-    ui_->queueName->setText(QSettings().value(QLatin1String(DecisionForm::kNameKey)).toString());
+  if (ui_.queueName->text().isEmpty())
+    ui_.queueName->setText(QSettings().value(QLatin1String(DecisionForm::kNameKey)).toString());
 }
 
 void QueuePanel::setInSight(bool in_sight) {
@@ -127,8 +320,8 @@ void QueuePanel::setInSight(bool in_sight) {
 
 void QueuePanel::showEntries() {
   const QString chosen = chosenCase();
-  model_.setEntries(controller_.queue());
-  differences_.setEntries(controller_.differences());
+  model_.setRowsByKey(controller_.queue(), [](const auto& entry) { return entry.row.case_id; });
+  differences_.setRowsByKey(controller_.differences(), &DifferenceEntry::case_id);
   queue_hint_->setText(model_.rowCount() > 0
                            ? tr("No matching cases.")
                            : tr("No case yet: open a session (Ctrl+O) and run it (Ctrl+F5)."));
@@ -142,31 +335,31 @@ void QueuePanel::showEntries() {
   showProgress();
 }
 
-/// Once, as soon as there is something to fit: afterwards widths are people's.
+/// Once, as soon as there is something to fit: afterwards widths are the operator's.
 void QueuePanel::fitColumns() {
   if (fitted_ || model_.rowCount() == 0) return;
   fitted_ = controller_.doneCount() > 0;
   // Headers would keep room for the sign of the order in every column.
   const auto fit = [this](int column, const QString& widest) {
-    ui_->queue->setColumnWidth(column, fontMetrics().horizontalAdvance(widest) + 14);
+    ui_.queue->setColumnWidth(column, fontMetrics().horizontalAdvance(widest) + 14);
   };
   fit(QueueModel::kStatus, QStringLiteral("✓ converged"));
   fit(QueueModel::kMargin, QStringLiteral("Margin,"));
   fit(QueueModel::kFromSeed, QStringLiteral("000.0 mrad"));
   fit(QueueModel::kInliers, QStringLiteral("Inliers"));
-  ui_->queue->setColumnWidth(
+  ui_.queue->setColumnWidth(
       QueueModel::kCase,
       kQueueThumbnail_px.width() + 16 + kUsualQueueName * fontMetrics().averageCharWidth());
-  ui_->differences->resizeColumnsToContents();
+  ui_.differences->resizeColumnsToContents();
 }
 
 void QueuePanel::showProgress() {
   const int done = controller_.doneCount();
   const int all = controller_.count();
-  ui_->queueProgress->setText(done < all ? tr("%1 of %2 checked").arg(done).arg(all)
-                                         : tr("%1 checked").arg(all));
-  ui_->queueHalt->setText(controller_.isHalted() ? tr("Go on") : tr("Stop"));
-  ui_->queueHalt->setEnabled(done < all);
+  ui_.queueProgress->setText(done < all ? tr("%1 of %2 checked").arg(done).arg(all)
+                                        : tr("%1 checked").arg(all));
+  ui_.queueHalt->setText(controller_.isHalted() ? tr("Go on") : tr("Stop"));
+  ui_.queueHalt->setEnabled(done < all);
 }
 
 void QueuePanel::openChosen() {
@@ -202,7 +395,7 @@ void QueuePanel::choose(const QString& id) {
 /// The undecided case that is listed next after the chosen one, from the top again at the end.
 QString QueuePanel::nextOpen() const {
   const int count = filter_.rowCount();
-  const int here = ui_->queue->currentIndex().row();
+  const int here = ui_.queue->currentIndex().row();
   for (int i = 1; i < count; ++i) {
     const QModelIndex one = filter_.index((here + i) % count, 0);
     const sessions::QueueRow& row = model_.at(filter_.mapToSource(one).row()).row;
@@ -214,24 +407,24 @@ QString QueuePanel::nextOpen() const {
 
 /// True when name or comment is missing; the question stands where the answer goes.
 bool QueuePanel::asksForSignature(Act act, const QString& id) {
-  QLineEdit* missing = ui_->queueName->text().trimmed().isEmpty()      ? ui_->queueName
-                       : ui_->queueComment->text().trimmed().isEmpty() ? ui_->queueComment
-                                                                       : nullptr;
+  QLineEdit* missing = ui_.queueName->text().trimmed().isEmpty()      ? ui_.queueName
+                       : ui_.queueComment->text().trimmed().isEmpty() ? ui_.queueComment
+                                                                      : nullptr;
   if (!missing) return false;
   pending_ = act;
   pending_case_ = id;
   missing->setFocus();
   const bool accepts = act == Act::kAccept;
-  const QString question = missing == ui_->queueName
+  const QString question = missing == ui_.queueName
                                ? (accepts ? tr("Who accepts %1?") : tr("Who rejects %1?"))
-                           : accepts ? tr("On what grounds is %1 accepted?")
-                                     : tr("On what grounds is %1 rejected?");
+                           : accepts ? tr("On what input_fingerprint is %1 accepted?")
+                                     : tr("On what input_fingerprint is %1 rejected?");
   tell(question.arg(id) + tr(" Type it, then Enter; Escape leaves it."));
   return true;
 }
 
 void QueuePanel::decide(Act act) {
-  if (table() != ui_->queue) showDifferences(false);
+  if (table() != ui_.queue) showDifferences(false);
   const QString id = chosenCase();
   const QString reason = controller_.obstacle(act, id);
   if (!reason.isEmpty()) {
@@ -241,16 +434,16 @@ void QueuePanel::decide(Act act) {
   }
   if (asksForSignature(act, id)) return;
   const QString following = nextOpen();
-  const QString name = ui_->queueName->text().trimmed();
+  const QString name = ui_.queueName->text().trimmed();
   const QString failure = controller_.decide(
-      act, id, {name.toStdString(), ui_->queueComment->text().trimmed().toStdString()});
+      act, id, {name.toStdString(), ui_.queueComment->text().trimmed().toStdString()});
   dropQuestion();
   if (!failure.isEmpty()) {
     tell(failure);
     return;
   }
   QSettings().setValue(QLatin1String(DecisionForm::kNameKey), name);
-  ui_->queueComment->clear();  // the next decision has grounds of its own
+  ui_.queueComment->clear();  // the next decision has input_fingerprint of its own
   choose(following.isEmpty() ? id : following);
   tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
        (following.isEmpty() ? tr(" Every case that was listed is decided or has to be run.")
@@ -279,7 +472,7 @@ void QueuePanel::dropQuestion() {
   focusList();
 }
 
-void QueuePanel::switchList() { showDifferences(table() == ui_->queue); }
+void QueuePanel::switchList() { showDifferences(table() == ui_.queue); }
 
 /// In the lists these letters are the queue's, elsewhere in the window the image's.
 bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
@@ -287,7 +480,7 @@ bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
   if (!pressed && event->type() != QEvent::ShortcutOverride) return false;
   auto* key = static_cast<QKeyEvent*>(event);
   if ((key->modifiers() & ~Qt::KeypadModifier) != Qt::NoModifier) return false;
-  if (watched == ui_->queueName || watched == ui_->queueComment) {
+  if (watched == ui_.queueName || watched == ui_.queueComment) {
     if (!pressed || key->key() != Qt::Key_Escape) return false;
     dropQuestion();
     return true;

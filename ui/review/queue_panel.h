@@ -3,23 +3,65 @@
 
 #include <optional>
 
-#include <memory>
-
 #include <QSortFilterProxyModel>
 #include <QWidget>
 
-#include "ui/review/queue_controller.h"
-#include "ui/review/queue_model.h"
+#include "ui_queue_panel.h"
 
-class QTableView;
+#include "ui/models/rows_model.h"
+#include "ui/review/queue_controller.h"
 
 namespace boresight::ui {
 
-namespace Ui {
-class QueuePanel;
-}
-
 class EmptyHint;
+
+/// What changed between the two last runs of each case, as a table.
+class DifferencesModel : public RowsModel<DifferenceEntry> {
+  Q_OBJECT
+
+ public:
+  enum Column { kCase, kChange, kChecks, kInliers, kApart, kWhy };
+
+  explicit DifferencesModel(QObject* parent = nullptr);
+
+ protected:
+  QVariant look(const DifferenceEntry& entry, int column, int role) const override;
+};
+
+/// The queue's cases as a table.
+class QueueModel : public RowsModel<QueueEntry> {
+  Q_OBJECT
+
+ public:
+  enum Column { kCase, kStatus, kTrouble, kMargin, kFromSeed, kInliers };
+
+  explicit QueueModel(QObject* parent = nullptr);
+
+  /// -1 where there is none.
+  int rowOf(const QString& id) const;
+  /// Where a case stands: a word with a sign of its own shape before it.
+  static QString reviewStatusText(const sessions::QueueRow& row);
+
+ protected:
+  QVariant look(const QueueEntry& entry, int column, int role) const override;
+};
+
+/// Cases whose id, state or trouble holds a text. By trouble they are in the queue's order, by
+/// another column in that one's; those without a number come last either way.
+class QueueFilter : public RowsFilter {
+  Q_OBJECT
+
+ public:
+  explicit QueueFilter(QueueModel& model, QObject* parent = nullptr);
+
+  void setText(const QString& text);
+
+ protected:
+  bool lessThan(const QModelIndex& left, const QModelIndex& right) const override;
+
+ private:
+  QueueModel& model_;
+};
 
 /// A batch of cases, the most troubled first, each to be opened, accepted or rejected by one key;
 /// and what changed between the two last runs of each. Filled only while it is in sight.
@@ -28,10 +70,9 @@ class QueuePanel : public QWidget {
 
  public:
   explicit QueuePanel(Document& document, QWidget* parent = nullptr);
-  ~QueuePanel() override;
 
   QueueController& controller() { return controller_; }
-  /// Whether somebody can see it: behind another panel's tab nobody does, though Qt calls it
+  /// Whether the operator can see it: behind another panel's tab nobody does, though Qt calls it
   /// visible. Nothing is checked out of sight.
   void setInSight(bool in_sight);
   /// Of the chosen row of the list that is shown, or empty.
@@ -88,7 +129,7 @@ class QueuePanel : public QWidget {
   QString pending_case_;
   bool in_sight_ = false;
   bool fitted_ = false;
-  const std::unique_ptr<Ui::QueuePanel> ui_;
+  Ui::QueuePanel ui_;
 };
 
 }  // namespace boresight::ui

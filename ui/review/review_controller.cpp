@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sessions/session/check_limits.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
@@ -32,9 +32,8 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
   connect(&document_, &Document::opened, this, &ReviewController::follow);
   connect(&document_, &Document::changed, this, &ReviewController::follow);
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
-  connect(&checks_runner_, &TaskRunner::failed, this, [this](const QString& message) {
-    take({nullptr, {}, message});
-  });
+  connect(&checks_runner_, &TaskRunner::failed, this,
+          [this](const QString& message) { take({}, message); });
   connect(&basin_runner_, &TaskRunner::busyChanged, this, &ReviewController::basinChanged);
   follow();
 }
@@ -42,11 +41,6 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
 void ReviewController::setActive(bool active) {
   active_ = active;
   if (active_ && !current_) ask();
-}
-
-std::string ReviewController::caseId() const {
-  const ViewState::CasePtr& one = state_.currentCase();
-  return one && document_.session().findCase(one->source.id) ? one->source.id : std::string();
 }
 
 bool ReviewController::hasRun() const { return document_.session().lastRunOf(caseId()) != nullptr; }
@@ -65,7 +59,7 @@ void ReviewController::setSource(PoseSource source) {
   follow();
 }
 
-/// What somebody chose for this case, else what was decided on, else what there is.
+/// What the operator chose for this case, else what was decided on, else what there is.
 void ReviewController::chooseSource() {
   const std::string id = caseId();
   if (std::exchange(shown_id_, id) != id) wanted_source_.reset();
@@ -135,25 +129,20 @@ void ReviewController::ask() {
   checks_runner_.start(
       kChecksKey,
       [session, asked = *question_, basin = basin_](const std::stop_token&) {
-        Answer made;
-        try {
-          auto subject = std::make_shared<const sessions::ReviewSubject>(
-              reviewSubject(session, asked.loaded, asked.source, asked.run_digest));
-          const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-          made.checks = checkPose(*subject, limits, basin);
-          made.subject = std::move(subject);
-        } catch (const std::exception& error) {
-          made.problem = QString::fromUtf8(error.what());
-        }
-        return made;
+        Answer answer;
+        answer.subject = std::make_shared<const sessions::ReviewSubject>(
+            reviewSubject(session, asked.loaded, asked.source, asked.run_digest));
+        const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
+        answer.checks = checkPose(*answer.subject, limits, basin);
+        return answer;
       },
-      [this](const Answer& answer) { take(answer); });
+      [this](const Answer& answer) { take(answer, {}); });
 }
 
-void ReviewController::take(const Answer& answer) {
+void ReviewController::take(const Answer& answer, const QString& problem) {
   subject_ = answer.subject;
   checks_ = answer.checks;
-  problem_ = answer.problem;
+  problem_ = problem;
   current_ = subject_ != nullptr;
   Q_EMIT checksChanged();
   Q_EMIT reviewStatusChanged();

@@ -20,7 +20,7 @@ namespace boresight::ui {
 
 class Document;
 
-/// The pose of the shown case under review: its checks, made off the UI's thread while somebody
+/// The pose of the shown case under review: its checks, made off the UI's thread while the operator
 /// looks at them, the reasons for passing over failed ones, and what can be decided. Every decision
 /// and every change of a limit is one edit of the document.
 class ReviewController : public QObject {
@@ -31,11 +31,11 @@ class ReviewController : public QObject {
 
   ReviewController(Document& document, ViewState& state, QObject* parent = nullptr);
 
-  /// Checks are made only while somebody looks.
+  /// Checks are made only while the operator looks.
   void setActive(bool active);
 
   /// Of the shown case, or empty.
-  std::string caseId() const;
+  std::string caseId() const { return shownCaseId(document_, state_); }
   bool hasRun() const;
   bool hasMarks() const;
   /// The digest of the run that is judged, or empty.
@@ -98,7 +98,6 @@ class ReviewController : public QObject {
   struct Answer {
     std::shared_ptr<const sessions::ReviewSubject> subject;
     std::vector<sessions::Check> checks;
-    QString problem;
   };
   struct Reason {
     sessions::Check check;
@@ -111,7 +110,7 @@ class ReviewController : public QObject {
   QString missing() const;
   void drop();
   void ask();
-  void take(const Answer& answer);
+  void take(const Answer& answer, const QString& problem);
   sessions::CheckOverrides overrides() const;
   sessions::Session after(Act act, const sessions::Signature& who) const;
   QString settled(Act act) const;

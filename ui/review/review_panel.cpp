@@ -3,20 +3,197 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <QtWidgets>
 
-#include "ui_review_panel.h"
-
-#include "ui/models/number_text.h"
+#include "sessions/session/check_limits.h"
+#include "ui/models/text.h"
 #include "ui/panels/widgets.h"
-#include "ui/review/decision_form.h"
-#include "ui/review/limits_dialog.h"
 
 namespace boresight::ui {
 
 using sessions::CheckState;
+using sessions::Decision;
 using sessions::PoseSource;
+using sessions::Verdict;
+
+namespace {
+
+constexpr int kDigestDigits = 12;
+
+QString sentence(QString clause) {
+  if (clause.isEmpty()) return clause;
+  clause[0] = clause[0].toUpper();
+  const bool ended = clause.endsWith(QLatin1Char('.')) || clause.endsWith(QLatin1Char('?'));
+  return ended ? clause : clause + QLatin1Char('.');
+}
+
+QString entry(const QString& time, const QString& what, const std::string& by,
+              const std::string& comment) {
+  QString when = time;
+  when.replace(QLatin1Char('T'), QLatin1Char(' ')).remove(QLatin1Char('Z'));
+  return DecisionForm::tr("<b>%1 by %2</b> · %3 UTC<br>%4")
+      .arg(what, fromText(by).toHtmlEscaped(), when, fromText(comment).toHtmlEscaped());
+}
+
+QString verdictText(const Decision& decision) {
+  return decision.verdict == Verdict::kValidated  ? DecisionForm::tr("★ Validated")
+         : decision.verdict == Verdict::kRejected ? DecisionForm::tr("⊘ Rejected")
+                                                  : DecisionForm::tr("↺ Taken back");
+}
+
+/// Failed checks that were passed over, each with its reason.
+QString overridesHtml(const Decision& decision) {
+  QString html;
+  for (const sessions::JudgedCheck& one : decision.checks)
+    if (!one.override_reason.empty())
+      html += DecisionForm::tr("<br>✗ %1 passed over: %2")
+                  .arg(fromText(one.check.title).toHtmlEscaped(),
+                       fromText(one.override_reason).toHtmlEscaped());
+  return html;
+}
+
+QString decisionHtml(const Decision& decision) {
+  if (decision.approval)
+    return entry(fromText(decision.approval->time), DecisionForm::tr("★ Approved"),
+                 decision.approval->by, decision.approval->comment);
+  QString html =
+      entry(fromText(decision.time), verdictText(decision), decision.by, decision.comment);
+  if (!decision.digest.empty())
+    html += DecisionForm::tr(" (run %1)").arg(fromText(decision.digest).left(kDigestDigits));
+  else if (decision.pose)
+    html += DecisionForm::tr(" (the marks)");
+  return html + overridesHtml(decision);
+}
+
+}  // namespace
+
+DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller) {
+  ui_.setupUi(this);
+  buttons_ = {{Act::kValidate, ui_.validate},
+              {Act::kApprove, ui_.approve},
+              {Act::kReject, ui_.reject},
+              {Act::kTakeBack, ui_.takeBack}};
+  for (const auto& [act, button] : buttons_) {
+    tips_[act] = button->toolTip();
+    button->setMinimumWidth(fontMetrics().horizontalAdvance(button->text()) + 16);
+    connect(button, &QPushButton::clicked, this, [this, chosen = act] { decide(chosen); });
+  }
+  ui_.decisionName->setText(QSettings().value(QLatin1String(kNameKey)).toString());
+  for (QLineEdit* each : {ui_.decisionName, ui_.decisionComment})
+    connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
+  ui_.reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
+  connect(&controller_, &ReviewController::reviewStatusChanged, this,
+          &DecisionForm::showWhatIsPossible);
+  showWhatIsPossible();
+}
+
+void DecisionForm::setNote(const QString& html) {
+  note_ = html;
+  showReading();
+}
+
+sessions::Signature DecisionForm::signature() const {
+  return {ui_.decisionName->text().trimmed().toStdString(),
+          ui_.decisionComment->text().trimmed().toStdString()};
+}
+
+void DecisionForm::decide(Act act) {
+  if (!controller_.decide(act, signature())) return;
+  QSettings().setValue(QLatin1String(kNameKey), ui_.decisionName->text().trimmed());
+  ui_.decisionComment->clear();  // the next decision has input_fingerprint of its own
+}
+
+/// What a person most likely wants to do, whose obstacle is told without being asked.
+ReviewController::Act DecisionForm::nextStep() const {
+  const sessions::ReviewStatus status = controller_.reviewStatus();
+  if (status.awaits_approval) return Act::kApprove;
+  return review_status.holds() ? Act::kTakeBack : Act::kValidate;
+}
+
+void DecisionForm::showWhatIsPossible() {
+  const sessions::Signature who = signature();
+  for (const auto& [act, each] : buttons_) {
+    const QString reason = controller_.obstacle(act, who);
+    each->setEnabled(reason.isEmpty());
+    each->setToolTip(reason.isEmpty() ? tips_[act]
+                                      : tr("%1. Not now: %2").arg(tips_[act], sentence(reason)));
+  }
+  // Nobody is asked for a second person's yes where one person is enough.
+  buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
+  const bool told = nextStep() != Act::kTakeBack;
+  obstacle_ = told ? sentence(controller_.obstacle(nextStep(), who)) : QString();
+  showReading();
+}
+
+/// One page that scrolls: of several labels in so little room one would be cut off.
+void DecisionForm::showReading() {
+  QStringList parts;
+  if (!obstacle_.isEmpty()) parts << QStringLiteral("⚠ %1").arg(obstacle_.toHtmlEscaped());
+  if (controller_.awaitsBasin() && nextStep() == Act::kValidate)
+    parts << tr(
+        "○ The basin test has not been run: a second answer to this image is not excluded.");
+  if (!note_.isEmpty()) parts << note_;
+  for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
+  if (controller_.history().empty()) parts << tr("<i>Nobody has decided on this case yet.</i>");
+  const QString html = parts.join(QStringLiteral("<hr>"));
+  if (std::exchange(read_, html) != html) ui_.reading->setHtml(html);
+}
+
+LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
+    : QDialog(parent), controller_(controller) {
+  ui_.setupUi(this);
+  setObjectName(QStringLiteral("limitsDialog"));
+  for (const sessions::CheckPreset& preset : sessions::checkPresets()) {
+    ui_.preset->addItem(fromText(preset.name));
+    ui_.preset->setItemData(ui_.preset->count() - 1, fromText(preset.help), Qt::ToolTipRole);
+  }
+  ui_.limitHelp->setMinimumHeight(2 * ui_.limitHelp->fontMetrics().lineSpacing());
+  connect(ui_.preset, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { controller_.setPreset(ui_.preset->currentText()); });
+  connect(ui_.secondPerson, &QCheckBox::clicked, &controller_, &ReviewController::setSecondPerson);
+  connect(ui_.resetAll, &QPushButton::clicked, this, [this] {
+    if (const auto* preset = sessions::findCheckPreset(controller_.settings().preset))
+      controller_.setLimits(preset->limits);
+  });
+  connect(ui_.close, &QPushButton::clicked, this, &QDialog::close);
+  connect(&ui_.limits->options(), &OptionsModel::edited, this, &LimitsDialog::change);
+  connect(ui_.limits, &OptionsTable::helpChanged, this, [this](const QString& help) {
+    ui_.limitHelp->setText(help.isEmpty() ? tr("Choose a limit to read what it is for.") : help);
+  });
+  connect(&controller_, &ReviewController::reviewStatusChanged, this, &LimitsDialog::showSettings);
+  showSettings();
+  resize(640, 460);
+}
+
+void LimitsDialog::change(const std::string& name, const std::string& value) {
+  const sessions::ReviewSettings& settings = controller_.settings();
+  sessions::CheckLimits changed = sessions::checkLimits(settings.preset, settings.limits);
+  try {
+    sessions::applyOptionText(changed, name, value);
+  } catch (const sessions::OptionError& error) {
+    ui_.limitHelp->setText(tr("✗ Not changed: %1.").arg(fromText(error.what())));
+    return;
+  }
+  controller_.setLimits(changed);
+}
+
+void LimitsDialog::showSettings() {
+  const sessions::ReviewSettings& settings = controller_.settings();
+  const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
+  if (preset == nullptr) return;
+  ui_.limits->setOptions(
+      sessions::listOptions(sessions::checkLimits(settings.preset, settings.limits)),
+      sessions::listOptions(preset->limits));
+  ui_.preset->setCurrentText(fromText(preset->name));
+  ui_.preset->setToolTip(fromText(preset->help));
+  ui_.presetHelp->setText(fromText(preset->help));
+  ui_.secondPerson->setChecked(settings.second_person);
+  ui_.resetAll->setEnabled(!settings.limits.empty());
+}
 
 namespace {
 
@@ -128,19 +305,19 @@ QVariant ChecksModel::headerData(int section, Qt::Orientation orientation, int r
 }
 
 ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
-    : QWidget(parent), controller_(document, state), ui_(std::make_unique<Ui::ReviewPanel>()) {
-  ui_->setupUi(this);
+    : QWidget(parent), controller_(document, state) {
+  ui_.setupUi(this);
   decision_ = new DecisionForm(controller_);
-  ui_->splitter->addWidget(decision_);
-  ui_->splitter->setStretchFactor(0, 1);
-  ui_->splitter->setSizes({640, 280});
-  ui_->basinSeeds->setValue(sessions::kBasinSeeds);
+  ui_.splitter->addWidget(decision_);
+  ui_.splitter->setStretchFactor(0, 1);
+  ui_.splitter->setSizes({640, 280});
+  ui_.basinSeeds->setValue(sessions::kBasinSeeds);
   buildTable();
-  connect(ui_->judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
-    controller_.setSource(static_cast<PoseSource>(ui_->judged->currentData().toInt()));
+  connect(ui_.judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    controller_.setSource(static_cast<PoseSource>(ui_.judged->currentData().toInt()));
   });
-  connect(ui_->openLimits, &QPushButton::clicked, this, &ReviewPanel::openLimits);
-  connect(ui_->basin, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
+  connect(ui_.openLimits, &QPushButton::clicked, this, &ReviewPanel::openLimits);
+  connect(ui_.basin, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
   connect(&controller_, &ReviewController::reviewStatusChanged, this,
           &ReviewPanel::showReviewStatus);
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
@@ -150,23 +327,21 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   showChecks();
 }
 
-ReviewPanel::~ReviewPanel() = default;
-
-QTableView& ReviewPanel::table() { return *ui_->checks; }
+QTableView& ReviewPanel::table() { return *ui_.checks; }
 
 void ReviewPanel::buildTable() {
-  setUpTable(*ui_->checks, model_);
-  ui_->checks->setEditTriggers(QAbstractItemView::DoubleClicked |
-                               QAbstractItemView::SelectedClicked |
-                               QAbstractItemView::EditKeyPressed);
-  ui_->checks->setMinimumHeight(4 * ui_->checks->verticalHeader()->defaultSectionSize());
-  QHeaderView& header = *ui_->checks->horizontalHeader();
+  setUpTable(*ui_.checks, model_);
+  ui_.checks->setEditTriggers(QAbstractItemView::DoubleClicked |
+                              QAbstractItemView::SelectedClicked |
+                              QAbstractItemView::EditKeyPressed);
+  ui_.checks->setMinimumHeight(4 * ui_.checks->verticalHeader()->defaultSectionSize());
+  QHeaderView& header = *ui_.checks->horizontalHeader();
   header.setSectionResizeMode(QHeaderView::ResizeToContents);
   header.setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
     header.setSectionResizeMode(column, QHeaderView::Stretch);
-  hint_ = new EmptyHint(*ui_->checks);
-  connect(ui_->checks->selectionModel(), &QItemSelectionModel::currentChanged, this,
+  hint_ = new EmptyHint(*ui_.checks);
+  connect(ui_.checks->selectionModel(), &QItemSelectionModel::currentChanged, this,
           &ReviewPanel::showChosen);
   connect(&model_, &QAbstractItemModel::modelReset, this, &ReviewPanel::showChosen);
 }
@@ -183,11 +358,11 @@ void ReviewPanel::hideEvent(QHideEvent* event) {
 
 void ReviewPanel::showReviewStatus() {
   const sessions::ReviewStatus status = controller_.reviewStatus();
-  ui_->caseReviewStatus->showReviewStatus(controller_.caseId().empty() ? nullptr : &status);
+  ui_.caseReviewStatus->showReviewStatus(controller_.caseId().empty() ? nullptr : &status);
   const sessions::ReviewSettings& settings = controller_.settings();
-  ui_->openLimits->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
+  ui_.openLimits->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
-  ui_->openLimits->setToolTip(
+  ui_.openLimits->setToolTip(
       tr("What the checks are held against, and whether a second person approves. "
          "Now: %1%2. %3")
           .arg(fromText(settings.preset), settings.limits.empty() ? QString() : tr(", edited"),
@@ -196,20 +371,19 @@ void ReviewPanel::showReviewStatus() {
 }
 
 void ReviewPanel::showSources() {
-  const QSignalBlocker blocked(ui_->judged);
-  ui_->judged->clear();
+  const QSignalBlocker blocked(ui_.judged);
+  ui_.judged->clear();
   if (controller_.hasRun())
-    ui_->judged->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kShownDigits)),
-                         static_cast<int>(PoseSource::kRun));
+    ui_.judged->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kShownDigits)),
+                        static_cast<int>(PoseSource::kRun));
   if (controller_.hasMarks())
-    ui_->judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
-  if (ui_->judged->count() == 0) ui_->judged->addItem(tr("No pose"));
-  ui_->judged->setCurrentIndex(
-      std::max(0, ui_->judged->findData(static_cast<int>(controller_.source()))));
-  ui_->judged->setEnabled(ui_->judged->count() > 1);
-  ui_->judged->setToolTip(
-      tr("Which pose is judged: that of the last run (%1), or that of the marks")
-          .arg(fromText(controller_.runDigest())));
+    ui_.judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
+  if (ui_.judged->count() == 0) ui_.judged->addItem(tr("No pose"));
+  ui_.judged->setCurrentIndex(
+      std::max(0, ui_.judged->findData(static_cast<int>(controller_.source()))));
+  ui_.judged->setEnabled(ui_.judged->count() > 1);
+  ui_.judged->setToolTip(tr("Which pose is judged: that of the last run (%1), or that of the marks")
+                             .arg(fromText(controller_.runDigest())));
 }
 
 void ReviewPanel::showChecks() {
@@ -220,20 +394,20 @@ void ReviewPanel::showChecks() {
   hint_->setText(controller_.problem().isEmpty() ? tr("The pose is being checked ...")
                                                  : controller_.problem());
   model_.setRows(std::move(rows), controller_.isCurrent());
-  if (!had_rows && model_.rowCount() > 0) ui_->checks->setCurrentIndex(model_.index(0, 0));
+  if (!had_rows && model_.rowCount() > 0) ui_.checks->setCurrentIndex(model_.index(0, 0));
   // Failed ones come first; without any there is nothing to give a reason for.
-  ui_->checks->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
+  ui_.checks->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
   showChosen();
   showBasin();
 }
 
 void ReviewPanel::showChosen() {
-  const QModelIndex index = ui_->checks->currentIndex();
+  const QModelIndex index = ui_.checks->currentIndex();
   QString html;
   if (!controller_.isCurrent() && model_.rowCount() > 0) {
     html = controller_.problem().isEmpty()
-               ? tr("… Something has changed: these are the checks of what was before; they are "
-                    "made anew.")
+               ? tr("… Something has changed: these checks are out of date and are run "
+                    "again.")
                : tr("⚠ %1").arg(controller_.problem().toHtmlEscaped());
   } else if (index.isValid() && index.row() < model_.rowCount()) {
     const sessions::Check& check = model_.at(index.row()).check;
@@ -247,23 +421,23 @@ void ReviewPanel::showChosen() {
 void ReviewPanel::showBasin() {
   const bool running = controller_.isBasinRunning();
   const sessions::BasinResult& so_far = controller_.basinSoFar();
-  ui_->basinSeeds->setEnabled(!running);
-  ui_->basin->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_->basinSeeds->value())
-                              : tr("Basin test"));
-  ui_->basin->setEnabled(running || controller_.isCurrent());
-  ui_->basin->setToolTip(
+  ui_.basinSeeds->setEnabled(!running);
+  ui_.basin->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_.basinSeeds->value())
+                             : tr("Basin test"));
+  ui_.basin->setEnabled(running || controller_.isCurrent());
+  ui_.basin->setToolTip(
       running ? tr("%1 of %2 seeds led back to the pose so far. What has been run counts.")
                     .arg(so_far.returned)
                     .arg(so_far.seeds)
               : tr("Run from further seeds within the declared uncertainty, and see how many lead "
-                   "back to this pose. Takes as long as so many runs; it can be stopped."));
+                   "back to this pose. Takes as long as that number of runs; it can be stopped."));
 }
 
 void ReviewPanel::askForBasin() {
   if (controller_.isBasinRunning())
     controller_.stopBasin();
   else
-    controller_.startBasin(ui_->basinSeeds->value());
+    controller_.startBasin(ui_.basinSeeds->value());
 }
 
 void ReviewPanel::openLimits() {

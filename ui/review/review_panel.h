@@ -1,20 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <map>
+#include <string>
 
+#include <QDialog>
 #include <QWidget>
+
+#include "ui_decision_form.h"
+#include "ui_limits_dialog.h"
+#include "ui_review_panel.h"
 
 #include "ui/models/rows_model.h"
 #include "ui/review/review_controller.h"
 
-class QTableView;
-
 namespace boresight::ui {
 
-namespace Ui {
-class ReviewPanel;
-}
+class EmptyHint;
+class ReviewController;
+
+/// Who decides what about the shown case, on what input_fingerprint, and what was decided before.
+/// What cannot be done now is disabled, and said why in place.
+class DecisionForm : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// Setting that remembers who decided last.
+  static constexpr const char* kNameKey = "review/name";
+
+  explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
+
+  /// What stands in the way of the next step, as it is shown.
+  const QString& obstacle() const { return obstacle_; }
+  /// Something to read while deciding, above the former decisions.
+  void setNote(const QString& html);
+
+ private:
+  using Act = ReviewController::Act;
+
+  sessions::Signature signature() const;
+  void decide(Act act);
+  void showWhatIsPossible();
+  void showReading();
+  Act nextStep() const;
+
+  ReviewController& controller_;
+  std::map<Act, QPushButton*> buttons_;
+  std::map<Act, QString> tips_;
+  QString obstacle_;
+  QString note_;
+  QString read_;
+  Ui::DecisionForm ui_;
+};
+
+/// Limits of the session's checks: preset, single limits, and whether a second person must approve.
+/// Stays open next to the checks; every change is an edit at once.
+class LimitsDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  LimitsDialog(ReviewController& controller, QWidget* parent);
+
+ private:
+  void change(const std::string& name, const std::string& value);
+  void showSettings();
+
+  ReviewController& controller_;
+  Ui::LimitsDialog ui_;
+};
 
 /// A check as the table shows it.
 struct CheckRow {
@@ -57,9 +110,6 @@ class ChecksModel : public RowsModel<CheckRow> {
   bool current_ = true;
 };
 
-class DecisionForm;
-class EmptyHint;
-
 /// The reviewer's desk: where the case stands, the checks of its pose with their figures and
 /// limits, and the decision.
 class ReviewPanel : public QWidget {
@@ -67,7 +117,6 @@ class ReviewPanel : public QWidget {
 
  public:
   ReviewPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
-  ~ReviewPanel() override;
 
   ReviewController& controller() { return controller_; }
   QTableView& table();
@@ -90,7 +139,7 @@ class ReviewPanel : public QWidget {
   ChecksModel model_;
   EmptyHint* hint_ = nullptr;
   DecisionForm* decision_ = nullptr;
-  const std::unique_ptr<Ui::ReviewPanel> ui_;
+  Ui::ReviewPanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -81,7 +81,7 @@ void PoseRenderer::setPose(const Pose& camera_from_station) {
   camera_from_station_ = camera_from_station;
   runner_.cancel(restingKey());
   rest_.start();
-  // What is under way is finished first: somebody who moves fast would see nothing otherwise.
+  // What is under way is finished first: an operator who moves fast would see nothing otherwise.
   if (drawing_)
     overtaken_ = true;
   else

@@ -14,9 +14,9 @@
 
 namespace boresight::ui {
 
-/// Renders the salient edges of a pose that somebody moves, off the UI's thread. While poses come
-/// in, each is drawn at half resolution, the newest first, and those in between are left out; once
-/// the pose has rested it is drawn at full resolution, which the next move interrupts.
+/// Renders the salient edges of a pose that the operator moves, off the UI's thread. While poses
+/// come in, each is drawn at half resolution, the newest first, and those in between are left out;
+/// once the pose has rested it is drawn at full resolution, which the next move interrupts.
 class PoseRenderer : public QObject {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ class PoseRenderer : public QObject {
  Q_SIGNALS:
   /// `level` is that of the render's pixels: 0 full resolution, 1 half.
   void rendered(const std::shared_ptr<const boresight::sessions::RenderTrace>& render, int level);
-  /// The pose cannot be drawn; a sentence for people.
+  /// The pose cannot be drawn; a sentence for the operator.
   void failed(const QString& message);
 
  private:

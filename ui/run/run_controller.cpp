@@ -48,7 +48,7 @@ struct RunController::Job {
     return true;
   }
 
-  /// Runs what is kept of another run once more; false when it was stopped on the way.
+  /// Runs the kept iterations of another run again; false when it was stopped on the way.
   bool catchUp(const std::stop_token& stop) {
     const std::size_t kept = inputs.kept.size();
     if (run->trace().complete() >= kept) return true;
@@ -59,21 +59,17 @@ struct RunController::Job {
       throw std::runtime_error(
           RunController::tr(
               "The iterations before the chosen one do not come out as they were recorded: they "
-              "were made by another version of the program. Run anew from the start.")
+              "were made by another version of the program. Run again from the start.")
               .toStdString());
     return true;
   }
 
   bool hasKept() const {
     const auto& made = run->trace().iterations;
-    const auto same = [](const auto& a, const auto& b) {
-      const Pose& now = a->camera_from_station;
-      const Pose& then = b->camera_from_station;
-      return now.rotation.coeffs() == then.rotation.coeffs() &&
-             now.translation_m == then.translation_m;
-    };
+    const auto pose = [](const auto& iteration) { return iteration->camera_from_station; };
     return made.size() >= inputs.kept.size() &&
-           std::ranges::equal(made | std::views::take(inputs.kept.size()), inputs.kept, same);
+           std::ranges::equal(made | std::views::take(inputs.kept.size()), inputs.kept, {}, pose,
+                              pose);
   }
 };
 
@@ -95,7 +91,7 @@ void RunController::reset(RunInputs inputs) {
 void RunController::advance(StepUntil until) {
   if (state_ != RunState::kReady && state_ != RunState::kHalted) return;
   setState(RunState::kWorking);
-  // A longer way is gone in iterations, so that people can watch.
+  // A longer way is gone in iterations, so that the operator can watch.
   const StepUntil stride = until == StepUntil::kEnd ? StepUntil::kIteration : until;
   runner_.run(runTaskKey(), [this, until, stride, job = job_](const std::stop_token& stop,
                                                               const TaskRunner::Report& report) {

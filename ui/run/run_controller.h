@@ -53,7 +53,7 @@ class RunController : public QObject {
   /// Of a run of several views, the latest record of each, the case's first; else none.
   const std::vector<SnapshotPtr>& views() const { return views_; }
 
-  /// Drops the run, if any; the next step begins anew from these. Without a case: kEmpty.
+  /// Drops the run, if any; the next step begins again from these. Without a case: kEmpty.
   void reset(RunInputs inputs);
   /// Goes on until the stage, the iteration or the run is complete. Nothing while working, without
   /// a case, or after the end.
@@ -67,7 +67,7 @@ class RunController : public QObject {
   void snapshotChanged();
   /// The run has ended by itself.
   void finished();
-  /// The worker could not go on (no memory); a sentence for people.
+  /// The worker could not go on (no memory); a sentence for the operator.
   void failed(const QString& message);
 
  private:

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <utility>
 
@@ -41,6 +43,31 @@ class TaskRunner : public QObject {
       report([value, done] { done(std::move(*value)); });
     });
   }
+  /// The same; `failed(message)` takes a sentence where the work throws.
+  template <class Make, class Done, class Failed>
+  void start(const QString& key, Make make, Done done, Failed failed) {
+    using Value = decltype(make(std::stop_token()));
+    struct Outcome {
+      std::optional<Value> value;
+      QString problem;
+    };
+    start(
+        key,
+        [make = std::move(make)](const std::stop_token& stop) {
+          try {
+            return Outcome{make(stop), {}};
+          } catch (const std::exception& error) {
+            return Outcome{std::nullopt, QString::fromUtf8(error.what())};
+          }
+        },
+        [done = std::move(done), failed = std::move(failed)](Outcome outcome) {
+          if (outcome.value)
+            done(std::move(*outcome.value));
+          else
+            failed(outcome.problem);
+        });
+  }
+
   /// Asks what is under way or waits under this key to stop; what it reports still counts.
   void stop(const QString& key);
   /// Drops what is under way or waits under this key.

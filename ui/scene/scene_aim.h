@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include <QPointF>
@@ -27,7 +26,7 @@ inline constexpr double kSceneSnap_px = 12.0;  ///< of the canvas
 struct SceneAimRules {
   bool snaps = true;
   bool line = false;  ///< an edge, or nothing
-  int turn = 0;       ///< how often somebody asked for another thing to snap to
+  int turn = 0;       ///< how often the operator asked for another thing to snap to
 };
 
 /// What a click into the scene would mark.
@@ -38,7 +37,7 @@ struct SceneAim {
   std::optional<sessions::Landmark> landmark;  ///< that it is
   bool snapped = false;
   int found = 0;  ///< how many things there were to snap to
-  QString text;   ///< what it snaps to, for people
+  QString text;   ///< what it snaps to, for the operator
 };
 
 /// What is under a pixel of the canvas: named points, then corners, edges and centres of circles

@@ -233,7 +233,7 @@ void SceneAnnotator::updateAim() {
     const SceneAimRules rules = {.snaps = !modifiers_.testFlag(Qt::AltModifier),
                                  .line = annotation_.mode() == PlaceMode::kLine,
                                  .turn = turn_};
-    aim_ = sceneAim(*snapper_.mesh(), annotation_.proposals(), shot_.view, *pointer_, rules);
+    aim_ = sceneAim(*snapper_.mesh(), annotation_.answer().proposals, shot_.view, *pointer_, rules);
   }
   loupe_->lookAt(shot_, places() ? pointer_ : std::nullopt);
   Q_EMIT changed();

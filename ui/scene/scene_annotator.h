@@ -37,7 +37,7 @@ struct SceneShot {
   std::optional<Backdrop> backdrop;
 };
 
-/// The scene around the pointer, rendered anew as large as it is shown, in a corner away from the
+/// The scene around the pointer, rendered again as large as it is shown, in a corner away from the
 /// pointer, under a cross. The core draws it, off the UI's thread: as exact as the geometry, and
 /// alike with and without OpenGL.
 class SceneLoupe : public QWidget {
@@ -78,7 +78,7 @@ class SceneLoupe : public QWidget {
   TaskRunner runner_;
 };
 
-/// Annotating in the scene. While somebody places marks, a click gives the station's side: the
+/// Annotating in the scene. While the operator places marks, a click gives the station's side: the
 /// corner, edge, circle centre or named point that is shown beside the pointer before, or with Alt
 /// held the surface itself; Tab goes on to another thing to snap to. In line mode it is the edge
 /// that is lit. Otherwise a click on a mark chooses it.

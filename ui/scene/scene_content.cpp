@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <QCoreApplication>
 
 #include "core/base/math.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
@@ -19,14 +20,10 @@ constexpr double kDashesPerLine = 12.0;
 QString sceneText(const char* source) { return QCoreApplication::translate("Scene", source); }
 
 BoundingBox boundsOf(const MeshView& mesh) {
-  BoundingBox box;
-  if (mesh.vertices_in_station_m.empty()) return box;
-  box.minimum_m = box.maximum_m = mesh.vertices_in_station_m.front().cast<double>();
-  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
-    box.minimum_m = box.minimum_m.cwiseMin(vertex.cast<double>());
-    box.maximum_m = box.maximum_m.cwiseMax(vertex.cast<double>());
-  }
-  return box;
+  if (mesh.vertices_in_station_m.empty()) return {};
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) box.extend(vertex);
+  return {box.min().cast<double>(), box.max().cast<double>()};
 }
 
 Eigen::Vector3d rayOf(const Camera& camera, double x, double y) {
@@ -180,7 +177,7 @@ SceneContent sceneContent(const ViewState& state) {
   content.axis_length_m = roundedUp(0.2 * content.bounds.diagonal());
   addFrusta(state, content);
   addTrail(state, content);
-  if (const sessions::IterationTrace* shown = state.iteration()) {
+  if (const auto shown = state.iteration()) {
     if (!shown->templates.empty()) {
       addTemplates(*shown, content);
     } else {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -64,7 +63,7 @@ struct ScenePoint {
   int template_index = -1;   ///< into the iteration's templates, or -1
 };
 
-/// What of the scene people want to see.
+/// What of the scene the operator wants to see.
 struct SceneShown {
   bool mesh = true;
   bool mesh_edges = true;

@@ -172,18 +172,14 @@ std::optional<double> distanceTo(const SceneMark& mark, const Viewpoint& view,
   const auto from = view.toCanvas(mark.edge ? mark.edge->start_in_station_m : mark.at_m);
   const auto to = mark.edge ? view.toCanvas(mark.edge->end_in_station_m) : from;
   if (!from || !to) return std::nullopt;
-  const QPointF way = *to - *from;
-  const double squared = QPointF::dotProduct(way, way);
-  const double share =
-      squared > 0.0 ? std::clamp(QPointF::dotProduct(pixel - *from, way) / squared, 0.0, 1.0) : 0.0;
-  return distance_px(*from + share * way, pixel);
+  return distanceToSegment(*from, *to, pixel);
 }
 
 }  // namespace
 
 std::vector<SceneMark> sceneMarks(const AnnotationController& annotation) {
   std::vector<SceneMark> marks;
-  for (const sessions::Proposal& proposal : annotation.proposals()) {
+  for (const sessions::Proposal& proposal : annotation.answer().proposals) {
     SceneMark mark;
     mark.id = proposal.landmark.name;
     mark.at_m = proposal.landmark.point_in_station_m;

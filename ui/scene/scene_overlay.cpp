@@ -6,6 +6,7 @@
 
 #include "ui/annotation/mark_aim.h"
 #include "ui/plots/plot_colors.h"
+#include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {
 namespace {

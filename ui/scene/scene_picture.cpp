@@ -249,16 +249,18 @@ QImage drawPicture(const SceneContent& content, const SceneLook& look, const Vie
   return picture;
 }
 
-class PictureWidget final : public QWidget {
+class PictureCanvas final : public QWidget, public SceneCanvas {
  public:
   using QWidget::QWidget;
-  void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) {
+
+  QWidget* widget() override { return this; }
+  void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) override {
     if (!content || !content_ || content->one != content_->one) surfaces_.reset();
     content_ = std::move(content);
     look_ = look;
     changed();
   }
-  void setView(const Viewpoint& view, const std::optional<Backdrop>& backdrop) {
+  void setView(const Viewpoint& view, const std::optional<Backdrop>& backdrop) override {
     if (view.camera != view_.camera || view.view_from_station != view_.view_from_station)
       surfaces_.reset();
     view_ = view;
@@ -295,21 +297,6 @@ class PictureWidget final : public QWidget {
   std::optional<Surfaces> surfaces_;  ///< of this content's mesh, view and ratio
   double ratio_ = 0.0;
   QImage picture_;
-};
-
-class PictureCanvas final : public SceneCanvas {
- public:
-  explicit PictureCanvas(QWidget* parent) : widget_(new PictureWidget(parent)) {}
-  QWidget* widget() override { return widget_; }
-  void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look) override {
-    widget_->setContent(std::move(content), look);
-  }
-  void setView(const Viewpoint& view, const std::optional<Backdrop>& backdrop) override {
-    widget_->setView(view, backdrop);
-  }
-
- private:
-  PictureWidget* widget_;
 };
 
 }  // namespace

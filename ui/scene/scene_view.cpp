@@ -7,14 +7,12 @@
 
 #include <QtWidgets>
 
-#include "ui_scene_view.h"
-
 #include "sessions/io/undistort.h"
 #include "sessions/run/surface_point.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/scene/scene_annotator.h"
-#include "ui/scene/scene_input.h"
 #include "ui/scene/scene_overlay.h"
+#include "ui/views/display_image.h"
 
 namespace boresight::ui {
 namespace {
@@ -34,20 +32,13 @@ constexpr std::array<ShowEntry, 6> kShowEntries = {{
 
 QString nameOf(const char* name) { return QCoreApplication::translate("SceneView", name); }
 
-QImage grayOf(const boresight::ImageView& image) {
-  QImage gray(image.width, image.height, QImage::Format_Grayscale8);
-  for (int y = 0; y < image.height; ++y) std::copy_n(image.row(y), image.width, gray.scanLine(y));
-  return gray;
-}
-
 }  // namespace
 
 SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
     : QWidget(parent),
       state_(state),
       backend_(backend),
-      content_(std::make_shared<const SceneContent>()),
-      ui_(std::make_unique<Ui::SceneView>()) {
+      content_(std::make_shared<const SceneContent>()) {
   build();
   updateLook();
   state_.onChange(ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor |
@@ -56,11 +47,8 @@ SceneView::SceneView(ViewState& state, QWidget* parent, SceneBackend backend)
   refreshSoon();
 }
 
-SceneView::~SceneView() = default;
-
 void SceneView::build() {
-  ui_->setupUi(this);
-  buildBar();
+  ui_.setupUi(this);
   canvas_ = backend_ == SceneBackend::kVtk ? makeVtkCanvas(this) : makePictureCanvas(this);
   QWidget* drawn = canvas_->widget();
   drawn->setObjectName(QStringLiteral("sceneCanvas"));
@@ -68,33 +56,38 @@ void SceneView::build() {
   drawn->setFocusPolicy(Qt::StrongFocus);
   drawn->setMouseTracking(false);
   drawn->setMinimumSize(160, 120);
-  ui_->column->insertWidget(1, drawn, 1);
+  ui_.column->insertWidget(1, drawn, 1);
   overlay_ = new SceneOverlay(drawn);
-  connectInput(*new SceneInput(*drawn));
+  navigation_ = new SceneNavigation(*drawn);
+  connect(navigation_, &SceneNavigation::changed, this, &SceneView::updateView);
+  connect(navigation_, &SceneNavigation::throughCameraChanged, this, &SceneView::showThroughCamera);
+  connect(navigation_, &SceneNavigation::clicked, this, &SceneView::pick);
+  buildBar();
 }
 
 void SceneView::buildBar() {
-  auto* views = new QMenu(ui_->views);
+  auto* views = new QMenu(ui_.views);
   for (const StandardKey& key : kStandardKeys)
     views->addAction(nameOf(key.name) + QLatin1Char('\t') + QKeySequence(key.key).toString(), this,
-                     [this, key] { lookFrom(key.view); });
-  ui_->views->setMenu(views);
-  ui_->show->setMenu(showMenu());
+                     [this, key] { navigation_->lookFrom(key.view); });
+  ui_.views->setMenu(views);
+  ui_.show->setMenu(showMenu());
   for (const auto& [name, role] : {std::pair(tr("shown pose"), PoseRole::kEstimate),
                                    {tr("seed"), PoseRole::kSeed},
                                    {tr("truth"), PoseRole::kTruth},
                                    {tr("annotated"), PoseRole::kAnnotated}})
-    ui_->throughRole->addItem(name, static_cast<int>(role));
-  connect(ui_->reset, &QToolButton::clicked, this, &SceneView::resetView);
-  connect(ui_->throughCamera, &QToolButton::toggled, this, &SceneView::setThroughCamera);
-  connect(ui_->throughRole, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
-    setThroughRole(static_cast<PoseRole>(ui_->throughRole->currentData().toInt()));
+    ui_.throughRole->addItem(name, static_cast<int>(role));
+  connect(ui_.reset, &QToolButton::clicked, navigation_, &SceneNavigation::reset);
+  connect(ui_.throughCamera, &QToolButton::toggled, navigation_,
+          &SceneNavigation::setThroughCamera);
+  connect(ui_.throughRole, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this] {
+    setThroughRole(static_cast<PoseRole>(ui_.throughRole->currentData().toInt()));
   });
 }
 
 /// What of the scene is drawn, and the opacity of the mesh.
 QMenu* SceneView::showMenu() {
-  auto* menu = new QMenu(ui_->show);
+  auto* menu = new QMenu(ui_.show);
   for (const ShowEntry& entry : kShowEntries) {
     QAction* action = menu->addAction(nameOf(entry.name));
     action->setCheckable(true);
@@ -119,30 +112,6 @@ QMenu* SceneView::showMenu() {
   return menu;
 }
 
-void SceneView::connectInput(const SceneInput& input) {
-  connect(&input, &SceneInput::resetAsked, this, &SceneView::resetView);
-  connect(&input, &SceneInput::lookFromAsked, this, &SceneView::lookFrom);
-  connect(&input, &SceneInput::throughCameraToggled, this,
-          [this] { setThroughCamera(!throughCamera()); });
-  connect(&input, &SceneInput::clicked, this, &SceneView::pick);
-  connect(&input, &SceneInput::dragged, this,
-          [this](const QPointF& moved, Qt::MouseButtons buttons, Qt::KeyboardModifiers modifiers) {
-            navigation_.drag(moved, buttons, modifiers, canvas()->height());
-            updateView();
-          });
-  connect(&input, &SceneInput::turned, this, [this](const QPointF& by) {
-    navigation_.turn(by, canvas()->height());
-    updateView();
-  });
-  connect(&input, &SceneInput::zoomed, this, [this](const QPointF& at, double notches) {
-    navigation_.zoom(at, notches);
-    updateView();
-  });
-  connect(&input, &SceneInput::resized, this, [this] { overlay_->resize(canvas()->size()); });
-  // After the canvas itself has taken note.
-  connect(&input, &SceneInput::resized, this, &SceneView::updateView, Qt::QueuedConnection);
-}
-
 void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& snapper) {
   annotator_ = new SceneAnnotator(*canvas(), annotation, snapper);
   overlay_->setOver(
@@ -150,12 +119,11 @@ void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& 
   connect(annotator_, &SceneAnnotator::changed, this, [this] {
     overlay_->update();
     updateNote();
-    if (annotator_->places()) ui_->sceneReadout->setText(annotator_->place());
+    if (annotator_->places()) ui_.sceneReadout->setText(annotator_->place());
   });
   connect(&annotation, &AnnotationController::modeChanged, this, [this] {
-    navigation_.setStationAlone(annotator_->places(), *content_);
-    ui_->sceneReadout->setText(tr("Click a template, a mark or a point of the mesh."));
-    updateView();
+    navigation_->setStationAlone(annotator_->places());
+    ui_.sceneReadout->setText(tr("Click a template, a mark or a point of the mesh."));
   });
   refreshSoon();
 }
@@ -183,42 +151,24 @@ void SceneView::refresh() {
     overlay_->setMark(std::nullopt);
     backdrop_ = QImage();
     backdrop_of_.reset();
-    // Another image of the same station leaves the view where somebody has put it.
-    const bool same_place = !before->empty() && !content_->empty() &&
-                            before->bounds.minimum_m == content_->bounds.minimum_m &&
-                            before->bounds.maximum_m == content_->bounds.maximum_m;
-    if (!same_place) navigation_.startOver(*content_);
-    navigation_.showWholeImage();
   }
+  navigation_->setContent(content_);
   canvas_->setContent(content_, look_);
   overlay_->setContent(content_, look_);
-  if (throughCamera()) orderBackdrop();
+  if (navigation_->throughCamera()) orderBackdrop();
   updateView();
 }
 
-void SceneView::resetView() {
-  navigation_.reset(*content_);
-  updateView();
-}
-
-void SceneView::lookFrom(StandardView view) {
-  setThroughCamera(false);
-  navigation_.lookFrom(view);
-  updateView();
-}
-
-void SceneView::setThroughCamera(bool through) {
-  if (through == throughCamera()) return;
-  navigation_.setThroughCamera(through);
-  ui_->throughCamera->setChecked(through);
-  if (through) orderBackdrop();
+void SceneView::showThroughCamera() {
+  ui_.throughCamera->setChecked(navigation_->throughCamera());
+  if (navigation_->throughCamera()) orderBackdrop();
   updateLook();
 }
 
 void SceneView::setThroughRole(PoseRole role) {
   if (role == role_) return;
   role_ = role;
-  ui_->throughRole->setCurrentIndex(ui_->throughRole->findData(static_cast<int>(role)));
+  ui_.throughRole->setCurrentIndex(ui_.throughRole->findData(static_cast<int>(role)));
   updateView();
 }
 
@@ -228,15 +178,15 @@ void SceneView::setShown(const SceneShown& shown) {
 }
 
 void SceneView::setMeshOpacity(double opacity) {
-  (throughCamera() ? through_opacity_ : free_opacity_) = std::clamp(opacity, 0.0, 1.0);
+  (navigation_->throughCamera() ? through_opacity_ : free_opacity_) = std::clamp(opacity, 0.0, 1.0);
   updateLook();
 }
 
 void SceneView::updateLook() {
-  look_.mesh_opacity = throughCamera() ? through_opacity_ : free_opacity_;
+  look_.mesh_opacity = navigation_->throughCamera() ? through_opacity_ : free_opacity_;
   const bool dark = palette().color(QPalette::Window).lightnessF() < 0.5;
   look_.background = dark ? QColor(38, 40, 44) : QColor(226, 229, 233);
-  look_.mesh_lines = throughCamera() ? QColor(255, 215, 70) : QColor(24, 26, 30);
+  look_.mesh_lines = navigation_->throughCamera() ? QColor(255, 215, 70) : QColor(24, 26, 30);
   const QSignalBlocker blocked(opacity_);
   opacity_->setValue(static_cast<int>(std::lround(100.0 * look_.mesh_opacity)));
   canvas_->setContent(content_, look_);
@@ -249,17 +199,13 @@ Pose SceneView::throughPose() const {
   return poseOf(state_, role_).value_or(state_.shownPose());
 }
 
-Viewpoint SceneView::viewpoint() const {
-  return navigation_.viewpoint(*content_, throughPose(), canvas()->size());
-}
-
 void SceneView::updateView() {
   overlay_->setGeometry(canvas()->rect());
-  navigation_.fitImage(*content_, canvas()->size());
+  navigation_->fitImage();
   const Viewpoint view = viewpoint();
   std::optional<Backdrop> backdrop;
   if (backdropReady())
-    backdrop = Backdrop{backdrop_, imageTransform().toWidget(
+    backdrop = Backdrop{backdrop_, navigation_->image().toWidget(
                                        QRectF(-0.5, -0.5, backdrop_.width(), backdrop_.height()))};
   canvas_->setView(view, backdrop);
   overlay_->setView(view);
@@ -274,13 +220,13 @@ void SceneView::orderBackdrop() {
   backdrop_of_ = one;
   backdrop_ = QImage();
   if (one->source.camera.model == CameraModel::kPinhole) {
-    backdrop_ = grayOf(one->image.view());
+    backdrop_ = grayImage(one->image.view());
     return;
   }
   runner_.start(
       QStringLiteral("backdrop"),
       [one](const std::stop_token&) {
-        return grayOf(sessions::undistort(one->source.camera, one->image.view()).view());
+        return grayImage(sessions::undistort(one->source.camera, one->image.view()).view());
       },
       [this, one](const QImage& gray) {
         if (backdrop_of_.lock() != one) return;
@@ -291,7 +237,7 @@ void SceneView::orderBackdrop() {
 
 void SceneView::updateNote() {
   QString note;
-  if (throughCamera() && !content_->empty()) {
+  if (navigation_->throughCamera() && !content_->empty()) {
     if (backdrop_.isNull())
       note = tr("Taking the lens distortion out of the image ...");
     else if (content_->one->source.camera.model != CameraModel::kPinhole)
@@ -326,7 +272,7 @@ void SceneView::pickInScene(const QPointF& pixel) {
   const Viewpoint view = viewpoint();
   const int picked = look_.shown.points ? pickTemplate(*content_, view, pixel) : -1;
   if (picked >= 0) {
-    ui_->sceneReadout->setText(tr("Template %1").arg(picked));
+    ui_.sceneReadout->setText(tr("Template %1").arg(picked));
     state_.selectTemplate(picked);
     return;
   }
@@ -340,8 +286,8 @@ void SceneView::pickInScene(const QPointF& pixel) {
     }
   }
   overlay_->setMark(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
-  ui_->sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
-                                 : tr("Nothing there: click a template or a point of the mesh."));
+  ui_.sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
+                                : tr("Nothing there: click a template or a point of the mesh."));
 }
 
 }  // namespace boresight::ui

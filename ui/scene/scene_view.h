@@ -2,16 +2,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include <QPoint>
 #include <QWidget>
+
+#include "ui_scene_view.h"
 
 #include "ui/run/task_runner.h"
 #include "ui/scene/scene_aim.h"
 #include "ui/scene/scene_canvas.h"
-#include "ui/scene/scene_input.h"
+#include "ui/scene/scene_navigation.h"
 #include "ui/state/view_state.h"
 
 class QAction;
@@ -19,10 +19,6 @@ class QMenu;
 class QSlider;
 
 namespace boresight::ui {
-
-namespace Ui {
-class SceneView;
-}
 
 class AnnotationController;
 class SceneAnnotator;
@@ -39,9 +35,8 @@ class SceneView : public QWidget {
  public:
   explicit SceneView(ViewState& state, QWidget* parent = nullptr,
                      SceneBackend backend = sceneBackend());
-  ~SceneView() override;
 
-  /// Lets somebody annotate in it; both must outlive it.
+  /// Lets the operator annotate in it; both must outlive it.
   void setAnnotation(AnnotationController& annotation, StationSnapper& snapper);
   /// nullptr before.
   SceneAnnotator* annotator() const { return annotator_; }
@@ -49,20 +44,11 @@ class SceneView : public QWidget {
   SceneBackend backend() const { return backend_; }
   QWidget* canvas() const { return canvas_->widget(); }
   const SceneContent& content() const { return *content_; }
-  Viewpoint viewpoint() const;
-  const OrbitCamera& orbitCamera() const { return navigation_.orbit(); }
-  const SceneLook& look() const { return look_; }
-  /// Where the image lies while looking through the camera.
-  const ViewTransform& imageTransform() const { return navigation_.image(); }
-
+  SceneNavigation& navigation() { return *navigation_; }
+  Viewpoint viewpoint() const { return navigation_->viewpoint(throughPose()); }
   /// The image lies behind the mesh while looking through the camera.
-  bool backdropReady() const { return throughCamera() && !backdrop_.isNull(); }
+  bool backdropReady() const { return navigation_->throughCamera() && !backdrop_.isNull(); }
 
-  /// Shows the whole scene again (through the camera: the whole image).
-  void resetView();
-  void lookFrom(StandardView view);
-  bool throughCamera() const { return navigation_.throughCamera(); }
-  void setThroughCamera(bool through);
   /// Whose camera is looked through: kEstimate is what the views show, nudged or not.
   void setThroughRole(PoseRole role);
   void setShown(const SceneShown& shown);
@@ -78,7 +64,7 @@ class SceneView : public QWidget {
   void build();
   void buildBar();
   QMenu* showMenu();
-  void connectInput(const SceneInput& input);
+  void showThroughCamera();
   void refreshSoon();
   void updateLook();
   void updateView();
@@ -91,6 +77,7 @@ class SceneView : public QWidget {
   ViewState& state_;
   SceneBackend backend_;
   std::unique_ptr<SceneCanvas> canvas_;
+  SceneNavigation* navigation_ = nullptr;
   SceneOverlay* overlay_ = nullptr;
   std::vector<QAction*> show_;  ///< in the order of `kShowEntries`
   QSlider* opacity_ = nullptr;
@@ -98,7 +85,6 @@ class SceneView : public QWidget {
 
   std::shared_ptr<const SceneContent> content_;
   SceneLook look_;
-  SceneNavigation navigation_;
   QImage backdrop_;  ///< the case's image without lens distortion; null until it is there
   std::weak_ptr<const sessions::LoadedCase> backdrop_of_;
   TaskRunner runner_;
@@ -106,7 +92,7 @@ class SceneView : public QWidget {
   double free_opacity_ = 1.0;
   double through_opacity_ = 0.35;
   bool refresh_pending_ = false;
-  const std::unique_ptr<Ui::SceneView> ui_;
+  Ui::SceneView ui_;
 };
 
 }  // namespace boresight::ui

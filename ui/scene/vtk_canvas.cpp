@@ -88,7 +88,7 @@ class VtkCanvas final : public SceneCanvas {
 
   void setView(const Viewpoint& view, const std::optional<Backdrop>& backdrop) override {
     view_ = view;
-    const double far_m = placeCamera(*renderer_, content_ ? *content_ : SceneContent(), view_);
+    const double far_m = placeCamera(*renderer_, view_);
     backdrop_.place(backdrop, view_, far_m);
     scalePoints();
     const double ratio = widget_->devicePixelRatioF();

@@ -2,12 +2,12 @@
 #include "ui/scene/vtk_shapes.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
+#include <vtkAppendPolyData.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCubeSource.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -25,33 +25,9 @@ void insert(vtkPoints& points, const Eigen::Vector3d& at_m) {
   points.InsertNextPoint(at_m.x(), at_m.y(), at_m.z());
 }
 
-/// Nearest and farthest depth of what there is, with some air.
-std::pair<double, double> depthRange(const SceneContent& content, const Viewpoint& view) {
-  double nearest = 1e300;
-  double farthest = 0.0;
-  const auto include = [&](const Eigen::Vector3d& at_m) {
-    const double depth_m = (view.view_from_station * at_m).z();
-    nearest = std::min(nearest, depth_m);
-    farthest = std::max(farthest, depth_m);
-  };
-  const BoundingBox& box = content.bounds;
-  for (int corner = 0; corner < 8; ++corner)
-    include({((corner & 1) != 0 ? box.maximum_m : box.minimum_m).x(),
-             ((corner & 2) != 0 ? box.maximum_m : box.minimum_m).y(),
-             ((corner & 4) != 0 ? box.maximum_m : box.minimum_m).z()});
-  include(Eigen::Vector3d::Zero());
-  for (int axis = 0; axis < 3; ++axis) include(content.axis_length_m * Eigen::Vector3d::Unit(axis));
-  for (const Frustum& frustum : content.frusta) {
-    include(frustum.apex_m);
-    for (const Eigen::Vector3d& corner : frustum.corner_m) include(corner);
-  }
-  farthest = std::max(farthest, 1e-6);
-  return {std::clamp(0.8 * nearest, 1e-3 * farthest, 0.8 * farthest), 1.3 * farthest};
-}
-
 }  // namespace
 
-double placeCamera(vtkRenderer& renderer, const SceneContent& content, const Viewpoint& view) {
+double placeCamera(vtkRenderer& renderer, const Viewpoint& view) {
   const Camera& camera = view.camera;
   const Pose station_from_view = view.view_from_station.inverse();
   const Eigen::Vector3d eye = station_from_view.translation_m;
@@ -61,8 +37,10 @@ double placeCamera(vtkRenderer& renderer, const SceneContent& content, const Vie
   placed->SetPosition(eye.data());
   placed->SetFocalPoint(ahead.data());
   placed->SetViewUp(up.data());
-  const auto [nearest, farthest] = depthRange(content, view);
-  placed->SetClippingRange(nearest, farthest);
+  renderer.ResetCameraClippingRange();
+  double nearest = 0.0;
+  double farthest = 0.0;
+  placed->GetClippingRange(nearest, farthest);
   // Clip x = x/z at pixel u is 2 (u + 0.5) / width - 1; y counts upwards.
   vtkNew<vtkMatrix4x4> projection;
   projection->Zero();
@@ -81,7 +59,10 @@ double placeCamera(vtkRenderer& renderer, const SceneContent& content, const Vie
 BackdropActor::BackdropActor(vtkRenderer& renderer) {
   texture_->InterpolateOn();
   texture_->MipmapOn();
+  square_->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  mapper_->SetInputConnection(square_->GetOutputPort());
   actor_->SetMapper(mapper_);
+  actor_->UseBoundsOff();  // lies as far away as can be seen, whatever that is
   actor_->SetTexture(texture_);
   actor_->GetProperty()->SetLighting(false);
   actor_->VisibilityOff();
@@ -93,30 +74,15 @@ void BackdropActor::place(const std::optional<Backdrop>& backdrop, const Viewpoi
   actor_->SetVisibility(backdrop.has_value());
   if (!backdrop) return;
   if (backdrop->gray.cacheKey() != key_) fillTexture(backdrop->gray);
-  const Pose station_from_view = view.view_from_station.inverse();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> places;
-  places->SetNumberOfComponents(2);
-  vtkNew<vtkCellArray> quad;
-  const QRectF& where = backdrop->where;
-  const std::array<QPointF, 4> corners = {where.topLeft(), where.topRight(), where.bottomRight(),
-                                          where.bottomLeft()};
-  constexpr std::array<std::array<double, 2>, 4> kPlaces = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  const Camera& camera = view.camera;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector3d ray((corners[i].x() - 0.5 - camera.cx) / camera.fx,
-                              (corners[i].y() - 0.5 - camera.cy) / camera.fy, 1.0);
-    insert(*points, station_from_view * (0.999 * far_m * ray));
-    places->InsertNextTuple(kPlaces[i].data());
-  }
-  const vtkIdType ids[4] = {0, 1, 2, 3};
-  quad->InsertNextCell(4, ids);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(quad);
-  data->GetPointData()->SetTCoords(places);
-  mapper_->SetInputData(data);
+  const auto corner = [&](const QPointF& at) -> Eigen::Vector3d {
+    return view.eyeInStation_m() + 0.999 * far_m * view.rayInStation(at - QPointF(0.5, 0.5));
+  };
+  Eigen::Vector3d top_left = corner(backdrop->where.topLeft());
+  Eigen::Vector3d top_right = corner(backdrop->where.topRight());
+  Eigen::Vector3d bottom_left = corner(backdrop->where.bottomLeft());
+  square_->SetOrigin(top_left.data());
+  square_->SetPoint1(top_right.data());
+  square_->SetPoint2(bottom_left.data());
 }
 
 void BackdropActor::fillTexture(const QImage& gray) {
@@ -160,25 +126,17 @@ vtkNew<vtkPolyData> linesOf(const ColoredLines& lines) {
 }  // namespace
 
 vtkNew<vtkPolyData> crossShape() {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> quads;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int side = 0; side < 4; ++side) {
-      const vtkIdType first = points->GetNumberOfPoints();
-      for (int corner = 0; corner < 4; ++corner) {
-        const int turn = side + (corner == 1 || corner == 2 ? 1 : 0);
-        double at[3];
-        at[axis] = corner < 2 ? -1.3 : 1.3;
-        at[(axis + 1) % 3] = (turn % 4 == 0 || turn % 4 == 3) ? -0.3 : 0.3;
-        at[(axis + 2) % 3] = turn % 4 < 2 ? -0.3 : 0.3;
-        points->InsertNextPoint(at);
-      }
-      const vtkIdType ids[4] = {first, first + 1, first + 2, first + 3};
-      quads->InsertNextCell(4, ids);
-    }
+  vtkNew<vtkAppendPolyData> bars;
+  for (int axis = 0; axis < 3; ++axis) {
+    vtkNew<vtkCubeSource> bar;
+    bar->SetXLength(axis == 0 ? 2.6 : 0.6);
+    bar->SetYLength(axis == 1 ? 2.6 : 0.6);
+    bar->SetZLength(axis == 2 ? 2.6 : 0.6);
+    bars->AddInputConnection(bar->GetOutputPort());
+  }
+  bars->Update();
   vtkNew<vtkPolyData> shape;
-  shape->SetPoints(points);
-  shape->SetPolys(quads);
+  shape->ShallowCopy(bars->GetOutput());
   return shape;
 }
 

@@ -12,6 +12,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkNew.h>
+#include <vtkPlaneSource.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -25,7 +26,7 @@ namespace boresight::ui {
 
 /// Gives a renderer exactly the viewpoint's pinhole: its focal lengths and principal point, not an
 /// opening angle. Returns how far away something can be and still be seen, m.
-double placeCamera(vtkRenderer& renderer, const SceneContent& content, const Viewpoint& view);
+double placeCamera(vtkRenderer& renderer, const Viewpoint& view);
 
 /// The camera's image: a textured square behind everything else, as far away as can be seen.
 class BackdropActor {
@@ -36,6 +37,7 @@ class BackdropActor {
  private:
   void fillTexture(const QImage& gray);
 
+  vtkNew<vtkPlaneSource> square_;
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkTexture> texture_;

@@ -13,7 +13,7 @@ namespace boresight::ui {
 
 /// The open session as the window knows it: its value, what can be undone, and signals when either
 /// changes. Every edit is in the journal before `changed` is emitted. What fails is told by
-/// `failed`, one sentence for people, and has not happened.
+/// `failed`, one sentence for the operator, and has not happened.
 class Document : public QObject {
   Q_OBJECT
 
@@ -29,6 +29,7 @@ class Document : public QObject {
   bool isUntitled() const { return untitled_; }
   /// Why it cannot be edited, or empty.
   QString readOnlyReason() const;
+  bool isEditable() const { return isOpen() && readOnlyReason().isEmpty(); }
   /// Unsaved edits of a program that was killed, waiting for a decision.
   const std::optional<sessions::Recovery>* recovery() const;
 

@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/math.h"
+#include "ui/state/document.h"
+
 namespace boresight::ui {
+
+using sessions::AlternativeKind;
 
 std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
   if (!state.currentCase()) return std::nullopt;
@@ -24,17 +29,27 @@ std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
   return std::nullopt;
 }
 
+const sessions::SessionCase* shownCase(const Document& document, const ViewState& state) {
+  return state.currentCase() ? document.session().findCase(state.currentCase()->source.id)
+                             : nullptr;
+}
+
+std::string shownCaseId(const Document& document, const ViewState& state) {
+  const sessions::SessionCase* one = shownCase(document, state);
+  return one ? one->id : std::string();
+}
+
 int ViewState::lastIteration() const {
   return snapshot_ ? static_cast<int>(snapshot_->iterations.size()) - 1 : -1;
 }
 
-const sessions::IterationTrace* ViewState::iteration() const {
+std::shared_ptr<const sessions::IterationTrace> ViewState::iteration() const {
   if (cursor_.iteration < 0 || cursor_.iteration > lastIteration()) return nullptr;
-  return snapshot_->iterations[static_cast<std::size_t>(cursor_.iteration)].get();
+  return snapshot_->iterations[static_cast<std::size_t>(cursor_.iteration)];
 }
 
 std::optional<Pose> ViewState::iterationPose() const {
-  const sessions::IterationTrace* shown = iteration();
+  const auto shown = iteration();
   if (!shown) return std::nullopt;
   return cursor_.stage >= Stage::kPose ? shown->camera_from_station
                                        : shown->camera_from_station_before;
@@ -89,7 +104,7 @@ void ViewState::setCursor(const RunCursor& cursor) {
 }
 
 void ViewState::selectTemplate(int index) {
-  const sessions::IterationTrace* shown = iteration();
+  const auto shown = iteration();
   const int count = shown ? static_cast<int>(shown->templates.size()) : 0;
   const int next = index >= 0 && index < count ? index : -1;
   if (next == selected_template_) return;
@@ -111,6 +126,20 @@ void ViewState::setAlternative(const std::optional<sessions::Alternative>& alter
   if (!alternative && !alternative_) return;
   alternative_ = alternative;
   Q_EMIT changed(ViewChange::kAlternative);
+}
+
+QString alternativeTitle(const sessions::Alternative& one) {
+  if (one.kind == AlternativeKind::kCompeting)
+    return ViewState::tr("Competing pose %1").arg(one.number);
+  if (one.kind == AlternativeKind::kCandidate) return ViewState::tr("Candidate %1").arg(one.number);
+  return ViewState::tr("Rolled by %1 deg")
+      .arg(QString::asprintf("%+.1f", one.roll_rad / kDegree_rad));
+}
+
+QString chosenTitle(const sessions::Alternative& one) {
+  return one.kind == AlternativeKind::kCompeting   ? ViewState::tr("Result of the run")
+         : one.kind == AlternativeKind::kCandidate ? ViewState::tr("Chosen candidate")
+                                                   : ViewState::tr("Chosen roll");
 }
 
 }  // namespace boresight::ui

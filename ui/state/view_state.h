@@ -5,10 +5,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <type_traits>
 
 #include <QFlags>
 #include <QObject>
+#include <QString>
 
 #include "core/geometry/pose.h"
 #include "sessions/run/alternatives.h"
@@ -16,6 +18,8 @@
 #include "sessions/session/case_run.h"
 
 namespace boresight::ui {
+
+class Document;
 
 /// Whose pose something is.
 enum class PoseRole : std::uint8_t { kSeed, kEstimate, kNudged, kTruth, kAnnotated };
@@ -61,7 +65,7 @@ class ViewState : public QObject {
   const SnapshotPtr& snapshot() const { return snapshot_; }
   const RunCursor& cursor() const { return cursor_; }
   /// The iteration under the cursor, or nullptr.
-  const sessions::IterationTrace* iteration() const;
+  std::shared_ptr<const sessions::IterationTrace> iteration() const;
   /// Its pose after it, or before it where the shown stage is earlier than the pose.
   std::optional<Pose> iterationPose() const;
   /// Index into the iteration's templates, or -1.
@@ -122,5 +126,15 @@ class ViewState : public QObject {
 /// the iteration under the cursor (before or after it, as the shown stage says), the nudged pose,
 /// the truth, the pose that solves the annotated marks. Nothing where there is none.
 std::optional<Pose> poseOf(const ViewState& state, PoseRole role);
+
+/// The document's case that the views show, or nullptr.
+const sessions::SessionCase* shownCase(const Document& document, const ViewState& state);
+/// Its id, or empty.
+std::string shownCaseId(const Document& document, const ViewState& state);
+
+/// "Competing pose 2", "Candidate 1", "Rolled by +5.0 deg".
+QString alternativeTitle(const sessions::Alternative& one);
+/// What it was weighed against: "Result of the run", "Chosen candidate", "Chosen roll".
+QString chosenTitle(const sessions::Alternative& one);
 
 }  // namespace boresight::ui

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
+#include <QColor>
 #include <QImage>
 #include <QObject>
 #include <QString>
 
+#include "core/base/image.h"
 #include "sessions/io/image_file.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {
+
+class TaskRunner;
+
+/// A copy of an image's 8-bit pixels.
+QImage grayImage(const boresight::ImageView& image);
 
 /// The share of the samples that an automatic stretch makes black, and white.
 inline constexpr double kClippedShare = 0.005;
@@ -31,10 +36,8 @@ QString sampleText(const sessions::ImageSamples& samples, int x, int y);
 /// For the eye only.
 QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLevels& levels);
 
-class TaskRunner;
-
-/// The current case's image as people see it: the 8-bit pixels that the core sees, or the file's
-/// samples stretched between two levels. At first images of more than 8 bits are stretched
+/// The current case's image as the operator sees it: the 8-bit pixels that the core sees, or the
+/// file's samples stretched between two levels. At first images of more than 8 bits are stretched
 /// automatically and others are not. Reading and stretching happen in the task runner; until a
 /// picture is made the one before, or the core's, is shown.
 class DisplayImage : public QObject {
@@ -80,6 +83,38 @@ class DisplayImage : public QObject {
   sessions::GrayLevels automatic_;
   sessions::GrayLevels levels_;
   bool shows_core_ = false;
+};
+
+/// A binary image in one colour for drawing at any zoom. Each coarser picture is the OR of 2x2
+/// pixels of the one before, so that a line one pixel wide is still there when the image is drawn
+/// small. Coarser pictures are made when they are asked for.
+class BitPixmaps {
+ public:
+  BitPixmaps(const BitImage& bits, const QColor& color);
+
+  /// The picture whose pixels cover 2^step pixels of the bits, with step as large as it can be
+  /// while one of its pixels covers at most `bits_per_pixel` of theirs; the step comes back.
+  const QImage& at(double bits_per_pixel, int& step);
+
+ private:
+  std::vector<QImage> pictures_;  ///< by step, premultiplied ARGB
+};
+
+/// A gray image for drawing at any zoom: each coarser picture is the mean over 2x2 pixels.
+class GrayPyramid {
+ public:
+  GrayPyramid() = default;
+  explicit GrayPyramid(QImage gray);  ///< Format_Grayscale8
+
+  bool isNull() const { return pictures_.empty(); }
+  const QImage& full() const { return pictures_.front(); }
+  QSize size() const { return isNull() ? QSize() : full().size(); }
+  /// The picture whose pixels cover 2^step pixels of the image, as large a step as
+  /// `image_per_pixel` allows; coarser ones are made when they are asked for.
+  const QImage& at(double image_per_pixel, int& step) const;
+
+ private:
+  mutable std::vector<QImage> pictures_;
 };
 
 }  // namespace boresight::ui

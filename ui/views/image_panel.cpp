@@ -6,14 +6,11 @@
 
 #include <QtWidgets>
 
-#include "ui_image_panel.h"
-
 #include "sessions/run/scene_render.h"
 #include "sessions/run/surface_point.h"
-#include "ui/models/alternatives_model.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"
-#include "ui/views/layer_content.h"
+#include "ui/views/layer.h"
 
 namespace boresight::ui {
 namespace {
@@ -22,11 +19,6 @@ constexpr int kBlinkMs = 500;
 constexpr int kFaded = 50;  // opacity of 255 of what is drawn behind a hypothesis
 using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
 using MapsPtr = std::shared_ptr<const sessions::AgreementMaps>;
-
-std::shared_ptr<const sessions::IterationTrace> shownIteration(const ViewState& state) {
-  if (!state.iteration()) return nullptr;
-  return state.snapshot()->iterations[static_cast<std::size_t>(state.cursor().iteration)];
-}
 
 /// While two poses are compared, the edges of others stand back.
 void fadeOthers(ImageView& view, bool fade) {
@@ -48,19 +40,18 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
     : QWidget(parent),
       state_(state),
       tasks_(tasks),
-      display_(new DisplayImage(state, tasks, this)),
-      ui_(std::make_unique<Ui::ImagePanel>()) {
-  ui_->setupUi(this);
+      display_(new DisplayImage(state, tasks, this)) {
+  ui_.setupUi(this);
   setHint({});
   connectBar();
-  connect(ui_->imageView, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
-  connect(ui_->imageView, &ImageView::cursorLeft, this, [this] { Q_EMIT placeText(QString()); });
-  connect(ui_->imageView, &ImageView::transformChanged, this, [this] {
+  connect(ui_.imageView, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
+  connect(ui_.imageView, &ImageView::cursorLeft, this, [this] { Q_EMIT placeText(QString()); });
+  connect(ui_.imageView, &ImageView::transformChanged, this, [this] {
     const double percent =
-        100.0 * ui_->imageView->transform().scale() * ui_->imageView->devicePixelRatioF();
-    ui_->zoom->setText(tr("%1 %").arg(percent, 0, 'f', percent < 10.0 ? 1 : 0));
+        100.0 * ui_.imageView->transform().scale() * ui_.imageView->devicePixelRatioF();
+    ui_.zoom->setText(tr("%1 %").arg(percent, 0, 'f', percent < 10.0 ? 1 : 0));
   });
-  connect(ui_->imageView, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
+  connect(ui_.imageView, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
     if (layer != LayerId::kPoints) state_.selectTemplate(item);
   });
   state_.onChange(ViewChange::kCase, this, &ImagePanel::showCase);
@@ -69,12 +60,10 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   state_.onChange(ViewChange::kAlternative, this, &ImagePanel::showAlternative);
 }
 
-ImagePanel::~ImagePanel() = default;
-
-ImageView& ImagePanel::view() { return *ui_->imageView; }
+ImageView& ImagePanel::view() { return *ui_.imageView; }
 
 void ImagePanel::setHint(const QString& hint) {
-  ui_->imageView->setHint(
+  ui_.imageView->setHint(
       !hint.isEmpty()
           ? hint
           : tr("Drop an image, a mesh, a camera (unless the image's label has one) and a seed "
@@ -83,56 +72,52 @@ void ImagePanel::setHint(const QString& hint) {
 }
 
 void ImagePanel::connectBar() {
-  connect(ui_->fit, &QToolButton::clicked, ui_->imageView, &ImageView::fit);
-  connect(ui_->oneToOne, &QToolButton::clicked, ui_->imageView, &ImageView::showOneToOne);
-  connect(ui_->coreView, &QToolButton::toggled, display_, &DisplayImage::setShowsCore);
+  connect(ui_.fit, &QToolButton::clicked, ui_.imageView, &ImageView::fit);
+  connect(ui_.oneToOne, &QToolButton::clicked, ui_.imageView, &ImageView::showOneToOne);
+  connect(ui_.coreView, &QToolButton::toggled, display_, &DisplayImage::setShowsCore);
   connect(display_, &DisplayImage::levelsChanged, this,
-          [this] { ui_->coreView->setChecked(display_->showsCore()); });
+          [this] { ui_.coreView->setChecked(display_->showsCore()); });
   connect(display_, &DisplayImage::pictureChanged, this, &ImagePanel::showImage);
   blink_timer_.setInterval(kBlinkMs);
   connect(&blink_timer_, &QTimer::timeout, this,
-          [this] { ui_->imageView->setLayersHidden(!ui_->imageView->layersHidden()); });
-  connect(ui_->blink, &QToolButton::toggled, this, [this](bool on) {
-    ui_->imageView->setLayersHidden(false);
-    if (on) {
-      blink_timer_.start();
-    } else {
-      blink_timer_.stop();
-    }
+          [this] { ui_.imageView->setLayersHidden(!ui_.imageView->layersHidden()); });
+  connect(ui_.blink, &QToolButton::toggled, this, [this](bool on) {
+    ui_.imageView->setLayersHidden(false);
+    on ? blink_timer_.start() : blink_timer_.stop();
   });
   const auto swipe = [this] {
-    const bool on = ui_->swipe->isChecked();
-    const double place = ui_->swipePlace->value() / 1000.0;
-    ui_->swipePlace->setEnabled(on);
-    ui_->imageView->setSwipe(on ? std::optional<double>(place) : std::nullopt);
+    const bool on = ui_.swipe->isChecked();
+    const double place = ui_.swipePlace->value() / 1000.0;
+    ui_.swipePlace->setEnabled(on);
+    ui_.imageView->setSwipe(on ? std::optional<double>(place) : std::nullopt);
   };
-  connect(ui_->swipe, &QToolButton::toggled, this, swipe);
-  connect(ui_->swipePlace, &QSlider::valueChanged, this, swipe);
+  connect(ui_.swipe, &QToolButton::toggled, this, swipe);
+  connect(ui_.swipePlace, &QSlider::valueChanged, this, swipe);
 }
 
-void ImagePanel::toggleBlink() { ui_->blink->toggle(); }
-void ImagePanel::toggleSwipe() { ui_->swipe->toggle(); }
-void ImagePanel::toggleCoreView() { ui_->coreView->toggle(); }
+void ImagePanel::toggleBlink() { ui_.blink->toggle(); }
+void ImagePanel::toggleSwipe() { ui_.swipe->toggle(); }
+void ImagePanel::toggleCoreView() { ui_.coreView->toggle(); }
 
-const LayerStyle& ImagePanel::style(LayerId id) const { return ui_->imageView->layer(id).style; }
+const LayerStyle& ImagePanel::style(LayerId id) const { return ui_.imageView->layer(id).style; }
 
 void ImagePanel::setStyle(LayerId id, const LayerStyle& style) {
-  if (style == ui_->imageView->layer(id).style) return;
-  ui_->imageView->setStyle(id, style);
+  if (style == ui_.imageView->layer(id).style) return;
+  ui_.imageView->setStyle(id, style);
   askForRenders();
   Q_EMIT stylesChanged();
 }
 
 void ImagePanel::setBits(LayerId id, std::vector<LayerBits> bits) {
-  Layer layer = ui_->imageView->layer(id);
+  Layer layer = ui_.imageView->layer(id);
   layer.bits = std::move(bits);
-  ui_->imageView->setLayer(std::move(layer));
+  ui_.imageView->setLayer(std::move(layer));
 }
 
 void ImagePanel::setMarks(LayerId id, std::vector<Mark> marks) {
-  Layer layer = ui_->imageView->layer(id);
+  Layer layer = ui_.imageView->layer(id);
   layer.marks = std::move(marks);
-  ui_->imageView->setLayer(std::move(layer));
+  ui_.imageView->setLayer(std::move(layer));
 }
 
 void ImagePanel::setNudgedRender(RenderPtr render, int level) {
@@ -178,21 +163,21 @@ void ImagePanel::showAlternative() {
              {LayerId::kSeedEdges, tr("Seed")},
              {LayerId::kTruthEdges, tr("Truth")}};
   }
-  ui_->imageView->setLegend(std::move(names));
+  ui_.imageView->setLegend(std::move(names));
   showTemplates();
-  fadeOthers(*ui_->imageView, state_.alternative().has_value());
+  fadeOthers(*ui_.imageView, state_.alternative().has_value());
   askForRenders();
 }
 
 void ImagePanel::showImage() {
-  ui_->imageView->setImage(display_->picture());
-  if (!display_->picture().isNull()) ui_->imageView->setValues(display_->corePicture());
+  ui_.imageView->setImage(display_->picture());
+  if (!display_->picture().isNull()) ui_.imageView->setValues(display_->corePicture());
 }
 
 void ImagePanel::showIteration() {
-  const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
+  const auto iteration = state_.iteration();
   setBits(LayerId::kIterationEdges, iterationBits(iteration, false));
-  fadeOthers(*ui_->imageView, state_.alternative().has_value());
+  fadeOthers(*ui_.imageView, state_.alternative().has_value());
   setBits(LayerId::kMask, iterationBits(iteration, true));
   const bool has_edges = state_.snapshot() && state_.snapshot()->edges;
   setBits(LayerId::kTestEdges,
@@ -211,7 +196,7 @@ void ImagePanel::showIteration() {
 }
 
 void ImagePanel::showTemplates() {
-  const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
+  const auto iteration = state_.iteration();
   const Stage stage = state_.cursor().stage;
   const int selected = state_.selectedTemplate();
   const bool placed = iteration && stage >= Stage::kTemplates;
@@ -255,12 +240,12 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
         const ViewState::CasePtr& now = state_.currentCase();
         if (now && asked_[static_cast<std::size_t>(id)] && one->source.id == now->source.id)
           setBits(id, bitsOf(render, false));
-        fadeOthers(*ui_->imageView, state_.alternative().has_value());
+        fadeOthers(*ui_.imageView, state_.alternative().has_value());
       });
 }
 
 void ImagePanel::askForAgreement() {
-  const std::shared_ptr<const sessions::IterationTrace> iteration = shownIteration(state_);
+  const auto iteration = state_.iteration();
   if (!iteration || !style(LayerId::kAgreement).visible || agreement_of_ == iteration) return;
   if (!state_.snapshot()->edges) return;
   agreement_of_ = iteration;

@@ -7,15 +7,13 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "ui_image_panel.h"
+
 #include "sessions/run/picture_data.h"
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
-
-namespace Ui {
-class ImagePanel;
-}
 
 class DisplayImage;
 class ImageView;
@@ -29,7 +27,6 @@ class ImagePanel : public QWidget {
 
  public:
   ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent = nullptr);
-  ~ImagePanel() override;
 
   ImageView& view();
   DisplayImage& display() { return *display_; }
@@ -73,7 +70,7 @@ class ImagePanel : public QWidget {
   ViewState::CasePtr shown_case_;
   std::array<bool, kLayerCount> asked_{};  ///< renders of this case that were asked for
   std::shared_ptr<const sessions::IterationTrace> agreement_of_;
-  const std::unique_ptr<Ui::ImagePanel> ui_;
+  Ui::ImagePanel ui_;
 };
 
 }  // namespace boresight::ui

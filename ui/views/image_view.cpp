@@ -13,6 +13,7 @@
 namespace boresight::ui {
 namespace {
 
+constexpr double kZoomStep = 1.25;
 constexpr double kPickRadius = 8.0;
 constexpr double kClickSlack = 3.0;
 
@@ -267,13 +268,23 @@ void ImageView::resizeEvent(QResizeEvent*) {
   if (fitted_) fit();
 }
 
+void ImageView::zoomBy(const QPointF& widget, double factor) {
+  fitted_ = false;
+  transform_.zoomAt(widget, transform_.scale() * factor);
+  changed();
+}
+
+void ImageView::panBy(const QPointF& delta) {
+  fitted_ = false;
+  transform_.pan(delta);
+  changed();
+}
+
 void ImageView::wheelEvent(QWheelEvent* event) {
   const double notches = event->angleDelta().y() / 120.0;
   if (notches == 0.0 || image_.isNull()) return;
-  fitted_ = false;
-  transform_.zoomAt(event->position(), transform_.scale() * std::pow(1.25, notches));
+  zoomBy(event->position(), std::pow(kZoomStep, notches));
   event->accept();
-  changed();
 }
 
 void ImageView::mousePressEvent(QMouseEvent* event) {
@@ -293,11 +304,7 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
     Q_EMIT toolMoved(transform_.toPixel(place));
   } else if ((event->buttons() & (Qt::LeftButton | Qt::MiddleButton)) != 0) {
     if ((place - press_).manhattanLength() > kClickSlack) dragging_ = true;
-    if (dragging_) {
-      fitted_ = false;
-      transform_.pan(delta);
-      changed();
-    }
+    if (dragging_) panBy(delta);
   }
   if (tool_active_) update();
   if (!image_.isNull()) Q_EMIT cursorMoved(transform_.toPixel(place));
@@ -331,39 +338,25 @@ void ImageView::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void ImageView::keyPressEvent(QKeyEvent* event) {
   const double step = 0.1 * std::min(width(), height());
+  const QPointF middle(0.5 * width(), 0.5 * height());
   switch (event->key()) {
     case Qt::Key_1:
-      showOneToOne();
-      return;
+      return showOneToOne();
     case Qt::Key_0:
-      fit();
-      return;
+      return fit();
     case Qt::Key_Plus:
     case Qt::Key_Equal:
-      fitted_ = false;
-      transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), transform_.scale() * 1.25);
-      changed();
-      return;
+      return zoomBy(middle, kZoomStep);
     case Qt::Key_Minus:
-      fitted_ = false;
-      transform_.zoomAt(QPointF(0.5 * width(), 0.5 * height()), transform_.scale() / 1.25);
-      changed();
-      return;
+      return zoomBy(middle, 1.0 / kZoomStep);
     case Qt::Key_Left:
+      return panBy({step, 0.0});
     case Qt::Key_Right:
+      return panBy({-step, 0.0});
     case Qt::Key_Up:
-    case Qt::Key_Down: {
-      fitted_ = false;
-      const double x = event->key() == Qt::Key_Left    ? step
-                       : event->key() == Qt::Key_Right ? -step
-                                                       : 0.0;
-      const double y = event->key() == Qt::Key_Up     ? step
-                       : event->key() == Qt::Key_Down ? -step
-                                                      : 0.0;
-      transform_.pan({x, y});
-      changed();
-      return;
-    }
+      return panBy({0.0, step});
+    case Qt::Key_Down:
+      return panBy({0.0, -step});
     default:
       QWidget::keyPressEvent(event);
   }

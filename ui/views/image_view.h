@@ -8,7 +8,7 @@
 #include <QPointF>
 #include <QWidget>
 
-#include "ui/views/image_pyramids.h"
+#include "ui/views/display_image.h"
 #include "ui/views/layer.h"
 #include "ui/views/overlay_painters.h"
 #include "ui/views/view_transform.h"
@@ -112,6 +112,8 @@ class ImageView : public QWidget {
   void paintNames(QPainter& painter) const;
   QRect visiblePixels() const;
   void changed();
+  void zoomBy(const QPointF& widget, double factor);
+  void panBy(const QPointF& delta);
 
   GrayPyramid image_;
   QImage values_;

@@ -2,111 +2,68 @@
 #include "ui/views/layer.h"
 
 #include <array>
+#include <utility>
+
+#include "sessions/run/match_details.h"
+#include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {
 
+/// What a layer looks like at first.
+LayerStyle shown(const QColor& color, double opacity) { return {true, color, opacity}; }
+LayerStyle hidden(const QColor& color, double opacity) { return {false, color, opacity}; }
+
 /// Colours that differ in lightness too, as red and green must not be the only difference.
 const std::array<LayerInfo, kLayerCount>& infos() {
   static const std::array<LayerInfo, kLayerCount> made = {{
-      {LayerId::kIgnoreMask,
-       "Ignore mask",
-       "G",
-       "Pixels that are not trusted",
-       {true, QColor(200, 60, 200), 0.35}},
-      {LayerId::kTestEdges,
-       "Test edges",
-       "E",
-       "Canny's edges of the image, as the core has them",
-       {false, QColor(255, 255, 255), 0.8}},
-      {LayerId::kMask,
-       "Rendered mask",
-       "K",
-       "Where the station was rendered",
-       {false, QColor(90, 200, 255), 0.25}},
-      {LayerId::kSeedEdges,
-       "Seed edges",
-       "S",
-       "Salient edges rendered from the seed",
-       {true, QColor(255, 70, 60), 0.9}},
-      {LayerId::kTruthEdges,
-       "Truth edges",
-       "T",
-       "Salient edges rendered from the true pose",
-       {false, QColor(70, 140, 255), 0.9}},
-      {LayerId::kIterationEdges,
-       "Iteration edges",
-       "I",
-       "Salient edges as the shown iteration rendered them",
-       {true, QColor(80, 235, 90), 0.9}},
-      {LayerId::kAgreement,
-       "Agreement",
-       "A",
+      {LayerId::kIgnoreMask, "Ignore mask", "G", "Pixels that are not trusted",
+       shown(QColor(200, 60, 200), 0.35)},
+      {LayerId::kTestEdges, "Test edges", "E", "Canny's edges of the image, as the core has them",
+       hidden(QColor(255, 255, 255), 0.8)},
+      {LayerId::kMask, "Rendered mask", "K", "Where the station was rendered",
+       hidden(QColor(90, 200, 255), 0.25)},
+      {LayerId::kSeedEdges, "Seed edges", "S", "Salient edges rendered from the seed",
+       shown(QColor(255, 70, 60), 0.9)},
+      {LayerId::kTruthEdges, "Truth edges", "T", "Salient edges rendered from the true pose",
+       hidden(QColor(70, 140, 255), 0.9)},
+      {LayerId::kIterationEdges, "Iteration edges", "I",
+       "Salient edges as the shown iteration rendered them", shown(QColor(80, 235, 90), 0.9)},
+      {LayerId::kAgreement, "Agreement", "A",
        "Where rendered and test edges meet, only the render has one, only the image has one",
-       {false, QColor(255, 220, 60), 0.9}},
-      {LayerId::kNudgedEdges,
-       "Nudged edges",
-       "N",
-       "Salient edges of the pose being nudged",
-       {true, QColor(255, 160, 30), 1.0}},
-      {LayerId::kAnnotationBand,
-       "Annotation's band",
-       "U",
+       hidden(QColor(255, 220, 60), 0.9)},
+      {LayerId::kNudgedEdges, "Nudged edges", "N", "Salient edges of the pose being nudged",
+       shown(QColor(255, 160, 30), 1.0)},
+      {LayerId::kAnnotationBand, "Annotation's band", "U",
        "Where 95 % of the poses that the marks allow put the salient edges",
-       {false, kAnnotatedColor, 0.6}},
-      {LayerId::kAnnotationEdges,
-       "Annotation's edges",
-       "O",
+       hidden(kAnnotatedColor, 0.6)},
+      {LayerId::kAnnotationEdges, "Annotation's edges", "O",
        "Salient edges rendered from the pose that the marks give; while they show, Ctrl+click "
-       "picks "
-       "the station on them",
-       {true, kAnnotatedColor, 0.6}},
-      {LayerId::kChosenEdges,
-       "Chosen pose's edges",
-       "F",
+       "picks the station on them",
+       shown(kAnnotatedColor, 0.6)},
+      {LayerId::kChosenEdges, "Chosen pose's edges", "F",
        "Salient edges of the pose that the run went on with, while another hypothesis is shown",
-       {true, QColor(255, 250, 170), 0.9}},
-      {LayerId::kHypothesisEdges,
-       "Hypothesis' edges",
-       "H",
-       "Salient edges of the hypothesis chosen under Hypotheses",
-       {true, QColor(255, 60, 230), 0.9}},
-      {LayerId::kWindows,
-       "Search windows",
-       "W",
-       "Where each template was searched",
-       {false, QColor(180, 180, 255), 0.6}},
-      {LayerId::kTemplates,
-       "Templates",
-       "P",
-       "Where the templates were taken from the render",
-       {false, QColor(255, 235, 120), 0.9}},
-      {LayerId::kMatches,
-       "Matches",
-       "M",
+       shown(QColor(255, 250, 170), 0.9)},
+      {LayerId::kHypothesisEdges, "Hypothesis' edges", "H",
+       "Salient edges of the hypothesis chosen under Hypotheses", shown(QColor(255, 60, 230), 0.9)},
+      {LayerId::kWindows, "Search windows", "W", "Where each template was searched",
+       hidden(QColor(180, 180, 255), 0.6)},
+      {LayerId::kTemplates, "Templates", "P", "Where the templates were taken from the render",
+       hidden(QColor(255, 235, 120), 0.9)},
+      {LayerId::kMatches, "Matches", "M",
        "From where a template was predicted to where it was found; outliers are dashed",
-       {true, QColor(120, 255, 240), 0.9}},
-      {LayerId::kResiduals,
-       "Residuals",
-       "R",
-       "What the solved pose leaves of each match, magnified",
-       {false, QColor(255, 120, 200), 0.9}},
-      {LayerId::kMarkResiduals,
-       "Marks' residuals",
-       "X",
+       shown(QColor(120, 255, 240), 0.9)},
+      {LayerId::kResiduals, "Residuals", "R",
+       "What the solved pose leaves of each match, magnified", hidden(QColor(255, 120, 200), 0.9)},
+      {LayerId::kMarkResiduals, "Marks' residuals", "X",
        "From where the solved pose puts a mark to where it was marked, magnified; dashed while the "
        "pose is not up to date",
-       {true, QColor(255, 120, 200), 0.9}},
-      {LayerId::kProposals,
-       "Proposed marks",
-       "Y",
+       shown(QColor(255, 120, 200), 0.9)},
+      {LayerId::kProposals, "Proposed marks", "Y",
        "Where named points of the station should be; a click takes one as it is",
-       {true, QColor(140, 230, 255), 0.9}},
-      {LayerId::kPoints,
-       "Marks",
-       "D",
-       "Points and lines marked by hand",
-       {true, QColor(255, 210, 0), 1.0}},
+       shown(QColor(140, 230, 255), 0.9)},
+      {LayerId::kPoints, "Marks", "D", "Points and lines marked by hand",
+       shown(QColor(255, 210, 0), 1.0)},
   }};
   return made;
 }
@@ -114,5 +71,133 @@ const std::array<LayerInfo, kLayerCount>& infos() {
 }  // namespace
 
 const LayerInfo& layerInfo(LayerId id) { return infos()[static_cast<std::size_t>(id)]; }
+
+namespace {
+
+const QColor kSelected(255, 255, 255);
+const QColor kOutlier(255, 150, 60);
+
+LayerBits layerBits(std::shared_ptr<const void> owner, const BitImage& bits, int level) {
+  LayerBits made;
+  made.owner = std::move(owner);
+  made.bits = bits;
+  made.level = level;
+  return made;
+}
+
+QRectF windowArea(const SearchWindow& window, int level) {
+  const Eigen::Vector2d first =
+      sessions::fullImagePixel(window.x_min - 0.5, window.y_min - 0.5, level);
+  const Eigen::Vector2d last =
+      sessions::fullImagePixel(window.x_max + 0.5, window.y_max + 0.5, level);
+  return {pointOf(first), pointOf(last)};
+}
+
+Mark rectangle(const QRectF& area, std::size_t index, int selected_template) {
+  Mark mark;
+  mark.shape = MarkShape::kRectangle;
+  mark.area = area;
+  mark.item = static_cast<int>(index);
+  if (mark.item == selected_template) mark.color = kSelected;
+  return mark;
+}
+
+Mark arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int item, bool inlier) {
+  Mark mark;
+  mark.shape = MarkShape::kArrow;
+  mark.at = pointOf(from);
+  mark.to = pointOf(to);
+  mark.item = item;
+  mark.dashed = !inlier;
+  if (!inlier) mark.color = kOutlier;
+  return mark;
+}
+
+}  // namespace
+
+std::vector<LayerBits> bitsOf(const std::shared_ptr<const sessions::RenderTrace>& render,
+                              bool mask) {
+  if (!render) return {};
+  return {layerBits(render, mask ? render->mask.view() : render->edges.view(), 0)};
+}
+
+std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,
+                                    int level) {
+  if (!edges) return {};
+  const sessions::BitMap& map = edges->level[static_cast<std::size_t>(level)];
+  if (map.words.empty()) return {};
+  return {layerBits(edges, map.view(), level)};
+}
+
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one) {
+  if (!one || !one->ignore) return {};
+  return {layerBits(one, one->ignore_bits, 0)};
+}
+
+std::vector<LayerBits> iterationBits(
+    const std::shared_ptr<const sessions::IterationTrace>& iteration, bool mask) {
+  if (!iteration || iteration->render.edges.words.empty()) return {};
+  return {layerBits(iteration,
+                    mask ? iteration->render.mask.view() : iteration->render.edges.view(),
+                    iteration->level)};
+}
+
+std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::AgreementMaps>& maps,
+                                     int level) {
+  if (!maps || maps->both.words.empty()) return {};
+  std::vector<LayerBits> made = {layerBits(maps, maps->only_image.view(), level),
+                                 layerBits(maps, maps->only_rendered.view(), level),
+                                 layerBits(maps, maps->both.view(), level)};
+  made[0].color = QColor(90, 160, 255);
+  made[1].color = QColor(255, 110, 80);
+  return made;
+}
+
+std::vector<Mark> windowMarks(const sessions::IterationTrace& iteration, int selected_template) {
+  std::vector<Mark> marks;
+  for (std::size_t i = 0; i < iteration.matches.size(); ++i) {
+    const SearchWindow& window = iteration.matches[i].window;
+    if (!window.empty())
+      marks.push_back(rectangle(windowArea(window, iteration.level), i, selected_template));
+  }
+  return marks;
+}
+
+std::vector<Mark> templateMarks(const sessions::IterationTrace& iteration, int selected_template) {
+  std::vector<Mark> marks;
+  const double half = 0.5 * iteration.template_side_px;
+  for (std::size_t i = 0; i < iteration.templates.size(); ++i) {
+    // A template of even side spans centre - side/2 ... centre + side/2 - 1.
+    const double x = iteration.templates[i].center_x - 0.5;
+    const double y = iteration.templates[i].center_y - 0.5;
+    const QRectF area(pointOf(sessions::fullImagePixel(x - half, y - half, iteration.level)),
+                      pointOf(sessions::fullImagePixel(x + half, y + half, iteration.level)));
+    marks.push_back(rectangle(area, i, selected_template));
+  }
+  return marks;
+}
+
+std::vector<Mark> matchMarks(const sessions::IterationTrace& iteration, int selected_template) {
+  std::vector<Mark> marks;
+  for (const sessions::MatchDetails& match : sessions::matchDetails(iteration)) {
+    if (!match.searched) continue;
+    Mark& mark =
+        marks.emplace_back(arrow(match.predicted_px, match.found_px, match.index, match.inlier));
+    if (mark.item != selected_template) continue;
+    mark.color = kSelected;
+    mark.label = QString::number(mark.item);
+  }
+  return marks;
+}
+
+std::vector<Mark> residualMarks(const sessions::IterationTrace& iteration, const Camera& camera) {
+  std::vector<Mark> marks;
+  for (const sessions::ResidualVector& vector : sessions::residualVectors(iteration, camera))
+    marks.push_back(
+        arrow(vector.projected,
+              vector.projected + kResidualMagnification * (vector.found - vector.projected),
+              vector.template_index, vector.inlier));
+  return marks;
+}
 
 }  // namespace boresight::ui

@@ -12,6 +12,9 @@
 #include <QString>
 
 #include "core/base/image.h"
+#include "sessions/run/picture_data.h"
+#include "sessions/run/trace.h"
+#include "sessions/session/case_run.h"
 
 namespace boresight::ui {
 
@@ -50,7 +53,7 @@ struct LayerStyle {
   bool operator==(const LayerStyle&) const = default;
 };
 
-/// What people are told of a layer: its name, its key, how it looks at first.
+/// What the operator reads of a layer: its name, its key, how it looks at first.
 struct LayerInfo {
   LayerId id = LayerId::kTestEdges;
   const char* name = "";
@@ -106,5 +109,25 @@ struct Layer {
   std::vector<LayerBits> bits;
   std::vector<Mark> marks;
 };
+
+/// How much residual vectors are magnified on the image.
+inline constexpr double kResidualMagnification = 40.0;
+
+std::vector<LayerBits> bitsOf(const std::shared_ptr<const sessions::RenderTrace>& render,
+                              bool mask);
+std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,
+                                    int level);
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one);
+/// Edges or mask of an iteration's render.
+std::vector<LayerBits> iterationBits(
+    const std::shared_ptr<const sessions::IterationTrace>& iteration, bool mask);
+/// Three colours: both, only rendered, only image.
+std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::AgreementMaps>& maps,
+                                     int level);
+
+std::vector<Mark> windowMarks(const sessions::IterationTrace& iteration, int selected_template);
+std::vector<Mark> templateMarks(const sessions::IterationTrace& iteration, int selected_template);
+std::vector<Mark> matchMarks(const sessions::IterationTrace& iteration, int selected_template);
+std::vector<Mark> residualMarks(const sessions::IterationTrace& iteration, const Camera& camera);
 
 }  // namespace boresight::ui

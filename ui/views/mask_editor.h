@@ -9,8 +9,6 @@
 
 #include "sessions/session/ignore_strokes.h"
 
-class QKeyEvent;
-
 namespace boresight::ui {
 
 class ImageView;

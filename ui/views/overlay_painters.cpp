@@ -84,23 +84,6 @@ void paintArrow(QPainter& painter, const QPointF& from, const QPointF& to) {
   painter.drawLine(to, to - along * head_px - across * (0.4 * head_px));
 }
 
-double distanceToSegment(const QPointF& from, const QPointF& to, const QPointF& place) {
-  const QPointF way = to - from;
-  const double squared = QPointF::dotProduct(way, way);
-  const double share =
-      squared > 0.0 ? std::clamp(QPointF::dotProduct(place - from, way) / squared, 0.0, 1.0) : 0.0;
-  return length(place - (from + way * share));
-}
-
-/// A cross with a free middle: what was marked stays to be seen.
-void paintTarget(QPainter& painter, const QPointF& at, double half) {
-  const double gap = 0.35 * half;
-  for (const QPointF& way :
-       {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
-    painter.drawLine(at + gap * way, at + 1.35 * half * way);
-  painter.drawEllipse(at, half, half);
-}
-
 /// A strip whose outline goes along one side and back along the other: its ends stay open, as it
 /// goes on in the next one.
 void paintStrip(QPainter& painter, const QPolygonF& outline) {
@@ -132,8 +115,7 @@ void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& m
       painter.drawRect(QRectF(at - QPointF(half, half), at + QPointF(half, half)));
       break;
     case MarkShape::kDiamond:
-      painter.drawPolygon(QPolygonF({at + QPointF(0.0, -half), at + QPointF(half, 0.0),
-                                     at + QPointF(0.0, half), at + QPointF(-half, 0.0)}));
+      painter.drawPolygon(diamond(at, half));
       break;
     case MarkShape::kTriangle:
       painter.drawPolygon(
@@ -141,7 +123,8 @@ void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& m
                      at + QPointF(-0.87 * half, 0.5 * half)}));
       break;
     case MarkShape::kTarget:
-      paintTarget(painter, at, half);
+      paintTicks(painter, at, 0.35 * half, 1.35 * half);
+      painter.drawEllipse(at, half, half);
       break;
     case MarkShape::kStruck:
       painter.drawEllipse(at, half, half);
@@ -177,6 +160,25 @@ void paintLabel(QPainter& painter, const QPointF& at, const Mark& mark) {
 }
 
 }  // namespace
+
+double distanceToSegment(const QPointF& from, const QPointF& to, const QPointF& place) {
+  const QPointF way = to - from;
+  const double squared = QPointF::dotProduct(way, way);
+  const double share =
+      squared > 0.0 ? std::clamp(QPointF::dotProduct(place - from, way) / squared, 0.0, 1.0) : 0.0;
+  return length(place - (from + way * share));
+}
+
+void paintTicks(QPainter& painter, const QPointF& at, double from, double to) {
+  for (const QPointF& way :
+       {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)})
+    painter.drawLine(at + from * way, at + to * way);
+}
+
+QPolygonF diamond(const QPointF& at, double half) {
+  return {{at + QPointF(0.0, -half), at + QPointF(half, 0.0), at + QPointF(0.0, half),
+           at + QPointF(-half, 0.0)}};
+}
 
 void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& mark,
                const QColor& layer_color) {

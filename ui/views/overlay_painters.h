@@ -39,6 +39,11 @@ inline constexpr QColor kLoupeCrossColor(255, 255, 255, 210);
 /// Leaves no brush behind.
 void paintLoupeCross(QPainter& painter, const QSizeF& loupe);
 
+/// Four short lines that leave the place itself free.
+void paintTicks(QPainter& painter, const QPointF& at, double from, double to);
+QPolygonF diamond(const QPointF& at, double half);
+double distanceToSegment(const QPointF& from, const QPointF& to, const QPointF& place);
+
 /// Draws a mark with lines of constant width, whatever the zoom.
 void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& mark,
                const QColor& layer_color);

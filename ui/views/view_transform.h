@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <QMouseEvent>
 #include <QPointF>
 #include <QRectF>
@@ -21,6 +22,9 @@ inline QPointF pointerPlace(const QMouseEvent& event, const QWidget& widget) {
   const double half = 0.5 / widget.devicePixelRatioF();
   return corner + QPointF(half, half);
 }
+
+/// A pixel as Qt draws it.
+inline QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
 
 /// Between image pixels (the centre of the top-left one is (0, 0)) and the widget's coordinates:
 /// widget = (pixel + 0.5) * scale + offset, so that a pixel covers a square of side `scale`.

@@ -9,7 +9,7 @@
 #include "sessions/annotation/marks_file.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/annotation_panel.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/review/pose_export.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -61,8 +61,8 @@ void AnnotationFiles::attempt(Action&& action) {
 }
 
 void AnnotationFiles::importMarks() {
-  const QString file =
-      QFileDialog::getOpenFileName(&window_, tr("Import marks"), sessionFolder(), marksFilter());
+  const QString file = QFileDialog::getOpenFileName(
+      &window_, tr("Import marks"), inSessionFolder(parts_.document, {}), marksFilter());
   if (file.isEmpty() || !mayReplaceMarks()) return;
   attempt([&, path = std::filesystem::path(file.toStdString())] {
     parts_.annotation.finishMove();
@@ -74,8 +74,9 @@ void AnnotationFiles::importMarks() {
 }
 
 void AnnotationFiles::exportMarks() {
-  const auto file = newFile(tr("Export the marks of this case"),
-                            sessionFolder() + QStringLiteral("/points.json"), marksFilter());
+  const auto file =
+      askForNewFile(window_, tr("Export the marks of this case"),
+                    inSessionFolder(parts_.document, QStringLiteral("points.json")), marksFilter());
   if (file.empty()) return;
   attempt([&] {
     sessions::writeMarks(file, parts_.annotation.marks());
@@ -86,7 +87,7 @@ void AnnotationFiles::exportMarks() {
 /// Images may have to be undistorted: off this thread.
 void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const QString& name) {
   const std::filesystem::path folder =
-      QFileDialog::getSaveFileName(&window_, title, sessionFolder() + QLatin1Char('/') + name)
+      QFileDialog::getSaveFileName(&window_, title, inSessionFolder(parts_.document, name))
           .toStdString();
   if (folder.empty()) return;
   parts_.annotation.finishMove();
@@ -103,7 +104,8 @@ void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const
 
 void AnnotationFiles::importPoses(Importer importer, const QString& title) {
   const std::filesystem::path folder =
-      QFileDialog::getExistingDirectory(&window_, title, sessionFolder()).toStdString();
+      QFileDialog::getExistingDirectory(&window_, title, inSessionFolder(parts_.document, {}))
+          .toStdString();
   if (folder.empty()) return;
   attempt([&] {
     parts_.annotation.finishMove();
@@ -118,8 +120,8 @@ void AnnotationFiles::importPoses(Importer importer, const QString& title) {
 
 void AnnotationFiles::openLandmarks() {
   const std::filesystem::path file =
-      QFileDialog::getOpenFileName(&window_, tr("Open landmarks of the station"), sessionFolder(),
-                                   tr("Landmarks (*.json)"))
+      QFileDialog::getOpenFileName(&window_, tr("Open landmarks of the station"),
+                                   inSessionFolder(parts_.document, {}), tr("Landmarks (*.json)"))
           .toStdString();
   if (file.empty()) return;
   attempt([&] {
@@ -130,12 +132,12 @@ void AnnotationFiles::openLandmarks() {
 }
 
 void AnnotationFiles::saveLandmarks() {
-  const sessions::SessionCase* one = parts_.document.session().findCase(caseId());
-  const auto file =
-      newFile(tr("Save the marks as landmarks"),
-              one && one->landmarks ? QString::fromStdString(one->landmarks->string())
-                                    : sessionFolder() + QStringLiteral("/landmarks.json"),
-              tr("Landmarks (*.json)"));
+  const sessions::SessionCase* one = shownCase(parts_.document, parts_.state);
+  const auto file = askForNewFile(
+      window_, tr("Save the marks as landmarks"),
+      one && one->landmarks ? fromText(one->landmarks->string())
+                            : inSessionFolder(parts_.document, QStringLiteral("landmarks.json")),
+      tr("Landmarks (*.json)"));
   if (file.empty()) return;
   attempt([&] {
     AnnotationController& annotation = parts_.annotation;
@@ -145,16 +147,6 @@ void AnnotationFiles::saveLandmarks() {
   });
 }
 
-std::string AnnotationFiles::caseId() const {
-  const ViewState::CasePtr& one = parts_.state.currentCase();
-  return one ? one->source.id : std::string();
-}
-
-/// Where people look for what belongs to the session.
-QString AnnotationFiles::sessionFolder() const {
-  return QString::fromStdString(parts_.document.file().parent_path().string());
-}
-
 bool AnnotationFiles::mayReplaceMarks() {
   const sessions::Marks& marks = parts_.annotation.marks();
   if (marks.empty()) return true;
@@ -162,16 +154,9 @@ bool AnnotationFiles::mayReplaceMarks() {
   return QMessageBox::question(
              &window_, tr("Import marks"),
              tr("%1 has %2 marks. Replace them? Undo brings them back; to keep both, put them "
-                "aside first (Passes).")
+                "aside first (Rounds).")
                  .arg(fromText(caseId()))
                  .arg(count)) == QMessageBox::Yes;
-}
-
-std::filesystem::path AnnotationFiles::newFile(const QString& title, const QString& proposed,
-                                               const QString& filter) {
-  QString file = QFileDialog::getSaveFileName(&window_, title, proposed, filter);
-  if (!file.isEmpty() && QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
-  return file.toStdString();
 }
 
 }  // namespace boresight::ui

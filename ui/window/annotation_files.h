@@ -3,12 +3,12 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include <QObject>
 #include <QString>
 
 #include "sessions/exchange/annotation_exchange.h"
+#include "ui/state/view_state.h"
 #include "ui/window/window_parts.h"
 
 class QWidget;
@@ -47,12 +47,8 @@ class AnnotationFiles : public QObject {
   void openLandmarks();
   /// The station's landmarks with the marks of this image, which the case then uses.
   void saveLandmarks();
-  std::string caseId() const;
-  QString sessionFolder() const;
+  std::string caseId() const { return shownCaseId(parts_.document, parts_.state); }
   bool mayReplaceMarks();
-  /// A new file of this kind, or empty.
-  std::filesystem::path newFile(const QString& title, const QString& proposed,
-                                const QString& filter);
   template <class Action>
   void attempt(Action&& action);
 

@@ -57,24 +57,17 @@ void CaseController::documentOpened() {
   QString first = QString::fromStdString(session.view.case_id);
   if (!session.findCase(session.view.case_id))
     first = session.cases.empty() ? QString() : QString::fromStdString(session.cases.front()->id);
-  if (first.isEmpty()) {
-    run_.reset({});
-    state_.setCase(nullptr);
-    Q_EMIT caseChosen(QString());
-  } else {
-    state_.setCase(nullptr);  // nothing of another document, or of this one before its recovery
-    chooseCase(first);
-  }
+  state_.setCase(nullptr);  // not of another document, nor of this one before its recovery
+  if (!first.isEmpty()) return chooseCase(first);
+  run_.reset({});
+  Q_EMIT caseChosen(QString());
 }
 
 void CaseController::documentChanged() {
   if (!unstored_.empty() && (document_.file() != unstored_file_ || !document_.isModified()))
     storeAgain();
   const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  if (!one) {
-    documentOpened();
-    return;
-  }
+  if (!one) return documentOpened();
   // Another seed, mask or image than the one that is shown.
   if (!asked_ || !sameButNudge(*asked_, *one)) load(case_id_);
   if (!(one->camera_from_station_working == working_)) showNudgedPose();
@@ -115,27 +108,14 @@ void CaseController::load(const QString& id) {
   asked_ = *one;
   load_problem_.clear();
   const ViewState::CasePtr before = state_.currentCase();
-  struct Read {
-    std::shared_ptr<const sessions::LoadedCase> one;
-    QString problem;
-  };
   tasks_.start(
       QStringLiteral("load case"),
       [source = *one, before](const std::stop_token&) {
-        try {
-          return before && before->source.id == source.id
-                     ? Read{sessions::reloadCase(*before, source), {}}
-                     : Read{sessions::loadCase(source), {}};
-        } catch (const std::exception& error) {
-          return Read{nullptr, QString::fromUtf8(error.what())};
-        }
+        return before && before->source.id == source.id ? sessions::reloadCase(*before, source)
+                                                        : sessions::loadCase(source);
       },
-      [this, id](const Read& read) {
-        if (read.one)
-          loaded(id, read.one);
-        else
-          loadFailed(id, read.problem);
-      });
+      [this, id](std::shared_ptr<const sessions::LoadedCase> read) { loaded(id, std::move(read)); },
+      [this, id](const QString& problem) { loadFailed(id, problem); });
 }
 
 /// The case that was shown before is not shown under this one's name.
@@ -161,8 +141,7 @@ void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::L
   if (edited && state_.snapshot() && state_.snapshot()->finished) {
     state_.replaceCase(std::move(one));
     Q_EMIT stalenessChanged();
-    runIfWaiting();
-    return;
+    return runIfWaiting();
   }
   state_.setCase(std::move(one));
   showNudgedPose();
@@ -173,8 +152,7 @@ void CaseController::loadLatestRun(const QString& id) {
   const sessions::RunRecord* record = document_.session().lastRunOf(id.toStdString());
   if (!record || run_when_loaded_) {  // it is run now
     Q_EMIT stalenessChanged();
-    runIfWaiting();
-    return;
+    return runIfWaiting();
   }
   tasks_.start(
       QStringLiteral("load run"),
@@ -217,31 +195,28 @@ void CaseController::advance(StepUntil until) {
   if (!state_.currentCase()) return;
   if (!isLoaded()) {
     run_when_loaded_ = until;
-    load(case_id_);
-    return;
+    return load(case_id_);
   }
-  try {
-    sessions::requireRunnable(*state_.currentCase());
-    if (!run_is_prepared_ || run_.state() == RunState::kFinished) prepareRun({.plan = options()});
-  } catch (const std::exception& error) {
-    Q_EMIT failed(QString::fromUtf8(error.what()));
-    runNext();
-    return;
-  }
-  run_.advance(until);
+  start(
+      [&] {
+        if (!run_is_prepared_ || run_.state() == RunState::kFinished)
+          prepareRun({.plan = options()});
+      },
+      until);
 }
 
-/// Runs to the end what `prepare` makes ready; what it throws is told instead.
-void CaseController::start(const std::function<void()>& prepare) {
+/// Advances what `prepare` makes ready; an exception of it is reported instead.
+void CaseController::start(const std::function<void()>& prepare, StepUntil until) {
   if (!state_.currentCase() || run_.state() == RunState::kWorking) return;
   try {
     sessions::requireRunnable(*state_.currentCase());
     prepare();
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
+    runNext();
     return;
   }
-  run_.advance(StepUntil::kEnd);
+  run_.advance(until);
 }
 
 void CaseController::requireLoaded() const {
@@ -274,8 +249,7 @@ void CaseController::rerunFrom(int iteration) {
   if (!state_.snapshot() || run_.state() == RunState::kWorking) return;
   if (iteration < 1) {
     reset();
-    advance(StepUntil::kEnd);
-    return;
+    return advance(StepUntil::kEnd);
   }
   start([&] { prepareRerun(iteration); });
 }
@@ -287,7 +261,7 @@ void CaseController::prepareRerun(int iteration) {
         tr("The onboard run is shown: run it again on the ground first.").toStdString());
   if (!shown.views.empty())
     throw std::runtime_error(
-        tr("The shown run was made with other views: run it with them anew from the start.")
+        tr("The shown run was made with other views: run it with them again from the start.")
             .toStdString());
   const auto kept = static_cast<std::size_t>(iteration);
   const std::string id = case_id_.toStdString();
@@ -296,7 +270,7 @@ void CaseController::prepareRerun(int iteration) {
   if (!isLoaded() || (is_recorded && record->inputs_sha256 !=
                                          sessions::inputsDigest(*document_.session().findCase(id))))
     throw std::runtime_error(
-        tr("The shown run was made with other inputs: run anew from the start.").toStdString());
+        tr("The shown run was made with other inputs: run again from the start.").toStdString());
   if (kept >= shown.iterations.size())
     throw std::runtime_error(tr("The shown run has no such iteration.").toStdString());
   RunInputs inputs;
@@ -388,7 +362,7 @@ QStringList CaseController::unstoredRuns() const {
 }
 
 void CaseController::finishStoring() {
-  // A store that fails leaves nobody busy.
+  // A store that fails leaves nothing busy.
   while (storing_ && tasks_.isBusy())
     QCoreApplication::processEvents(
         QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents, kPatience_ms);
@@ -410,23 +384,14 @@ void CaseController::endBatch() {
 /// Goes on with the batch, if there is one.
 void CaseController::runNext() {
   if (!batch_) return;
-  if (queue_.empty()) {
-    endBatch();
-    return;
-  }
+  if (queue_.empty()) return endBatch();
   const QString next = queue_.front();
   queue_.erase(queue_.begin());
   ++batch_->at;
   Q_EMIT batchChanged();
-  if (next == case_id_ && state_.currentCase()) {
-    advance(StepUntil::kEnd);
-    return;
-  }
+  if (next == case_id_ && state_.currentCase()) return advance(StepUntil::kEnd);
   run_when_loaded_ = StepUntil::kEnd;
-  if (next == case_id_)
-    load(next);
-  else
-    show(next);
+  next == case_id_ ? load(next) : show(next);
 }
 
 void CaseController::runIfWaiting() {
@@ -446,7 +411,7 @@ void CaseController::useAsSeed(const Pose& camera_from_station) {
 void CaseController::keepNudgedPose() {
   const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
   const ViewState::CasePtr& shown = state_.currentCase();
-  // In a session that cannot be edited people may nudge to look.
+  // In a session that cannot be edited the operator may nudge to look.
   if (!one || !shown || shown->source.id != one->id || !document_.readOnlyReason().isEmpty())
     return;
   sessions::SessionCase changed = *one;

@@ -60,7 +60,7 @@ class CaseController : public QObject {
   void runPlan(const boresight::sessions::RunPlan& plan);
   /// Halts the run and ends the batch, also while a case of it is read or stored.
   void stop();
-  /// Drops the shown run; the next step begins anew.
+  /// Drops the shown run; the next step begins again.
   void reset();
   void runAll(const QStringList& ids);
   /// Runs the case to its end together with the other views of its rig, as one pose; each gets a
@@ -105,7 +105,8 @@ class CaseController : public QObject {
   void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
   void prepareRun(RunInputs inputs);
-  void start(const std::function<void()>& prepare);
+  void start(const std::function<void()>& prepare,
+             sessions::StepUntil until = sessions::StepUntil::kEnd);
   void requireLoaded() const;
   void prepareRerun(int iteration);
   void storeRun();

@@ -11,8 +11,9 @@
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
-#include "ui/models/number_text.h"
+#include "ui/models/text.h"
 #include "ui/run/task_runner.h"
+#include "ui/views/display_image.h"
 
 namespace boresight::ui {
 namespace {
@@ -64,15 +65,13 @@ namespace {
 constexpr int kCaseThumbnail_px = 128;  // also sharp on a screen of double density
 constexpr int kPause_ms = 200;          // the list is filled as a whole
 
-/// Null when the file cannot be read: whoever opens the case is told why.
+/// Null when the file cannot be read: the operator who opens the case is told why.
 QImage thumbnailOf(const sessions::ImageInput& input) {
   try {
     const sessions::GrayImage image = sessions::readImage(input.source.file, input.eight_bit);
-    const QImage gray(image.pixels.data(), image.width, image.height, image.width,
-                      QImage::Format_Grayscale8);
-    return gray
-        .scaled(kCaseThumbnail_px, kCaseThumbnail_px, Qt::KeepAspectRatio, Qt::SmoothTransformation)
-        .copy();
+    return grayImage(image.view())
+        .scaled(kCaseThumbnail_px, kCaseThumbnail_px, Qt::KeepAspectRatio,
+                Qt::SmoothTransformation);
   } catch (const std::exception&) {
     return {};
   }

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <QImage>
@@ -14,7 +13,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/session/session.h"
-#include "ui/models/cases_model.h"
+#include "ui/panels/cases_panel.h"
 
 namespace boresight::ui {
 

@@ -7,8 +7,8 @@
 
 #include <QMessageBox>
 
-#include "ui/models/number_text.h"
-#include "ui/panels/banner.h"
+#include "ui/models/text.h"
+#include "ui/panels/widgets.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
@@ -76,7 +76,7 @@ void InputFindings::mend() {
            "marked as made with other inputs."));
     if (answer == QMessageBox::Yes) acceptChanged();
   } else {
-    check();  // somebody may have put things right
+    check();  // the operator may have put things right
   }
 }
 

@@ -46,7 +46,7 @@ MainWindow::MainWindow(QWidget* parent)
       docks_(std::make_unique<WindowDocks>(*this, parts_)),
       files_(new SessionFiles(*this, parts_)),
       menus_(new WindowMenus(*this, parts_, *docks_, *files_)),
-      findings_(new InputFindings(parts_, docks_->findings(), *this)) {
+      findings_(new InputFindings(parts_, docks_->findings, *this)) {
   setObjectName(QStringLiteral("mainWindow"));
   setAcceptDrops(true);
   buildStatusBar();
@@ -57,7 +57,7 @@ MainWindow::MainWindow(QWidget* parent)
 
 MainWindow::~MainWindow() = default;
 
-ImagePanel& MainWindow::image() { return docks_->image(); }
+ImagePanel& MainWindow::image() { return docks_->image; }
 
 QDockWidget* MainWindow::dock(const QString& name) const { return findChild<QDockWidget*>(name); }
 
@@ -73,10 +73,10 @@ void MainWindow::connectAll() {
   const auto note = [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); };
   auto* links = new PanelLinks(parts_, *docks_, this);
   new QueueLinks(parts_, *docks_, this);
-  auto* levels = new LevelsController(parts_, docks_->levels(), this);
+  auto* levels = new LevelsController(parts_, docks_->levels, this);
   connect(levels, &LevelsController::noted, this, note);
-  new MaskController(parts_, docks_->maskEditor(), docks_->mask(), image(), this);
-  auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation());
+  new MaskController(parts_, docks_->mask_editor, docks_->mask, image(), this);
+  auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation);
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this, note);
   connect(findChild<QAction*>(QStringLiteral("importMarks")), &QAction::triggered, annotation_files,
@@ -87,7 +87,7 @@ void MainWindow::connectAll() {
   connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
   connect(&onboard_, &OnboardController::told, this, note);
   connect(&annotation_, &AnnotationController::told, this, note);
-  connect(&docks_->snapper(), &StationSnapper::failed, this, &MainWindow::showMessage);
+  connect(&docks_->snapper, &StationSnapper::failed, this, &MainWindow::showMessage);
   connect(links, &PanelLinks::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::failed, this, &MainWindow::showMessage);
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
@@ -96,7 +96,7 @@ void MainWindow::connectAll() {
           [this] { docks_->raise(QStringLiteral("queue")); });
   connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
     statusBar()->showMessage(message, kNote_ms);
-    if (!state_.currentCase()) image().setHint(message);  // where people look
+    if (!state_.currentCase()) image().setHint(message);  // where the operator looks
   });
   connect(&document_, &Document::opened, this, &MainWindow::showDocument);
   connect(&document_, &Document::changed, this, &MainWindow::showState);
@@ -121,7 +121,7 @@ void MainWindow::connectAll() {
   state_.onChange(ViewChange::kCase, this, &MainWindow::showHint);
 }
 
-/// In the middle, where people look for the image: why it is not there, and what to do.
+/// In the middle, where the operator looks for the image: why it is not there, and what to do.
 void MainWindow::showHint() {
   QString hint;
   if (document_.isOpen() && !cases_.caseId().isEmpty()) {

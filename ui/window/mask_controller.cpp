@@ -60,17 +60,15 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
 }
 
 void LevelsController::showDocument() {
-  const ViewState::CasePtr& shown = parts_.state.currentCase();
-  const sessions::Session& session = parts_.document.session();
-  const bool editable = parts_.document.isOpen() && parts_.document.readOnlyReason().isEmpty();
+  const Document& document = parts_.document;
   const sessions::SessionCase* one =
-      editable && shown ? session.findCase(shown->source.id) : nullptr;
+      document.isEditable() ? shownCase(document, parts_.state) : nullptr;
   if (!one) {
     panel_.setCase(nullptr, nullptr, 0);
     return;
   }
-  panel_.setCase(one, &shown->image,
-                 static_cast<int>(sessions::casesOfSameCamera(session, one->id).size()));
+  panel_.setCase(one, &parts_.state.currentCase()->image,
+                 static_cast<int>(sessions::casesOfSameCamera(document.session(), one->id).size()));
 }
 
 using sessions::MaskStroke;
@@ -88,11 +86,6 @@ MaskController::MaskController(const WindowParts& parts, MaskEditor& editor, Mas
   connect(&parts_.document, &Document::changed, this, &MaskController::showDocument);
   parts_.state.onChange(ViewChange::kCase, this, &MaskController::showDocument);
   showDocument();
-}
-
-std::string MaskController::shownId() const {
-  const ViewState::CasePtr& one = parts_.state.currentCase();
-  return one ? one->source.id : std::string();
 }
 
 void MaskController::addStroke(const MaskStroke& stroke) {
@@ -121,8 +114,8 @@ void MaskController::copyStroke(int stroke) {
 void MaskController::showDocument() {
   const sessions::Session& session = parts_.document.session();
   const std::string id = shownId();
-  const bool editable = parts_.document.isOpen() && parts_.document.readOnlyReason().isEmpty();
-  const sessions::SessionCase* edited = editable ? session.findCase(id) : nullptr;
+  const sessions::SessionCase* edited =
+      parts_.document.isEditable() ? session.findCase(id) : nullptr;
   if (!edited) {
     panel_.setCase(nullptr, {}, 0);
     panel_.setIgnored(-1, 0);

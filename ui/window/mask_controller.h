@@ -5,6 +5,7 @@
 
 #include "sessions/io/image_file.h"
 #include "sessions/session/session.h"
+#include "ui/state/view_state.h"
 #include "ui/window/window_parts.h"
 
 namespace boresight::ui {
@@ -44,7 +45,7 @@ class MaskController : public QObject {
                  QObject* parent = nullptr);
 
  private:
-  std::string shownId() const;
+  std::string shownId() const { return shownCaseId(parts_.document, parts_.state); }
   void addStroke(const sessions::MaskStroke& stroke);
   void setStrokes(const sessions::MaskStrokes& strokes, const QString& text);
   void copyStroke(int stroke);

@@ -10,12 +10,12 @@
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/input_sigmas.h"
 #include "ui/annotation/annotation_panel.h"
-#include "ui/models/number_text.h"
-#include "ui/panels/banner.h"
+#include "ui/models/text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/panels/widgets.h"
 #include "ui/review/queue_panel.h"
 #include "ui/run/pose_renderer.h"
 #include "ui/run/run_controller.h"
@@ -32,15 +32,15 @@ namespace boresight::ui {
 
 QueueLinks::QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
     : QObject(parent), parts_(parts) {
-  connect(&docks.queue(), &QueuePanel::openRequested, this,
+  connect(&docks.queue, &QueuePanel::openRequested, this,
           [this](const QString& id, const QString& digest, int iteration) {
             open({id, digest.toStdString(), iteration});
           });
-  auto* dock = qobject_cast<QDockWidget*>(docks.queue().parentWidget());
-  connect(dock, &QDockWidget::visibilityChanged, &docks.queue(), &QueuePanel::setInSight);
+  auto* dock = qobject_cast<QDockWidget*>(docks.queue.parentWidget());
+  connect(dock, &QDockWidget::visibilityChanged, &docks.queue, &QueuePanel::setInSight);
   parts_.state.onChange(ViewChange::kSnapshot, this, &QueueLinks::goThere);
   connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
-    if (wanted_ && wanted_->case_id != id) wanted_.reset();  // somebody went elsewhere
+    if (wanted_ && wanted_->case_id != id) wanted_.reset();  // the operator went elsewhere
   });
 }
 
@@ -73,13 +73,13 @@ PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObje
   linkConfiguration();
   linkPoses();
   parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showInputs);
-  connect(&docks_.inputs(), &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
-  connect(&docks_.warnings(), &Banner::actionRequested, this,
+  connect(&docks_.inputs, &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
+  connect(&docks_.warnings, &Banner::actionRequested, this,
           [this] { docks_.raise(QStringLiteral("inputs")); });
 }
 
 void PanelLinks::linkCases() {
-  CasesPanel& panel = docks_.cases();
+  CasesPanel& panel = docks_.cases;
   CaseController& cases = parts_.cases;
   connect(&panel, &CasesPanel::openRequested, &cases, &CaseController::chooseCase);
   connect(&panel, &CasesPanel::runRequested, this,
@@ -87,7 +87,7 @@ void PanelLinks::linkCases() {
   connect(&panel, &CasesPanel::runAllRequested, &cases, &CaseController::runAll);
   connect(&cases, &CaseController::caseChosen, this, [this](const QString& id) {
     showCases();
-    docks_.cases().setCurrent(id);
+    docks_.cases.setCurrent(id);
   });
   const auto document_shown = [this] {
     details_->setSession(parts_.document.session());
@@ -101,7 +101,7 @@ void PanelLinks::linkCases() {
 }
 
 void PanelLinks::linkConfiguration() {
-  ConfigurationPanel& panel = docks_.configuration();
+  ConfigurationPanel& panel = docks_.configuration;
   connect(&panel, &ConfigurationPanel::optionsEdited, &parts_.cases, &CaseController::setOptions);
   connect(&panel, &ConfigurationPanel::runAgainRequested, this, [this] {
     parts_.cases.reset();
@@ -112,19 +112,18 @@ void PanelLinks::linkConfiguration() {
 }
 
 void PanelLinks::linkPoses() {
-  connect(&docks_.poses(), &PosePanel::useAsSeedRequested, &parts_.cases,
-          &CaseController::useAsSeed);
-  connect(&docks_.annotation(), &AnnotationPanel::openCaseRequested, &parts_.cases,
+  connect(&docks_.poses, &PosePanel::useAsSeedRequested, &parts_.cases, &CaseController::useAsSeed);
+  connect(&docks_.annotation, &AnnotationPanel::openCaseRequested, &parts_.cases,
           &CaseController::chooseCase);
-  connect(&docks_.annotation(), &AnnotationPanel::useAsSeedRequested, &parts_.cases,
+  connect(&docks_.annotation, &AnnotationPanel::useAsSeedRequested, &parts_.cases,
           &CaseController::useAsSeed);
-  connect(&docks_.annotation(), &AnnotationPanel::imageRequested, this,
-          [this] { docks_.image().view().setFocus(); });
-  connect(&docks_.poses(), &PosePanel::gestureFinished, &parts_.cases,
+  connect(&docks_.annotation, &AnnotationPanel::imageRequested, this,
+          [this] { docks_.image.view().setFocus(); });
+  connect(&docks_.poses, &PosePanel::gestureFinished, &parts_.cases,
           &CaseController::keepNudgedPose);
   parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showJudgement);
   parts_.state.onChange(ViewChange::kNudgedPose, this, &PanelLinks::showNudgedPose);
-  connect(nudged_, &PoseRenderer::rendered, &docks_.image(), &ImagePanel::setNudgedRender);
+  connect(nudged_, &PoseRenderer::rendered, &docks_.image, &ImagePanel::setNudgedRender);
 }
 
 void PanelLinks::showCases() {
@@ -133,18 +132,18 @@ void PanelLinks::showCases() {
       caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString(),
                parts_.document.file(), stale_runs_);
   details_->fill(rows);
-  docks_.cases().setRows(std::move(rows));
-  docks_.cases().setRunnable(!working);
+  docks_.cases.setRows(std::move(rows));
+  docks_.cases.setRunnable(!working);
 }
 
 void PanelLinks::showConfiguration() {
-  docks_.configuration().setEnabled(parts_.document.isOpen());  // options are a session's
+  docks_.configuration.setEnabled(parts_.document.isOpen());  // options are a session's
   try {
     const sessions::Session& session = parts_.document.session();
-    docks_.configuration().setOptions(QString::fromStdString(session.profile),
-                                      sessions::sessionOptions(session, parts_.document.file()));
+    docks_.configuration.setOptions(QString::fromStdString(session.profile),
+                                    sessions::sessionOptions(session, parts_.document.file()));
     const ViewState::CasePtr& one = parts_.state.currentCase();
-    docks_.configuration().setCaseFeatureSize(one ? one->source.feature_size_m.value_or(0.0) : 0.0);
+    docks_.configuration.setCaseFeatureSize(one ? one->source.feature_size_m.value_or(0.0) : 0.0);
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
   }
@@ -153,8 +152,8 @@ void PanelLinks::showConfiguration() {
 /// Figures of the inputs take a look at every pixel and face: off this thread.
 void PanelLinks::showInputs() {
   const ViewState::CasePtr one = parts_.state.currentCase();
-  docks_.inputs().setSheet(std::nullopt);
-  docks_.warnings().showWarnings({});
+  docks_.inputs.setSheet(std::nullopt);
+  docks_.warnings.showWarnings({});
   showConfiguration();
   if (!one) return;
   parts_.tasks.start(
@@ -164,18 +163,16 @@ void PanelLinks::showInputs() {
         if (one != parts_.state.currentCase()) return;
         QStringList flags;
         for (const sessions::RedFlag& flag : sheet.flags) flags << fromText(flag.text);
-        docks_.warnings().showWarnings(flags);
-        docks_.inputs().setSheet(std::move(sheet));
+        docks_.warnings.showWarnings(flags);
+        docks_.inputs.setSheet(std::move(sheet));
       });
 }
 
 void PanelLinks::askForSigmas() {
-  const ViewState::CasePtr& shown = parts_.state.currentCase();
-  const sessions::SessionCase* one =
-      shown ? parts_.document.session().findCase(shown->source.id) : nullptr;
+  const sessions::SessionCase* one = shownCase(parts_.document, parts_.state);
   if (!one) return;
   const std::string id = one->id;
-  InputSigmasDialog dialog(*one, docks_.inputs().window());
+  InputSigmasDialog dialog(*one, docks_.inputs.window());
   if (dialog.exec() != QDialog::Accepted) return;
   parts_.document.edit(
       sessions::withInputSigmas(parts_.document.session(), id, dialog.meshScaleSigma(),
@@ -192,7 +189,7 @@ void PanelLinks::showJudgement() {
     judgement.truth_covariance = one->source.truth_covariance;
     judgement.camera_from_end_effector = one->source.camera_from_end_effector;
   }
-  docks_.poses().setJudgement(judgement);
+  docks_.poses.setJudgement(judgement);
 }
 
 void PanelLinks::showNudgedPose() {
@@ -200,7 +197,7 @@ void PanelLinks::showNudgedPose() {
     nudged_->setPose(*parts_.state.nudgedPose());
   } else {
     nudged_->clear();
-    docks_.image().setNudgedRender(nullptr, 0);
+    docks_.image.setNudgedRender(nullptr, 0);
   }
 }
 

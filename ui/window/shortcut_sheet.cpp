@@ -5,12 +5,9 @@
 
 #include <QtWidgets>
 
-#include "ui/models/html_table.h"
-
-#include "ui_shortcut_sheet.h"
+#include "ui/models/text.h"
 
 namespace boresight::ui {
-
 namespace {
 
 /// Actions of the menus, in their order.
@@ -89,15 +86,14 @@ QList<KeyRow> keysOf(const QWidget& window) {
   return rows;
 }
 
-ShortcutSheet::ShortcutSheet(QWidget& window)
-    : QDialog(&window), ui_(std::make_unique<Ui::ShortcutSheet>()) {
-  ui_->setupUi(this);
+ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
+  ui_.setupUi(this);
   const QList<KeyRow> keys = keysOf(window);
   const int half = (keys.size() + 1) / 2;
-  ui_->firstKeys->setText(keysHtml(keys.mid(0, half)));
-  ui_->furtherKeys->setText(keysHtml(keys.mid(half)));
-  connect(ui_->buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  QPushButton* manual = ui_->buttons->addButton(tr("&Manual"), QDialogButtonBox::HelpRole);
+  ui_.firstKeys->setText(keysHtml(keys.mid(0, half)));
+  ui_.furtherKeys->setText(keysHtml(keys.mid(half)));
+  connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  QPushButton* manual = ui_.buttons->addButton(tr("&Manual"), QDialogButtonBox::HelpRole);
   manual->setShortcut(Qt::Key_F1);
   manual->setToolTip(tr("What the program does, task by task (F1)"));
   connect(manual, &QPushButton::clicked, this, [this] {
@@ -106,7 +102,5 @@ ShortcutSheet::ShortcutSheet(QWidget& window)
   });
   resize(900, 620);
 }
-
-ShortcutSheet::~ShortcutSheet() = default;
 
 }  // namespace boresight::ui

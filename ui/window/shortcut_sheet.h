@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include <QDialog>
 #include <QList>
 #include <QString>
+
+#include "ui_shortcut_sheet.h"
 
 namespace boresight::ui {
 
@@ -19,24 +19,19 @@ struct KeyRow {
 /// scene and tables.
 QList<KeyRow> keysOf(const QWidget& window);
 
-namespace Ui {
-class ShortcutSheet;
-}
-
 /// Every key of the window, in two columns.
 class ShortcutSheet : public QDialog {
   Q_OBJECT
 
  public:
   explicit ShortcutSheet(QWidget& window);
-  ~ShortcutSheet() override;
 
  Q_SIGNALS:
   /// The operator asks for the manual.
   void manualRequested();
 
  private:
-  const std::unique_ptr<Ui::ShortcutSheet> ui_;
+  Ui::ShortcutSheet ui_;
 };
 
 }  // namespace boresight::ui

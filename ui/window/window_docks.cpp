@@ -7,7 +7,6 @@
 #include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
-#include "ui/panels/banner.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/hypotheses_panel.h"
@@ -17,6 +16,7 @@
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/panels/widgets.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
@@ -39,67 +39,66 @@ QString windowText(const char* text) { return QMainWindow::tr(text); }
 }  // namespace
 
 WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
-    : window_(window),
-      image_(new ImagePanel(parts.state, parts.tasks)),
-      cases_(new CasesPanel),
-      configuration_(new ConfigurationPanel(parts.state)),
-      inputs_(new InputSheetPanel),
-      poses_(new PosePanel(parts.state)),
-      mask_editor_(new MaskEditor(image_->view(), image_)),
-      mask_(new MaskPanel(*mask_editor_)),
-      levels_(new LevelsPanel(image_->display())),
-      annotation_(new AnnotationPanel(parts.document, parts.annotation, parts.state)),
-      queue_(new QueuePanel(parts.document)),
-      review_(new ReviewPanel(parts.document, parts.state)),
-      snapper_(new StationSnapper(parts.state, &window)),
-      scene_(new SceneView(parts.state)),
-      image_annotation_(
-          new ImageAnnotation(*image_, parts.annotation, parts.state, *snapper_, image_)),
-      warnings_(new Banner),
-      findings_(new Banner) {
+    : image(*new ImagePanel(parts.state, parts.tasks)),
+      cases(*new CasesPanel),
+      configuration(*new ConfigurationPanel(parts.state)),
+      inputs(*new InputSheetPanel),
+      poses(*new PosePanel(parts.state)),
+      mask_editor(*new MaskEditor(image.view(), &image)),
+      mask(*new MaskPanel(mask_editor)),
+      levels(*new LevelsPanel(image.display())),
+      annotation(*new AnnotationPanel(parts.document, parts.annotation, parts.state)),
+      queue(*new QueuePanel(parts.document)),
+      review(*new ReviewPanel(parts.document, parts.state)),
+      snapper(*new StationSnapper(parts.state, &window)),
+      scene(*new SceneView(parts.state)),
+      image_annotation(*new ImageAnnotation(image, parts.annotation, parts.state, snapper, &image)),
+      warnings(*new Banner),
+      findings(*new Banner),
+      window_(window) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
   // Tables of poses and options are long, the one of iterations is wide.
   window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  auto* ambiguity = new AmbiguityView(parts.annotation, parts.state, *snapper_);
-  QObject::connect(ambiguity, &AmbiguityView::otherRequested, &poses_->nudgeController(),
+  auto* ambiguity = new AmbiguityView(parts.annotation, parts.state, snapper);
+  QObject::connect(ambiguity, &AmbiguityView::otherRequested, &poses.nudgeController(),
                    &NudgeController::setPose);
-  annotation_->addBeside(ambiguity);
-  scene_->setAnnotation(parts.annotation, *snapper_);
+  annotation.addBeside(ambiguity);
+  scene.setAnnotation(parts.annotation, snapper);
   buildCentre();
-  add(QStringLiteral("cases"), windowText("Cases"), cases_);
-  add(QStringLiteral("layers"), windowText("Layers"), new LayersPanel(*image_));
-  add(QStringLiteral("mask"), windowText("Mask"), mask_);
-  add(QStringLiteral("levels"), windowText("Levels"), levels_);
-  add(QStringLiteral("pose"), windowText("Pose"), poses_);
-  add(QStringLiteral("configuration"), windowText("Configuration"), configuration_);
-  add(QStringLiteral("scene"), windowText("Scene"), scene_);
+  add(QStringLiteral("cases"), windowText("Cases"), &cases);
+  add(QStringLiteral("layers"), windowText("Layers"), new LayersPanel(image));
+  add(QStringLiteral("mask"), windowText("Mask"), &mask);
+  add(QStringLiteral("levels"), windowText("Levels"), &levels);
+  add(QStringLiteral("pose"), windowText("Pose"), &poses);
+  add(QStringLiteral("configuration"), windowText("Configuration"), &configuration);
+  add(QStringLiteral("scene"), windowText("Scene"), &scene);
   add(QStringLiteral("iterations"), windowText("Iterations"), new IterationsPanel(parts.state));
   add(QStringLiteral("hypotheses"), windowText("Hypotheses"), new HypothesesPanel(parts.state));
   add(QStringLiteral("inspector"), windowText("Match inspector"),
       new MatchInspectorPanel(parts.state));
-  add(QStringLiteral("annotation"), windowText("Annotation"), annotation_);
-  add(QStringLiteral("review"), windowText("Review"), review_);
-  add(QStringLiteral("queue"), windowText("Queue"), queue_);
-  add(QStringLiteral("inputs"), windowText("Inputs"), inputs_);
+  add(QStringLiteral("annotation"), windowText("Annotation"), &annotation);
+  add(QStringLiteral("review"), windowText("Review"), &review);
+  add(QStringLiteral("queue"), windowText("Queue"), &queue);
+  add(QStringLiteral("inputs"), windowText("Inputs"), &inputs);
   add(QStringLiteral("onboard"), windowText("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));
   place();
 }
 
 void WindowDocks::buildCentre() {
-  warnings_->setAction(windowText("Inputs"), windowText("Show all that is known of the inputs"));
-  findings_->setAction(windowText("Fix ..."),
-                       windowText("Look for missing files below the session's folder, or take "
-                                  "changed ones as they are"));
-  for (Banner* each : {warnings_, findings_}) each->showWarnings({});
+  warnings.setAction(windowText("Inputs"), windowText("Show all that is known of the inputs"));
+  findings.setAction(windowText("Fix ..."),
+                     windowText("Look for missing files below the session's folder, or take "
+                                "changed ones as they are"));
+  for (Banner* each : {&warnings, &findings}) each->showWarnings({});
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(findings_);
-  column->addWidget(warnings_);
-  column->addWidget(image_, 1);
+  column->addWidget(&findings);
+  column->addWidget(&warnings);
+  column->addWidget(&image, 1);
   window_.setCentralWidget(centre);
 }
 
@@ -121,12 +120,10 @@ void WindowDocks::arrange() const {
 
 void WindowDocks::place() const {
   for (QDockWidget* each : docks_) each->setFloating(false);
-  QDockWidget* cases = dock(QStringLiteral("cases"));
-  QDockWidget* scene = dock(QStringLiteral("scene"));
   QDockWidget* layers = dock(QStringLiteral("layers"));
   QDockWidget* iterations = dock(QStringLiteral("iterations"));
-  window_.addDockWidget(Qt::LeftDockWidgetArea, cases);
-  window_.addDockWidget(Qt::RightDockWidgetArea, scene);
+  window_.addDockWidget(Qt::LeftDockWidgetArea, dock(QStringLiteral("cases")));
+  window_.addDockWidget(Qt::RightDockWidgetArea, dock(QStringLiteral("scene")));
   window_.addDockWidget(Qt::RightDockWidgetArea, layers);
   // As many as can be named at 1280 pixels.
   for (const char* name : {"mask", "levels", "pose", "configuration"})

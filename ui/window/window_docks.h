@@ -35,25 +35,23 @@ class WindowDocks {
  public:
   WindowDocks(QMainWindow& window, const WindowParts& parts);
 
-  ImagePanel& image() const { return *image_; }
-  CasesPanel& cases() const { return *cases_; }
-  ConfigurationPanel& configuration() const { return *configuration_; }
-  InputSheetPanel& inputs() const { return *inputs_; }
-  PosePanel& poses() const { return *poses_; }
-  MaskEditor& maskEditor() const { return *mask_editor_; }
-  MaskPanel& mask() const { return *mask_; }
-  LevelsPanel& levels() const { return *levels_; }
-  AnnotationPanel& annotation() const { return *annotation_; }
-  QueuePanel& queue() const { return *queue_; }
-  ReviewPanel& review() const { return *review_; }
-  /// What of the current case's mesh can be snapped to, for every view.
-  StationSnapper& snapper() const { return *snapper_; }
-  SceneView& scene() const { return *scene_; }
-  ImageAnnotation& imageAnnotation() const { return *image_annotation_; }
-  /// Above the image: what looks wrong with the case's inputs.
-  Banner& warnings() const { return *warnings_; }
-  /// The same for files that are missing or have changed.
-  Banner& findings() const { return *findings_; }
+  ImagePanel& image;
+  CasesPanel& cases;
+  ConfigurationPanel& configuration;
+  InputSheetPanel& inputs;
+  PosePanel& poses;
+  MaskEditor& mask_editor;
+  MaskPanel& mask;
+  LevelsPanel& levels;
+  AnnotationPanel& annotation;
+  QueuePanel& queue;
+  ReviewPanel& review;
+  StationSnapper& snapper;  ///< for every view
+  SceneView& scene;
+  ImageAnnotation& image_annotation;
+  Banner& warnings;  ///< above the image: what looks wrong with the case's inputs
+  Banner& findings;  ///< above the image: files that are missing or have changed
+
   /// Brings a dock to the front.
   void raise(const QString& name) const;
   /// Every dock where it was when the program started for the first time.
@@ -71,22 +69,6 @@ class WindowDocks {
 
   QMainWindow& window_;
   std::vector<QDockWidget*> docks_;
-  ImagePanel* image_;
-  CasesPanel* cases_;
-  ConfigurationPanel* configuration_;
-  InputSheetPanel* inputs_;
-  PosePanel* poses_;
-  MaskEditor* mask_editor_;
-  MaskPanel* mask_;
-  LevelsPanel* levels_;
-  AnnotationPanel* annotation_;
-  QueuePanel* queue_;
-  ReviewPanel* review_;
-  StationSnapper* snapper_;
-  SceneView* scene_;
-  ImageAnnotation* image_annotation_;
-  Banner* warnings_;
-  Banner* findings_;
 };
 
 }  // namespace boresight::ui

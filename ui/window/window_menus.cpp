@@ -5,17 +5,15 @@
 
 #include <QtWidgets>
 
-#include "ui_window_menus.h"
-
 #include "sessions/version.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/loupe.h"
 #include "ui/annotation/mark_tool.h"
 #include "ui/manual/manual_window.h"
+#include "ui/panels/iterations_panel.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/pose_panel.h"
-#include "ui/panels/run_scrubber.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/pose_export.h"
@@ -53,13 +51,8 @@ void connectSwitch(QAction* action, Owner* owner, bool (Owner::*isOn)() const,
 
 WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
                          SessionFiles& files)
-    : QObject(&window),
-      window_(window),
-      parts_(parts),
-      docks_(docks),
-      files_(files),
-      ui_(std::make_unique<Ui::WindowMenus>()) {
-  ui_->setupUi(&window);
+    : QObject(&window), window_(window), parts_(parts), docks_(docks), files_(files) {
+  ui_.setupUi(&window);
   connectFile();
   connectEdit();
   connectAnnotate();
@@ -75,46 +68,44 @@ WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const Wi
     if (!each->statusTip().isEmpty()) setTip(*each, each->statusTip());
 }
 
-WindowMenus::~WindowMenus() = default;
-
 void WindowMenus::connectFile() {
-  on(ui_->newFromFiles, &files_, &SessionFiles::askForFiles);
-  on(ui_->openSession, &files_, &SessionFiles::askForSession);
-  connect(ui_->recentMenu, &QMenu::aboutToShow, this, &WindowMenus::showRecent);
-  on(ui_->save, &files_, &SessionFiles::save);
-  on(ui_->saveAs, &files_, &SessionFiles::saveAs);
-  on(ui_->quit, &window_, &QWidget::close);
+  on(ui_.newFromFiles, &files_, &SessionFiles::askForFiles);
+  on(ui_.openSession, &files_, &SessionFiles::askForSession);
+  connect(ui_.recentMenu, &QMenu::aboutToShow, this, &WindowMenus::showRecent);
+  on(ui_.save, &files_, &SessionFiles::save);
+  on(ui_.saveAs, &files_, &SessionFiles::saveAs);
+  on(ui_.quit, &window_, &QWidget::close);
   auto* poses = new PoseExport(window_, parts_.document, parts_.state, parts_.tasks);
-  poses->addTo(*ui_->exportMenu);
+  poses->addTo(*ui_.exportMenu);
   connect(poses, &PoseExport::noted, this,
           [this](const QString& message) { window_.statusBar()->showMessage(message); });
 }
 
 void WindowMenus::connectEdit() {
-  on(ui_->undo, this, &WindowMenus::undo);
-  on(ui_->redo, this, &WindowMenus::redo);
-  ui_->redo->setShortcut(QKeySequence::Redo);  // desktops differ
+  on(ui_.undo, this, &WindowMenus::undo);
+  on(ui_.redo, this, &WindowMenus::redo);
+  ui_.redo->setShortcut(QKeySequence::Redo);  // desktops differ
   connect(&parts_.document, &Document::changed, this, [this] {
     // An undo is no longer the last change.
     if (window_.statusBar()->currentMessage() == shown_change_) window_.statusBar()->clearMessage();
   });
-  MaskEditor* editor = &docks_.maskEditor();
+  MaskEditor* editor = &docks_.mask_editor;
   const auto toggle = [editor](MaskTool tool) {
     return [editor, tool] { editor->setTool(editor->tool() == tool ? MaskTool::kNone : tool); };
   };
-  on(ui_->maskBrush, editor, toggle(MaskTool::kBrush));
-  on(ui_->maskPolygon, editor, toggle(MaskTool::kPolygon));
-  on(ui_->maskErase, editor, [editor] { editor->setErase(!editor->erases()); });
-  on(ui_->smallerBrush, editor, [editor] { editor->setRadius(editor->radius_px() / kBrushStep); });
-  on(ui_->largerBrush, editor, [editor] { editor->setRadius(editor->radius_px() * kBrushStep); });
-  on(ui_->maskSaturated, &docks_.mask(), &MaskPanel::askForSaturated);
-  on(ui_->clearMask, &docks_.mask(), &MaskPanel::clearAll);
+  on(ui_.maskBrush, editor, toggle(MaskTool::kBrush));
+  on(ui_.maskPolygon, editor, toggle(MaskTool::kPolygon));
+  on(ui_.maskErase, editor, [editor] { editor->setErase(!editor->erases()); });
+  on(ui_.smallerBrush, editor, [editor] { editor->setRadius(editor->radius_px() / kBrushStep); });
+  on(ui_.largerBrush, editor, [editor] { editor->setRadius(editor->radius_px() * kBrushStep); });
+  on(ui_.maskSaturated, &docks_.mask, &MaskPanel::askForSaturated);
+  on(ui_.clearMask, &docks_.mask, &MaskPanel::clearAll);
 }
 
 void WindowMenus::connectMode(QAction* action, PlaceMode mode) {
   AnnotationController& annotation = parts_.annotation;
   on(action, this, [this, mode](bool checked) {
-    docks_.maskEditor().setTool(MaskTool::kNone);  // one tool at a time
+    docks_.mask_editor.setTool(MaskTool::kNone);  // one tool at a time
     parts_.annotation.setMode(checked ? mode : PlaceMode::kOff);
     if (checked) docks_.raise(QStringLiteral("annotation"));
   });
@@ -124,34 +115,34 @@ void WindowMenus::connectMode(QAction* action, PlaceMode mode) {
 
 void WindowMenus::connectAnnotate() {
   AnnotationController* annotation = &parts_.annotation;
-  annotation_edits_ = {ui_->placePoints, ui_->placeLines,  ui_->removeMark, ui_->useAsTruth,
-                       ui_->putAside,    ui_->importMarks, ui_->exportMarks};
-  connectMode(ui_->placePoints, PlaceMode::kPoint);
-  connectMode(ui_->placeLines, PlaceMode::kLine);
-  on(ui_->removeMark, annotation, [annotation] { annotation->remove(annotation->selected()); });
-  on(ui_->useAsTruth, annotation, &AnnotationController::useAsTruth);
-  on(ui_->putAside, &docks_.annotation(), &AnnotationPanel::askForName);
-  connect(&docks_.maskEditor(), &MaskEditor::changed, this, [this] {
-    if (docks_.maskEditor().tool() != MaskTool::kNone) parts_.annotation.setMode(PlaceMode::kOff);
+  annotation_edits_ = {ui_.placePoints, ui_.placeLines,  ui_.removeMark, ui_.useAsTruth,
+                       ui_.putAside,    ui_.importMarks, ui_.exportMarks};
+  connectMode(ui_.placePoints, PlaceMode::kPoint);
+  connectMode(ui_.placeLines, PlaceMode::kLine);
+  on(ui_.removeMark, annotation, [annotation] { annotation->remove(annotation->selected()); });
+  on(ui_.useAsTruth, annotation, &AnnotationController::useAsTruth);
+  on(ui_.putAside, &docks_.annotation, &AnnotationPanel::askForName);
+  connect(&docks_.mask_editor, &MaskEditor::changed, this, [this] {
+    if (docks_.mask_editor.tool() != MaskTool::kNone) parts_.annotation.setMode(PlaceMode::kOff);
   });
 }
 
 /// Snapping, the loupe and its magnification, the magnification of residuals.
 void WindowMenus::connectImageAnnotation() {
-  ImageAnnotation* annotation = &docks_.imageAnnotation();
+  ImageAnnotation* annotation = &docks_.image_annotation;
   Loupe* loupe = &annotation->loupe();
-  connectSwitch(ui_->snap, &annotation->tool(), &MarkTool::snaps, &MarkTool::setSnaps,
+  connectSwitch(ui_.snap, &annotation->tool(), &MarkTool::snaps, &MarkTool::setSnaps,
                 &MarkTool::snapsChanged);
-  connectSwitch(ui_->loupe, loupe, &Loupe::isSwitchedOn, &Loupe::setSwitchedOn, &Loupe::changed);
+  connectSwitch(ui_.loupe, loupe, &Loupe::isSwitchedOn, &Loupe::setSwitchedOn, &Loupe::changed);
   const auto magnify = [loupe](double factor) {
     return [loupe, factor] { loupe->setMagnification(loupe->magnification() * factor); };
   };
-  on(ui_->magnifyMore, loupe, magnify(Loupe::kStep));
-  on(ui_->magnifyLess, loupe, magnify(1.0 / Loupe::kStep));
-  ui_->magnifyMore->setShortcuts({ui_->magnifyMore->shortcut(), keys("Ctrl+=")});
-  auto* group = new QActionGroup(ui_->residualsMenu);
+  on(ui_.magnifyMore, loupe, magnify(Loupe::kStep));
+  on(ui_.magnifyLess, loupe, magnify(1.0 / Loupe::kStep));
+  ui_.magnifyMore->setShortcuts({ui_.magnifyMore->shortcut(), keys("Ctrl+=")});
+  auto* group = new QActionGroup(ui_.residualsMenu);
   for (const double factor : {1.0, 10.0, 40.0, 100.0}) {
-    QAction* each = ui_->residualsMenu->addAction(tr("%1 times").arg(factor));
+    QAction* each = ui_.residualsMenu->addAction(tr("%1 times").arg(factor));
     each->setStatusTip(tr("Draw the residual of each mark this many times as long"));
     each->setCheckable(true);
     each->setChecked(factor == annotation->magnification());
@@ -165,15 +156,14 @@ void WindowMenus::connectRun() {
   const auto advance = [cases](sessions::StepUntil until) {
     return [cases, until] { cases->advance(until); };
   };
-  on(ui_->runToEnd, cases, advance(sessions::StepUntil::kEnd));
-  on(ui_->stepIteration, cases, advance(sessions::StepUntil::kIteration));
-  on(ui_->stepStage, cases, advance(sessions::StepUntil::kStage));
-  on(ui_->runTogether, cases, &CaseController::runTogether);
-  on(ui_->rerunFromHere, cases,
-     [this] { parts_.cases.rerunFrom(parts_.state.cursor().iteration); });
-  on(ui_->stop, cases, &CaseController::stop);
-  on(ui_->reset, cases, &CaseController::reset);
-  on(ui_->runAll, this, [this] {
+  on(ui_.runToEnd, cases, advance(sessions::StepUntil::kEnd));
+  on(ui_.stepIteration, cases, advance(sessions::StepUntil::kIteration));
+  on(ui_.stepStage, cases, advance(sessions::StepUntil::kStage));
+  on(ui_.runTogether, cases, &CaseController::runTogether);
+  on(ui_.rerunFromHere, cases, [this] { parts_.cases.rerunFrom(parts_.state.cursor().iteration); });
+  on(ui_.stop, cases, &CaseController::stop);
+  on(ui_.reset, cases, &CaseController::reset);
+  on(ui_.runAll, this, [this] {
     QStringList ids;
     for (const auto& one : parts_.document.session().cases) ids << QString::fromStdString(one->id);
     parts_.cases.runAll(ids);
@@ -183,20 +173,20 @@ void WindowMenus::connectRun() {
 
 void WindowMenus::connectOnboard() {
   OnboardController* onboard = &parts_.onboard;
-  on(ui_->loadRecord, this, [this] { askForOnboardRecord(parts_.onboard, &window_); });
-  on(ui_->showOtherRun, onboard,
+  on(ui_.loadRecord, this, [this] { askForOnboardRecord(parts_.onboard, &window_); });
+  on(ui_.showOtherRun, onboard,
      [onboard] { onboard->showsOnboard() ? onboard->showGround() : onboard->showOnboard(); });
-  on(ui_->rerunRecord, onboard, &OnboardController::rerun);
-  on(ui_->firstDifference, onboard, &OnboardController::goToFirstDifference);
+  on(ui_.rerunRecord, onboard, &OnboardController::rerun);
+  on(ui_.firstDifference, onboard, &OnboardController::goToFirstDifference);
   connect(onboard, &OnboardController::changed, this, &WindowMenus::update);
 }
 
 /// Where it cannot be asked for, the tip gives the reason.
 void WindowMenus::updateTogether(bool idle) {
   const QString alone = parts_.cases.whyAlone();
-  if (together_tip_.isEmpty()) together_tip_ = ui_->runTogether->statusTip();
-  ui_->runTogether->setEnabled(idle && alone.isEmpty());
-  setTip(*ui_->runTogether, alone.isEmpty() ? together_tip_ : alone);
+  if (together_tip_.isEmpty()) together_tip_ = ui_.runTogether->statusTip();
+  ui_.runTogether->setEnabled(idle && alone.isEmpty());
+  setTip(*ui_.runTogether, alone.isEmpty() ? together_tip_ : alone);
 }
 
 /// The steps of the scrubber: its buttons name and enable them, the menu gives them their keys.
@@ -220,64 +210,64 @@ void WindowMenus::fillGoMenu() {
     QAction* go = scrubber->action(each.step);
     go->setShortcut(QKeySequence(QString::fromLatin1(each.keys)));
     setTip(*go, go->toolTip());
-    ui_->goMenu->addAction(go);
+    ui_.goMenu->addAction(go);
   }
 }
 
 void WindowMenus::connectView() {
-  ImagePanel* image = &docks_.image();
-  on(ui_->blink, image, &ImagePanel::toggleBlink);
-  on(ui_->swipe, image, &ImagePanel::toggleSwipe);
-  on(ui_->coreView, image, &ImagePanel::toggleCoreView);
-  on(ui_->review, this, [this] { docks_.raise(QStringLiteral("review")); });
-  on(ui_->arrange, this, [this] { docks_.arrange(); });
+  ImagePanel* image = &docks_.image;
+  on(ui_.blink, image, &ImagePanel::toggleBlink);
+  on(ui_.swipe, image, &ImagePanel::toggleSwipe);
+  on(ui_.coreView, image, &ImagePanel::toggleCoreView);
+  on(ui_.review, this, [this] { docks_.raise(QStringLiteral("review")); });
+  on(ui_.arrange, this, [this] { docks_.arrange(); });
   for (QDockWidget* each : docks_.all())
-    ui_->viewMenu->insertAction(ui_->arrange, each->toggleViewAction());
-  ui_->viewMenu->insertSeparator(ui_->arrange);
+    ui_.viewMenu->insertAction(ui_.arrange, each->toggleViewAction());
+  ui_.viewMenu->insertSeparator(ui_.arrange);
 }
 
 /// Keys that hold in the queue's list alone are listed next to the text: elsewhere they are the
 /// image's.
 void WindowMenus::connectQueue() {
-  QueuePanel* queue = &docks_.queue();
-  on(ui_->showQueue, queue, [this] {
+  QueuePanel* queue = &docks_.queue;
+  on(ui_.showQueue, queue, [this] {
     docks_.raise(QStringLiteral("queue"));
-    docks_.queue().focusList();
+    docks_.queue.focusList();
   });
-  on(ui_->queueOpen, queue, &QueuePanel::openChosen);
-  on(ui_->queueAccept, queue, &QueuePanel::accept);
-  on(ui_->queueReject, queue, &QueuePanel::reject);
-  on(ui_->queueNext, queue, &QueuePanel::next);
-  on(ui_->queuePrevious, queue, &QueuePanel::previous);
-  on(ui_->queueDifferences, queue, [this] {
+  on(ui_.queueOpen, queue, &QueuePanel::openChosen);
+  on(ui_.queueAccept, queue, &QueuePanel::accept);
+  on(ui_.queueReject, queue, &QueuePanel::reject);
+  on(ui_.queueNext, queue, &QueuePanel::next);
+  on(ui_.queuePrevious, queue, &QueuePanel::previous);
+  on(ui_.queueDifferences, queue, [this] {
     docks_.raise(QStringLiteral("queue"));
-    docks_.queue().showDifferences(true);
+    docks_.queue.showDifferences(true);
   });
 }
 
 void WindowMenus::fillLayersMenu() {
   for (int i = 0; i < kLayerCount; ++i) {
     const LayerInfo& info = layerInfo(static_cast<LayerId>(i));
-    QAction* each = ui_->layersMenu->addAction(tr(info.name));
+    QAction* each = ui_.layersMenu->addAction(tr(info.name));
     each->setShortcut(keys(info.key));
     each->setStatusTip(tr(info.help));
     on(each, this, [this, id = info.id] {
-      LayerStyle style = docks_.image().style(id);
+      LayerStyle style = docks_.image.style(id);
       style.visible = !style.visible;
-      docks_.image().setStyle(id, style);
+      docks_.image.setStyle(id, style);
     });
   }
 }
 
 void WindowMenus::connectHelp() {
   auto* help = new ManualHelp(window_);
-  on(ui_->manual, help, &ManualHelp::showHere);
-  on(ui_->keys, this, [this, help] {
+  on(ui_.manual, help, &ManualHelp::showHere);
+  on(ui_.keys, this, [this, help] {
     ShortcutSheet sheet(window_);
     connect(&sheet, &ShortcutSheet::manualRequested, help, &ManualHelp::showHere);
     sheet.exec();
   });
-  on(ui_->about, this, &WindowMenus::showAbout);
+  on(ui_.about, this, &WindowMenus::showAbout);
 }
 
 void WindowMenus::showAbout() {
@@ -288,7 +278,7 @@ void WindowMenus::showAbout() {
 }
 
 void WindowMenus::undo() {
-  docks_.poses().nudgeController().finishGesture();  // what is under way is undone first
+  docks_.poses.nudgeController().finishGesture();  // what is under way is undone first
   parts_.annotation.finishMove();
   const sessions::Session before = parts_.document.session();
   const QString text = parts_.document.undoText();
@@ -315,46 +305,46 @@ void WindowMenus::showChange(const sessions::Session& before, const QString& tol
 }
 
 void WindowMenus::showRecent() {
-  ui_->recentMenu->clear();
+  ui_.recentMenu->clear();
   const QStringList files = recentFiles();
   for (const QString& file : files) {
-    QAction* each = ui_->recentMenu->addAction(file);
+    QAction* each = ui_.recentMenu->addAction(file);
     connect(each, &QAction::triggered, this, [this, file] {
       if (files_.mayLeave()) files_.open(file.toStdString());
     });
   }
-  if (files.isEmpty()) ui_->recentMenu->addAction(tr("None yet"))->setEnabled(false);
+  if (files.isEmpty()) ui_.recentMenu->addAction(tr("None yet"))->setEnabled(false);
 }
 
 void WindowMenus::update() {
   const Document& document = parts_.document;
   const bool open = document.isOpen();
-  const bool editable = open && document.readOnlyReason().isEmpty();
+  const bool editable = document.isEditable();
   const bool working = parts_.run.state() == RunState::kWorking || parts_.cases.batch();
   const bool has_case = parts_.state.currentCase() != nullptr;
-  ui_->save->setEnabled(editable && (document.isModified() || document.isUntitled() ||
-                                     !parts_.cases.unstoredRuns().isEmpty()));
-  ui_->saveAs->setEnabled(open);
-  ui_->undo->setEnabled(editable && document.canUndo());
-  ui_->redo->setEnabled(editable && document.canRedo());
-  ui_->undo->setText(document.canUndo() ? tr("&Undo: %1").arg(document.undoText()) : tr("&Undo"));
-  ui_->redo->setText(document.canRedo() ? tr("&Redo: %1").arg(document.redoText()) : tr("&Redo"));
-  for (QAction* each : {ui_->runToEnd, ui_->stepIteration, ui_->stepStage})
+  ui_.save->setEnabled(editable && (document.isModified() || document.isUntitled() ||
+                                    !parts_.cases.unstoredRuns().isEmpty()));
+  ui_.saveAs->setEnabled(open);
+  ui_.undo->setEnabled(editable && document.canUndo());
+  ui_.redo->setEnabled(editable && document.canRedo());
+  ui_.undo->setText(document.canUndo() ? tr("&Undo: %1").arg(document.undoText()) : tr("&Undo"));
+  ui_.redo->setText(document.canRedo() ? tr("&Redo: %1").arg(document.redoText()) : tr("&Redo"));
+  for (QAction* each : {ui_.runToEnd, ui_.stepIteration, ui_.stepStage})
     each->setEnabled(has_case && !working);
-  ui_->rerunFromHere->setEnabled(has_case && !working && parts_.state.snapshot());
+  ui_.rerunFromHere->setEnabled(has_case && !working && parts_.state.snapshot());
   updateTogether(has_case && !working);
-  ui_->stop->setEnabled(working);
-  ui_->reset->setEnabled(has_case && !working && parts_.state.snapshot());
-  const QList<QAction*> edits = ui_->maskMenu->actions() + annotation_edits_;
+  ui_.stop->setEnabled(working);
+  ui_.reset->setEnabled(has_case && !working && parts_.state.snapshot());
+  const QList<QAction*> edits = ui_.maskMenu->actions() + annotation_edits_;
   for (QAction* each : edits) each->setEnabled(editable && has_case);
   const bool replayed = parts_.onboard.showsOnboard();
-  ui_->loadRecord->setEnabled(editable && has_case);
-  ui_->showOtherRun->setEnabled(parts_.onboard.review() && !working);
-  ui_->rerunRecord->setEnabled(parts_.onboard.review() && !working);
-  ui_->firstDifference->setEnabled(parts_.onboard.comparison() &&
-                                   parts_.onboard.comparison()->first.has_value());
-  ui_->rerunFromHere->setEnabled(ui_->rerunFromHere->isEnabled() && !replayed);
-  ui_->runAll->setEnabled(open && !working && !document.session().cases.empty());
+  ui_.loadRecord->setEnabled(editable && has_case);
+  ui_.showOtherRun->setEnabled(parts_.onboard.review() && !working);
+  ui_.rerunRecord->setEnabled(parts_.onboard.review() && !working);
+  ui_.firstDifference->setEnabled(parts_.onboard.comparison() &&
+                                  parts_.onboard.comparison()->first.has_value());
+  ui_.rerunFromHere->setEnabled(ui_.rerunFromHere->isEnabled() && !replayed);
+  ui_.runAll->setEnabled(open && !working && !document.session().cases.empty());
 }
 
 }  // namespace boresight::ui

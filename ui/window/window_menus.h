@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-
 #include <QList>
 #include <QObject>
+
+#include "ui_window_menus.h"
 
 #include "sessions/session/session.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/window/window_parts.h"
 
 class QAction;
-class QMainWindow;
 
 namespace boresight::ui {
-
-namespace Ui {
-class WindowMenus;
-}
 
 class SessionFiles;
 class WindowDocks;
@@ -30,8 +25,6 @@ class WindowMenus : public QObject {
  public:
   WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
               SessionFiles& files);
-
-  ~WindowMenus() override;
 
   /// Enables what can be done now.
   void update();
@@ -61,7 +54,7 @@ class WindowMenus : public QObject {
   WindowParts parts_;
   const WindowDocks& docks_;
   SessionFiles& files_;
-  const std::unique_ptr<Ui::WindowMenus> ui_;
+  Ui::WindowMenus ui_;
   QList<QAction*> annotation_edits_;
   QString together_tip_;  ///< of "Run with the other views"
   QString shown_change_;  ///< what the status bar says of the last undo or redo

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/annotation_controller.h"
 
+#include <gtest/gtest.h>
+#include <QtTest>
+
 #include "sessions/evaluation/pose_error.h"
+#include "tests/support/loaded_example.h"
 #include "tests/ui/annotation/annotation_fixture.h"
+#include "ui/annotation/station_snapper.h"
 
 namespace boresight::ui {
 namespace {
@@ -109,11 +114,11 @@ TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHow
     controller_.placeInImage(*sessions::findPoint(first, id)->pixel + Eigen::Vector2d(0.5, -0.5));
   }
   ASSERT_TRUE(solved());
-  ASSERT_EQ(controller_.rounds().size(), 1u);
-  EXPECT_EQ(controller_.rounds()[0].by, "Ada");
-  EXPECT_TRUE(controller_.rounds()[0].camera_from_station);
-  EXPECT_EQ(controller_.rounds()[0].repeatability.marks.size(), ids.size());
-  EXPECT_NEAR(controller_.rounds()[0].repeatability.sigma_px, 0.5 / std::sqrt(2.0), 1e-9);
+  ASSERT_EQ(controller_.answer().rounds.size(), 1u);
+  EXPECT_EQ(controller_.answer().rounds[0].by, "Ada");
+  EXPECT_TRUE(controller_.answer().rounds[0].camera_from_station);
+  EXPECT_EQ(controller_.answer().rounds[0].repeatability.marks.size(), ids.size());
+  EXPECT_NEAR(controller_.answer().rounds[0].repeatability.sigma_px, 0.5 / std::sqrt(2.0), 1e-9);
   controller_.takeUp(0);
   EXPECT_EQ(controller_.marks(), first);
   EXPECT_EQ(document_.session().rounds.at(source().id)->size(), 2u)
@@ -127,13 +132,13 @@ TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHow
 TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeArePlaced) {
   openLandmarks(corners_m(8), {0, 3, 7});
   ASSERT_TRUE(solved());
-  ASSERT_EQ(controller_.proposals().size(), 5u);
-  for (const sessions::Proposal& proposal : controller_.proposals())
+  ASSERT_EQ(controller_.answer().proposals.size(), 5u);
+  for (const sessions::Proposal& proposal : controller_.answer().proposals)
     EXPECT_LT((proposal.pixel - pixelOf(proposal.landmark.point_in_station_m)).norm(), 0.5);
-  const sessions::Proposal taken = controller_.proposals().front();
+  const sessions::Proposal taken = controller_.answer().proposals.front();
   controller_.confirm(taken, taken.pixel);
   ASSERT_TRUE(solved());
-  EXPECT_EQ(controller_.proposals().size(), 4u);
+  EXPECT_EQ(controller_.answer().proposals.size(), 4u);
   EXPECT_EQ(controller_.selected(), taken.landmark.name);
   EXPECT_EQ(controller_.seenProposals(), 4) << "all are corners that are seen";
 }
@@ -169,7 +174,7 @@ TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithF
   EXPECT_TRUE(said[1].contains(QStringLiteral("required"))) << said[1].toStdString();
   const sessions::SessionCase& one = *document_.session().findCase(source().id);
   EXPECT_EQ(one.camera_from_station_truth, controller_.solvedPose()) << "the operator may go on";
-  EXPECT_EQ(one.truth_covariance, controller_.covariance());
+  EXPECT_EQ(one.truth_covariance, controller_.answer().covariance);
   ASSERT_TRUE(one.truth_covariance);
   ASSERT_TRUE(document_.undo());
   ASSERT_TRUE(document_.undo());
@@ -188,6 +193,65 @@ TEST_F(AnnotationControllerTest, MarksBelongToTheirCaseAndSurviveTheProgram) {
       sessions::SessionDocument::open(document_.file(), sessions::Access::kReadOnly);
   ASSERT_TRUE(killed.recovery());
   EXPECT_EQ(killed.recovery()->session.annotations, document_.session().annotations);
+}
+
+class StationSnapperTest : public ::testing::Test {
+ protected:
+  void takeCase(const ViewState::CasePtr& one) {
+    state_.setCase(one);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return snapper_.mesh() != nullptr; }, 60000));
+  }
+
+  ViewState state_;
+  StationSnapper snapper_{state_};
+};
+
+/// Where a corner of the mesh projects, the corner is the likeliest: the edges that meet there are
+/// just as near.
+TEST_F(StationSnapperTest, ACornerComesBeforeTheEdgesThatMeetInIt) {
+  takeCase(test::loadedExample("bc"));
+  const auto& source = state_.currentCase()->source;
+  const Pose& pose = *source.camera_from_station_truth;
+  int corners = 0;
+  for (std::size_t i = 0; i < snapper_.mesh()->edges().size(); i += 41) {
+    const Eigen::Vector3d corner = snapper_.mesh()->edges()[i].start_in_station_m;
+    Eigen::Vector2d pixel;
+    if (!project(source.camera, pose * corner, pixel)) continue;
+    const auto snaps = snapper_.near(source.camera, pose, pixel, 3.0);
+    const bool seen = !snaps.empty() && snaps[0].kind == sessions::MeshSnapKind::kVertex &&
+                      snaps[0].point_in_station_m == corner;
+    if (!seen) continue;  // something hides it
+    ++corners;
+    const auto nearby = snapper_.near(source.camera, pose, pixel + Eigen::Vector2d(0.4, 0.3), 3.0);
+    ASSERT_FALSE(nearby.empty());
+    EXPECT_NE(nearby[0].kind, sessions::MeshSnapKind::kEdge);
+  }
+  EXPECT_GT(corners, 5);
+}
+
+TEST_F(StationSnapperTest, AnotherCasesMeshIsNotGivenForThisOne) {
+  EXPECT_TRUE(snapper_.near(Camera(), Pose(), {0.0, 0.0}, 1e6).empty()) << "there is no case";
+  takeCase(test::loadedExample("bc"));
+  const auto before = snapper_.mesh();
+  state_.setCase(test::loadedExample("os"));
+  EXPECT_EQ(snapper_.mesh(), nullptr) << "until it is searched";
+  ASSERT_TRUE(QTest::qWaitFor([this] { return snapper_.mesh() != nullptr; }, 60000));
+  EXPECT_NE(snapper_.mesh()->edges().front(), before->edges().front());
+  state_.setCase(nullptr);
+  EXPECT_EQ(snapper_.mesh(), nullptr);
+}
+
+TEST_F(StationSnapperTest, AnEditOfTheMaskLeavesItAlone) {
+  const auto one = test::loadedExample("bc");
+  takeCase(one);
+  const auto before = snapper_.mesh();
+  sessions::SessionCase edited = one->source;
+  edited.ignore_strokes.emplace_back();
+  edited.ignore_strokes.back().kind = sessions::StrokeKind::kSaturation;
+  QSignalSpy changes(&snapper_, &StationSnapper::meshChanged);
+  state_.replaceCase(sessions::reloadCase(*one, edited));
+  EXPECT_EQ(snapper_.mesh(), before);
+  EXPECT_EQ(changes.count(), 0);
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// An annotator's desk without a window: a session of the shipped examples, one case open.
+// An annotator's desk without a window: a session of the shipped examples, one case open; and an
+// annotator at the image, by real events on the view at any zoom and screen scaling.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <QtTest>
+#include <QtWidgets>
 
 #include "sessions/annotation/marks.h"
 #include "sessions/annotation/marks_on_image.h"
@@ -17,7 +20,14 @@
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/image_annotation.h"
+#include "ui/annotation/loupe.h"
+#include "ui/annotation/mark_tool.h"
+#include "ui/annotation/station_snapper.h"
+#include "ui/run/task_runner.h"
 #include "ui/state/document.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
 
 namespace boresight::ui {
 
@@ -102,6 +112,104 @@ class AnnotationTest : public ::testing::Test {
   Document document_;
   ViewState state_;
   AnnotationController controller_{document_, state_};
+};
+
+/// The pointer on an image view.
+class ImagePointer {
+ protected:
+  ~ImagePointer() = default;
+
+  virtual ImageView& view() = 0;
+  /// Length of a screen pixel in image pixels.
+  double screenPixel_px() {
+    return 1.0 / (view().transform().scale() * view().devicePixelRatioF());
+  }
+
+  /// So many coordinates of the widget to an image pixel, with this pixel in the middle.
+  void zoom(const Eigen::Vector2d& pixel, double scale) {
+    ViewTransform transform = view().transform();
+    transform.zoomAt(QPointF(0.0, 0.0), scale);
+    transform.centreOn(QPointF(pixel.x(), pixel.y()), view().size());
+    view().setTransform(transform);
+  }
+
+  void send(QEvent::Type type, const Eigen::Vector2d& pixel,
+            Qt::KeyboardModifiers modifiers = Qt::NoModifier,
+            Qt::MouseButton button = Qt::LeftButton, bool held = false) {
+    const QPointF at = cornerOfScreenPixel(pixel);
+    const bool moves = type == QEvent::MouseMove;
+    QMouseEvent event(type, at, QPointF(view().mapToGlobal(QPoint(0, 0))) + at,
+                      moves ? Qt::NoButton : button,
+                      type == QEvent::MouseButtonPress || held ? button : Qt::NoButton, modifiers);
+    QCoreApplication::sendEvent(&view(), &event);
+  }
+  void moveTo(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    send(QEvent::MouseMove, pixel, modifiers);
+  }
+  void click(const Eigen::Vector2d& pixel, Qt::KeyboardModifiers modifiers = Qt::NoModifier,
+             Qt::MouseButton button = Qt::LeftButton) {
+    moveTo(pixel, modifiers);
+    send(QEvent::MouseButtonPress, pixel, modifiers, button);
+    send(QEvent::MouseButtonRelease, pixel, modifiers, button);
+  }
+  void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    moveTo(from);
+    send(QEvent::MouseButtonPress, from);
+    send(QEvent::MouseMove, 0.5 * (from + to), Qt::NoModifier, Qt::LeftButton, true);
+    send(QEvent::MouseMove, to, Qt::NoModifier, Qt::LeftButton, true);
+    send(QEvent::MouseButtonRelease, to);
+  }
+
+ private:
+  /// What the windowing system tells when the pointer's tip is on the screen pixel of a place.
+  QPointF cornerOfScreenPixel(const Eigen::Vector2d& pixel) {
+    const double ratio = view().devicePixelRatioF();
+    const QPointF at = view().transform().toWidget(QPointF(pixel.x(), pixel.y()));
+    return QPointF(std::floor(at.x() * ratio), std::floor(at.y() * ratio)) / ratio;
+  }
+};
+
+class ImageAnnotationTest : public AnnotationTest, protected ImagePointer {
+ protected:
+  void SetUp() override {
+    panel_.resize(900, 700);
+    panel_.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel_));
+    AnnotationTest::SetUp();
+    ready();
+    QObject::connect(&controller_, &AnnotationController::told,
+                     [this](const QString& told) { told_ = told; });
+  }
+
+  void ready() {
+    ASSERT_TRUE(QTest::qWaitFor([this] { return snapper_.mesh() != nullptr; }, kPatience_ms));
+    ASSERT_TRUE(QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatience_ms));
+  }
+
+  /// The open case with another image of the same size.
+  template <class Gray>
+  void paintImage(const Gray& gray_at) {
+    auto painted = std::make_shared<sessions::LoadedCase>();
+    painted->source = source();
+    painted->scene = state_.currentCase()->scene;
+    painted->image = state_.currentCase()->image;
+    for (int y = 0; y < painted->image.height; ++y)
+      for (int x = 0; x < painted->image.width; ++x)
+        painted->image.pixels[static_cast<std::size_t>(y * painted->image.width + x)] =
+            static_cast<std::uint8_t>(std::lround(gray_at(x, y)));
+    state_.replaceCase(painted);
+    ready();
+  }
+
+  ImageView& view() override { return panel_.view(); }
+  MarkTool& tool() { return annotation_.tool(); }
+  const sessions::Marks& marks() const { return controller_.marks(); }
+
+  TaskRunner tasks_;
+  ImagePanel panel_{state_, tasks_};
+  StationSnapper snapper_{state_};
+  ImageAnnotation annotation_{panel_, controller_, state_, snapper_};
+  QString told_;
 };
 
 }  // namespace boresight::ui

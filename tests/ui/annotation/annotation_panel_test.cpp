@@ -6,7 +6,6 @@
 #include "sessions/session/rig_links.h"
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "ui/annotation/ambiguity_view.h"
-#include "ui/annotation/solution_html.h"
 
 namespace boresight::ui {
 namespace {
@@ -168,11 +167,12 @@ TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
       << "the case is not ambiguous";
   EXPECT_TRUE(ambiguity->isVisibleTo(panel_.get()));
   EXPECT_TRUE(summary().contains(QStringLiteral("Two poses explain")));
-  auto& theirs = find<QLabel>("otherPicture");
-  ASSERT_TRUE(
-      QTest::qWaitFor([&] { return !theirs.pixmap(Qt::ReturnByValue).isNull(); }, kPatience_ms));
-  EXPECT_NE(theirs.pixmap(Qt::ReturnByValue).toImage(),
-            find<QLabel>("bestPicture").pixmap(Qt::ReturnByValue).toImage());
+  const auto edges = [this](const char* view) -> const std::vector<Mark>& {
+    return find<ImageView>(view).layer(LayerId::kAnnotationBand).marks;
+  };
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !edges("otherPicture").empty(); }, kPatience_ms));
+  EXPECT_NE(edges("otherPicture").front().outline, edges("bestPicture").front().outline);
+  EXPECT_EQ(find<ImageView>("bestPicture").layer(LayerId::kPoints).marks.size(), 4u);
   Pose asked;
   QObject::connect(ambiguity, &AmbiguityView::otherRequested, ambiguity,
                    [&](const Pose& pose) { asked = pose; });

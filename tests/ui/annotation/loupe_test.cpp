@@ -3,7 +3,7 @@
 
 #include <QWheelEvent>
 
-#include "tests/ui/annotation/image_annotation_fixture.h"
+#include "tests/ui/annotation/annotation_fixture.h"
 
 namespace boresight::ui {
 namespace {

@@ -2,7 +2,8 @@
 // Run at a screen scaling of one and of one and a half.
 #include "ui/annotation/mark_tool.h"
 
-#include "tests/ui/annotation/image_annotation_fixture.h"
+#include "tests/ui/annotation/annotation_fixture.h"
+#include "ui/annotation/image_annotation.h"
 
 namespace boresight::ui {
 namespace {
@@ -322,12 +323,12 @@ TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
   ASSERT_GE(corners.size(), 6u);
   openLandmarks(corners, {0, 2, 5});
   ASSERT_TRUE(solved());
-  ASSERT_GE(controller_.proposals().size(), 2u);
+  ASSERT_GE(controller_.answer().proposals.size(), 2u);
   const auto far = [&](const sessions::Proposal& proposal) {
     zoom(proposal.pixel, 8.0);
     return proposal;
   };
-  const sessions::Proposal first = far(controller_.proposals()[0]);
+  const sessions::Proposal first = far(controller_.answer().proposals[0]);
   const Eigen::Vector2d seen = first.pixel + Eigen::Vector2d(0.5, -0.25);
   click(seen, Qt::AltModifier);
   const sessions::PointPair* taken = sessions::findPoint(marks(), first.landmark.name);
@@ -335,8 +336,8 @@ TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
   EXPECT_LT((*taken->pixel - seen).norm(), screenPixel_px())
       << "where it was clicked: a prediction is no measurement";
   ASSERT_TRUE(solved());
-  ASSERT_FALSE(controller_.proposals().empty());
-  const sessions::Proposal second = far(controller_.proposals()[0]);
+  ASSERT_FALSE(controller_.answer().proposals.empty());
+  const sessions::Proposal second = far(controller_.answer().proposals[0]);
   click(second.pixel, Qt::NoModifier, Qt::RightButton);
   const sessions::PointPair* begun = sessions::findPoint(marks(), second.landmark.name);
   ASSERT_TRUE(begun);
@@ -346,6 +347,93 @@ TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
   begun = sessions::findPoint(marks(), second.landmark.name);
   ASSERT_TRUE(begun && begun->pixel);
   EXPECT_LT((*begun->pixel - by_hand).norm(), screenPixel_px());
+}
+
+class ImageAnnotationLayersTest : public ImageAnnotationTest {
+ protected:
+  void show(LayerId id, bool visible) {
+    LayerStyle style = panel_.style(id);
+    style.visible = visible;
+    panel_.setStyle(id, style);
+  }
+  const Layer& layer(LayerId id) { return view().layer(id); }
+  bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatience_ms); }
+  void markAndSolve() {
+    markCorners(8);
+    ASSERT_TRUE(solved());
+    ASSERT_TRUE(controller_.solvedPose());
+  }
+};
+
+TEST_F(ImageAnnotationLayersTest, TheSolvedPosesEdgesShowAndGoWithTheirLayer) {
+  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).bits.empty());
+  markAndSolve();
+  ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).bits.empty(); }));
+  show(LayerId::kAnnotationEdges, false);
+  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).bits.empty());
+  show(LayerId::kAnnotationEdges, true);
+  EXPECT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).bits.empty(); }));
+}
+
+TEST_F(ImageAnnotationLayersTest, TheStationIsPickedOnTheEdgesThatShow) {
+  markAndSolve();
+  EXPECT_EQ(tool().stationPose(), *controller_.solvedPose());
+  show(LayerId::kAnnotationEdges, false);
+  EXPECT_EQ(tool().stationPose(), state_.shownPose());
+}
+
+TEST_F(ImageAnnotationLayersTest, TheBandIsThatOfTheMarksAsTheyAreNow) {
+  markAndSolve();
+  EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "nobody asked for it";
+  show(LayerId::kAnnotationBand, true);
+  ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationBand).marks.empty(); }));
+  const auto before = layer(LayerId::kAnnotationBand).marks;
+  const auto& moved = marks().points.front();
+  ASSERT_TRUE(controller_.dragInImage(moved.id, *moved.pixel + Eigen::Vector2d(1.5, 0.0)));
+  EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "it is not known yet";
+  controller_.finishMove();
+  ASSERT_TRUE(solved());
+  ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationBand).marks.empty(); }));
+  // Marks that agree less well allow more poses.
+  const auto width = [](const std::vector<Mark>& signs) {
+    const QPolygonF& outline = signs.front().outline;
+    const QPointF across = outline.front() - outline.back();
+    return std::hypot(across.x(), across.y());
+  };
+  EXPECT_GT(width(layer(LayerId::kAnnotationBand).marks), 2.0 * width(before));
+}
+
+TEST_F(ImageAnnotationLayersTest, ResidualsAreDrawnAsLongAsTheyAreMagnified) {
+  markAndSolve();
+  const auto& moved = marks().points.front();
+  ASSERT_TRUE(controller_.dragInImage(moved.id, *moved.pixel + Eigen::Vector2d(2.0, 0.0)));
+  controller_.finishMove();
+  ASSERT_TRUE(solved());
+  const auto longest = [&] {
+    double most = 0.0;
+    for (const Mark& mark : layer(LayerId::kMarkResiduals).marks)
+      most = std::max(most, std::hypot(mark.to.x() - mark.at.x(), mark.to.y() - mark.at.y()));
+    return most;
+  };
+  EXPECT_EQ(layer(LayerId::kMarkResiduals).marks.size(), marks().points.size());
+  annotation_.setMagnification(1.0);
+  const double plain_px = longest();
+  EXPECT_GT(plain_px, 0.3);
+  EXPECT_LT(plain_px, 2.5);
+  for (const double factor : {10.0, 100.0}) {
+    annotation_.setMagnification(factor);
+    EXPECT_NEAR(longest(), factor * plain_px, 1e-6 * factor);
+  }
+}
+
+TEST_F(ImageAnnotationLayersTest, AClickOnAMarkChoosesItAlsoWhenNobodyAnnotates) {
+  markCorners(3);
+  controller_.select({});
+  const auto& point = marks().points[1];
+  zoom(*point.pixel, 5.0);
+  click(*point.pixel);
+  EXPECT_EQ(controller_.selected(), point.id);
+  EXPECT_EQ(marks().points.size(), 3u);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ class SceneAnnotatingFrom : public SceneAnnotatingTest,
  protected:
   void SetUp() override {
     SceneAnnotatingTest::SetUp();
-    view_.lookFrom(GetParam());
+    view_.navigation().lookFrom(GetParam());
     controller_.setMode(PlaceMode::kPoint);
   }
 };
@@ -257,26 +257,26 @@ TEST_F(SceneAnnotatingTest, EscapeDropsTheChoiceThenTheMode) {
 
 TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndMarksNothing) {
   controller_.setMode(PlaceMode::kPoint);
-  const double azimuth_rad = view_.orbitCamera().azimuth_rad();
+  const double azimuth_rad = view_.navigation().orbit().azimuth_rad();
   const QPoint from = screenPixel(pixelOf(kCorner_m));
   send(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
   for (int i = 1; i <= 4; ++i)
     send(QEvent::MouseMove, from + QPoint(20 * i, 0), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
   send(QEvent::MouseButtonRelease, from + QPoint(80, 0), Qt::LeftButton, Qt::NoButton,
        Qt::NoModifier);
-  EXPECT_NE(view_.orbitCamera().azimuth_rad(), azimuth_rad);
+  EXPECT_NE(view_.navigation().orbit().azimuth_rad(), azimuth_rad);
   EXPECT_TRUE(controller_.marks().empty());
 }
 
 TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned) {
-  const double all_m = view_.orbitCamera().distance_m();
+  const double all_m = view_.navigation().orbit().distance_m();
   controller_.setMode(PlaceMode::kPoint);
-  EXPECT_LT(view_.orbitCamera().distance_m(), all_m) << "without the cameras";
+  EXPECT_LT(view_.navigation().orbit().distance_m(), all_m) << "without the cameras";
   controller_.setMode(PlaceMode::kOff);
-  EXPECT_EQ(view_.orbitCamera().distance_m(), all_m);
+  EXPECT_EQ(view_.navigation().orbit().distance_m(), all_m);
   QTest::keyClick(view_.canvas(), Qt::Key_Left);
   controller_.setMode(PlaceMode::kPoint);
-  EXPECT_EQ(view_.orbitCamera().distance_m(), all_m) << "somebody has put it there";
+  EXPECT_EQ(view_.navigation().orbit().distance_m(), all_m) << "somebody has put it there";
   hover(pixelOf(kCorner_m));
   const QString figures = view_.findChild<QLabel*>(QStringLiteral("sceneReadout"))->text();
   EXPECT_TRUE(figures.contains(QStringLiteral("x 100.00, y -100.00, z 0.00 mm")))
@@ -294,11 +294,11 @@ TEST_F(SceneAnnotatingTest, TheLoupeShowsThePlaceMagnifiedWhileSomebodyPlaces) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return loupe.ready(); }, kPatience_ms));
   const QWheelEvent more(pixelOf(kCorner_m), view_.mapToGlobal(QPoint()), {}, {0, 120 * 9},
                          Qt::NoButton, Qt::ControlModifier, Qt::NoScrollPhase, false);
-  const double distance_m = view_.orbitCamera().distance_m();
+  const double distance_m = view_.navigation().orbit().distance_m();
   QWheelEvent turned = more;
   QApplication::sendEvent(view_.canvas(), &turned);
   EXPECT_DOUBLE_EQ(loupe.magnification(), SceneLoupe::kMostMagnification);
-  EXPECT_EQ(view_.orbitCamera().distance_m(), distance_m) << "the scene itself stays";
+  EXPECT_EQ(view_.navigation().orbit().distance_m(), distance_m) << "the scene itself stays";
   QEvent leave(QEvent::Leave);
   QApplication::sendEvent(view_.canvas(), &leave);
   EXPECT_FALSE(loupe.isVisible());

@@ -14,7 +14,7 @@
 #include "sessions/annotation/marks_on_image.h"
 #include "sessions/evaluation/pose_error.h"
 #include "tests/support/random_pose.h"
-#include "tests/ui/annotation/image_pointer.h"
+#include "tests/ui/annotation/annotation_fixture.h"
 #include "tests/ui/window_test.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/mark_tool.h"

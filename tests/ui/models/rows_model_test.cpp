@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/models/rows_model.h"
 
-#include <gtest/gtest.h>
-
+#include <limits>
 #include <memory>
 
-#include "ui/models/alternatives_model.h"
-#include "ui/models/cases_model.h"
-#include "ui/models/iterations_model.h"
+#include <gtest/gtest.h>
+
 #include "ui/models/marks_model.h"
-#include "ui/models/options_model.h"
-#include "ui/models/templates_model.h"
-#include "ui/review/queue_model.h"
+#include "ui/models/text.h"
+#include "ui/panels/cases_panel.h"
+#include "ui/panels/hypotheses_panel.h"
+#include "ui/panels/iterations_panel.h"
+#include "ui/panels/match_view.h"
+#include "ui/panels/options_table.h"
+#include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 
 namespace boresight::ui {
@@ -37,6 +39,15 @@ TEST(RowsModels, EveryColumnSaysWhatItMeans) {
     }
     EXPECT_FALSE(model->headerData(model->columnCount(), Qt::Horizontal).isValid());
   }
+}
+
+TEST(NumberText, RoundsUpToOneTwoOrFiveTimesAPowerOfTen) {
+  const double pairs[][2] = {{0.0011, 0.002}, {0.03, 0.05}, {0.3, 0.5}, {1.0, 1.0},  {1.1, 2.0},
+                             {2.0, 2.0},      {2.1, 5.0},   {5.0, 5.0}, {6.0, 10.0}, {700.0, 1e3}};
+  for (const auto& [value, rounded] : pairs) EXPECT_DOUBLE_EQ(roundedUp(value), rounded) << value;
+  EXPECT_DOUBLE_EQ(roundedUp(0.1 + 0.1 + 0.1 - 0.1), 0.2) << "a last bit is no reason to round up";
+  for (const double none : {0.0, -3.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(roundedUp(none), 1.0);
 }
 
 }  // namespace

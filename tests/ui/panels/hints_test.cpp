@@ -3,7 +3,6 @@
 #include <QtTest>
 #include <QtWidgets>
 
-#include "ui/panels/banner.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/match_inspector_panel.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <gtest/gtest.h>
+#include <QAbstractItemModelTester>
 #include <QtTest/QTest>
 #include <QtWidgets>
 
 #include "tests/support/example_run.h"
+#include "ui/panels/match_view.h"
 #include "ui/panels/pixel_picture.h"
-#include "ui/panels/score_map_view.h"
-#include "ui/plots/histogram_plot.h"
+#include "ui/plots/plot_colors.h"
+#include "ui/plots/plots.h"
 
 namespace boresight::ui {
 namespace {
+
+using Show = TemplatesModel::Show;
+using Tester = QAbstractItemModelTester;
 
 class MatchInspectorPanelTest : public testing::Test {
  protected:
@@ -118,6 +126,150 @@ TEST_F(MatchInspectorPanelTest, SaysWhyThereIsNothing) {
   for (const QLabel* label : panel_.findChildren<QLabel*>())
     said |= label->isVisible() && label->text() == QStringLiteral("Nothing has run yet.");
   EXPECT_TRUE(said);
+}
+
+/// A binary image from rows of text: '#' is set.
+struct Bits {
+  explicit Bits(const std::vector<const char*>& rows)
+      : words(rows.size()), width(static_cast<int>(std::string(rows.front()).size())) {
+    for (std::size_t y = 0; y < rows.size(); ++y)
+      for (int x = 0; x < width; ++x)
+        if (rows[y][x] == '#') words[y] |= std::uint64_t{1} << x;
+  }
+  BitImage view() { return {words, width, static_cast<int>(words.size()), 1}; }
+
+  std::vector<std::uint64_t> words;
+  int width;
+};
+
+Bits edges({"......", "..#...", "..#...", "......"});
+Bits mask({".####.", ".####.", ".####.", "......"});
+Bits seen({"......", "......", "...#..", "..##..", "......"});
+
+TEST(PatchPictures, ShowEdgesOverMask) {
+  const QImage picture = templatePicture(edges.view(), mask.view(), {2, 2, 4});
+  ASSERT_EQ(picture.size(), QSize(4, 4));
+  EXPECT_EQ(picture.pixel(2, 1), patch_colors::kEdge);
+  EXPECT_EQ(picture.pixel(2, 2), patch_colors::kEdge);
+  EXPECT_EQ(picture.pixel(1, 1), patch_colors::kMask);
+  EXPECT_EQ(picture.pixel(0, 0), patch_colors::kGround);
+  EXPECT_EQ(picture.pixel(1, 3), patch_colors::kGround);
+}
+
+TEST(PatchPictures, TellApartWhoSawWhat) {
+  // The template's centre (2, 2) lies at (3, 3) of what was seen.
+  const QImage picture =
+      agreementPicture(edges.view(), mask.view(), {2, 2, 4}, seen.view(), {3, 3, 4});
+  EXPECT_EQ(picture.pixel(2, 1), patch_colors::kEdge);
+  EXPECT_EQ(picture.pixel(2, 2), patch_colors::kEdge);
+  EXPECT_EQ(picture.pixel(1, 2), patch_colors::kOnlySeen);
+  const QImage moved =
+      agreementPicture(edges.view(), mask.view(), {2, 2, 4}, seen.view(), {3, 4, 4});
+  EXPECT_EQ(moved.pixel(2, 2), patch_colors::kOnlyRendered);
+}
+
+TEST(PatchPictures, GroundLiesOutsideTheImage) {
+  const QImage picture = seenPicture(seen.view(), {0, 0, 4});
+  EXPECT_EQ(picture.pixel(0, 0), patch_colors::kGround);
+  EXPECT_EQ(seenPicture(seen.view(), {3, 3, 4}).pixel(2, 1), patch_colors::kEdge);
+}
+
+TEST(PixelPlace, EnlargesByWholeDevicePixelsWhereItCan) {
+  const QRectF place = pixelPlace({10, 10}, {0, 0, 47, 99}, 1.0);
+  EXPECT_EQ(place.size(), QSizeF(40, 40));
+  EXPECT_EQ(pixelPlace({10, 10}, {0, 0, 47, 99}, 2.0).size(), QSizeF(45, 45));
+  EXPECT_EQ(pixelPlace({100, 10}, {0, 0, 50, 50}, 1.0), QRectF(0, 23, 50, 5));
+}
+
+TEST(HeatColors, GetLighterAllTheWay) {
+  double before = -1.0;
+  for (int i = 0; i <= 100; ++i) {
+    const QRgb color = heatColor(0.01 * i).rgb();
+    const double light = 0.2126 * qRed(color) + 0.7152 * qGreen(color) + 0.0722 * qBlue(color);
+    EXPECT_GT(light, before) << i;
+    before = light;
+  }
+  EXPECT_EQ(heatColor(-1.0), heatColor(0.0));
+  EXPECT_EQ(heatColor(2.0), heatColor(1.0));
+}
+
+const sessions::IterationTrace& firstIteration() {
+  return *test::exampleRunOfSeed()->iterations.front();
+}
+
+class TemplatesModelTest : public testing::Test {
+ protected:
+  TemplatesModelTest() { filter_.setSourceModel(&model_); }
+
+  QString text(int row, int column) const { return model_.index(row, column).data().toString(); }
+  int countOf(Show show) {
+    filter_.setCondition([this, show](int row) { return model_.isShown(row, show); });
+    return filter_.rowCount();
+  }
+
+  TemplatesModel model_;
+  RowsFilter filter_;
+  Tester model_tester_{&model_, Tester::FailureReportingMode::Fatal};
+  Tester filter_tester_{&filter_, Tester::FailureReportingMode::Fatal};
+};
+
+TEST_F(TemplatesModelTest, HasARowPerTemplate) {
+  model_.setIteration(&firstIteration());
+  EXPECT_EQ(model_.rowCount(), firstIteration().template_count);
+  EXPECT_EQ(text(0, TemplatesModel::kNumber), QStringLiteral("1"));
+  const auto details = sessions::matchDetails(firstIteration());
+  for (int row = 0; row < model_.rowCount(); ++row) {
+    const auto& one = details[static_cast<std::size_t>(row)];
+    EXPECT_NEAR(text(row, TemplatesModel::kDepth_m).toDouble(), one.depth_m, 5.1e-4);
+    if (!one.searched) continue;
+    EXPECT_NEAR(text(row, TemplatesModel::kDx_px).toDouble(), one.moved_px().x(), 5.1e-3);
+    EXPECT_NEAR(text(row, TemplatesModel::kScore).toDouble(), one.score, 5.1e-4);
+    EXPECT_EQ(text(row, TemplatesModel::kVerdict) == QStringLiteral("inlier"), one.inlier);
+  }
+  model_.setIteration(nullptr);
+  EXPECT_EQ(model_.rowCount(), 0);
+}
+
+TEST_F(TemplatesModelTest, FiltersByWhatBecameOfATemplate) {
+  const sessions::IterationTrace& iteration = firstIteration();
+  model_.setIteration(&iteration);
+  EXPECT_EQ(countOf(Show::kAll), iteration.template_count);
+  EXPECT_EQ(countOf(Show::kInliers), iteration.pnp.inlier_count);
+  EXPECT_EQ(countOf(Show::kOutliers), iteration.correspondence_count - iteration.pnp.inlier_count);
+  EXPECT_EQ(countOf(Show::kNotSearched), iteration.template_count - iteration.searched_count);
+  const auto at_border = std::count_if(iteration.matches.begin(), iteration.matches.end(),
+                                       [](const Match& match) { return match.at_border; });
+  EXPECT_EQ(countOf(Show::kAtBorder), at_border);
+  int low = 0;
+  for (const Match& match : iteration.matches) {
+    const auto best = static_cast<double>(whsComparable(match.peak.counts, match.norms));
+    const auto second = static_cast<double>(whsComparable(match.peak.second_counts, match.norms));
+    low += match.searched && match.peak.has_second && second > 0.95 * best ? 1 : 0;
+  }
+  EXPECT_EQ(countOf(Show::kLowMargin), low);
+  EXPECT_GT(low, 0);
+}
+
+TEST_F(TemplatesModelTest, WhatWasNotSearchedIsNoOutlier) {
+  sessions::IterationTrace early = firstIteration();
+  early.matches[2].searched = false;
+  early.reached = Stage::kMatch;  // nothing is solved yet
+  model_.setIteration(&early);
+  EXPECT_EQ(countOf(Show::kNotSearched), 1);
+  EXPECT_EQ(countOf(Show::kOutliers), 0);
+  EXPECT_EQ(countOf(Show::kInliers), 0);
+  EXPECT_EQ(text(2, TemplatesModel::kVerdict), QStringLiteral("not searched"));
+  EXPECT_EQ(text(3, TemplatesModel::kVerdict), QStringLiteral("found"));
+}
+
+TEST_F(TemplatesModelTest, SaysNothingOfMatchesBeforeTheyAreThere) {
+  sessions::IterationTrace early = firstIteration();
+  early.reached = Stage::kTemplates;
+  early.matches.clear();
+  model_.setIteration(&early);
+  EXPECT_EQ(text(0, TemplatesModel::kVerdict), QString());
+  EXPECT_EQ(text(0, TemplatesModel::kScore), QString());
+  EXPECT_NE(text(0, TemplatesModel::kX_px), QString());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "tests/support/example_run.h"
 #include "tests/support/loaded_example.h"
 #include "tests/support/random_pose.h"
-#include "ui/panels/paste_pose_dialog.h"
+#include "ui/panels/nudge_box.h"
 
 namespace boresight::ui {
 namespace {
@@ -37,8 +37,9 @@ class PosePanelTest : public ::testing::Test {
     EXPECT_NE(found, nullptr) << name;
     return *found;
   }
-  QString cell(PoseTableModel::Row row, PoseRole role) const {
-    return panel_.model().index(row, PoseTableModel::columnOf(role)).data().toString();
+  enum Row { kX = 0, kZ = 2, kRotationX = 3, kQuaternionW = 6 };
+  QString cell(Row row, PoseRole role) {
+    return find<QTableWidget>("poses").item(row, 1 + static_cast<int>(role))->text();
   }
   QWidget& pad() {
     auto& found = find<QLabel>("nudgePad");
@@ -70,11 +71,10 @@ TEST_F(PosePanelTest, APoseIsShownInTheFramesThatHaveNames) {
 
 TEST_F(PosePanelTest, ShowsEveryPoseInEveryForm) {
   const Pose truth = *state_.currentCase()->source.camera_from_station_truth;
-  EXPECT_NEAR(cell(PoseTableModel::kZ, PoseRole::kTruth).toDouble(), 1e3 * truth.translation_m.z(),
-              1e-4);
+  EXPECT_NEAR(cell(kZ, PoseRole::kTruth).toDouble(), 1e3 * truth.translation_m.z(), 1e-4);
   const Eigen::Vector3d deg = rotationLog(truth.rotation) / kDegree_rad;
-  EXPECT_NEAR(cell(PoseTableModel::kRotationX, PoseRole::kTruth).toDouble(), deg.x(), 1e-5);
-  EXPECT_GE(cell(PoseTableModel::kQuaternionW, PoseRole::kTruth).toDouble(), 0.0);
+  EXPECT_NEAR(cell(kRotationX, PoseRole::kTruth).toDouble(), deg.x(), 1e-5);
+  EXPECT_GE(cell(kQuaternionW, PoseRole::kTruth).toDouble(), 0.0);
   find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kTruth));
   const QStringList rows = find<QLabel>("matrix").text().split(QLatin1Char('\n'));
   ASSERT_EQ(rows.size(), 4);
@@ -82,24 +82,18 @@ TEST_F(PosePanelTest, ShowsEveryPoseInEveryForm) {
   ASSERT_EQ(row.size(), 4);
   EXPECT_NEAR(row[1].toDouble(), truth.matrix()(1, 1), 1e-6);
   EXPECT_NEAR(row[3].toDouble(), truth.translation_m.y(), 1e-7);
-  EXPECT_EQ(cell(PoseTableModel::kX, PoseRole::kNudged), QString(QChar(0x2013)));
+  EXPECT_EQ(cell(kX, PoseRole::kNudged), QString(QChar(0x2013)));
 }
 
 TEST_F(PosePanelTest, FollowsTheCursor) {
   state_.setCursor({0, Stage::kFinished});
   const Pose first = test::exampleRun()->iterations.front()->camera_from_station;
-  EXPECT_NEAR(cell(PoseTableModel::kX, PoseRole::kEstimate).toDouble(),
-              1e3 * first.translation_m.x(), 1e-4);
+  EXPECT_NEAR(cell(kX, PoseRole::kEstimate).toDouble(), 1e3 * first.translation_m.x(), 1e-4);
 }
 
-TEST_F(PosePanelTest, KeepsTheModelsRules) {
-  PoseTableModel model;
-  const QAbstractItemModelTester tester(&model,
-                                        QAbstractItemModelTester::FailureReportingMode::Fatal);
-  Poses poses;
-  poses[2] = Pose();
-  model.setPoses(poses);
-  EXPECT_EQ(model.index(PoseTableModel::kX, 3).data().toString(), QStringLiteral("0.0000"));
+TEST_F(PosePanelTest, ZeroHasNoSign) {
+  state_.setNudgedPose(Pose{Eigen::Quaterniond::Identity(), {-1e-9, 0.0, 0.0}});
+  EXPECT_EQ(cell(kX, PoseRole::kNudged), QStringLiteral("0.0000"));
 }
 
 TEST_F(PosePanelTest, CopiesWhatCanBeReadBack) {
@@ -263,7 +257,7 @@ TEST_F(PosePanelTest, SurvivesTheCaseBeingClosed) {
   QTest::keyClick(&pad(), Qt::Key_Right);
   state_.setCase(nullptr);
   EXPECT_FALSE(find<QDoubleSpinBox>("moveX").isEnabled());
-  EXPECT_EQ(cell(PoseTableModel::kX, PoseRole::kSeed), QString(QChar(0x2013)));
+  EXPECT_EQ(cell(kX, PoseRole::kSeed), QString(QChar(0x2013)));
   QTest::keyClick(&find<QLabel>("nudgePad"), Qt::Key_Right);
   EXPECT_FALSE(state_.nudgedPose());
   panel_.pastePose();
@@ -290,6 +284,58 @@ TEST(PastePoseDialog, GuessesAndLetsPeopleCorrect) {
       1e-12);
   dialog.findChild<QComboBox*>(QStringLiteral("matrixOrder"))->setCurrentIndex(0);
   EXPECT_FALSE(dialog.parsed().valid);
+}
+
+NudgeFrame frameOf(NudgeAxes axes, NudgePivot pivot) { return {axes, pivot, {0.1, -0.2, 0.05}}; }
+
+constexpr NudgeAxes kAxes[] = {NudgeAxes::kCamera, NudgeAxes::kStation};
+constexpr NudgePivot kPivots[] = {NudgePivot::kStationCentre, NudgePivot::kCameraCentre};
+
+TEST(Nudge, GoesBetweenAnyTwoPoses) {
+  Random random = test::randomFor("Nudge");
+  for (const NudgeAxes axes : kAxes)
+    for (const NudgePivot pivot : kPivots)
+      for (int i = 0; i < 30; ++i) {
+        const NudgeFrame frame = frameOf(axes, pivot);
+        const Pose from = test::randomPose(random);
+        const Pose to = test::randomPose(random);
+        EXPECT_THAT(nudged(from, nudgeBetween(from, to, frame), frame), poseNear(to, 1e-9, 1e-9));
+      }
+}
+
+TEST(Nudge, TurnsAboutAPivotThatStays) {
+  Random random = test::randomFor("TurnsAboutAPivot");
+  for (const NudgeAxes axes : kAxes)
+    for (const NudgePivot pivot : kPivots) {
+      const NudgeFrame frame = frameOf(axes, pivot);
+      const Pose before = test::randomPose(random);
+      Vector6d turn = Vector6d::Zero();
+      turn.head<3>() = test::randomVector(random, 0.5);
+      const Pose after = nudged(before, turn, frame);
+      const Eigen::Vector3d pivot_in_station_m = pivot == NudgePivot::kStationCentre
+                                                     ? frame.centre_in_station_m
+                                                     : before.inverse().translation_m;
+      EXPECT_LT((after * pivot_in_station_m - before * pivot_in_station_m).norm(), 1e-12);
+      EXPECT_NEAR(rotationLog(after.rotation * before.rotation.conjugate()).norm(),
+                  turn.head<3>().norm(), 1e-12);
+    }
+}
+
+TEST(Nudge, MovesAlongTheAxesThatAreChosen) {
+  Random random = test::randomFor("MovesAlong");
+  const Pose before = test::randomPose(random);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vector6d move = Vector6d::Zero();
+    move[3 + axis] = 0.01;
+    const Pose camera =
+        nudged(before, move, frameOf(NudgeAxes::kCamera, NudgePivot::kStationCentre));
+    EXPECT_LT((camera.translation_m - before.translation_m - move.tail<3>()).norm(), 1e-12);
+    const Pose station =
+        nudged(before, move, frameOf(NudgeAxes::kStation, NudgePivot::kStationCentre));
+    const Eigen::Vector3d moved_in_station_m =
+        before.rotation.conjugate() * (station.translation_m - before.translation_m);
+    EXPECT_LT((moved_in_station_m - move.tail<3>()).norm(), 1e-12);
+  }
 }
 
 }  // namespace

@@ -22,11 +22,11 @@
 #include "ui/panels/hypotheses_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
+#include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
-#include "ui/window/screenshot.h"
 
 namespace boresight::ui {
 namespace {
@@ -107,12 +107,6 @@ QImage bitsImage(const sessions::BitMap& bits) {
     for (int x = 0; x < bits.width; ++x)
       if (view.get(x, y)) painter.fillRect(x - 1, y - 1, 2, 2, Qt::white);
   return image;
-}
-
-QImage grayImage(const boresight::ImageView& image) {
-  return QImage(image.data, image.width, image.height, static_cast<int>(image.stride),
-                QImage::Format_Grayscale8)
-      .convertToFormat(QImage::Format_RGB32);
 }
 
 QImage overlay(const LocalizationProblem& problem, const Pose& pose,

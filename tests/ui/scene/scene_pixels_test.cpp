@@ -106,7 +106,7 @@ TEST_F(ScenePixels, ShowsEveryFrustumInItsColour) {
 
 TEST_F(ScenePixels, DrawsTheSilhouetteWhereTheCoreDoes) {
   for (const bool through : {false, true}) {
-    view_.setThroughCamera(through);
+    view_.navigation().setThroughCamera(through);
     view_.setMeshOpacity(1.0);
     if (through) {  // else it would arrive between two pictures
       ASSERT_TRUE(QTest::qWaitFor([this] { return view_.backdropReady(); }, 60000));
@@ -130,7 +130,7 @@ TEST_F(ScenePixels, DrawsTheSilhouetteWhereTheCoreDoes) {
 }
 
 TEST_F(ScenePixels, DrawsTemplatesWhereTheyArePicked) {
-  view_.setThroughCamera(true);  // from where they are seen
+  view_.navigation().setThroughCamera(true);  // from where they are seen
   ASSERT_TRUE(QTest::qWaitFor([this] { return view_.backdropReady(); }, 60000));
   show(true, false);
   const QImage without = canvasShot("without-points");
@@ -150,7 +150,7 @@ TEST_F(ScenePixels, DrawsTemplatesWhereTheyArePicked) {
 }
 
 TEST_F(ScenePixels, LaysTheMeshOverTheImage) {
-  view_.setThroughCamera(true);
+  view_.navigation().setThroughCamera(true);
   ASSERT_TRUE(QTest::qWaitFor([this] { return view_.backdropReady(); }, 60000));
   const QImage light = shot("through");
   QPalette dark = QApplication::palette();
@@ -162,12 +162,12 @@ TEST_F(ScenePixels, LaysTheMeshOverTheImage) {
   dark.setColor(QPalette::Text, Qt::white);
   view_.setPalette(dark);
   EXPECT_NE(shot("through-dark"), light);
-  view_.setThroughCamera(false);
+  view_.navigation().setThroughCamera(false);
   state_.selectTemplate(3);
   state_.setNudgedPose(state_.currentCase()->source.camera_from_station_seed);
   view_.refresh();
   shot("free-dark");
-  view_.lookFrom(StandardView::kFront);
+  view_.navigation().lookFrom(StandardView::kFront);
   shot("front-dark");
 }
 

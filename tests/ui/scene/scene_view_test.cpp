@@ -8,6 +8,7 @@
 
 #include "sessions/run/surface_point.h"
 #include "tests/ui/scene/scene_fixture.h"
+#include "ui/scene/scene_canvas.h"
 
 namespace boresight::ui {
 namespace {
@@ -56,7 +57,7 @@ class SceneViewTest : public ::testing::Test {
 };
 
 TEST_F(SceneViewTest, AClickSelectsTheTemplateUnderIt) {
-  view_.setThroughCamera(true);  // from where the templates are seen
+  view_.navigation().setThroughCamera(true);  // from where the templates are seen
   int tried = 0;
   for (const ScenePoint& point : view_.content().points) {
     const int expected = pickTemplate(view_.content(), view_.viewpoint(), onCanvas(point.at_m));
@@ -87,73 +88,73 @@ TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
 TEST_F(SceneViewTest, ADoubleClickShowsTheWholeScene) {
   view_.setShown({.points = false});
   wheel({300, 240}, 2);
-  const double near_m = view_.orbitCamera().distance_m();
+  const double near_m = view_.navigation().orbit().distance_m();
   const QPoint at = onCanvas(view_.content().bounds.centre());
   QTest::mouseDClick(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
   const QString before = readout();
   QTest::mouseRelease(view_.canvas(), Qt::LeftButton, Qt::NoModifier, at);
   EXPECT_EQ(readout(), before) << "the second release is no click";
-  EXPECT_GT(view_.orbitCamera().distance_m(), near_m);
+  EXPECT_GT(view_.navigation().orbit().distance_m(), near_m);
 }
 
 TEST_F(SceneViewTest, DraggingOrbitsAndPicksNothing) {
-  const double azimuth_rad = view_.orbitCamera().azimuth_rad();
+  const double azimuth_rad = view_.navigation().orbit().azimuth_rad();
   const int selected = state_.selectedTemplate();
   const QString before = readout();
   drag({300, 240}, {380, 240}, Qt::LeftButton);
-  EXPECT_LT(view_.orbitCamera().azimuth_rad(), azimuth_rad);
+  EXPECT_LT(view_.navigation().orbit().azimuth_rad(), azimuth_rad);
   EXPECT_EQ(state_.selectedTemplate(), selected);
   EXPECT_EQ(readout(), before);
 }
 
 TEST_F(SceneViewTest, TheMiddleButtonAndShiftPan) {
   for (const bool shift : {false, true}) {
-    const Eigen::Vector3d target_m = view_.orbitCamera().target_m();
-    const double azimuth_rad = view_.orbitCamera().azimuth_rad();
+    const Eigen::Vector3d target_m = view_.navigation().orbit().target_m();
+    const double azimuth_rad = view_.navigation().orbit().azimuth_rad();
     drag({300, 240}, {340, 200}, shift ? Qt::LeftButton : Qt::MiddleButton,
          shift ? Qt::ShiftModifier : Qt::NoModifier);
-    EXPECT_GT((view_.orbitCamera().target_m() - target_m).norm(), 1e-4);
-    EXPECT_EQ(view_.orbitCamera().azimuth_rad(), azimuth_rad);
+    EXPECT_GT((view_.navigation().orbit().target_m() - target_m).norm(), 1e-4);
+    EXPECT_EQ(view_.navigation().orbit().azimuth_rad(), azimuth_rad);
   }
 }
 
 TEST_F(SceneViewTest, TheWheelComesNearerAndHomeGoesBack) {
-  const double distance_m = view_.orbitCamera().distance_m();
+  const double distance_m = view_.navigation().orbit().distance_m();
   wheel({200, 200}, 2);
-  EXPECT_LT(view_.orbitCamera().distance_m(), distance_m);
+  EXPECT_LT(view_.navigation().orbit().distance_m(), distance_m);
   QTest::keyClick(view_.canvas(), Qt::Key_Home);
-  EXPECT_EQ(view_.orbitCamera().distance_m(), distance_m);
+  EXPECT_EQ(view_.navigation().orbit().distance_m(), distance_m);
 }
 
 TEST_F(SceneViewTest, KeysLookFromFixedDirections) {
   QTest::keyClick(view_.canvas(), Qt::Key_1);
-  EXPECT_NEAR(view_.orbitCamera().elevation_rad(), std::acos(0.0), 1e-12);
+  EXPECT_NEAR(view_.navigation().orbit().elevation_rad(), std::acos(0.0), 1e-12);
   QTest::keyClick(view_.canvas(), Qt::Key_3);
-  EXPECT_EQ(view_.orbitCamera().elevation_rad(), 0.0);
-  EXPECT_EQ(view_.orbitCamera().azimuth_rad(), 0.0);
+  EXPECT_EQ(view_.navigation().orbit().elevation_rad(), 0.0);
+  EXPECT_EQ(view_.navigation().orbit().azimuth_rad(), 0.0);
 }
 
 TEST_F(SceneViewTest, ThroughTheCameraTheWheelKeepsThePixelUnderTheMouse) {
   QTest::keyClick(view_.canvas(), Qt::Key_V);
-  ASSERT_TRUE(view_.throughCamera());
+  ASSERT_TRUE(view_.navigation().throughCamera());
   const QPoint mouse(200, 150);
-  const QPointF before = view_.imageTransform().toPixel(mouse);
+  const QPointF before = view_.navigation().image().toPixel(mouse);
   wheel(mouse, 3);
-  const QPointF after = view_.imageTransform().toPixel(mouse);
+  const QPointF after = view_.navigation().image().toPixel(mouse);
   EXPECT_NEAR(after.x(), before.x(), 1e-9);
   EXPECT_NEAR(after.y(), before.y(), 1e-9);
   QTest::keyClick(view_.canvas(), Qt::Key_V);
-  EXPECT_FALSE(view_.throughCamera());
+  EXPECT_FALSE(view_.navigation().throughCamera());
 }
 
 TEST_F(SceneViewTest, ThroughTheCameraTheMeshLiesWhereTheImageShowsIt) {
-  view_.setThroughCamera(true);
+  view_.navigation().setThroughCamera(true);
   view_.setThroughRole(PoseRole::kTruth);
   const Viewpoint view = view_.viewpoint();
   EXPECT_EQ(view.view_from_station.translation_m,
             test::sceneCase()->source.camera_from_station_truth->translation_m);
   // Mirrors the camera's principal point, which is not the canvas' centre.
-  const QPointF centre = view_.imageTransform().toWidget(
+  const QPointF centre = view_.navigation().image().toWidget(
       QPointF(test::sceneCase()->source.camera.cx, test::sceneCase()->source.camera.cy));
   EXPECT_NEAR(view.camera.cx + 0.5, centre.x(), 1e-9);
   EXPECT_NEAR(view.camera.cy + 0.5, centre.y(), 1e-9);
@@ -161,10 +162,10 @@ TEST_F(SceneViewTest, ThroughTheCameraTheMeshLiesWhereTheImageShowsIt) {
 
 TEST_F(SceneViewTest, ANewSnapshotLeavesTheViewAlone) {
   wheel({200, 200}, 3);
-  const double distance_m = view_.orbitCamera().distance_m();
+  const double distance_m = view_.navigation().orbit().distance_m();
   state_.setSnapshot(test::firstIterations(*test::exampleRun(), 1));
   view_.refresh();
-  EXPECT_EQ(view_.orbitCamera().distance_m(), distance_m);
+  EXPECT_EQ(view_.navigation().orbit().distance_m(), distance_m);
 }
 
 TEST_F(SceneViewTest, FollowsTheStateWhileItIsShownAndCatchesUpAfterwards) {
@@ -189,10 +190,99 @@ TEST(SceneView, LivesWithoutACase) {
   view.resize(300, 300);
   view.show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
-  view.setThroughCamera(true);
+  view.navigation().setThroughCamera(true);
   QTest::mouseClick(view.canvas(), Qt::LeftButton, Qt::NoModifier, {100, 100});
-  view.resetView();
+  view.navigation().reset();
   view.grab();
+}
+
+TEST(SceneBackend, IsVtkWhereAContextCanBeHad) {
+  int asked = 0;
+  const auto works = [&asked] {
+    ++asked;
+    return true;
+  };
+  EXPECT_EQ(decideSceneBackend(QStringLiteral("xcb"), {}, works), SceneBackend::kVtk);
+  EXPECT_EQ(asked, 1);
+}
+
+TEST(SceneBackend, IsThePictureWithoutAContext) {
+  EXPECT_EQ(decideSceneBackend(QStringLiteral("xcb"), {}, [] { return false; }),
+            SceneBackend::kPicture);
+}
+
+TEST(SceneBackend, DoesNotAskWhereTheAnswerIsPlain) {
+  const auto never = [] {
+    ADD_FAILURE() << "asked for a context";
+    return true;
+  };
+  for (const char* platform : {"offscreen", "minimal", "wayland", "vnc", ""})
+    EXPECT_EQ(decideSceneBackend(QString::fromUtf8(platform), {}, never), SceneBackend::kPicture);
+  EXPECT_EQ(decideSceneBackend(QStringLiteral("xcb"), QStringLiteral("picture"), never),
+            SceneBackend::kPicture);
+}
+
+TEST(SceneBackend, IsThePictureInThisTest) {
+  EXPECT_EQ(sceneBackend(), SceneBackend::kPicture);
+  EXPECT_TRUE(sceneIsDrawnInSoftware());
+}
+
+const QSize kCanvas(420, 340);
+
+Viewpoint someView(const SceneContent& content) {
+  OrbitCamera orbit;
+  BoundingBox box = content.bounds;
+  for (const Frustum& frustum : content.frusta) {
+    box.minimum_m = box.minimum_m.cwiseMin(frustum.apex_m);
+    box.maximum_m = box.maximum_m.cwiseMax(frustum.apex_m);
+  }
+  orbit.frame(box);
+  return orbit.viewpoint(kCanvas);
+}
+
+TEST(ScenePicture, ShowsTheMeshExactlyWhereTheCoreRendersIt) {
+  ViewState state;
+  test::showRun(state);
+  const SceneContent content = sceneContent(state);
+  const Viewpoint view = someView(content);
+  SceneLook look;
+  look.shown = {true, false, false, false, false, false};
+  look.background = QColor(255, 0, 255);
+  const QImage picture = drawScenePicture(content, look, view, std::nullopt);
+  ASSERT_EQ(picture.size(), kCanvas);
+  const std::vector<std::int32_t> face = test::renderedFaces(content, view);
+  int covered = 0;
+  for (int y = 0; y < kCanvas.height(); ++y)
+    for (int x = 0; x < kCanvas.width(); ++x) {
+      const bool mesh = face[static_cast<std::size_t>(y * kCanvas.width() + x)] >= 0;
+      EXPECT_EQ(picture.pixelColor(x, y) != look.background, mesh);
+      covered += mesh ? 1 : 0;
+    }
+  EXPECT_GT(covered, 1000);
+}
+
+TEST(ScenePicture, ShowsEveryFrustumAndThePoints) {
+  ViewState state;
+  test::showRun(state);
+  state.selectTemplate(0);
+  const SceneContent content = sceneContent(state);
+  const Viewpoint view = someView(content);
+  const QImage with = drawScenePicture(content, SceneLook(), view, std::nullopt, 2.0);
+  EXPECT_EQ(with.size(), 2 * kCanvas);
+  for (const Frustum& frustum : content.frusta)
+    EXPECT_GT(test::pixelsLike(with, frustum.color, 7), 50) << frustum.label.toStdString();
+  SceneLook bare;
+  bare.shown.points = false;
+  EXPECT_NE(drawScenePicture(content, bare, view, std::nullopt, 2.0), with);
+}
+
+TEST(ScenePicture, IsItsBackgroundWithoutACase) {
+  OrbitCamera orbit;
+  SceneLook look;
+  look.background = QColor(1, 2, 3);
+  const QImage picture =
+      drawScenePicture(SceneContent(), look, orbit.viewpoint(kCanvas), std::nullopt);
+  EXPECT_EQ(picture.pixelColor(10, 10), look.background);
 }
 
 }  // namespace

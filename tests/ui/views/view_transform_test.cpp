@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/views/view_transform.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "ui/views/display_image.h"
 
 namespace boresight::ui {
 namespace {
+
+using sessions::GrayLevels;
+using sessions::ImageSamples;
 
 double distance(const QPointF& a, const QPointF& b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());
@@ -59,6 +67,115 @@ TEST(ViewTransform, AnEmptyImageOrWidgetChangesNothing) {
   transform.fit({0.0, 0.0}, {100.0, 100.0});
   transform.fit({100.0, 100.0}, {0.0, 10.0});
   EXPECT_EQ(transform, before);
+}
+
+TEST(GrayPyramid, TakesTheCoarsestPictureThatStillHasEveryScreenPixel) {
+  QImage gray(33, 17, QImage::Format_Grayscale8);
+  gray.fill(100);
+  const GrayPyramid pyramid(gray);
+  int step = -1;
+  EXPECT_EQ(pyramid.at(0.5, step).size(), QSize(33, 17));
+  EXPECT_EQ(step, 0);
+  EXPECT_EQ(pyramid.at(1.99, step).width(), 33);
+  EXPECT_EQ(pyramid.at(2.0, step).size(), QSize(17, 9));
+  EXPECT_EQ(step, 1);
+  EXPECT_EQ(pyramid.at(7.9, step).size(), QSize(9, 5));
+  EXPECT_EQ(step, 2);
+  EXPECT_EQ(pyramid.at(7.9, step).constScanLine(4)[8], 100);
+}
+
+TEST(GrayPyramid, MeansFourPixels) {
+  QImage gray(2, 2, QImage::Format_Grayscale8);
+  gray.scanLine(0)[0] = 10;
+  gray.scanLine(0)[1] = 20;
+  gray.scanLine(1)[0] = 30;
+  gray.scanLine(1)[1] = 41;
+  int step = 0;
+  EXPECT_EQ(GrayPyramid(gray).at(2.0, step).constScanLine(0)[0], 25);
+}
+
+TEST(BitPixmaps, ALineStaysALineAtEveryStep) {
+  std::vector<std::uint64_t> words(100 * 2, 0);
+  BitImage bits;
+  bits.words = words;
+  bits.width = 100;
+  bits.height = 100;
+  bits.words_per_row = BitImage::wordsPerRow(100);
+  for (int y = 0; y < 100; ++y) bits.set(37, y);
+  BitPixmaps pixmaps(bits, QColor(10, 200, 30));
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 16.0}) {
+    int step = 0;
+    const QImage& picture = pixmaps.at(factor, step);
+    EXPECT_EQ(1 << step, static_cast<int>(factor));
+    for (int y = 0; y < picture.height(); ++y) {
+      int set = 0;
+      for (int x = 0; x < picture.width(); ++x) {
+        if (qAlpha(picture.pixel(x, y)) == 0) continue;
+        ++set;
+        EXPECT_EQ(x, 37 >> step);
+        EXPECT_EQ(QColor(picture.pixel(x, y)), QColor(10, 200, 30));
+      }
+      EXPECT_EQ(set, 1);
+    }
+  }
+}
+
+ImageSamples samplesOf(std::vector<std::uint16_t> values, int width, int bits) {
+  ImageSamples samples;
+  samples.width = width;
+  samples.height = static_cast<int>(values.size()) / width;
+  samples.sample_bits = bits;
+  samples.values = std::move(values);
+  return samples;
+}
+
+TEST(DisplayStretch, AutomaticLevelsClipAtMostTheirShareAtBothEnds) {
+  Random random(7);
+  std::vector<std::uint16_t> values(100 * 100);
+  for (std::uint16_t& value : values)
+    value = static_cast<std::uint16_t>(1000 + random.below(700) + random.below(700));
+  values[17] = 0;
+  values[18] = 65535;
+  const ImageSamples samples = samplesOf(values, 100, 16);
+  const GrayLevels levels = automaticLevels(samples);
+  std::sort(values.begin(), values.end());
+  EXPECT_EQ(levels.black, values[50]) << "as many as 50 of 10000 are darker";
+  EXPECT_EQ(levels.white, values[values.size() - 51]);
+}
+
+TEST(DisplayStretch, AValueIsReadAsTheFileHasIt) {
+  ImageSamples samples = samplesOf({0, 7, 4095, 65535, 1, 2}, 3, 16);
+  EXPECT_EQ(sampleText(samples, 1, 0), QStringLiteral("7"));
+  EXPECT_EQ(sampleText(samples, 0, 1), QStringLiteral("65535"));
+  samples.offset = -0.5;
+  samples.scale = 1.0 / 65535.0;
+  EXPECT_EQ(sampleText(samples, 0, 0), QStringLiteral("-0.5"));
+  EXPECT_EQ(sampleText(samples, 0, 1), QStringLiteral("0.5"));
+}
+
+TEST(DisplayStretch, AnEvenImageHasLevelsToo) {
+  for (const int value : {0, 1, 77, 65534, 65535}) {
+    const auto v = static_cast<std::uint16_t>(value);
+    const GrayLevels levels = automaticLevels(samplesOf(std::vector<std::uint16_t>(64, v), 8, 16));
+    EXPECT_GE(levels.black, 0) << value;
+    EXPECT_LT(levels.black, levels.white) << value;
+    EXPECT_LE(levels.white, 65535) << value;
+  }
+}
+
+TEST(DisplayStretch, DrawsBlackAndWhiteAtTheLevelsAndTheRestBetween) {
+  const ImageSamples samples = samplesOf({0, 100, 200, 300, 400, 65535}, 3, 16);
+  const QImage image = stretched(samples, {100, 300});
+  const int expected[] = {0, 0, 128, 255, 255, 255};
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(image.constScanLine(i / 3)[i % 3], expected[i]) << i;
+}
+
+TEST(DisplayStretch, EightBitsInFullAreAsTheyAre) {
+  std::vector<std::uint16_t> values(256);
+  for (int i = 0; i < 256; ++i) values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
+  const ImageSamples samples = samplesOf(values, 16, 8);
+  const QImage image = stretched(samples, fullLevels(samples));
+  for (int i = 0; i < 256; ++i) EXPECT_EQ(image.constScanLine(i / 16)[i % 16], i);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/window/dropped_files.h"
+#include "ui/window/session_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/input_findings.h"
 
-#include <fstream>
-
 #include "sessions/session/input_check.h"
 #include "tests/ui/window_test.h"
-#include "ui/panels/banner.h"
+#include "ui/panels/widgets.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 

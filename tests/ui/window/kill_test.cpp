@@ -3,11 +3,9 @@
 // the session always opens. A handful of moments; fifty with BORESIGHT_ALL set.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
-#include <vector>
 
 #include <QProcess>
 

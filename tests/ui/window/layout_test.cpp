@@ -15,8 +15,8 @@
 #include "tests/support/example_case.h"
 #include "tests/ui/window_test.h"
 #include "ui/views/image_panel.h"
+#include "ui/window/application.h"
 #include "ui/window/main_window.h"
-#include "ui/window/screenshot.h"
 #include "ui/window/session_files.h"
 
 namespace boresight::ui {

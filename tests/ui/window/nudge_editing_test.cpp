@@ -107,10 +107,7 @@ TEST_F(NudgeEditingTest, ReopenedItIsWhereItWas) {
   nudge(Qt::Key_PageUp);
   const Pose pose = nudged().value();
   ASSERT_TRUE(window_.document().save());
-  window_.document().close();
-  EXPECT_FALSE(nudged());
-  ASSERT_TRUE(window_.openSession(file_));
-  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
+  ASSERT_TRUE(reopen());
   EXPECT_EQ(nudged(), pose);
 }
 

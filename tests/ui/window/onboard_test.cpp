@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // An onboard record dropped on the window: shown, run again on the ground, compared.
-#include <fstream>
 
 #include "core/base/bytes.h"
 #include "core/base/crc32.h"
@@ -8,7 +7,7 @@
 #include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
 #include "tests/ui/window_test.h"
-#include "ui/panels/banner.h"
+#include "ui/panels/widgets.h"
 
 namespace boresight::ui {
 namespace {
@@ -88,11 +87,7 @@ class OnboardTest : public test::WindowTest {
   const sessions::SessionCase& one() {
     return *window_.document().session().findCase(window_.cases().caseId().toStdString());
   }
-  void runOnTheGround() {
-    QTest::keyClick(&window_, Qt::Key_F5);
-    ASSERT_TRUE(wait([&] { return !window_.document().session().runs.empty(); }));
-    ASSERT_TRUE(rests());
-  }
+  void runOnTheGround() { ASSERT_TRUE(runToTheEnd(1)); }
 };
 
 TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {

@@ -4,8 +4,6 @@
 // end. After each action, when it is in the journal and drawn, it prints the SHA-256 of the session
 // that the window shows, and the number of edits in the journal.
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <filesystem>
 
 #include <QtWidgets>

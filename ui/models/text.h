@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+// Figures and tables as texts.
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <QStringList>
 #include <QVector>
 
 namespace boresight::ui {
+
+/// For table cells: a fixed number of decimals, always with a dot; nothing for NaN.
+QString numberText(double value, int decimals);
+
+/// 1, 2 or 5 times a power of ten, not below the value by more than rounding: where a scale or an
+/// axis ends. 1 for what is not above zero.
+double roundedUp(double value);
+
+/// A core or session text in UTF-8.
+inline QString fromText(const std::string& text) { return QString::fromStdString(text); }
 
 /// An HTML table; its cells are HTML. Numbers are aligned to the right, and the last cell of a row
 /// that is shorter than others spans the rest.

@@ -8,17 +8,37 @@
 #include <QVector>
 #include <QWidget>
 
+#include "ui/plots/plot_colors.h"
+
 class QwtPlot;
 class QwtPlotCurve;
 class QwtPlotGrid;
+class QwtPlotHistogram;
 class QwtPlotMarker;
 
 namespace boresight::ui {
 
+/// What plots have in common: horizontal grid lines, a vertical line, and the palette's colours.
+class Plot : public QWidget {
+  Q_OBJECT
+
+ protected:
+  Plot(int least_height_px, QWidget* parent);
+
+  /// Colours and texts of the kind of plot.
+  virtual void applyColors(const PlotColors& colors) = 0;
+  /// All colours and fonts. To be called once by the constructor of the kind of plot.
+  void applyPalette();
+  void changeEvent(QEvent* event) override;
+
+  QwtPlot* plot_;
+  QwtPlotGrid* grid_;
+  QwtPlotMarker* marker_;
+};
+
 /// Two quantities over places 0, 1, 2, ..., each with its own axis: the first on the left (discs,
-/// solid line), the second on the right (diamonds, dashed line). A click chooses a place. Follows
-/// the palette.
-class DoublePlot : public QWidget {
+/// solid line), the second on the right (diamonds, dashed line). A click chooses a place.
+class DoublePlot : public Plot {
   Q_OBJECT
 
  public:
@@ -45,7 +65,7 @@ class DoublePlot : public QWidget {
   void chosen(int place);
 
  protected:
-  void changeEvent(QEvent* event) override;
+  void applyColors(const PlotColors& colors) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
@@ -55,20 +75,38 @@ class DoublePlot : public QWidget {
     int axis = 0;
     int count = 0;
   };
-
   void addCurve(Curve& curve, const Series& series, int axis);
   void fill(Curve& curve, const QVector<QPointF>& points);
-  void applyPalette();
   void nameIterations();
   void titleAxis(const Curve& curve, const QColor& color);
 
-  QwtPlot* plot_ = nullptr;
-  QwtPlotGrid* grid_ = nullptr;
-  QwtPlotMarker* marker_ = nullptr;
   Curve left_;
   Curve right_;
   int place_count_ = 0;
   std::function<QString(int)> name_of_;
+};
+
+/// Counts over a symmetric interval: all of them as outlines, a part of them filled in front. Zero
+/// is marked.
+class HistogramPlot : public Plot {
+  Q_OBJECT
+
+ public:
+  HistogramPlot(const QString& axis_title, const QString& all_title, const QString& part_title,
+                QWidget* parent = nullptr);
+
+  /// As many bins as counts (both the same), evenly over -radius ... radius.
+  void setCounts(double radius, const QVector<int>& all, const QVector<int>& part);
+  int allCount() const { return all_count_; }
+
+ protected:
+  void applyColors(const PlotColors& colors) override;
+
+ private:
+  QwtPlotHistogram* all_ = nullptr;
+  QwtPlotHistogram* part_ = nullptr;
+  QString axis_title_;
+  int all_count_ = 0;
 };
 
 }  // namespace boresight::ui

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/plots/double_plot.h"
+#include "ui/plots/plots.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <QEvent>
@@ -10,17 +11,18 @@
 #include <QMouseEvent>
 #include <QVBoxLayout>
 
+#include <qwt_legend.h>
 #include <qwt_plot.h>
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
+#include <qwt_plot_histogram.h>
 #include <qwt_plot_layout.h>
 #include <qwt_plot_marker.h>
+#include <qwt_samples.h>
 #include <qwt_scale_draw.h>
 #include <qwt_scale_engine.h>
 #include <qwt_symbol.h>
 #include <qwt_text.h>
-
-#include "ui/plots/plot_colors.h"
 
 namespace boresight::ui {
 namespace {
@@ -38,25 +40,55 @@ class NamedScale : public QwtScaleDraw {
   std::function<QString(int)> name_of_;
 };
 
+QVector<QwtIntervalSample> samplesOf(double radius, const QVector<int>& counts) {
+  QVector<QwtIntervalSample> samples;
+  const double width = counts.isEmpty() ? 0.0 : 2.0 * radius / static_cast<double>(counts.size());
+  for (int i = 0; i < counts.size(); ++i) {
+    const double from = -radius + i * width;
+    samples.append(QwtIntervalSample(counts[i], from, from + width));
+  }
+  return samples;
+}
+
 }  // namespace
 
-DoublePlot::DoublePlot(const Series& left, const Series& right, QWidget* parent) : QWidget(parent) {
-  plot_ = new QwtPlot(this);
-  plot_->setMinimumSize(180, 90);
+Plot::Plot(int least_height_px, QWidget* parent)
+    : QWidget(parent),
+      plot_(new QwtPlot(this)),
+      grid_(new QwtPlotGrid),
+      marker_(new QwtPlotMarker) {
+  plot_->setMinimumSize(180, least_height_px);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(plot_);
-  plot_->setAxisMaxMinor(QwtPlot::xBottom, 0);
   if (auto* frame = qobject_cast<QFrame*>(plot_->canvas())) frame->setFrameShape(QFrame::NoFrame);
+  grid_->enableX(false);
+  grid_->attach(plot_);
+  marker_->setLineStyle(QwtPlotMarker::VLine);
+  marker_->attach(plot_);
+}
+
+void Plot::applyPalette() {
+  const PlotColors colors = plotColors(palette());
+  plot_->setCanvasBackground(palette().brush(QPalette::Base));
+  grid_->setPen(colors.grid, 0.0, Qt::DotLine);
+  for (const int axis : {QwtPlot::xBottom, QwtPlot::yLeft, QwtPlot::yRight})
+    plot_->setAxisFont(axis, font());
+  applyColors(colors);
+  plot_->replot();
+}
+
+void Plot::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) applyPalette();
+}
+
+DoublePlot::DoublePlot(const Series& left, const Series& right, QWidget* parent)
+    : Plot(90, parent) {
+  plot_->setAxisMaxMinor(QwtPlot::xBottom, 0);
   plot_->canvas()->installEventFilter(this);
   plot_->canvas()->setCursor(Qt::PointingHandCursor);
   plot_->canvas()->setToolTip(tr("Click to go to an iteration."));
-  grid_ = new QwtPlotGrid;
-  grid_->enableX(false);
-  grid_->attach(plot_);
-  marker_ = new QwtPlotMarker;
-  marker_->setLineStyle(QwtPlotMarker::VLine);
-  marker_->attach(plot_);
   addCurve(left_, left, QwtPlot::yLeft);
   addCurve(right_, right, QwtPlot::yRight);
   applyPalette();
@@ -132,13 +164,9 @@ void DoublePlot::titleAxis(const Curve& curve, const QColor& color) {
   title.setFont(font());
   title.setColor(color);
   plot_->setAxisTitle(curve.axis, title);
-  plot_->setAxisFont(curve.axis, font());
 }
 
-void DoublePlot::applyPalette() {
-  const PlotColors colors = plotColors(palette());
-  plot_->setCanvasBackground(palette().brush(QPalette::Base));
-  grid_->setPen(colors.grid, 0.0, Qt::DotLine);
+void DoublePlot::applyColors(const PlotColors& colors) {
   marker_->setLinePen(colors.cursor, 2.0);
   left_.curve->setPen(colors.first, 1.5, Qt::SolidLine);
   left_.curve->setSymbol(
@@ -148,14 +176,6 @@ void DoublePlot::applyPalette() {
       new QwtSymbol(QwtSymbol::Diamond, colors.second, QPen(colors.second), QSize(10, 10)));
   titleAxis(left_, colors.first);
   titleAxis(right_, colors.second);
-  plot_->setAxisFont(QwtPlot::xBottom, font());
-  plot_->replot();
-}
-
-void DoublePlot::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  const bool look = event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange;
-  if (look && right_.curve != nullptr) applyPalette();
 }
 
 bool DoublePlot::eventFilter(QObject* watched, QEvent* event) {
@@ -171,6 +191,38 @@ bool DoublePlot::eventFilter(QObject* watched, QEvent* event) {
   const int clicked = static_cast<int>(std::lround(place));
   if (clicked >= 0 && clicked < place_count_) Q_EMIT chosen(clicked);
   return true;
+}
+
+HistogramPlot::HistogramPlot(const QString& axis_title, const QString& all_title,
+                             const QString& part_title, QWidget* parent)
+    : Plot(110, parent),
+      all_(new QwtPlotHistogram(all_title)),
+      part_(new QwtPlotHistogram(part_title)),
+      axis_title_(axis_title) {
+  plot_->insertLegend(new QwtLegend, QwtPlot::TopLegend);
+  all_->attach(plot_);
+  part_->attach(plot_);
+  marker_->setXValue(0.0);
+  applyPalette();
+}
+
+void HistogramPlot::setCounts(double radius, const QVector<int>& all, const QVector<int>& part) {
+  all_count_ = std::accumulate(all.begin(), all.end(), 0);
+  all_->setSamples(samplesOf(radius, all));
+  part_->setSamples(samplesOf(radius, part));
+  plot_->setAxisScale(QwtPlot::xBottom, -radius, radius);
+  plot_->replot();
+}
+
+void HistogramPlot::applyColors(const PlotColors& colors) {
+  marker_->setLinePen(colors.cursor, 1.0, Qt::DashLine);
+  all_->setPen(colors.second, 1.2);
+  all_->setBrush(QBrush(colors.second, Qt::BDiagPattern));
+  part_->setPen(QPen(Qt::NoPen));
+  part_->setBrush(colors.first);
+  QwtText title(axis_title_);
+  title.setFont(font());
+  plot_->setAxisTitle(QwtPlot::xBottom, title);
 }
 
 }  // namespace boresight::ui
