@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kIntervals = 4;
 using Shares = std::array<double, kIntervals>;
-/// Upper ends of the intervals of d, in units of kDistanceUnit_px, and their shares at right poses.
+/// Upper ends of the intervals of d, in units of kDistanceUnit_px, and their shares at correct
+/// poses.
 constexpr std::array<int, kIntervals - 1> kUpTo = {12, 23, 36};
 constexpr Shares kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
 constexpr double kTrusted = 0.6;  ///< share of a right pose's edges that the image shows

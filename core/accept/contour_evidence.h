@@ -10,7 +10,7 @@
 
 namespace boresight {
 
-/// A place of a rendered edge in the image whose directed edges are looked at.
+/// A place of a rendered edge in the image whose evidence is measured.
 struct EvidencePlace {
   std::int16_t x = 0;          ///< px
   std::int16_t y = 0;          ///< px
@@ -18,12 +18,12 @@ struct EvidencePlace {
   bool outline = false;        ///< the other side is background
 };
 
-/// How strongly the directed edges of an image support a pose, against what the image shows
-/// around its edges anyway: the mean over places of
+/// Evidence of an image's directed edges for a pose, relative to the background of edges around
+/// each place: the mean over places of
 ///     log((0.6 p(d) + 0.4 b(d)) / b(d))
 /// with d the directed distance (distanceToDirection) to the nearest edge, p(d) the shares of
 /// intervals of d at right poses, and b(d) the shares of the same intervals around the place, for
-/// the same direction. So clutter and texture explain themselves, and do not support a pose.
+/// the same direction. Clutter and texture therefore do not support a pose.
 struct ContourEvidence {
   std::int32_t places = 0;                        ///< rendered edge places looked at
   std::int32_t outline_places = 0;                ///< of these, on the outline
@@ -34,8 +34,8 @@ struct ContourEvidence {
 
   /// Minimum of strongest_nats() and of the quadrants that hold at least a tenth of the places.
   double weakest_nats() const;
-  /// The outline's, or that of all edges where this is larger: an outline before a dark background
-  /// is not seen, and inner edges are often not those of the mesh.
+  /// Evidence of the outline, or of all edges if larger: an outline against a dark background is
+  /// invisible, and inner edges often differ from the mesh.
   double strongest_nats() const { return outline_nats > edges_nats ? outline_nats : edges_nats; }
 };
 
@@ -52,14 +52,14 @@ class ContourEvidenceMeter {
 
   /// Takes memory for images of up to `pixels` from `arena`.
   void create(std::size_t pixels, Arena& arena);
-  /// Forgets the places.
+  /// Removes all places.
   void clear() { count_ = 0; }
   /// Adds a place; those beyond kMaxPlaces are left out.
   void add(const EvidencePlace& place) {
     if (count_ < kMaxPlaces) places_[static_cast<std::size_t>(count_++)] = place;
   }
-  /// `size_px`: the object's longer side in this image. Places outside the image and on pixels of
-  /// which nothing is known do not count.
+  /// `size_px`: the object's longer side in this image. Places outside the image and on unknown
+  /// pixels do not count.
   ContourEvidence measure(const DirectedEdges& edges, double size_px);
 
  private:

@@ -8,14 +8,13 @@
 namespace boresight {
 namespace {
 
-constexpr std::int32_t kMaxPlaces =
-    6000;  ///< so many tell the share to half a percent, in one slice
+constexpr std::int32_t kMaxPlaces = 6000;  ///< enough for a share to within 0.5 %, in one slice
 
-/// Displacements of the render that tell what comes about by chance, px of the render: beyond any
-/// search radius in use, and no multiple of a power of two that a raster might have.
+/// Displacements of the render that measure the share by chance, px of the render: beyond any
+/// search radius in use, and not a multiple of a power of two, which a raster may have.
 constexpr int kDisplacements[4][2] = {{11, 0}, {0, 11}, {-11, 0}, {0, -11}};
 
-/// A place of the render in the image, and what is looked for there.
+/// A place of the render in the image and the search there.
 struct Place {
   Eigen::Vector2d position_px;
   Eigen::Vector2d normal;

@@ -11,36 +11,35 @@
 
 namespace boresight {
 
-/// How far around a rendered edge its counterpart is searched, in pixels of the render: wide enough
-/// that what is near by chance shows, too.
+/// Search radius around a rendered edge, in pixels of the render: wide enough to include edges that
+/// are near by chance.
 inline constexpr double kSupportRadius_px = 4.0;
-/// A rendered edge counts as seen when its counterpart is this near, in pixels of the render: the
-/// error that a right pose leaves.
+/// A rendered edge counts as seen when its counterpart is within this distance, in pixels of the
+/// render: the error at a correct pose.
 inline constexpr double kSupportNear_px = 1.0;
 inline constexpr double kSupportMinGradient = 4.0;         ///< gray/px; weaker ones are noise
 inline constexpr double kSupportDerivativeSigma_px = 1.0;  ///< the blur of a sharp image
 
-/// A share of something, 0 of nothing.
+/// part / whole; 0 when the whole is 0.
 inline double shareOf(std::int32_t part, std::int32_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
-/// What exceeds chance, in [0, 1].
+/// Excess of a share over chance, in [0, 1].
 inline double aboveChance(double share, double chance) {
   return share > chance && chance < 1.0 ? (share - chance) / (1.0 - chance) : 0.0;
 }
 
-/// How well a pose explains the image, not resting on any match. Two sides, kept apart:
-/// *coverage*, how much of what the pose predicts is seen: rendered edge pixels where the strongest
+/// How well a pose explains the image, independent of any match, by two measures:
+/// *coverage*, the share of predicted edges that is seen: rendered edge pixels where the strongest
 /// derivative of the raw image along the edge's normal, within the search radius, lies near the
-/// edge; *explained*, how much of what is seen on the object is predicted: test edges inside the
-/// mask with a rendered edge within one pixel (the rest is texture, shadow, or edges of
-/// other objects). Both also come about by chance, the more the denser the edges: the same counts
-/// with the render displaced in four directions say how much. What exceeds chance counts. A wrong
-/// pose covers a part and explains little; a dark or textured object is strong in one of the two.
+/// edge; *explained*, the share of edges seen on the object that is predicted: test edges inside
+/// the mask with a rendered edge within one pixel (the rest is texture, shadow, or edges of other
+/// objects). Both also occur by chance, more often the denser the edges; the same counts with the
+/// render displaced in four directions measure chance. The excess over chance counts. A wrong pose
+/// covers a part and explains little; a dark or textured object is strong in one of the two.
 struct EdgeSupport {
-  std::int32_t rendered =
-      0;  ///< rendered edge pixels looked at (an even subset of many), not ignored
-  std::int32_t covered = 0;            ///< of those, seen in the image
+  std::int32_t rendered = 0;  ///< rendered edge pixels tested (an even subset of many), not ignored
+  std::int32_t covered = 0;   ///< of those, seen in the image
   std::int32_t displaced = 0;          ///< the same for the displaced render
   std::int32_t displaced_covered = 0;  ///< of those, seen in the image
   std::int32_t seen = 0;               ///< test edge pixels inside the mask, at the render's level
@@ -63,7 +62,7 @@ struct EdgeSupport {
   }
 };
 
-/// Whether the image supports a pose; always when the options ask for no support.
+/// Whether the image supports a pose; always true when the options require no support.
 inline bool isSupported(const EdgeSupport& support, const SupportOptions& options) {
   return !options.gate || support.share() >= options.min_support;
 }
@@ -73,8 +72,8 @@ inline bool isProbable(double probability, const SupportOptions& options) {
   return !options.gate || probability >= options.min_probability;
 }
 
-/// Counts a rendered edge pixel as looked at and, when its counterpart is near, as covered; ignored
-/// ones not at all. `direction` 0 ... 3 displaces it by one of those that tell what comes about by
+/// Counts a rendered edge pixel as tested and, when its counterpart is near, as covered; skips
+/// ignored pixels. `direction` 0 ... 3 displaces it by one of the displacements that measure
 /// chance, -1 leaves it in place.
 void countEdge(const EdgePixel& pixel, int direction, int level, const EdgeSearch& search,
                const ImageView& image, const BitImage* ignore, std::int32_t& looked,

@@ -11,7 +11,7 @@ namespace {
 constexpr int kMostPlaces = 4000;
 constexpr std::int32_t kLeastPlaces = 30;  ///< of a direction
 constexpr int kReach_px = 24;              ///< of a profile, to either side
-constexpr int kNear_px = 4;                ///< where its steepest slope is looked for
+constexpr int kNear_px = 4;                ///< range of the search for its steepest slope
 constexpr double kLeastHeight = 20.0;      ///< gray values
 constexpr int kSamples = 2 * kReach_px + 1;
 
@@ -42,15 +42,15 @@ bool takeProfile(const ImageView& image, const BitImage* ignore, const Eigen::Ve
   return true;
 }
 
-/// Of the ramp around the steepest slope near the middle; nothing when it is too low.
+/// Width of the ramp around the steepest slope near the middle; none when the ramp is too low.
 std::optional<double> rampWidth_px(const Profile& profile) {
   const auto at = [&profile](int i) { return profile[static_cast<std::size_t>(i)]; };
   int steepest = kReach_px;
   double slope = 0.0;
   for (int i = kReach_px - kNear_px; i <= kReach_px + kNear_px; ++i) {
-    const double here = 0.5 * (at(i + 1) - at(i - 1));
-    if (std::abs(here) <= std::abs(slope)) continue;
-    slope = here;
+    const double slope_at_i = 0.5 * (at(i + 1) - at(i - 1));
+    if (std::abs(slope_at_i) <= std::abs(slope)) continue;
+    slope = slope_at_i;
     steepest = i;
   }
   const double sign = slope > 0.0 ? 1.0 : -1.0;

@@ -12,16 +12,16 @@
 
 namespace boresight {
 
-/// How wide the image's edges are where a pose has its edges: motion and defocus, which widen them,
-/// make a pose worse than its covariance says. The width of an edge is the height of its ramp over
-/// the steepest slope.
+/// Width of the image's edges at the edges of a pose. Motion and defocus widen the edges and make
+/// the pose worse than its covariance. The width of an edge is the height of its ramp over the
+/// steepest slope.
 struct EdgeWidth {
   /// A pose from wider edges is not accepted, px. Sharp images have 2 to 7 px; those blurred by
   /// 16 px have 13 to 17 px, and 7 of 20 rendered stations then missed the requirement.
   static constexpr double kWidest_px = 10.0;
 
   std::array<double, kEdgeDirections> width_px{};      ///< median by direction of the normal
-  std::array<std::int32_t, kEdgeDirections> places{};  ///< that the medians are of
+  std::array<std::int32_t, kEdgeDirections> places{};  ///< number of places of each median
 
   /// The direction with the widest edges, of those with enough places; -1: too few are seen.
   int widestDirection() const;
@@ -36,9 +36,9 @@ class EdgeWidthMeter {
  public:
   /// `image` is raw, at full resolution; `ignore` may be nullptr.
   EdgeWidthMeter(const ImageView& image, const BitImage* ignore) : image_(image), ignore_(ignore) {}
-  /// Looks at a place of an edge, px of the image; `normal` has unit length.
+  /// Measures at a place of an edge, px of the image; `normal` has unit length.
   void add(const Eigen::Vector2d& place_px, const Eigen::Vector2d& normal);
-  /// Of the places so far.
+  /// The widths at the places so far.
   EdgeWidth width() const;
 
  private:

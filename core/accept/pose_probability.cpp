@@ -6,7 +6,7 @@
 namespace boresight {
 namespace {
 
-constexpr double kEven = 0.80;   ///< score of poses of which half are right
+constexpr double kEven = 0.80;   ///< score at which half of the poses are correct
 constexpr double kSlope = 12.0;  ///< per unit of the score
 
 }  // namespace

@@ -6,14 +6,15 @@
 
 namespace boresight {
 
-/// What a pose's acceptance rests on: the evidence of its strongest kind of edges, half of that of
+/// Acceptance score of a pose: the evidence of its strongest kind of edges, half of the evidence of
 /// its weakest quadrant, and its edge support.
 inline double acceptanceScore(const ContourEvidence& evidence, const EdgeSupport& support) {
   return evidence.strongest_nats() + 0.5 * evidence.weakest_nats() + support.share();
 }
 
-/// The probability that a pose that a search has found is right: logistic in the acceptance score,
-/// fitted to poses of right and of foreign meshes searched in the same images (resources/evidence/trust.md).
+/// Probability that a pose found by a search is correct: logistic in the acceptance score, fitted
+/// to poses of correct and of foreign meshes searched in the same images
+/// (resources/evidence/trust.md).
 double poseProbability(const ContourEvidence& evidence, const EdgeSupport& support);
 
 }  // namespace boresight

@@ -7,7 +7,7 @@
 
 namespace boresight {
 
-/// Of the support that an image must give a converged pose.
+/// Options of the acceptance test of a converged pose.
 struct SupportOptions {
   bool gate = true;
   double min_probability = 0.5;
@@ -27,7 +27,7 @@ struct SupportOptions {
                      "of its contours and its edge support."},
           self.min_probability);
     visit(OptionInfo{"support.min_support", "", 0.0, 1.0,
-                     "Edge support that a converged pose must have when nothing was searched."},
+                     "Edge support that a converged pose must have without a search."},
           self.min_support);
   }
 };

@@ -9,14 +9,14 @@
 
 namespace boresight {
 
-/// All memory of the core: a block that the caller owns, handed out from the front. Nothing is
-/// given back one by one; a stage that needs scratch takes a mark, allocates, and rewinds.
-/// An arena without a block only counts, which is how sizes are computed before there is memory:
-/// the same allocation code runs twice, so the count cannot disagree with the use.
+/// All memory of the core: a block that the caller owns, handed out from the front. Objects are not
+/// freed one by one; a stage that needs scratch takes a mark, allocates, and rewinds. An arena
+/// without a block only counts, which computes sizes before any memory exists: the same allocation
+/// code runs twice, so the count cannot disagree with the use.
 class Arena {
  public:
   Arena() = default;  ///< counts only
-  /// Hands out the block, which must outlive what is allocated.
+  /// Allocates from the block, which must outlive the allocations.
   explicit Arena(std::span<std::byte> block) : block_(block) {}
 
   /// `count` value-initialized objects; empty when the block is exhausted (then `exhausted()`), or
@@ -40,23 +40,23 @@ class Arena {
 
   /// Where the next allocation begins, for rewind().
   std::size_t mark() const { return used_; }
-  /// Gives back everything that was handed out since the mark was taken.
+  /// Frees everything allocated since the mark was taken.
   void rewind(std::size_t mark) { used_ = mark; }
-  /// Forgets everything that was handed out.
+  /// Frees everything.
   void reset() {
     used_ = 0;
     exhausted_ = false;
   }
 
-  /// Bytes handed out now; also what did not fit.
+  /// Bytes in use, including allocations that did not fit.
   std::size_t used() const { return used_; }
-  /// Most bytes that were ever handed out at a time.
+  /// Largest number of bytes in use at a time.
   std::size_t highWater() const { return high_water_; }
   /// Bytes of the block.
   std::size_t capacity() const { return block_.size(); }
-  /// Something did not fit; what was asked for since is empty.
+  /// Whether an allocation did not fit; later allocations are empty.
   bool exhausted() const { return exhausted_; }
-  /// There is no block.
+  /// Whether there is no block.
   bool countsOnly() const { return block_.empty(); }
 
   /// Every allocation begins at a multiple of this, bytes.

@@ -8,8 +8,8 @@
 
 namespace boresight {
 
-/// Writes big-endian values to the front of a block. What does not fit is counted all the same, so
-/// that a writer without a block tells how large it must be.
+/// Writes big-endian values to the front of a block. Bytes that do not fit are counted, so that a
+/// writer without a block measures the size needed.
 class ByteWriter {
  public:
   ByteWriter() = default;  ///< counts only
@@ -33,7 +33,7 @@ class ByteWriter {
   }
   ///@}
 
-  std::size_t written() const { return written_; }  ///< also what did not fit
+  std::size_t written() const { return written_; }  ///< including bytes that did not fit
 
  private:
   void put(std::uint64_t value, int count) {
@@ -44,8 +44,8 @@ class ByteWriter {
   std::size_t written_ = 0;
 };
 
-/// Reads big-endian values from the front of a span. Nothing is ever read beyond its end: from the
-/// first value that does not fit on, all are 0 and `failed()`.
+/// Reads big-endian values from the front of a span. Never reads beyond its end: from the first
+/// value that does not fit on, all values are 0 and `failed()`.
 class ByteReader {
  public:
   /// `bytes` must outlive the reader.
@@ -74,9 +74,9 @@ class ByteReader {
   bool fits(std::uint64_t count, std::size_t bytes_each) const {
     return !failed_ && count <= rest_.size() / bytes_each;
   }
-  /// Bytes not yet read.
+  /// Number of bytes left.
   std::size_t left() const { return rest_.size(); }
-  /// A value did not fit.
+  /// Whether a value did not fit.
   bool failed() const { return failed_; }
 
  private:

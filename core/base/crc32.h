@@ -6,7 +6,7 @@
 
 namespace boresight {
 
-/// CRC-32 of ISO/IEC 15948 (PNG), zip and many others: finds damage, not malice.
+/// CRC-32 of ISO/IEC 15948 (PNG), zip and many others: detects damage, not tampering.
 std::uint32_t crc32(std::span<const std::uint8_t> bytes);
 
 }  // namespace boresight

@@ -10,7 +10,7 @@
 
 namespace boresight {
 
-/// Canonical big-endian serialization into a SHA-256: what the digest of a run is made of.
+/// Canonical big-endian serialization into a SHA-256: the digest of a run.
 /// -0 counts as +0; a NaN is written as one fixed pattern.
 class DigestWriter {
  public:
@@ -33,7 +33,7 @@ class DigestWriter {
   /// A section name, so that neighbouring fields cannot be confused: length, then the characters.
   void tag(const char* name);
 
-  /// Of everything added so far.
+  /// The SHA-256 of everything added so far.
   std::array<std::uint8_t, 32> digest() const { return sha_.digest(); }
 
  private:

@@ -44,7 +44,7 @@ struct BitImage {
   int height = 0;                  ///< px
   int words_per_row = 0;           ///< wordsPerRow(width)
 
-  /// Words that hold a row of so many pixels.
+  /// Number of words of a row of `width` pixels.
   static int wordsPerRow(int width) { return (width + 63) / 64; }
 
   /// A cleared image of `width` x `height` from the arena.

@@ -15,7 +15,7 @@ inline constexpr int kKernelSets = 2;
 
 /// "portable", "sse2".
 const char* kernelsName(Kernels kernels);
-/// Whether this build has them.
+/// Whether this build has the set.
 bool kernelsAvailable(Kernels kernels);
 /// The last available set.
 Kernels bestKernels();

@@ -8,8 +8,8 @@
 
 namespace boresight {
 
-/// What is known of one option besides its value; declared once, in the `visitFields` of its
-/// struct, and walked by validation, the session file, the command line, the panel and the digest.
+/// Metadata of one option; declared once, in the `visitFields` of its struct, and used by
+/// validation, the session file, the command line, the panel and the digest.
 ///
 /// An options struct declares
 ///     template <class Self, class Visitor>

@@ -30,7 +30,7 @@ std::uint32_t Random::next() {
 
 std::uint32_t Random::below(std::uint32_t bound) {
   if (bound <= 1) return 0;
-  // 2^32 mod bound values are too many for an even share; the lowest ones are drawn again.
+  // 2^32 mod bound values exceed an even share; the lowest values are drawn again.
   const std::uint32_t surplus = (0 - bound) % bound;
   std::uint32_t value = next();
   for (int round = 1; value < surplus && round < kMostRounds; ++round) value = next();

@@ -19,7 +19,7 @@ class Random {
   double uniform();
   /// Uniform in [low, high).
   double uniform(double low, double high);
-  /// Standard normal variate, made of +, -, *, / and sqrt alone (for tests and reseeding).
+  /// Standard normal variate, from + - * / and sqrt only (for tests and reseeding).
   double normal();
 
  private:

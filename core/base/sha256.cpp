@@ -73,7 +73,7 @@ Sha256::Sha256(Sha256Kernel kernel)
     : kernel_(kernel), state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                               0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19} {}
 
-/// Takes the whole blocks of the buffer into the state.
+/// Compresses the whole blocks of the buffer into the state.
 void Sha256::flush() {
   const std::size_t whole = buffered_ / kBlock * kBlock;
   kernel_(state_, buffer_.data(), whole / kBlock);

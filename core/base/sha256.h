@@ -8,23 +8,23 @@
 
 namespace boresight {
 
-/// Takes `count` blocks of 64 bytes into the state (FIPS 180-4, Sec. 6.2.2).
+/// Compresses `count` blocks of 64 bytes into the state (FIPS 180-4, Sec. 6.2.2).
 using Sha256State = std::array<std::uint32_t, 8>;
 using Sha256Kernel = void (*)(Sha256State& state, const std::uint8_t* blocks, std::size_t count);
 
-/// As the standard writes it: runs everywhere, and is the reference.
+/// The standard's own form: portable, and the reference.
 void sha256Plain(Sha256State& state, const std::uint8_t* blocks, std::size_t count);
 /// With the processor's own SHA instructions; nullptr where this processor has none.
 Sha256Kernel sha256Instructions();
 /// The fastest one that this processor can run.
 Sha256Kernel fastestSha256();
 
-/// SHA-256, fed piece by piece.
+/// Incremental SHA-256.
 class Sha256 {
  public:
-  /// The kernel changes how fast it is, not what comes out.
+  /// The kernel changes the speed, not the result.
   explicit Sha256(Sha256Kernel kernel = fastestSha256());
-  void update(std::span<const std::uint8_t> bytes);  ///< Adds bytes to what is hashed
+  void update(std::span<const std::uint8_t> bytes);  ///< Appends bytes
   /// As update() with the value's bytes, most significant first.
   template <class Value>
   void updateBigEndian(Value value) {
@@ -34,7 +34,7 @@ class Sha256 {
     }
     buffered_ += sizeof(Value);
   }
-  /// The digest of all that was fed so far; the object may be fed further.
+  /// The digest of all bytes so far; more bytes may follow.
   std::array<std::uint8_t, 32> digest() const;
 
  private:
@@ -44,7 +44,7 @@ class Sha256 {
 
   Sha256Kernel kernel_;
   Sha256State state_;
-  std::array<std::uint8_t, 8 * kBlock> buffer_{};  ///< what is not in the state yet
+  std::array<std::uint8_t, 8 * kBlock> buffer_{};  ///< bytes not yet in the state
   std::size_t buffered_ = 0;
   std::uint64_t compressed_bytes_ = 0;
 };

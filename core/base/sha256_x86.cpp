@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 with the x86 SHA extensions. Compiled with -msha -msse4.1 where the compiler knows them;
-// only this file, so that nothing else takes such instructions for granted.
+// SHA-256 with the x86 SHA extensions. Compiled with -msha -msse4.1 where the compiler supports
+// them; only this file, so that no other code requires such instructions.
 #include "core/base/sha256.h"
 
 #if defined(__SHA__) && defined(__SSE4_1__)
@@ -13,7 +13,7 @@
 namespace boresight {
 namespace {
 
-/// Four rounds: the state's halves are (a b e f) and (c d g h), as sha256rnds2 wants them.
+/// Four rounds: the state's halves are (a b e f) and (c d g h), as sha256rnds2 requires.
 void fourRounds(int first, __m128i words, __m128i& abef, __m128i& cdgh) {
   const __m128i sum = _mm_add_epi32(
       words, _mm_load_si128(reinterpret_cast<const __m128i*>(kSha256Constants.data() + first)));

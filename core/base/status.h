@@ -5,8 +5,8 @@
 
 namespace boresight {
 
-/// Outcome of a stage of the core. An image, a mesh or a pose from outside can never trip an
-/// assertion: what is wrong with it comes back as one of these.
+/// Outcome of a stage of the core. An invalid image, mesh or pose never trips an assertion: its
+/// fault is returned as one of these.
 enum class [[nodiscard]] Status : std::uint8_t{
     kOk = 0,
     kInvalidOption,     ///< an option is outside its declared range
@@ -14,7 +14,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kInvalidCamera,     ///< camera parameters are not finite, or the model cannot project
     kInvalidMesh,       ///< mesh without faces, with indices out of range, or not finite
     kInvalidPose,       ///< pose not finite
-    kArenaTooSmall,     ///< the arena cannot hold what the problem and the options ask for
+    kArenaTooSmall,     ///< the arena is too small for the problem and the options
     kCapacityExceeded,  ///< more edge pixels, templates or matches than the options provide for
     kTooFewEdges,       ///< the render holds too few salient edge pixels
     kTooFewTemplates,   ///< too few templates could be placed

@@ -3,9 +3,9 @@
 
 namespace boresight {
 
-/// Index inside [0, size) that stands for `index` when the image is mirrored at the centres of its
-/// border pixels (cv::BORDER_REFLECT_101: gfedcb|abcdefgh|gfedcba). `index` may lie several image
-/// widths outside; every turn brings it nearer by at least one pixel.
+/// Index inside [0, size) that corresponds to `index` when the image is mirrored at the centres of
+/// its border pixels (cv::BORDER_REFLECT_101: gfedcb|abcdefgh|gfedcba). `index` may lie several
+/// image widths outside; every turn brings it nearer by at least one pixel.
 inline int reflect101(int index, int size) {
   if (size <= 1) return 0;
   while (index < 0 || index >= size) index = index < 0 ? -index : 2 * (size - 1) - index;

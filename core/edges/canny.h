@@ -14,8 +14,8 @@ struct CannyLimits {
   std::int32_t high = 0;  ///< a pixel above it begins an edge
 };
 
-/// From thresholds as cv::Canny counts them (L2, not squared), rounded down as there. Wants
-/// 0 <= low <= high.
+/// From thresholds as cv::Canny counts them (L2, not squared), rounded down as there. Requires 0 <=
+/// low <= high.
 CannyLimits cannyLimits(double low, double high);
 
 /// Non-maximum suppression of row y of `gradient`, whose row y + 1 must be done (if there is one):

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kBorder = 2;                     ///< of Sobel's kernel
 constexpr int kMeanReach = 15;                 ///< of the mean around a pixel, 31 x 31
-constexpr std::uint64_t kOfMean_tenths = 7;    ///< an edge has at least so much of it
+constexpr std::uint64_t kOfMean_tenths = 7;    ///< least magnitude of an edge relative to that mean
 constexpr std::uint16_t kLeastMagnitude = 64;  ///< half a gray value per px: 128 times
 
 template <class T>
@@ -63,8 +63,8 @@ int edgeDirectionOf(std::int32_t x, std::int32_t y) {
   return falls && sector > 0 ? kEdgeDirections - sector : sector;
 }
 
-int directionsApart(int one, int other) {
-  const int apart = std::abs(one - other);
+int directionsApart(int first, int second) {
+  const int apart = std::abs(first - second);
   return std::min(apart, kEdgeDirections - apart);
 }
 
@@ -122,7 +122,7 @@ void DirectedEdgeDetector::addChannel(const SmallImage& image, DirectedEdges& ed
   }
 }
 
-/// Leaves the directions of edges alone.
+/// Keeps only the directions of edges.
 void DirectedEdgeDetector::suppress(DirectedEdges& edges) const {
   // The neighbour along the normal, of eight.
   static constexpr int kStep_x[kEdgeDirections] = {1, 1, 1, 0, 0, 0, -1, -1};
@@ -152,14 +152,14 @@ void DirectedEdgeDetector::suppress(DirectedEdges& edges) const {
       const std::uint8_t direction = edges.direction[at];
       if (direction == DirectedEdges::kNone) continue;
       const int columns = std::min(width - 1, x + kMeanReach) - std::max(0, x - kMeanReach) + 1;
-      const std::uint16_t here = magnitude_[at];
+      const std::uint16_t magnitude = magnitude_[at];
       const std::uint16_t ahead =
           magnitude_[placeOf(x + kStep_x[direction], y + kStep_y[direction], width)];
       const std::uint16_t behind =
           magnitude_[placeOf(x - kStep_x[direction], y - kStep_y[direction], width)];
       const auto count = static_cast<std::uint64_t>(rows * columns);
-      const bool kept = here >= kLeastMagnitude && here >= ahead && here > behind &&
-                        std::uint64_t{here} * 10 * count >= kOfMean_tenths * sum;
+      const bool kept = magnitude >= kLeastMagnitude && magnitude >= ahead && magnitude > behind &&
+                        std::uint64_t{magnitude} * 10 * count >= kOfMean_tenths * sum;
       if (!kept) edges.direction[at] = DirectedEdges::kNone;
     }
   }

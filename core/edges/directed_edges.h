@@ -13,9 +13,9 @@ inline constexpr int kEdgeDirections = 8;  ///< of normals without sign, 22.5 de
 /// The direction of a normal of any length: 0 along x, 4 along y, the same for both signs.
 int edgeDirectionOf(std::int32_t x, std::int32_t y);
 /// Steps between two directions, 0 ... 4.
-int directionsApart(int one, int other);
+int directionsApart(int first, int second);
 
-/// A small image of one or several channels, and which of its pixels are known.
+/// A small image of one or several channels, with flags of its known pixels.
 struct SmallImage {
   std::span<std::uint8_t> value;  ///< capacity; of each channel the first width * height are valid
   std::span<std::uint8_t> seen;   ///< row by row, capacity; 1: known
@@ -31,13 +31,13 @@ struct SmallImage {
 /// An image's edges with the direction of their normals.
 struct DirectedEdges {
   static constexpr std::uint8_t kNone = 0xff;    ///< no edge
-  static constexpr std::uint8_t kUnseen = 0xfe;  ///< nothing is known of the pixel
+  static constexpr std::uint8_t kUnseen = 0xfe;  ///< the pixel is unknown
 
   std::span<std::uint8_t> direction;  ///< row by row: 0 ... 7, kNone or kUnseen; capacity
   int width = 0;                      ///< px
   int height = 0;                     ///< px
 
-  /// What is at a pixel inside the image.
+  /// The value at a pixel inside the image.
   std::uint8_t at(int x, int y) const {
     return direction[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                      static_cast<std::size_t>(x)];
@@ -46,8 +46,8 @@ struct DirectedEdges {
 
 /// Finds directed edges in small images: Sobel's gradient (5 x 5), suppressed where it is not the
 /// largest along its direction, and kept where it is at least 0.7 times the mean around it
-/// (31 x 31). So dim parts have edges too, and dense texture has few. Of several channels the
-/// largest gradient counts (Di Zenzo 1986 has the exact one).
+/// (31 x 31). Dim parts therefore have edges, too, and dense texture has few. Of several channels
+/// the largest gradient counts (Di Zenzo 1986 has the exact one).
 class DirectedEdgeDetector {
  public:
   static constexpr int kMaxWidth = 512;  ///< px
@@ -58,7 +58,7 @@ class DirectedEdgeDetector {
   void begin(int width, int height, DirectedEdges& edges);
   /// Takes a channel of the image.
   void addChannel(const SmallImage& image, DirectedEdges& edges);
-  /// Leaves the edges; `image` says which pixels are known.
+  /// Completes the edges; `image` holds the known pixels.
   void finish(const SmallImage& image, DirectedEdges& edges);
 
  private:

@@ -10,42 +10,42 @@ namespace {
 constexpr int kStraight = 10;
 constexpr int kDiagonal = 14;
 
-/// What an edge of each direction costs, and no edge.
+/// Initial cost of an edge of each direction, and of no edge.
 std::array<std::uint8_t, 256> costsFor(int direction) {
   std::array<std::uint8_t, 256> cost{};
   cost.fill(kFarthest);
-  for (int other = 0; other < kEdgeDirections; ++other)
-    cost[static_cast<std::size_t>(other)] = static_cast<std::uint8_t>(
-        std::min(kFarthest, kStepOfDirection * directionsApart(other, direction)));
+  for (int edge_direction = 0; edge_direction < kEdgeDirections; ++edge_direction)
+    cost[static_cast<std::size_t>(edge_direction)] = static_cast<std::uint8_t>(
+        std::min(kFarthest, kStepOfDirection * directionsApart(edge_direction, direction)));
   return cost;
 }
 
 using Value = std::uint8_t;
-constexpr int kPadding = 8;  ///< px beside a row, farther than the distances reach
+constexpr int kPadding = 8;  ///< px on both sides of a row, beyond the largest distance
 using PaddedRow = std::array<Value, DirectedEdgeDetector::kMaxWidth + 2 * kPadding>;
 static_assert(kPadding * kStraight > kFarthest && kFarthest + 4 * kStraight < 256);
 
-Value least(Value one, int other) {
-  const auto sum = static_cast<Value>(other);
-  return sum < one ? sum : one;
+Value least(Value value, int candidate) {
+  const auto sum = static_cast<Value>(candidate);
+  return sum < value ? sum : value;
 }
 
 /// From each pixel of a row to the others, both ways: within 1, 3 and 7 px. Loops without
 /// dependence on their own results, which the compiler vectorizes.
 void spreadAlong(Value* row, int width) {
-  PaddedRow padded_one;
-  PaddedRow padded_other;
-  padded_one.fill(kFarthest);
-  padded_other.fill(kFarthest);
-  Value* one = padded_one.data() + kPadding;
-  Value* other = padded_other.data() + kPadding;
-  std::copy_n(row, width, one);
+  PaddedRow padded_front;
+  PaddedRow padded_back;
+  padded_front.fill(kFarthest);
+  padded_back.fill(kFarthest);
+  Value* front = padded_front.data() + kPadding;
+  Value* back = padded_back.data() + kPadding;
+  std::copy_n(row, width, front);
   for (int x = 0; x < width; ++x)
-    other[x] = least(least(one[x], one[x - 1] + kStraight), one[x + 1] + kStraight);
+    back[x] = least(least(front[x], front[x - 1] + kStraight), front[x + 1] + kStraight);
   for (int x = 0; x < width; ++x)
-    one[x] = least(least(other[x], other[x - 2] + 2 * kStraight), other[x + 2] + 2 * kStraight);
+    front[x] = least(least(back[x], back[x - 2] + 2 * kStraight), back[x + 2] + 2 * kStraight);
   for (int x = 0; x < width; ++x)
-    row[x] = least(least(one[x], one[x - 4] + 4 * kStraight), one[x + 4] + 4 * kStraight);
+    row[x] = least(least(front[x], front[x - 4] + 4 * kStraight), front[x + 4] + 4 * kStraight);
 }
 
 /// From the pixels of a row to those of the next one.

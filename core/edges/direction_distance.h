@@ -15,8 +15,8 @@ inline constexpr int kStepOfDirection = 15;  ///< an edge of the next direction 
 
 /// For each pixel the distance to the nearest edge whose normal has `direction`, edges of other
 /// directions counting as farther by kStepOfDirection per step: a chamfer transform (Borgefors
-/// 1986, 3 x 3 with 10 and 14). Pixels of which nothing is known get the mean of the others, so
-/// that they speak neither for nor against a pose.
+/// 1986, 3 x 3 with 10 and 14). Unknown pixels get the mean of the known ones, so that they neither
+/// support nor contradict a pose.
 void distanceToDirection(const DirectedEdges& edges, int direction,
                          std::span<std::uint8_t> distance);
 

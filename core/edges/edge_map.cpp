@@ -8,7 +8,7 @@
 namespace boresight {
 namespace {
 
-/// `sizes_only` (a counting arena) leaves the pixels out: there may be none yet.
+/// `sizes_only` (a counting arena): the image may have no pixels yet.
 Status checkInput(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                   bool sizes_only) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
@@ -65,7 +65,7 @@ Status EdgeDetector::begin(const ImageView& image, const BitImage* ignore,
   return Status::kOk;
 }
 
-/// Depends on nothing but the size and the options, so that counting needs neither image nor mask.
+/// Depends only on the size and the options, so that counting needs neither image nor mask.
 void EdgeDetector::allocateScratch(const ImageView& image, Arena& arena) {
   smoothed_.begin(image.width, image.height, options_.gaussian_sigma_px, arena);
   gradient_.begin(image.width, image.height, arena);

@@ -41,8 +41,8 @@ struct EdgeMap {
 /// to count the gradients, once to use them).
 ///
 /// Ignored pixels count neither in the histogram of the equalization nor in that of the gradient,
-/// and pixels within kIgnoreMargin_px of them (Chebyshev distance) are out before hysteresis:
-/// they neither are edges nor vouch for weak ones beside them.
+/// and pixels within kIgnoreMargin_px of them (Chebyshev distance) are removed before hysteresis:
+/// they are not edges and do not support weak neighbours.
 class EdgeDetector {
  public:
   /// The lower threshold as a share of the upper one (quantile thresholds): Canny recommends
@@ -53,7 +53,7 @@ class EdgeDetector {
   static constexpr int kIgnoreMargin_px = 3;
 
   /// `image` and `ignore` (may be nullptr; set bits are ignored; same size) must outlive the steps.
-  /// Output and scratch are taken from `arena`, which must not be used by others until the map is
+  /// Output and scratch are taken from `arena`, which must not be used otherwise until the map is
   /// complete; with a counting arena nothing else happens (the image needs no pixels then).
   /// kInvalidOption for an option out of range; kInvalidImage for an empty or too large image,
   /// overlapping rows, or an ignore mask of another size; kArenaTooSmall. All leave the arena as it
@@ -63,7 +63,7 @@ class EdgeDetector {
     return begin(image, ignore, options, arena, arena, 0, output);
   }
   /// The same with levels finer than `finest_kept` from `scratch`, where the detector's own scratch
-  /// follows: they are valid until somebody else uses that memory.
+  /// follows: they are valid until that memory is reused.
   Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                Arena& kept, Arena& scratch, int finest_kept, EdgeMap& output);
   /// One bounded slice (about a million pixel operations); true when the map is complete.

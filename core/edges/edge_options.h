@@ -13,7 +13,8 @@ inline constexpr const char* kEqualizationNames[] = {"off", "histogram", "clahe"
 enum class CannyThresholds : std::int32_t { kAbsolute = 0, kQuantile = 1 };
 inline constexpr const char* kCannyThresholdsNames[] = {"absolute", "quantile"};
 
-/// How the test image becomes edges (Pham 2025, Sec. III-B, states no parameters; Canny 1986).
+/// Options of the edge detection in the test image (Pham 2025, Sec. III-B, states no parameters;
+/// Canny 1986).
 struct EdgeOptions {
   Equalization equalization = Equalization::kHistogram;
   double gaussian_sigma_px = 1.5;

@@ -29,7 +29,7 @@ std::int32_t total(const GrayHistogram& histogram) {
   return sum;
 }
 
-/// What exceeds `limit` per level is dealt out evenly; the remainder goes to every n-th level.
+/// The excess over `limit` per level is distributed evenly; the remainder goes to every n-th level.
 void clip(GrayHistogram& histogram, std::int32_t limit) {
   std::int32_t clipped = 0;
   for (std::int32_t& count : histogram) {

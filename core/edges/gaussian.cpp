@@ -9,7 +9,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kMargin = 32;  ///< columns beside the row that the widest kernel may read
+constexpr int kMargin = 32;  ///< columns on both sides of a row that the widest kernel may read
 static_assert(kMargin >= kMaxGaussianRadius + 1);
 
 /// Nearest integer of a non-negative value, halves to even.
@@ -156,7 +156,7 @@ void SmoothedRows::sumColumns(int y) {
              low_.data() + kMargin + x);
 }
 
-/// Columns are summed alike, so mirroring the sums is mirroring the pixels.
+/// All columns are summed in the same way, so mirroring the sums equals mirroring the pixels.
 void SmoothedRows::mirrorSides() {
   std::uint16_t* high = high_.data() + kMargin;
   std::uint16_t* low = low_.data() + kMargin;

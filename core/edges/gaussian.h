@@ -33,7 +33,7 @@ class SmoothedRows {
   /// Back to the first row, for another pass.
   void restart() { loaded_ = 0; }
   /// Row y into `out`, which takes roundUpToBlock(width) bytes, those past `width` without meaning.
-  /// Rows must be asked for in ascending order.
+  /// Rows must be requested in ascending order.
   void row(int y, const Equalizer& source, std::uint8_t* out);
 
  private:

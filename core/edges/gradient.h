@@ -13,8 +13,8 @@
 namespace boresight {
 
 /// Sobel derivatives and gradient magnitude of the smoothed image, row after row, in a ring of
-/// three rows: what non-maximum suppression looks at. Derivatives are those of cv::Sobel with a
-/// 3 x 3 kernel and replicated border. The magnitude is dx^2 + dy^2; it is 0 outside the image.
+/// three rows, the input of non-maximum suppression. Derivatives are those of cv::Sobel with a 3 x
+/// 3 kernel and replicated border. The magnitude is dx^2 + dy^2; it is 0 outside the image.
 class GradientRows {
  public:
   /// Takes the ring from `arena`, for an image of this size.
@@ -23,7 +23,7 @@ class GradientRows {
   void restart();
   /// The next row, from rows of `smoothed` over `source`.
   void advance(const Equalizer& source, SmoothedRows& smoothed);
-  /// Rows that advance() has made.
+  /// Number of rows done by advance().
   int rowsDone() const { return rows_done_; }
 
   /// Rows rowsDone() - 3 ... rowsDone() - 1, and those outside the image; x in [-1, width].

@@ -83,7 +83,7 @@ std::int32_t Hysteresis::floodRow(int y, const BitImage& candidates, BitImage& e
   int changed_last = -1;
 
   int w = first;
-  std::uint64_t carry = 0;  // whatever ran into the first word did so when its own word changed
+  std::uint64_t carry = 0;  // runs into the first word were handled when their own word changed
   for (; w < words_per_row_ && (w <= last || carry != 0); ++w) {
     if ((open[w] & ~row[w]) != 0) {
       std::uint64_t seeds =

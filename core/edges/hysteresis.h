@@ -10,9 +10,9 @@
 namespace boresight {
 
 /// Canny's hysteresis: `edges` grows over `candidates` along 8-connected pixels. Whole words flood
-/// at once; sweeps go down and up over the rows and touch only the words beside which something
-/// changed, until nothing does. Every visit that causes another adds at least one pixel, so the
-/// work is bounded by the number of candidates whatever the image.
+/// at once; sweeps go down and up over the rows and visit only words next to a change, until
+/// nothing changes. Every visit that causes another adds at least one pixel, so the number of
+/// candidates bounds the work for any image.
 class Hysteresis {
  public:
   /// For images of this size; two integers per row from `arena`.

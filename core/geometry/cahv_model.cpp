@@ -57,7 +57,7 @@ Status cameraFromCahv(const CahvModel& cahv, int width, int height, Camera& came
   if (cahv.model != CameraModel::kCahv) {
     const double optical_length = lengthOf(cahv.o);
     if (!isUnit(optical_length)) return Status::kInvalidCamera;
-    // What has length 1 but for rounding stays as it is, so that a camera written comes back.
+    // A vector of length 1 but for rounding is kept, so that a camera is read as written.
     const Eigen::Vector3d optical = rotation * cahv.o;
     const double excess = lengthOf(optical) - 1.0;
     camera.cahv.optical_axis =

@@ -30,11 +30,11 @@ struct CahvModel {
 /// across A, y = z cross x. A V that is not along y is kept (skew), as is one that points the other
 /// way (a mirrored image, fy < 0). A is brought to length 1 together with H and V, which changes no
 /// pixel; O, too. kInvalidCamera when A or O are not within 1e-3 of length 1, an H or V is along A,
-/// or the lens cannot be (see prepareCamera).
+/// or the lens is invalid (see prepareCamera).
 Status cameraFromCahv(const CahvModel& cahv, int width, int height, Camera& camera,
                       Pose& camera_from_reference);
 
-/// The other way: what a label would state in that frame, with A and O of length 1.
+/// The inverse: the vectors of a label in that frame, with A and O of length 1.
 CahvModel cahvFromCamera(const Camera& camera, const Pose& camera_from_reference);
 
 }  // namespace boresight

@@ -21,7 +21,7 @@ bool plausibleFocalLength(double focal_length_px) {
 
 bool within(double value, double bound) { return value >= -bound && value <= bound; }
 
-/// O within 60 deg of A, and everything of a size that a lens can have.
+/// O within 60 deg of A, and all parameters in the range of real lenses.
 bool plausibleLens(const CahvLens& lens) {
   constexpr double kLargestTerm = 1e6;
   constexpr double kLargestLinearity = 10.0;

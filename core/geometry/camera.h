@@ -26,7 +26,8 @@ inline constexpr CameraModel kLastCameraModel = CameraModel::kCahvore;
 /// are kept in the camera frame: C = 0, A = (0, 0, 1), H = (fx, 0, cx), V = (skew_px, fy, cy).
 inline bool isCahvFamily(CameraModel model) { return model >= CameraModel::kCahv; }
 
-/// What those models have besides fx .. cy. cahv_model.h makes it from vectors in any frame.
+/// Parameters of those models besides fx .. cy. cahv_model.h computes them from vectors in any
+/// frame.
 struct CahvLens {
   double skew_px = 0.0;  ///< V along x: 0 when the image's axes are square to each other
   Eigen::Vector3d optical_axis = Eigen::Vector3d::UnitZ();  ///< O, of unit length
@@ -64,8 +65,8 @@ struct Camera {
 };
 
 /// Checks the parameters (finite, focal lengths and sizes positive) and computes the valid field.
-/// kInvalidCamera when they cannot be those of a camera. Call once after filling a Camera;
-/// projection outside the valid field then says so instead of folding back into the image.
+/// kInvalidCamera when no camera has them. Call once after filling a Camera;
+/// projection outside the valid field then returns false instead of folding back into the image.
 Status prepareCamera(Camera& camera);
 
 /// Pixel of a point in the camera frame. False when the point is behind the camera (z <= 0) or
@@ -83,8 +84,8 @@ Status prepareCamera(Camera& camera);
 [[nodiscard]] bool unproject(const Camera& camera, const Eigen::Vector2d& pixel,
                              Eigen::Vector3d& ray);
 
-/// What a pixel sees: the points origin_m + depth direction, depth > 0. A point's depth is its z as
-/// measured from the pupil; where all rays have one centre, that is the origin, and depth is z.
+/// The ray of a pixel: the points origin_m + depth direction, depth > 0. A point's depth is its z
+/// as measured from the pupil; where all rays have one centre, that is the origin, and depth is z.
 struct Ray {
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();    ///< camera frame
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< (x/z, y/z, 1)
@@ -104,15 +105,15 @@ inline bool pupilMoves(const Camera& camera) {
   return camera.cahv.pupil_high_m - camera.cahv.pupil_low_m > 1e-8;
 }
 /// A point as seen from the pupil that sees it: its direction is that of its pixel's ray, its z its
-/// depth along it. The point itself where the pupil does not move. For points that are not imaged
-/// the pupil is the nearest to theirs that the image knows.
+/// depth along it. The point itself where the pupil does not move. For points outside the image,
+/// the nearest pupil position of the image's rays is used.
 Eigen::Vector3d seenFromPupil(const Camera& camera, const Eigen::Vector3d& point_in_camera_m);
 
-/// Where the image shows the scene mirrored: its axes turn the other way.
+/// Whether the image is mirrored (left-handed axes).
 inline bool isMirrored(const Camera& camera) { return camera.fy < 0.0; }
 
 /// The camera of a part of the image, or of a larger one around it: the pixel `first` (any sign)
-/// becomes (0, 0). The camera is prepared anew; kInvalidCamera.
+/// becomes (0, 0). The camera is prepared again; kInvalidCamera.
 Status cutToFrame(int first_x, int first_y, int width, int height, Camera& camera);
 /// The camera of an image pooled by 2^level: pixel centres move by x_level = (x + 0.5) / 2^level -
 /// 0.5; the size is rounded up.

@@ -28,7 +28,7 @@ struct ScenePart {
   bool operator==(const ScenePart&) const = default;
 };
 
-/// The scene that the caller owns: welded vertices in the station frame (metres), faces, and the
+/// The scene, owned by the caller: welded vertices in the station frame (metres), faces, and the
 /// part of each face. Single precision is 3e-8 m at 0.5 m, far below any edge's accuracy.
 struct MeshView {
   std::span<const Eigen::Vector3f> vertices_in_station_m;  ///< metres
@@ -43,7 +43,7 @@ struct MeshView {
 Status validateMesh(const MeshView& mesh);
 
 /// Per face the face on the other side of edge i (vertex i to vertex (i + 1) % 3), or -1 at a
-/// border or where more than two faces meet. Faces that name a vertex twice join nothing.
+/// border or where more than two faces meet. Faces with a repeated vertex have no neighbours.
 struct MeshAdjacency {
   std::span<std::array<std::int32_t, 3>> neighbour;  ///< one entry per face
 };

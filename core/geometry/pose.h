@@ -26,7 +26,7 @@ struct Pose {
   bool operator==(const Pose&) const = default;  ///< the same numbers, not the same rotation
 };
 
-/// Rotation by |r| rad about r (Rodrigues), with the core's own sine and cosine.
+/// Rotation by |r| rad about r (Rodrigues), with sin and cos of core/base/math.h.
 Eigen::Quaterniond rotationExp(const Eigen::Vector3d& rotation_rad);
 /// The rotation vector of a unit quaternion, angle in [0, pi].
 Eigen::Vector3d rotationLog(const Eigen::Quaterniond& rotation);

@@ -12,16 +12,17 @@
 // The rules by which a pose that has converged is accepted.
 namespace boresight {
 
-/// Evidence by which the final pose must exceed a competing one within the seed's uncertainty.
+/// Least evidence margin of the final pose over a competing pose within the seed's uncertainty.
 inline constexpr double kLeastMargin_nats = 3.0;
-/// The same of a competing pose outside, which the seed excludes: with a right mesh none is better,
-/// with a mirrored one the half turn is, by 12 to 45 nats.
+/// Least margin over a competing pose outside the seed's uncertainty, which the seed excludes. With
+/// a correct mesh no such pose has more evidence; with a mirrored mesh the half turn has 12 to 45
+/// nats more.
 inline constexpr double kLeastMarginOutside_nats = -2.0;
 
-/// Whether the image supports the pose whose support pass has just ended: kConverged, or why not.
-/// A run that searches has measured more: the probability, whether the pose is within the seed's
-/// uncertainty (a candidate's own box may reach beyond it), edge width and focal length; those two
-/// are of the image only where the pose is about right.
+/// Whether the image supports the pose after its support pass: kConverged, or the reason why not.
+/// A run that searches also judges the probability, whether the pose lies within the seed's
+/// uncertainty (a candidate's own box may reach beyond it), edge width and focal length. Edge width
+/// and focal length describe the image only where the pose is about right.
 LocalizationStatus judgeSupport(const Workspace& measured, const Seed& seed,
                                 const Pose& camera_from_station, const LocalizerOptions& options,
                                 bool searches);

@@ -10,8 +10,8 @@
 namespace boresight {
 namespace {
 
-/// On the matched pose's covariance when the refinement starts from it: templates overlap and share
-/// their errors.
+/// Factor on the matched pose's covariance when the refinement starts from that pose: templates
+/// overlap and share their errors.
 constexpr double kMatchInflation = 8.0;
 
 Ruling failed(Stage stage, LocalizationStatus status, int record) {
@@ -77,19 +77,19 @@ PassPlan Attempt::plan(const RunContext& run) const {
 
 Ruling Attempt::take(const PassOutcome& outcome, const Agreement& agreement, const RunContext& run,
                      std::span<Iteration, 2> records) {
-  Iteration& now = records[static_cast<std::size_t>(record_)];
-  if (now.kind == IterationKind::kMatch) return takeHypothesis(outcome, agreement, run, records);
-  if (now.status != LocalizationStatus::kRunning)
-    return failed(outcome.reached, now.status, record_);
-  return finishIteration(Stage::kRefine, now.refinement.camera_from_station,
-                         now.refinement.covariance, run, now);
+  Iteration& record = records[static_cast<std::size_t>(record_)];
+  if (record.kind == IterationKind::kMatch) return takeHypothesis(outcome, agreement, run, records);
+  if (record.status != LocalizationStatus::kRunning)
+    return failed(outcome.reached, record.status, record_);
+  return finishIteration(Stage::kRefine, record.refinement.camera_from_station,
+                         record.refinement.covariance, run, record);
 }
 
 /// Keeps the hypothesis with most inliers; ends the iteration after the last one.
 Ruling Attempt::takeHypothesis(const PassOutcome& outcome, const Agreement& agreement,
                                const RunContext& run, std::span<Iteration, 2> records) {
   const auto current = static_cast<std::size_t>(record_);
-  const std::size_t other = 1 - current;
+  const std::size_t best = 1 - current;
   reached_[current] = outcome.reached;
   agreement_[current] = agreement;
   HypothesisSummary summary = summaryOf(records[current]);
@@ -98,9 +98,9 @@ Ruling Attempt::takeHypothesis(const PassOutcome& outcome, const Agreement& agre
     record.hypotheses[static_cast<std::size_t>(hypothesis_)] = summary;
     record.hypothesis_count = hypothesis_ + 1;
   }
-  const bool better = !has_best_ || agreement.inliers > agreement_[other].inliers;
+  const bool better = !has_best_ || agreement.inliers > agreement_[best].inliers;
   if (better) records[current].chosen_hypothesis = hypothesis_;
-  const std::size_t kept = better ? current : other;
+  const std::size_t kept = better ? current : best;
   ++hypothesis_;
   const int wanted = iteration_ == 0 ? rolledHypotheses(run.options, seed_.uncertainty) : 1;
   if (hypothesis_ < wanted &&
@@ -118,7 +118,7 @@ Ruling Attempt::takeHypothesis(const PassOutcome& outcome, const Agreement& agre
                          chosen);
 }
 
-/// Whether so many matches agree that it cannot be chance. A later attempt tries every roll.
+/// Whether more matches agree than chance explains. A later attempt tries every roll.
 bool Attempt::isConvincing(int record, const Iteration& iteration, const LoopOptions& loop) const {
   const Agreement& agreement = agreement_[static_cast<std::size_t>(record)];
   return index_ == 0 && iteration.status == LocalizationStatus::kRunning &&

@@ -14,13 +14,14 @@ namespace boresight {
 /// One attempt of a run: the iterations from a seed until they converge or fail (Pham 2025,
 /// Sec. III-A). The first iteration compares renders rolled about the view axis and keeps the one
 /// with most inliers; windows and thresholds shrink from iteration to iteration (schedule.h); after
-/// the matching iterations the pose is refined on edges. A plain value: a copy continues alike.
+/// the matching iterations the pose is refined on edges. A plain value: a copy continues with the
+/// same results.
 class Attempt {
  public:
   Attempt() = default;
   /// `index` counts the attempts of a run, `iteration` the first one to do.
   Attempt(int index, const Seed& seed, int iteration = 0);
-  /// The same from another pose than the seed's, within the seed's uncertainty.
+  /// Starts from another pose than the seed's, within the seed's uncertainty.
   Attempt(int index, const Seed& seed, int iteration, const Pose& camera_from_station);
 
   /// What the next pass works on.
@@ -32,11 +33,11 @@ class Attempt {
 
   /// Starts again from the seed with templates of another size: they may have caused the failure.
   void restart();
-  /// After convergence: goes on without being converged (a view was dropped). kFailed at the
-  /// iteration limit.
+  /// Continues after convergence, as not converged (a view was dropped). kFailed at the iteration
+  /// limit.
   Ruling goOn(const RunContext& run);
 
-  /// The attempt before its last iteration, which started from this pose.
+  /// The attempt as it was before its last iteration, which started from this pose.
   Attempt beforeLastIteration(int index, const Pose& camera_from_station_before,
                               const LocalizerOptions& options) const;
 

@@ -10,19 +10,20 @@
 namespace boresight {
 namespace {
 
-// What the search leaves open, as shares of the object's size and of its depth, and in rotation.
+// Uncertainty that remains after the search, as shares of the object's size and of its depth, and
+// in rotation.
 constexpr double kLateral = 0.03;
 constexpr double kDepth = 0.04;
 constexpr double kRotation_rad = 4.0 * kDegree_rad;
 
 /// A pose of this probability is not compared with others.
 constexpr double kSure = 0.98;
-/// Candidates whose evidence is less by this are not compared with it.
+/// Candidates are not compared when their evidence is lower by more than this.
 constexpr double kAboutAsMuch_nats = 0.2;
-/// What a refinement reaches safely, of its search radius.
+/// Share of its search radius over which a refinement converges reliably.
 constexpr double kOfRadius = 0.67;
 
-/// Whether a refinement on edges reaches the truth from where the search has left the pose.
+/// Whether a refinement on edges converges from the candidate's pose.
 bool isWithinReach(const PoseCandidate& candidate, const RunContext& run) {
   return run.options.refinement.enabled &&
          candidate.error_px <=
@@ -44,7 +45,7 @@ SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& se
   return uncertainty;
 }
 
-/// The last of several attempts is the seed's.
+/// The last of several attempts starts from the seed.
 bool CandidateTrials::triesSeed(int attempt, const RunContext& run) const {
   return next_ >= static_cast<int>(candidates_.size()) ||
          (attempt > 0 && attempt + 1 >= run.options.loop.max_attempts);
@@ -54,7 +55,7 @@ bool CandidateTrials::hasNext(int attempt, const RunContext& run) const {
   return attempt < run.options.loop.max_attempts && !seed_tried_;
 }
 
-/// Whether the next candidate may be better than a pose that is not sure.
+/// Whether the next candidate may be better than an uncertain pose.
 bool CandidateTrials::nextIsWorthwhile(int attempt, const RunContext& run) const {
   if (!hasNext(attempt, run) || next_ >= static_cast<int>(candidates_.size())) return false;
   return candidates_[static_cast<std::size_t>(next_)].rank_nats() >
@@ -67,7 +68,8 @@ Attempt CandidateTrials::next(int attempt, const RunContext& run) {
     return Attempt(attempt, seed_);
   }
   const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(next_++)];
-  // What the image leaves open, as a turn about an axis of symmetry, may have left the box.
+  // A direction that the image does not determine, such as a turn about an axis of symmetry, may
+  // have left the box.
   const Pose camera_from_station = pulledBack(seed_, candidate.camera_from_station);
   if (isWithinReach(candidate, run))
     return Attempt(attempt, seed_, run.options.loop.match_iterations, camera_from_station);

@@ -11,11 +11,11 @@
 
 namespace boresight {
 
-/// Search policy: attempts start from the candidates of the whole-object search, the most evidence
-/// first, and the last one from the seed itself. A candidate that the search has resolved to within
-/// the first search radius is refined on edges at once; of a larger object, templates are matched
-/// around it first. Of the poses that converge the most probable one is the result: when the first
-/// is not sure, candidates of about as much evidence are tried, too.
+/// Search policy: attempts start from the candidates of the whole-object search in descending order
+/// of evidence; the last attempt starts from the seed. A candidate resolved to within the first
+/// search radius is refined on edges directly; for a larger object, templates are matched around
+/// the candidate first. The most probable pose that converges is the result. When the first pose is
+/// uncertain, candidates of about equal evidence are tried, too.
 class CandidateTrials {
  public:
   /// What follows an attempt.
@@ -54,11 +54,11 @@ class CandidateTrials {
   bool returns_ = false;
   double best_probability_ = -1.0;  ///< below 0: no pose has converged yet
   Attempt best_;
-  Pose best_before_;  ///< where the last iteration of the best attempt started
+  Pose best_before_;  ///< start pose of the best attempt's last iteration
 };
 
-/// How far the truth may be from a candidate whose templates are matched, about the scene's middle:
-/// in rotation at most as far as from the seed; in translation by the object's size and depth.
+/// Uncertainty of a candidate whose templates are matched, about the scene's centre: in rotation at
+/// most the seed's; in translation by the object's size and depth.
 SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& seed,
                                  const BoundingBox& scene);
 

@@ -17,23 +17,23 @@ StepReport Localizer::step() {
   return pass_.running() ? report : decide(report);
 }
 
-/// What the phase of the run needs next.
+/// The next pass of the current phase.
 PassPlan Localizer::plan() const {
   PassPlan plan;
   switch (phase_) {
     case Phase::kEdges:  // the edges of the image
     case Phase::kEnded:
       break;
-    case Phase::kSearch:  // where may the whole object be?
+    case Phase::kSearch:  // search the whole object over the seed's uncertainty
       plan.kind = PassKind::kSearch;
       break;
     case Phase::kIterate:  // match templates, solve, repeat; then refine on edges
       return attempt_.plan(pass_.context());
-    case Phase::kAccept:  // does the image support the pose that converged?
+    case Phase::kAccept:  // measure the support of the converged pose
       plan.kind = PassKind::kSupport;
       plan.record = attempt_.record();
       break;
-    case Phase::kCompare:  // does another pose show about the same edges?
+    case Phase::kCompare:  // compare with other poses that show about the same edges
       plan.kind = PassKind::kCompare;
       plan.camera_from_station = attempt_.camera_from_station();
       break;
@@ -77,7 +77,8 @@ StepReport Localizer::iterated(const Ruling& ruling) {
   return show(ruling);
 }
 
-/// Compares the pose with those of other candidates, then with other poses that look alike.
+/// Compares the pose with those of other candidates, then with poses that show about the same
+/// edges.
 StepReport Localizer::accepted(LocalizationStatus status, const StepReport& report) {
   if (status != LocalizationStatus::kConverged)
     return fail({Ruling::Next::kFailed, status, Stage::kSupport, false, attempt_.record()});

@@ -24,7 +24,7 @@ namespace boresight {
 ///
 /// The pass runs the stages; the policies decide which pass comes next: the iterations of an
 /// attempt, and the candidates of the search that attempts start from. At the end the final pose is
-/// compared with others that show about the same edges.
+/// compared with other poses that show about the same edges.
 ///
 /// A caller with threads may share out the independent tasks of a stage:
 ///
@@ -41,12 +41,12 @@ class Localizer {
   static constexpr int kMaxWorkers = PassMemory::kMaxWorkers;
 
   /// `memory` (requiredBytes() of it) and everything `problem` points to must outlive the
-  /// localizer. `status()` tells
+  /// localizer. `status()` reports
   /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
   /// mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, a quaternion not of unit
-  /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. If not, the first step
-  /// ends the run as a fault. `kernels` (those that the memory was measured for) change only the
-  /// time taken.
+  /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. Otherwise the first
+  /// step ends the run as a fault. `kernels` (those that the memory was measured for) change only
+  /// the run time.
   Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
             std::span<std::byte> memory, int workers = 1, Kernels kernels = Kernels::kPortable);
 
@@ -80,14 +80,15 @@ class Localizer {
   void matchOutside(const SurfaceRender& surfaces) { pass_.matchOutside(surfaces); }
   /// Whether step() waits for matches: then the workspace's iteration holds render and templates.
   bool awaitsMatches() const { return pass_.needs() == PassNeed::kMatches; }
-  /// One entry per template, in their order; or any other items of the render, which then replace
-  /// the templates. Entries that are not finite count as not found. kCapacityExceeded for more than
-  /// templates.count, kInvalidOption when no matches are awaited; then nothing has changed.
+  /// One entry per template, in the order of the templates; or any other items of the render, which
+  /// then replace the templates. Entries that are not finite count as not found. kCapacityExceeded
+  /// for more than templates.count, kInvalidOption when no matches are awaited; then nothing has
+  /// changed.
   Status supplyMatches(std::span<const SuppliedMatch> supplied) {
     return pass_.supplyMatches(supplied);
   }
 
-  /// To be looked at between two steps.
+  /// Valid between two steps.
   ///@{
   const Workspace& workspace() const { return pass_.workspace(); }
   const LocalizationProblem& problem() const { return pass_.problem(); }

@@ -9,7 +9,7 @@
 namespace boresight {
 namespace {
 
-/// Whether an option makes the test edges or the rendered ones, or sizes the memory.
+/// Whether an option affects the test edges, the rendered edges or the memory size.
 bool holdsForWholeRun(std::string_view name) {
   constexpr std::string_view kNames[] = {"templates.count",        "refinement.enabled",
                                          "refinement.max_samples", "loop.coarse_size_px",
@@ -18,7 +18,7 @@ bool holdsForWholeRun(std::string_view name) {
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// Calls `visit` with the name of every option in which two differ.
+/// Calls `visit` with the name of every option that differs.
 template <class Visitor>
 void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& after,
                       Visitor&& visit) {
@@ -33,9 +33,9 @@ void visitDifferences(const LocalizerOptions& before, const LocalizerOptions& af
 
 }  // namespace
 
-bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other) {
+bool sameOptions(const LocalizerOptions& first, const LocalizerOptions& second) {
   bool same = true;
-  visitDifferences(one, other, [&same](const char*) { same = false; });
+  visitDifferences(first, second, [&same](const char*) { same = false; });
   return same;
 }
 

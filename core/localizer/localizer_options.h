@@ -20,7 +20,7 @@ namespace boresight {
 enum class CorrectionPoint : std::int32_t { kCamera = 0, kStation = 1 };
 inline constexpr const char* kCorrectionPointNames[] = {"camera", "station"};
 
-/// The loop around the stages (Pham 2025, Sec. III-A).
+/// Options of the loop around the stages (Pham 2025, Sec. III-A).
 struct LoopOptions {
   std::int32_t max_iterations = 10;
   std::int32_t max_attempts = 3;
@@ -45,16 +45,18 @@ struct LoopOptions {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "An attempt ends after so many iterations."},
+    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "Iterations of an attempt, at most."},
           self.max_iterations);
     visit(OptionInfo{"loop.max_attempts", "", 1, 3,
                      "Attempts of a run, at most: from candidates of the search, the last one from "
                      "the seed. Without a search: from the seed, with templates of the same, twice "
                      "and half the size."},
           self.max_attempts);
-    visit(OptionInfo{"loop.match_iterations", "", 1, 50,
-                     "So many iterations match templates; those after refine the pose on edges."},
-          self.match_iterations);
+    visit(
+        OptionInfo{
+            "loop.match_iterations", "", 1, 50,
+            "Number of iterations that match templates; later ones refine the pose on edges."},
+        self.match_iterations);
     visit(
         OptionInfo{
             "loop.coarse_size_px", "px", 64, 16384,
@@ -95,7 +97,7 @@ struct LoopOptions {
                      "A correction below this is small."},
           self.converged_rotation_rad);
     visit(OptionInfo{"loop.converged_iterations", "", 1, 10,
-                     "So many small corrections in a row end the run."},
+                     "Number of consecutive small corrections that end the run."},
           self.converged_iterations);
     visit(OptionInfo{"loop.converged_image_px", "px", 0.0, 100.0,
                      "A correction that moves the scene's box by less in the image is small, too."},
@@ -125,8 +127,8 @@ struct LocalizerOptions {
   PnpOptions pnp;                ///< stage `pnp`
   LoopOptions loop;              ///< the loop around the stages
   RefinementOptions refinement;  ///< the last step, on the image's edges
-  SupportOptions support;        ///< what a pose must show
-  SearchOptions search;          ///< before the first iteration
+  SupportOptions support;        ///< acceptance test
+  SearchOptions search;          ///< search before the first iteration
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -143,9 +145,9 @@ struct LocalizerOptions {
 
 /// Values of all options in the order of the visitor.
 struct OptionValues {
-  static constexpr std::size_t kMost = 160;  ///< most options
+  static constexpr std::size_t kMost = 160;  ///< largest number of options
   std::array<double, kMost> value{};         ///< by option; the rest 0
-  std::size_t count = 0;  ///< of options, should they be more than there is room for
+  std::size_t count = 0;                     ///< number of options, also beyond kMost
 
   /// Takes the values of all options.
   explicit OptionValues(const LocalizerOptions& options) {
@@ -156,18 +158,18 @@ struct OptionValues {
   }
 };
 
-/// The problem without the colour of its image where the run does not look at it.
+/// The problem without the colour of its image when the run does not use colour.
 LocalizationProblem withoutUnusedColor(LocalizationProblem problem,
                                        const LocalizerOptions& options);
 
-bool sameOptions(const LocalizerOptions& one, const LocalizerOptions& other);
+bool sameOptions(const LocalizerOptions& first, const LocalizerOptions& second);
 /// The first option in which `after` differs from `before` and that holds for a whole run, or
-/// nullptr: the test edges are made once, and the memory is laid out once.
+/// nullptr: the test edges are detected once, and the memory is laid out once.
 const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOptions& after);
 
 /// The loop of Pham 2025, Sec. III-A and III-B: full resolution from the start, whole-pixel peaks,
-/// EPnP with RANSAC, no search, no refinement on edges, no acceptance test. What the paper leaves
-/// open, and how it is read here: resources/evidence/paper.md.
+/// EPnP with RANSAC, no search, no refinement on edges, no acceptance test. Choices that the paper
+/// leaves open: resources/evidence/paper.md.
 LocalizerOptions paperProfile();
 /// Recommended settings.
 LocalizerOptions defaultProfile();

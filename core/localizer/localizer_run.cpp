@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a run begins, ends, and is changed on the way.
+// Start, end and change of options of a run.
 #include <algorithm>
 #include <cstdint>
 
@@ -56,7 +56,7 @@ bool Localizer::changeOptions(const LocalizerOptions& options) {
     return false;
   if (sameOptions(pass_.options(), options)) return true;
   pass_.changeOptions(options);
-  // How the first attempt starts depends on them.
+  // The start of the first attempt depends on the options.
   if (searches() && workspace().iterations == 0) startTrials();
   return true;
 }
@@ -67,7 +67,7 @@ void Localizer::startTrials() {
   iterate(trials_.next(0, pass_.context()));
 }
 
-/// Goes on with the first iteration of an attempt.
+/// Starts the first iteration of an attempt.
 void Localizer::iterate(const Attempt& attempt) {
   attempt_ = attempt;
   phase_ = Phase::kIterate;
@@ -82,7 +82,7 @@ StepReport Localizer::show(const Ruling& ruling) {
   return report;
 }
 
-/// How many matches of the iteration agree with its pose.
+/// Number of matches of the iteration that agree with its pose.
 Agreement Localizer::agreement() const {
   const Iteration& iteration = *workspace().iteration;
   return {iteration.pnp.inlier_count, iteration.correspondence_count};

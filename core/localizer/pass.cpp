@@ -88,7 +88,7 @@ void Pass::begin(const PassPlan& plan) {
   }
 }
 
-/// The renderer works in the memory of the edge maps finer than any render.
+/// Releases the edge maps finer than any render: the renderer works in their memory.
 void Pass::dropFinerEdges() {
   for (int level = 0; level < levels_.fine; ++level)
     workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
@@ -96,25 +96,25 @@ void Pass::dropFinerEdges() {
 
 void Pass::prepareRecord() {
   dropFinerEdges();
-  Iteration& now = record();
-  now.index = workspace_.iterations;
-  now.attempt = plan_.attempt;
-  now.status = LocalizationStatus::kRunning;
-  now.kind = plan_.kind == PassKind::kRefine ? IterationKind::kRefine : IterationKind::kMatch;
-  now.level = plan_.level;
-  now.camera_from_station_before = plan_.camera_from_station;
-  now.uncertainty = plan_.uncertainty;
-  now.threshold_px = plan_.threshold_px;
-  if (!keepsRender(now)) now.render = renderMemory();
-  now.templates.count = 0;
-  now.matches.count = 0;
-  now.matches.searched = 0;
-  now.correspondence_count = 0;
-  now.pnp.inlier_count = 0;
-  now.refinement.sample_count = 0;
-  now.refinement.found_count = 0;
-  now.refinement.used_count = 0;
-  workspace_.iteration = &now;
+  Iteration& iteration = record();
+  iteration.index = workspace_.iterations;
+  iteration.attempt = plan_.attempt;
+  iteration.status = LocalizationStatus::kRunning;
+  iteration.kind = plan_.kind == PassKind::kRefine ? IterationKind::kRefine : IterationKind::kMatch;
+  iteration.level = plan_.level;
+  iteration.camera_from_station_before = plan_.camera_from_station;
+  iteration.uncertainty = plan_.uncertainty;
+  iteration.threshold_px = plan_.threshold_px;
+  if (!keepsRender(iteration)) iteration.render = renderMemory();
+  iteration.templates.count = 0;
+  iteration.matches.count = 0;
+  iteration.matches.searched = 0;
+  iteration.correspondence_count = 0;
+  iteration.pnp.inlier_count = 0;
+  iteration.refinement.sample_count = 0;
+  iteration.refinement.found_count = 0;
+  iteration.refinement.used_count = 0;
+  workspace_.iteration = &iteration;
 }
 
 EdgeRender& Pass::renderMemory() {
@@ -123,10 +123,10 @@ EdgeRender& Pass::renderMemory() {
 }
 
 /// Whether the last refinement's render shows the scene as a new render would.
-bool Pass::keepsRender(const Iteration& now) const {
+bool Pass::keepsRender(const Iteration& iteration) const {
   return plan_.keep_render_px > 0.0 &&
-         displacementBetween_px(now.render.camera_from_station, plan_.camera_from_station, scene_,
-                                problem_.camera) < plan_.keep_render_px;
+         displacementBetween_px(iteration.render.camera_from_station, plan_.camera_from_station,
+                                scene_, problem_.camera) < plan_.keep_render_px;
 }
 
 int Pass::tasks() const { return running_ && !task_begun_ ? memory_.tasks.count() : 0; }
@@ -137,7 +137,7 @@ void Pass::runTask(int task, int worker) {
     return;
   if (memory_.tasks.isDone(task)) return;
   if (stage_ == Stage::kRender) {
-    memory_.renderer.work(task, worker);
+    memory_.renderer.runTask(task, worker);
   } else if (stage_ == Stage::kMatch) {
     WhsSearch& search = memory_.searches[static_cast<std::size_t>(worker)];
     if (beginMatch(task, search)) {
@@ -168,19 +168,19 @@ StepReport Pass::end(Stage stage) {
 
 /// Too little data for a pose.
 StepReport Pass::endFailed(Stage stage, LocalizationStatus status) {
-  Iteration& now = record();
-  now.status = status;
+  Iteration& iteration = record();
+  iteration.status = status;
   if (solve_outside_) {
     failed_ = status;
     outcome_.reached = stage;
-    now.correspondence_count = 0;
+    iteration.correspondence_count = 0;
     stage_ = plan_.kind == PassKind::kRefine ? Stage::kRefine : Stage::kPose;
     stage_begun_ = false;
     return StepReport::of(stage, true);
   }
   if (plan_.kind == PassKind::kMatch) {
-    now.pnp.inlier_count = 0;
-    now.pnp.camera_from_station = plan_.camera_from_station;
+    iteration.pnp.inlier_count = 0;
+    iteration.pnp.camera_from_station = plan_.camera_from_station;
   }
   return end(stage);
 }

@@ -21,7 +21,7 @@ namespace boresight {
 enum class PassNeed : std::uint8_t {
   kNothing = 0,
   kMatches,  ///< supplyMatches(), after matchOutside()
-  kPose,     ///< supplyPose(), after solveOutside(): matched, or failed() says why not
+  kPose,     ///< supplyPose(), after solveOutside(): matched, or failed() gives the reason
   kRound,    ///< endRound(), after solveOutside(): the edges of a refinement round are searched
 };
 
@@ -34,10 +34,9 @@ struct JointPose {
   std::int32_t samples = 0;  ///< drawn by RANSAC
 };
 
-/// Runs the stages of one pass, one bounded slice per step: edges, or search, or render ->
-/// templates
-/// -> match -> pose, or render -> refine, or support, or compare. It fills the plan's record and
-/// the digest. It knows neither why it runs nor what comes next.
+/// Runs the stages of one pass, one bounded slice per step: edges, or search, or
+/// render -> templates -> match -> pose, or render -> refine, or support, or compare. It fills the
+/// plan's record and the digest. It contains no policy.
 ///
 /// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
 /// are done by step(). The results have the same bits with any number of workers.
@@ -55,12 +54,12 @@ class Pass {
   void begin(const PassPlan& plan);
   /// Whether a pass has begun and not ended.
   bool running() const { return running_; }
-  /// One slice; while it needs something from outside it does nothing.
+  /// One slice; does nothing while the pass waits for input from outside.
   StepReport step();
-  /// What the last pass gave.
+  /// Outcome of the last pass.
   const PassOutcome& outcome() const { return outcome_; }
 
-  /// Number of tasks that may run now at the same time; 0 between two passes.
+  /// Number of tasks that may run at the same time before the next step; 0 between two passes.
   int tasks() const;
   /// Runs a task with the scratch of a worker. Each task at most once between two steps.
   void runTask(int task, int worker);
@@ -71,7 +70,7 @@ class Pass {
   void matchOutside(const SurfaceRender& surfaces);
   /// Whether the caller matches.
   bool matchesOutside() const { return match_outside_; }
-  /// Not when the caller matches: then every attempt starts from the seed.
+  /// False when the caller matches: then every attempt starts from the seed.
   bool searches() const { return options_.search.enabled && !match_outside_; }
   /// Takes matches in place of those of WHS. kInvalidOption when the pass waits for none,
   /// kCapacityExceeded when there are more than its memory holds.
@@ -85,7 +84,7 @@ class Pass {
   /// Ends a match pass with the pose of all views. Inliers and residuals of this view's
   /// correspondences are filled in before, in record().pnp.
   void supplyPose(const JointPose& joint);
-  /// What the view's edges say in the refinement round.
+  /// Normal equations of the view's edges in the refinement round.
   const EdgeEquations& round() const { return round_; }
   /// The refinement stage, for a refinement of several views.
   EdgeRefinement& refinement() { return memory_.refinement; }
@@ -100,7 +99,7 @@ class Pass {
   void finish(LocalizationStatus status, const Pose& camera_from_station,
               const Matrix6d& covariance);
 
-  /// What policies may look at.
+  /// Context for the policies.
   RunContext context() const { return {options_, problem_.camera, scene_, levels_}; }
   /// The problem of the run.
   const LocalizationProblem& problem() const { return problem_; }
@@ -108,9 +107,9 @@ class Pass {
   const LocalizerOptions& options() const { return options_; }
   /// The plan of the pass under way.
   const PassPlan& plan() const { return plan_; }
-  /// Everything computed on the way.
+  /// Results of all stages so far.
   const Workspace& workspace() const { return workspace_; }
-  /// Everything computed on the way.
+  /// Results of all stages so far.
   Workspace& workspace() { return workspace_; }
   /// The stages and their memory.
   const PassMemory& memory() const { return memory_; }
@@ -133,7 +132,7 @@ class Pass {
   void dropFinerEdges();
   void prepareRecord();
   EdgeRender& renderMemory();
-  bool keepsRender(const Iteration& now) const;
+  bool keepsRender(const Iteration& iteration) const;
 
   StepReport stepEdges();
   StepReport stepSearch();

@@ -9,7 +9,7 @@
 namespace boresight {
 namespace {
 
-/// Everything but the render and the samples.
+/// Memory of an iteration without render and samples.
 Iteration createIteration(const LocalizerOptions& options, Arena& arena) {
   Iteration iteration;
   const auto templates = static_cast<std::size_t>(options.templates.count);
@@ -34,7 +34,7 @@ Camera placeholderCamera(const ProblemSize& size) {
   return camera;
 }
 
-/// Of the images that the search looks at.
+/// Size of the images that the search uses.
 int channelsOf(const LocalizerOptions& options) {
   return options.search.color ? ColorView::kChannels : 1;
 }
@@ -130,7 +130,7 @@ Status PassMemory::Layout::layOutKept() {
   to.searches = kept.allocate<WhsSearch>(static_cast<std::size_t>(workers));
   to.tasks.create(static_cast<std::size_t>(std::max({options.templates.count,
                                                      EdgeRefinement::chunksOf(options.refinement),
-                                                     EdgeRenderer::mostPieces(workers)})),
+                                                     EdgeRenderer::mostTasks(workers)})),
                   kept);
   to.records[0] = createIteration(options, kept);
   if (comparesHypotheses(options)) to.records[1] = createIteration(options, kept);
@@ -192,7 +192,7 @@ Status PassMemory::Layout::layOutStages() {
         scratch.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
   }
   if (scratch.countsOnly()) bytesOf(Stage::kRefine) = scratch.highWater();
-  // Behind the samples, which may be looked at until the next render.
+  // Placed behind the samples, which remain valid until the next render.
   if (options.search.enabled && status == Status::kOk) {
     const std::size_t start = scratch.mark();
     status = to.evidence.create(channelsOf(options), scratch);

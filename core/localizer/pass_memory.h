@@ -26,7 +26,8 @@
 namespace boresight {
 
 /// Bytes of a localizer's block: memory that lives throughout, additional memory of construction
-/// (returned before the first step), and additional memory of each stage; these share one place.
+/// (returned before the first step), and additional memory of each stage; the stages share one
+/// place.
 struct MemoryUse {
   std::size_t kept = 0;          ///< bytes that live throughout
   std::size_t construction = 0;  ///< additional bytes during construction
@@ -41,9 +42,9 @@ struct MemoryUse {
   std::size_t total() const;
 };
 
-/// The memory of a localization, laid out once in one block: first what lives throughout (mesh
-/// adjacency, ray grids, edge maps from the finest matched level on, renders, records), then one
-/// piece that the stages use in turn. The search before the first iteration and that of
+/// The memory of a localization, laid out once in one block: first the memory kept for the whole
+/// run (mesh adjacency, ray grids, edge maps from the finest matched level on, renders, records),
+/// then scratch that the stages use in turn. The search before the first iteration and that of
 /// competing poses after the last one work in the memory of the renders. Edge maps finer than the
 /// finest matched level last until the first render; the samples of a refinement last until the
 /// next render.
@@ -69,7 +70,7 @@ class PassMemory {
 
   /// Bytes, by what they are for.
   const MemoryUse& use() const { return use_; }
-  /// Bytes that were used at most.
+  /// Largest number of bytes in use at a time.
   std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
 
   EdgeDetector detector;                     ///< of the image
@@ -97,7 +98,7 @@ class PassMemory {
   MemoryUse use_;
 };
 
-/// What a localizer needs for a problem of this size; see PassMemory::measure.
+/// Memory of a localizer for a problem of this size; see PassMemory::measure.
 inline Status requiredMemory(const ProblemSize& size, const LocalizerOptions& options, int workers,
                              MemoryUse& use, Kernels kernels = Kernels::kPortable) {
   return PassMemory::measure(size, options, workers, kernels, use);

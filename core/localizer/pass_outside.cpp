@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pass takes from outside: matches of other methods, and the pose of several views.
+// Input to a pass from outside: matches of other methods, and the pose of several views.
 #include <algorithm>
 #include <cmath>
 
@@ -60,30 +60,31 @@ void Pass::matchOutside(const SurfaceRender& surfaces) {
 
 Status Pass::supplyMatches(std::span<const SuppliedMatch> supplied) {
   if (needs() != PassNeed::kMatches) return Status::kInvalidOption;
-  Iteration& now = record();
-  if (supplied.size() > now.matches.matches.size()) return Status::kCapacityExceeded;
+  Iteration& iteration = record();
+  if (supplied.size() > iteration.matches.matches.size()) return Status::kCapacityExceeded;
   for (std::size_t i = 0; i < supplied.size(); ++i) {
-    now.templates.templates[i] = insideOf(now.render.camera, supplied[i].item);
-    now.matches.matches[i] = matchOf(supplied[i], now.render.camera);
+    iteration.templates.templates[i] = insideOf(iteration.render.camera, supplied[i].item);
+    iteration.matches.matches[i] = matchOf(supplied[i], iteration.render.camera);
   }
-  now.templates.count = static_cast<std::int32_t>(supplied.size());
-  now.matches.count = now.templates.count;
-  digestTemplates(now.templates, digest_);
+  iteration.templates.count = static_cast<std::int32_t>(supplied.size());
+  iteration.matches.count = iteration.templates.count;
+  digestTemplates(iteration.templates, digest_);
   matches_supplied_ = true;
   return Status::kOk;
 }
 
 void Pass::supplyPose(const JointPose& joint) {
-  Iteration& now = record();
+  Iteration& iteration = record();
   const bool solved = joint.status == LocalizationStatus::kRunning;
   const bool matched = failed_ == LocalizationStatus::kRunning;
-  now.status = joint.status;
-  now.pnp.camera_from_station = solved ? joint.camera_from_station : plan_.camera_from_station;
-  now.pnp.covariance = joint.covariance;
-  now.pnp.samples = joint.samples;
-  if (!solved || !matched) now.pnp.inlier_count = 0;
-  if (matched) digestPnp(now.pnp, digest_);
-  now.camera_from_station = now.pnp.camera_from_station;
+  iteration.status = joint.status;
+  iteration.pnp.camera_from_station =
+      solved ? joint.camera_from_station : plan_.camera_from_station;
+  iteration.pnp.covariance = joint.covariance;
+  iteration.pnp.samples = joint.samples;
+  if (!solved || !matched) iteration.pnp.inlier_count = 0;
+  if (matched) digestPnp(iteration.pnp, digest_);
+  iteration.camera_from_station = iteration.pnp.camera_from_station;
   (void)end(solved || matched ? Stage::kPose : outcome_.reached);
 }
 
@@ -110,7 +111,7 @@ StepReport Pass::stepOutsideRound() {
 }
 
 void Pass::endRound(Status status, bool ends) {
-  Iteration& now = record();
+  Iteration& iteration = record();
   solver_waits_ = false;
   if (!ends) {
     const bool searches = failed_ == LocalizationStatus::kRunning;
@@ -119,10 +120,10 @@ void Pass::endRound(Status status, bool ends) {
   }
   const bool rendered =
       failed_ == LocalizationStatus::kRunning || outcome_.reached != Stage::kRender;
-  if (rendered) digestRefinement(now.refinement, digest_);
+  if (rendered) digestRefinement(iteration.refinement, digest_);
   const LocalizationStatus failed = rendered ? LocalizationStatus::kPnpFailed : failed_;
-  now.status = status == Status::kOk ? LocalizationStatus::kRunning : failed;
-  now.camera_from_station = now.refinement.camera_from_station;
+  iteration.status = status == Status::kOk ? LocalizationStatus::kRunning : failed;
+  iteration.camera_from_station = iteration.refinement.camera_from_station;
   (void)end(status == Status::kOk || rendered ? Stage::kRefine : Stage::kRender);
 }
 

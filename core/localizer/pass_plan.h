@@ -14,8 +14,8 @@
 #include "core/localizer/stage.h"
 #include "core/localizer/workspace.h"
 
-// What policies and passes tell each other: a policy plans a pass, the pass is run, and the policy
-// rules on its outcome.
+// Interface between policies and passes: a policy plans a pass, the pass runs, and the policy rules
+// on its outcome.
 namespace boresight {
 
 enum class PassKind : std::uint8_t {
@@ -49,13 +49,13 @@ struct PassPlan {
 /// there is a pose.
 struct PassOutcome {
   Stage reached = Stage::kEdges;  ///< the last stage that ran
-  Status fault = Status::kOk;     ///< a capacity that did not suffice
+  Status fault = Status::kOk;     ///< the capacity that was exceeded
   EdgeSupport support;            ///< with kSupport
   ContourEvidence evidence;       ///< with kSupport, of runs that search
   double probability = 0.0;       ///< with kSupport, that the pose is right, of runs that search
 };
 
-/// How many matches agree with a pose: of all views when several are solved as one.
+/// Number of matches that agree with a pose: of all views when several views share the pose.
 struct Agreement {
   std::int32_t inliers = 0;          ///< of PnP, or edge places used
   std::int32_t correspondences = 0;  ///< all matches, inliers among them
@@ -78,7 +78,7 @@ struct Ruling {
   bool failed() const { return next == Next::kFailed; }
 };
 
-/// What does not change during a run and what all policies know.
+/// Data that does not change during a run, for all policies.
 struct RunContext {
   const LocalizerOptions& options;  ///< of the run
   const Camera& camera;             ///< of the full image

@@ -41,7 +41,7 @@ StepReport Pass::stepEdges() {
   return end(Stage::kEdges);
 }
 
-/// Without a candidate when the scene is not in sight.
+/// Yields no candidate when the scene is outside the image.
 StepReport Pass::stepSearch() {
   PoseSearch& search = memory_.search;
   const bool works = stage_begun_ || search.begin(searched_, memory_.renderer);
@@ -53,72 +53,73 @@ StepReport Pass::stepSearch() {
 }
 
 StepReport Pass::stepRender() {
-  Iteration& now = record();
-  if (!stage_begun_ && keepsRender(now)) {
+  Iteration& iteration = record();
+  if (!stage_begun_ && keepsRender(iteration)) {
     stage_ = Stage::kRefine;
     return StepReport::of(Stage::kRender, true);
   }
   if (!stage_begun_) {
-    // A pose that is not rolled keeps its bits.
+    // Without a roll the pose keeps its bits.
     const Pose rendered = plan_.roll_rad == 0.0
                               ? plan_.camera_from_station
                               : rolledAboutScene(plan_.camera_from_station, plan_.roll_rad, scene_);
-    const Status status = memory_.renderer.begin(memory_.rays[static_cast<std::size_t>(now.level)],
-                                                 rendered, now.render, surfaces_);
+    const Status status =
+        memory_.renderer.begin(memory_.rays[static_cast<std::size_t>(iteration.level)], rendered,
+                               iteration.render, surfaces_);
     if (status != Status::kOk) return endFaulted(Stage::kRender, status);
     stage_begun_ = true;
-    memory_.tasks.open(memory_.renderer.pieces());
+    memory_.tasks.open(memory_.renderer.tasks());
     if (memory_.tasks.count() > 0) return StepReport::of(Stage::kRender, false);
   }
   bool complete = false;
   const Status status = continueRender(complete);
   if (status != Status::kOk) return endFaulted(Stage::kRender, status);
   if (!complete) return StepReport::of(Stage::kRender, false);
-  digestRender(now.render, digest_);
+  digestRender(iteration.render, digest_);
   stage_ = plan_.kind == PassKind::kRefine ? Stage::kRefine : Stage::kTemplates;
   stage_begun_ = false;
-  if (now.render.pixel_count < TemplateSelector::kMinEdgePixels)
+  if (iteration.render.pixel_count < TemplateSelector::kMinEdgePixels)
     return endFailed(Stage::kRender, LocalizationStatus::kTooFewEdges);
   return StepReport::of(Stage::kRender, true);
 }
 
-/// Runs one task of the render, or what follows when there is none.
+/// Runs one task of the render, or the step after the last task.
 Status Pass::continueRender(bool& complete) {
   TaskList& tasks = memory_.tasks;
   complete = false;
   if (tasks.findNext()) {
-    memory_.renderer.work(tasks.next(), 0);
+    memory_.renderer.runTask(tasks.next(), 0);
     tasks.markDone(tasks.next());
     if (tasks.findNext()) return Status::kOk;
   }
   const Status status = memory_.renderer.step(complete);
-  tasks.open(memory_.renderer.pieces());
+  tasks.open(memory_.renderer.tasks());
   return status;
 }
 
 StepReport Pass::stepTemplates() {
-  Iteration& now = record();
-  const double depth_m = (now.render.camera_from_station * scene_.centre()).z();
+  Iteration& iteration = record();
+  const double depth_m = (iteration.render.camera_from_station * scene_.centre()).z();
   const double feature_size_m = options_.templates.feature_size_m > 0.0
                                     ? options_.templates.feature_size_m
                                     : scene_.diagonal() / 8.0;
   const int side_px = templateSide(options_.templates, plan_.template_factor * feature_size_m,
-                                   depth_m, now.render.camera);
-  const Status status =
-      memory_.selector.select(now.render, side_px, problem_.ignore, now.level, now.templates);
-  digestTemplates(now.templates, digest_);
+                                   depth_m, iteration.render.camera);
+  const Status status = memory_.selector.select(iteration.render, side_px, problem_.ignore,
+                                                iteration.level, iteration.templates);
+  digestTemplates(iteration.templates, digest_);
   if (status == Status::kTooFewTemplates)
     return endFailed(Stage::kTemplates, LocalizationStatus::kTooFewTemplates);
   if (status != Status::kOk) return endFaulted(Stage::kTemplates, status);
-  now.matches.count = now.templates.count;
-  memory_.tasks.open(match_outside_ ? 0 : now.templates.count);
+  iteration.matches.count = iteration.templates.count;
+  memory_.tasks.open(match_outside_ ? 0 : iteration.templates.count);
   matches_supplied_ = false;
   stage_ = Stage::kMatch;
   return StepReport::of(Stage::kTemplates, true);
 }
 
 StepReport Pass::stepMatch() {
-  Iteration& now = record();
+  Iteration& iteration = record();
   TaskList& tasks = memory_.tasks;
   if (tasks.findNext()) {
     WhsSearch& search = memory_.searches.front();
@@ -130,49 +131,50 @@ StepReport Pass::stepMatch() {
     if (tasks.findNext()) return StepReport::of(Stage::kMatch, false);
   }
   tasks.open(0);
-  for (std::int32_t i = 0; i < now.matches.count; ++i) {
-    if (now.matches.matches[static_cast<std::size_t>(i)].searched) ++now.matches.searched;
+  for (std::int32_t i = 0; i < iteration.matches.count; ++i) {
+    if (iteration.matches.matches[static_cast<std::size_t>(i)].searched)
+      ++iteration.matches.searched;
   }
-  digestMatches(now.matches, digest_);
+  digestMatches(iteration.matches, digest_);
   collectCorrespondences();
   stage_ = Stage::kPose;
   stage_begun_ = false;
-  if (now.correspondence_count < options_.pnp.min_inliers)
+  if (iteration.correspondence_count < options_.pnp.min_inliers)
     return endFailed(Stage::kMatch, LocalizationStatus::kTooFewMatches);
   return StepReport::of(Stage::kMatch, true);
 }
 
 /// False when the template cannot be searched for.
 bool Pass::beginMatch(int index, WhsSearch& search) {
-  Iteration& now = record();
-  const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
-  Match& match = now.matches.matches[static_cast<std::size_t>(index)];
+  Iteration& iteration = record();
+  const Template& item = iteration.templates.templates[static_cast<std::size_t>(index)];
+  Match& match = iteration.matches.matches[static_cast<std::size_t>(index)];
   match = Match{};
   // The window lies around the hypothesis that is not rolled: the uncertainty refers to it.
   match.window =
-      searchWindow(now.render.camera, plan_.camera_from_station * item.point_in_station_m,
-                   now.uncertainty, now.templates.side_px);
+      searchWindow(iteration.render.camera, plan_.camera_from_station * item.point_in_station_m,
+                   iteration.uncertainty, iteration.templates.side_px);
   if (match.window.empty()) return false;
-  const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
-                          now.templates.side_px};
-  return search.begin(view, workspace_.edges.level[static_cast<std::size_t>(now.level)],
+  const TemplateView view{&iteration.render.edges, &iteration.render.mask, item.center_x,
+                          item.center_y, iteration.templates.side_px};
+  return search.begin(view, workspace_.edges.level[static_cast<std::size_t>(iteration.level)],
                       match.window, item.center_x, item.center_y,
                       kSecondPeakExclusion_px) == Status::kOk;
 }
 
 void Pass::finishMatch(int index, const WhsSearch& search) {
-  Iteration& now = record();
-  const Template& item = now.templates.templates[static_cast<std::size_t>(index)];
-  Match& match = now.matches.matches[static_cast<std::size_t>(index)];
+  Iteration& iteration = record();
+  const Template& item = iteration.templates.templates[static_cast<std::size_t>(index)];
+  Match& match = iteration.matches.matches[static_cast<std::size_t>(index)];
   match.peak = search.peak();
   match.norms = search.norms();
   match.x = match.peak.x;
   match.y = match.peak.y;
   if (options_.loop.subpixel_matches) {
-    const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
-                            now.templates.side_px};
-    subpixelPeak(view, workspace_.edges.level[static_cast<std::size_t>(now.level)], match.peak,
-                 match.x, match.y);
+    const TemplateView view{&iteration.render.edges, &iteration.render.mask, item.center_x,
+                            item.center_y, iteration.templates.side_px};
+    subpixelPeak(view, workspace_.edges.level[static_cast<std::size_t>(iteration.level)],
+                 match.peak, match.x, match.y);
   }
   match.searched = true;
   match.at_border = match.peak.x == match.window.x_min || match.peak.x == match.window.x_max ||
@@ -180,32 +182,32 @@ void Pass::finishMatch(int index, const WhsSearch& search) {
 }
 
 void Pass::collectCorrespondences() {
-  Iteration& now = record();
-  now.correspondence_count = 0;
-  const double scale = static_cast<double>(1 << now.level);
-  for (std::int32_t i = 0; i < now.matches.count; ++i) {
-    const Match& match = now.matches.matches[static_cast<std::size_t>(i)];
+  Iteration& iteration = record();
+  iteration.correspondence_count = 0;
+  const double scale = static_cast<double>(1 << iteration.level);
+  for (std::int32_t i = 0; i < iteration.matches.count; ++i) {
+    const Match& match = iteration.matches.matches[static_cast<std::size_t>(i)];
     if (!match.searched) continue;
-    const auto at = static_cast<std::size_t>(now.correspondence_count++);
-    Correspondence& correspondence = now.correspondences[at];
+    const auto at = static_cast<std::size_t>(iteration.correspondence_count++);
+    Correspondence& correspondence = iteration.correspondences[at];
     correspondence.point_in_station_m =
-        now.templates.templates[static_cast<std::size_t>(i)].point_in_station_m;
+        iteration.templates.templates[static_cast<std::size_t>(i)].point_in_station_m;
     correspondence.pixel =
         Eigen::Vector2d((match.x + 0.5) * scale - 0.5, (match.y + 0.5) * scale - 0.5);
     correspondence.sigma_px = kMatchSigma_px * scale;
-    now.template_of[at] = i;
+    iteration.template_of[at] = i;
   }
 }
 
 Status Pass::beginPose() {
-  Iteration& now = record();
-  const auto count = static_cast<std::size_t>(now.correspondence_count);
-  now.pnp.inlier = {now.pnp.inlier.data(), count};
-  now.pnp.residual_px = {now.pnp.residual_px.data(), count};
+  Iteration& iteration = record();
+  const auto count = static_cast<std::size_t>(iteration.correspondence_count);
+  iteration.pnp.inlier = {iteration.pnp.inlier.data(), count};
+  iteration.pnp.residual_px = {iteration.pnp.residual_px.data(), count};
   stage_begun_ = true;
-  return memory_.ransac.begin(now.correspondences.first(count), problem_.camera,
-                              {plan_.camera_from_station, now.uncertainty}, now.threshold_px,
-                              options_.pnp, now.pnp);
+  return memory_.ransac.begin(iteration.correspondences.first(count), problem_.camera,
+                              {plan_.camera_from_station, iteration.uncertainty},
+                              iteration.threshold_px, options_.pnp, iteration.pnp);
 }
 
 StepReport Pass::stepPose() {
@@ -213,34 +215,34 @@ StepReport Pass::stepPose() {
     solver_waits_ = true;
     return StepReport::of(Stage::kPose, false);
   }
-  Iteration& now = record();
+  Iteration& iteration = record();
   Status status = stage_begun_ ? Status::kOk : beginPose();
   bool complete = false;
   if (status == Status::kOk) status = memory_.ransac.step(complete);
   if (status == Status::kOk && !complete) return StepReport::of(Stage::kPose, false);
   const bool solved = status == Status::kOk;
   if (!solved) {
-    now.pnp.inlier_count = 0;
-    now.pnp.camera_from_station = plan_.camera_from_station;
+    iteration.pnp.inlier_count = 0;
+    iteration.pnp.camera_from_station = plan_.camera_from_station;
   }
-  digestPnp(now.pnp, digest_);
-  now.status = solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
+  digestPnp(iteration.pnp, digest_);
+  iteration.status = solved ? LocalizationStatus::kRunning : LocalizationStatus::kPnpFailed;
   return end(Stage::kPose);
 }
 
 Status Pass::beginRefinement() {
-  Iteration& now = record();
+  Iteration& iteration = record();
   const Status status = memory_.refinement.begin(
-      problem_.image, problem_.ignore, problem_.camera, problem_.mesh, now.render, now.threshold_px,
-      plan_.anchored ? &plan_.anchor : nullptr, plan_.anchored ? &plan_.matched : nullptr,
-      now.refinement);
+      problem_.image, problem_.ignore, problem_.camera, problem_.mesh, iteration.render,
+      iteration.threshold_px, plan_.anchored ? &plan_.anchor : nullptr,
+      plan_.anchored ? &plan_.matched : nullptr, iteration.refinement);
   memory_.refinement.startFrom(plan_.camera_from_station);
   stage_begun_ = true;
   return status;
 }
 
 StepReport Pass::stepRefine() {
-  Iteration& now = record();
+  Iteration& iteration = record();
   TaskList& tasks = memory_.tasks;
   EdgeRefinement& refinement = memory_.refinement;
   Status status = Status::kOk;
@@ -255,7 +257,7 @@ StepReport Pass::stepRefine() {
     tasks.open(refinement.chunks());
     return StepReport::of(Stage::kRefine, false);
   }
-  digestRefinement(now.refinement, digest_);
+  digestRefinement(iteration.refinement, digest_);
   if (status != Status::kOk) return endFailed(Stage::kRefine, LocalizationStatus::kPnpFailed);
   return end(Stage::kRefine);
 }
@@ -283,12 +285,13 @@ StepReport Pass::stepSupport() {
 }
 
 void Pass::beginSupport() {
-  const Iteration& now = record();
-  workspace_.support =
-      measureEdgeSupport(now.render, now.level, workspace_.edges, problem_.image, problem_.ignore);
+  const Iteration& iteration = record();
+  workspace_.support = measureEdgeSupport(iteration.render, iteration.level, workspace_.edges,
+                                          problem_.image, problem_.ignore);
   workspace_.evidence = {};
   workspace_.probability = 0.0;
-  workspace_.edge_width = measureEdgeWidth(now.render, now.level, problem_.image, problem_.ignore);
+  workspace_.edge_width =
+      measureEdgeWidth(iteration.render, iteration.level, problem_.image, problem_.ignore);
   workspace_.focal = {};
   outcome_.support = workspace_.support;
   digest_.tag("support");
@@ -304,7 +307,7 @@ void Pass::noteEvidence() {
   digestEvidence(workspace_.evidence, digest_);
 }
 
-/// Works in the memory of the renders and of the samples: those of the iteration are gone.
+/// Works in the memory of the renders and of the samples: those of the iteration become invalid.
 StepReport Pass::stepCompare() {
   CompetingPoseTest& competing = memory_.competing;
   const bool works =

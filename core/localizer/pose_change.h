@@ -8,7 +8,7 @@
 #include "core/localizer/pass_plan.h"
 #include "core/localizer/problem.h"
 
-// How far two poses are apart, as the loop sees it.
+// Distances between two poses for the convergence test.
 namespace boresight {
 
 /// Distance between the poses: of the camera's centre in the station's frame, or of the scene's
@@ -27,8 +27,8 @@ Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const Bo
 
 /// Whether the pose lies outside the seed's uncertainty, `factor` times as large.
 bool leftUncertainty(const Seed& seed, const Pose& camera_from_station, double factor);
-/// The nearest pose inside the seed's uncertainty, axis by axis: a coarse estimate may overshoot
-/// where the image says little.
+/// The nearest pose inside the seed's uncertainty, axis by axis: a coarse estimate may overshoot in
+/// directions that the image constrains weakly.
 Pose pulledBack(const Seed& seed, const Pose& camera_from_station);
 
 /// Fills in the corrections of an iteration that moved a pose.

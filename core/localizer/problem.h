@@ -8,7 +8,7 @@
 
 namespace boresight {
 
-/// What one localization works on; everything is the caller's and must outlive the run.
+/// Input of one localization. The caller owns everything, which must outlive the run.
 struct LocalizationProblem {
   ImageView image;                   ///< 8-bit gray, of the camera's size
   ColorView color;                   ///< of the same pixels; may be without data
@@ -19,7 +19,7 @@ struct LocalizationProblem {
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
 };
 
-/// Where a search begins, and how far the truth may be from there.
+/// Start pose of a localization with its uncertainty.
 struct Seed {
   Pose camera_from_station;     ///< the pose to search around
   SeedUncertainty uncertainty;  ///< how far it may be off

@@ -127,7 +127,7 @@ bool readOption(OptionKind kind, std::uint64_t bits, Field& field) {
   }
 }
 
-/// kOption with the first one that does not stand where it should, as it should.
+/// kOption with the first option that is misplaced, of another kind or out of range.
 ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options) {
   ProblemCheck check;
   std::uint32_t left = reader.u32();
@@ -144,7 +144,7 @@ ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options) {
     --left;
   });
   if (check.fault != ProblemFault::kNone) return check;
-  if (left > 0) return {ProblemFault::kOption, nullptr};  // more than there are
+  if (left > 0) return {ProblemFault::kOption, nullptr};  // more options than exist
   const char* invalid = firstInvalidOption(options);
   if (invalid != nullptr) return {ProblemFault::kOption, invalid};
   return check;
@@ -338,21 +338,21 @@ const char* problemFaultText(ProblemFault fault) {
     case ProblemFault::kNotAProblem:
       return "not a problem file";
     case ProblemFault::kVersion:
-      return "written in another version of the format; write it anew";
+      return "written in another version of the format; export it again";
     case ProblemFault::kSize:
-      return "cut short, or longer than it says; write it anew";
+      return "truncated or longer than its stored size; export it again";
     case ProblemFault::kChecksum:
-      return "damaged: the checksum does not match; write it anew";
+      return "damaged: the checksum does not match; export it again";
     case ProblemFault::kOption:
-      return "an option is unknown, missing, misplaced or out of range; write it anew";
+      return "an option is unknown, missing, misplaced or out of range; export it again";
     case ProblemFault::kCamera:
-      return "the camera's parameters cannot be those of a camera";
+      return "the camera's parameters are invalid";
     case ProblemFault::kPose:
       return "the seed or its uncertainty is not finite, or not a rotation";
     case ProblemFault::kMesh:
       return "the mesh has no faces, indices out of range, or is not finite";
     case ProblemFault::kIgnore:
-      return "the mask of ignored pixels has some beyond the image";
+      return "the ignore mask has bits beyond the image";
     case ProblemFault::kContent:
       return "counts and size contradict each other";
     case ProblemFault::kArenaTooSmall:

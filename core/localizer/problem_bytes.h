@@ -24,7 +24,7 @@ constexpr OptionKind optionKindOf() {
   return OptionKind::kInteger;
 }
 
-/// u32 how many, then each in the order of visitFields: u8 length, name, u8 kind, u64 value (a
+/// u32 count, then each option in the order of visitFields: u8 length, name, u8 kind, u64 value (a
 /// real's bits; a signed integer else).
 void writeOptions(const LocalizerOptions& options, ByteWriter& writer);
 
@@ -45,13 +45,13 @@ void writeOptions(const LocalizerOptions& options, ByteWriter& writer);
 ///     32 bytes SHA-256 of all before
 inline constexpr std::uint32_t kProblemVersion = 1;
 
-/// What may be wrong with such bytes, in the order in which it is looked for.
+/// Faults of an encoded problem, in the order of the checks.
 enum class ProblemFault : std::uint8_t {
   kNone = 0,
   kNotAProblem,    ///< too short, or other first bytes
   kVersion,        ///< another version of the format
-  kSize,           ///< not as long as it says
-  kChecksum,       ///< some byte has changed
+  kSize,           ///< the length differs from the stored size
+  kChecksum,       ///< the checksum does not match
   kOption,         ///< an option is unknown, missing, of another kind or out of range
   kCamera,         ///< cannot be a camera's
   kPose,           ///< seed or uncertainty that cannot be used
@@ -60,24 +60,24 @@ enum class ProblemFault : std::uint8_t {
   kContent,        ///< counts that do not fit the size, or bytes left over
   kArenaTooSmall,  ///< no room for the mesh and the mask
 };
-/// What is wrong, for people: "the checksum does not match", ...
+/// A fault as text for the operator: "the checksum does not match", ...
 const char* problemFaultText(ProblemFault fault);
 
-/// Why bytes were refused. `option` names the one that was expected there, with kOption.
+/// Reason why bytes were refused. With kOption, `option` names the expected option.
 struct ProblemCheck {
   ProblemFault fault = ProblemFault::kNone;  ///< kNone when they were read
   const char* option = nullptr;              ///< name, or nullptr
 };
 
-/// Writes a problem and its options to `out` and returns how many bytes that takes; when `out` is
-/// smaller, which may be empty, what it holds is of no use. The image is not written, only its size
-/// as the camera's.
+/// Writes a problem and its options to `out` and returns the number of bytes needed. `out` may be
+/// empty; when it is smaller than needed, its content is not valid. The image is not written, only
+/// its size as the camera's.
 std::size_t encodeProblem(const LocalizationProblem& problem, const LocalizerOptions& options,
                           std::span<std::uint8_t> out);
 
-/// Reads what encodeProblem has written, whatever the bytes are: refused unless every value is one
-/// that a Localizer takes. Mesh and mask come from the arena, nothing points into `bytes`;
-/// `problem.image` remains empty, the caller's to set. After a fault `problem` and `options` are
+/// Reads the output of encodeProblem. Any bytes are allowed; they are refused unless a Localizer
+/// accepts every value. Mesh and mask come from the arena, nothing points into `bytes`;
+/// `problem.image` remains empty for the caller to set. After a fault `problem` and `options` are
 /// not to be used.
 ProblemCheck decodeProblem(std::span<const std::uint8_t> bytes, Arena& arena,
                            LocalizationProblem& problem, LocalizerOptions& options);

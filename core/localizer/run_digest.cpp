@@ -8,8 +8,8 @@
 namespace boresight {
 namespace {
 
-/// Most words of edges and masks are as the word before them: which ones differ, 64 at a time, and
-/// those. The whole image follows from that.
+/// Most words of edges and masks equal the word before them: writes which words differ, 64 at a
+/// time, and those words. The image can be reconstructed from them.
 void digestBits(const BitImage& image, DigestWriter& writer) {
   writer.i32(image.width);
   writer.i32(image.height);
@@ -46,7 +46,7 @@ void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer) {
   writer.tag("options");
   LocalizerOptions::visitFields(options, [&writer](const OptionInfo& info, const auto& field) {
-    // Whether colour is looked at is seen from the problem's digest: a gray image has the same run.
+    // The problem's digest shows whether colour is used: a gray image has the same run.
     if (std::string_view(info.name) == "search.color") return;
     writer.tag(info.name);
     writer.f64(static_cast<double>(field));

@@ -52,16 +52,15 @@ double thresholdAt(const LocalizerOptions& options, int iteration, int level) {
 
 SeedUncertainty uncertaintyAt(const Seed& seed, const LoopOptions& loop, int iteration,
                               const Pose& camera_from_station) {
-  SeedUncertainty now =
+  SeedUncertainty shrunk =
       scaled(seed.uncertainty, shrinkAt(loop.uncertainty_shrink, loop, iteration));
-  // The pivot belongs to the scene: it goes where the hypothesis takes it, unless it is the
-  // camera's centre.
+  // The pivot belongs to the scene and moves with the hypothesis, unless it is the camera's centre.
   const Eigen::Vector3d& pivot_in_camera_m = seed.uncertainty.pivot_in_camera_m;
   if (pivot_in_camera_m.squaredNorm() > 0.0) {
-    now.pivot_in_camera_m =
+    shrunk.pivot_in_camera_m =
         camera_from_station * (seed.camera_from_station.inverse() * pivot_in_camera_m);
   }
-  return now;
+  return shrunk;
 }
 
 int rolledHypotheses(const LocalizerOptions& options, const SeedUncertainty& uncertainty) {

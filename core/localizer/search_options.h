@@ -5,7 +5,7 @@
 
 namespace boresight {
 
-/// Of the search before the first iteration.
+/// Options of the search before the first iteration.
 struct SearchOptions {
   bool enabled = true;
   bool color = true;
@@ -17,7 +17,7 @@ struct SearchOptions {
                      "iteration."},
           self.enabled);
     visit(OptionInfo{"search.color", "", 0, 1,
-                     "The search and its evidence look at the image's colour, where it has any."},
+                     "The search and its evidence use the image's colour, where it has any."},
           self.color);
   }
 };

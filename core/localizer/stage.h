@@ -13,7 +13,8 @@ enum class Stage : std::uint8_t {
   kPose,
   kRefine,
   kSupport,
-  kSearch,  ///< after the edges; last, so that those of an iteration follow each other
+  kSearch,  ///< runs after the edges; listed last so that the stages of an iteration are
+            ///< consecutive
   kFinished,
 };
 const char* stageText(Stage stage);

@@ -13,7 +13,7 @@ namespace boresight {
 /// Independent tasks of a stage, which may run at the same time in any order.
 class TaskList {
  public:
-  /// Takes the memory for at most `most` tasks.
+  /// Allocates for at most `most` tasks.
   void create(std::size_t most, Arena& arena) { done_ = arena.allocate<std::uint8_t>(most); }
   /// Starts a list of `count` tasks, none of them done.
   void open(int count) {

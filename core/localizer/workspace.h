@@ -21,7 +21,7 @@
 
 namespace boresight {
 
-/// Where a template was found.
+/// Match of one template.
 struct Match {
   SearchWindow window;      ///< at the level; empty when the template could not be searched
   WhsNorms norms;           ///< edge and empty pixels of the template
@@ -31,20 +31,20 @@ struct Match {
   bool at_border = false;   ///< the peak lies on the window's border: the truth may lie beyond
 };
 
-/// Where the templates of an iteration were found.
+/// Matches of the templates of an iteration.
 struct MatchSet {
   std::span<Match> matches;   ///< one per template
   std::int32_t count = 0;     ///< templates looked for
   std::int32_t searched = 0;  ///< templates whose window could be searched
 };
 
-/// A correspondence that somebody else than the core found (Localizer::matchOutside): an item of
-/// the render, and where the image shows it.
+/// A correspondence found by a method outside core (Localizer::matchOutside): an item of the render
+/// and its position in the image.
 struct SuppliedMatch {
   Template item;              ///< one of the templates chosen, or another place of the render
   SearchWindow window;        ///< where it was looked for, at the level
   double x = 0.0, y = 0.0;    ///< where it was found, px at the level
-  double score = 0.0;         ///< [0, 2], the higher the better; for people and records
+  double score = 0.0;         ///< [0, 2], higher is better; for display and records
   double second_score = 0.0;  ///< of the best other place
   bool has_second = false;    ///< there was another place
   bool found = false;         ///< it was found at all
@@ -61,17 +61,17 @@ enum class LocalizationStatus : std::uint8_t {
   kPnpFailed,
   kNotSupported,
   kIterationLimit,
-  kFault,      ///< a capacity or the arena did not suffice; `Workspace::fault` says which
+  kFault,      ///< a capacity or the arena did not suffice; see `Workspace::fault`
   kAmbiguous,  ///< another pose explains the image nearly as well: `Workspace::competing_poses`
   kBlurred,    ///< the image's edges are too wide for a pose: `Workspace::edge_width`
-  kCameraMismatch,  ///< the image's edges ask for another focal length: `Workspace::focal`
+  kCameraMismatch,  ///< the image's edges fit another focal length better: `Workspace::focal`
 };
 inline constexpr LocalizationStatus kLastLocalizationStatus = LocalizationStatus::kCameraMismatch;
 const char* localizationStatusText(LocalizationStatus status);
 
 enum class IterationKind : std::uint8_t { kMatch = 0, kRefine = 1 };
 
-/// One rolled render of an iteration, and what it yielded.
+/// One rolled render of an iteration and its result.
 struct HypothesisSummary {
   double roll_rad = 0.0;       ///< about the ray through the scene's middle
   std::int32_t templates = 0;  ///< chosen
@@ -84,15 +84,15 @@ struct HypothesisSummary {
 };
 inline constexpr int kMaxHypotheses = 9;
 
-/// Everything of one iteration: the next stage's input, and what a trace keeps.
+/// Results of one iteration: the next stage's input and the content of a trace.
 struct Iteration {
   std::int32_t index = 0;                      ///< over all attempts, without gaps
   std::int32_t attempt = 0;                    ///< 0 for the first
   IterationKind kind = IterationKind::kMatch;  ///< what the iteration does
   std::int32_t level = 0;                      ///< pyramid level, 0 full resolution
   double threshold_px = 0.0;  ///< of the full image; the search radius when refining
-  /// What the render shows is this, rolled by the hypothesis chosen; a refinement's may be the last
-  /// one's, from a pose less than loop.render_again_px away.
+  /// Pose of the render before the roll of the chosen hypothesis. A refinement may keep the render
+  /// of the last one, whose pose is less than loop.render_again_px away.
   Pose camera_from_station_before;
   SeedUncertainty uncertainty;                ///< how far the truth may be from that pose
   EdgeRender render;                          ///< the salient edges
@@ -115,20 +115,21 @@ struct Iteration {
   LocalizationStatus status = LocalizationStatus::kRunning;
 };
 
-/// What a caller can look at between two steps.
+/// State of a run, valid between two steps.
 struct Workspace {
-  EdgeMap edges;  ///< levels finer than any render are gone when the first iteration has begun
-  /// The latest; stages not yet reached hold old values. Its render and its samples are gone when
-  /// competing poses were looked for.
+  EdgeMap edges;  ///< levels finer than any render are invalid once the first iteration has begun
+  /// The latest iteration; stages not yet reached hold old values. Its render and its samples are
+  /// invalid after the test of competing poses.
   const Iteration* iteration = nullptr;
   std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
   EdgeSupport support;                        ///< of the final pose
-  ContourEvidence evidence;                   ///< of it, too
-  double probability = 0.0;  ///< that it is right, by both; 0 where none was searched
-  EdgeWidth edge_width;      ///< where that pose has its edges; empty where none was searched
-  FocalFit focal;            ///< beside that pose; not determined where none was searched
-  LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands
-  Status fault = Status::kOk;                                ///< what did not suffice, with kFault
+  ContourEvidence evidence;                   ///< of the final pose
+  double probability =
+      0.0;  ///< that the final pose is right, from support and evidence; 0 without a search
+  EdgeWidth edge_width;  ///< along the edges of the final pose; empty without a search
+  FocalFit focal;        ///< estimated at the final pose; not determined without a search
+  LocalizationStatus status = LocalizationStatus::kRunning;  ///< state of the run
+  Status fault = Status::kOk;                                ///< with kFault: the reason
   Pose camera_from_station;  ///< best estimate; the seed unless converged
   /// Of camera_from_station, over (rotation rad, translation m), left perturbation.
   Matrix6d covariance = Matrix6d::Zero();

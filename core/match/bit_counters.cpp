@@ -196,9 +196,9 @@ template <class Word>
   const int shift = pixels.shift;
   Word carry{};
   const auto add = [&](int k, const Word& part) __attribute__((always_inline)) {
-    const Word here = inOrder(part);
-    const Word addend = (here >> shift) | ((nextWords(here, right[k]) << 1) << (63 - shift));
-    right[k] = firstOf(here);
+    const Word counts = inOrder(part);
+    const Word addend = (counts >> shift) | ((nextWords(counts, right[k]) << 1) << (63 - shift));
+    right[k] = firstOf(counts);
     Word sum = load<Word>(total.plane(k) + word);
     carry = fullAdd(sum, addend, carry);
     store(sum, total.plane(k) + word);

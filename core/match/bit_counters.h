@@ -64,8 +64,8 @@ constexpr int laneIndex(int x) {
 struct BitKernels {
   /// total[x] += sum over k of bit x + shift of the row of pixels that begins at base + offsets[k]
   /// (byte ordered, see byteOrdered), for x < 64 * words - 7, or all x where the shift is 0. Reads
-  /// and writes whole registers: up to kWordPadding words more than these, of which nothing is to
-  /// be expected. This is the inner loop of the search: full adders take 64 rows at a time (Harley
+  /// and writes whole registers: up to kWordPadding words more than these, whose content is
+  /// unspecified. This is the inner loop of the search: full adders take 64 rows at a time (Harley
   /// and Seal), all else is overhead.
   void (*addPixels)(const std::uint8_t* base, const PixelList& pixels, int words,
                     CounterRow& total);

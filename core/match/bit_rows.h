@@ -38,7 +38,7 @@ inline std::uint64_t sideMask(int side, int word) {
 
 /// A word whose *memory* holds pixels 8 k .. 8 k + 7 in byte k, whatever the machine's byte order,
 /// from the word that holds pixel k in bit k; its own inverse. Rows stored so can be read at any
-/// byte, which shifts them by 8 pixels a byte for nothing.
+/// byte, which shifts them by 8 pixels per byte at no cost.
 inline std::uint64_t byteOrdered(std::uint64_t word) {
   if constexpr (std::endian::native == std::endian::little) {
     return word;

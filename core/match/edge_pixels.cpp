@@ -22,7 +22,7 @@ std::uint64_t shiftMask(int shift, int shifts) {
 }  // namespace
 
 void EdgePixels::create(int capacity, Arena& arena) {
-  // A row always fits: it is what a list of rows must be able to hold at least.
+  // A row always fits: it is the least capacity of a list.
   const int least = kMaxTemplateSide_px;
   const int size = (capacity > least ? capacity : least) + kMostShifts * (kGroup - 1);
   offsets_ = arena.allocate<std::int32_t>(static_cast<std::size_t>(size));

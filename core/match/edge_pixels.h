@@ -15,14 +15,14 @@ namespace boresight {
 
 /// The masked-in edge pixels of a template as byte offsets into a band of test edges, one list for
 /// each shift of TestBand: the pixels of a list are counted without shifting bits, only their sum
-/// is shifted. Templates with more pixels than there is room for are listed some rows at a time.
+/// is shifted. Templates with more pixels than the capacity are listed some rows at a time.
 class EdgePixels {
  public:
-  /// Most shifts that a band has.
+  /// Largest number of shifts of a band.
   static constexpr int kMostShifts = 8;
 
-  void create(int capacity, Arena& arena);  ///< Takes room for so many pixels
-  /// Lists the pixels from row `first_row` on, as many rows as fit; returns the row after them.
+  void create(int capacity, Arena& arena);  ///< Allocates for `capacity` pixels
+  /// Lists the pixels of the rows from `first_row` on that fit; returns the row after them.
   int list(const TemplateView& view, const TestBand& band, int first_row);
 
   PixelList pixels(int shift) const;  ///< The pixels listed for a shift

@@ -132,7 +132,7 @@ void MaskCounts::begin(const TemplateView& view, const TestBand& band) {
     slope_of_lane_[static_cast<std::size_t>(laneIndex(x))] =
         static_cast<std::uint16_t>(run_end_negatives_ * x);
   }
-  // Borders that there are none of stay zero throughout.
+  // Borders that do not occur stay zero.
   std::fill(under_singles_.begin(), under_singles_.end(), std::uint16_t{0});
   std::fill(under_runs_.begin(), under_runs_.end(), std::uint16_t{0});
   std::fill(run_totals_.begin(), run_totals_.end(), std::uint32_t{0});

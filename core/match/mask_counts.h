@@ -25,7 +25,7 @@ class MaskCounts {
   void create(int max_words, const BitKernels& kernels, Arena& arena);
   /// Lists the borders of a template's mask.
   void begin(const TemplateView& view, const TestBand& band);
-  /// Counts a row of offsets afresh; `rows` is the band's row of this row of offsets.
+  /// Counts a row of offsets from scratch; `rows` is the band's row of this row of offsets.
   void computeRow(const TestBand& band, const std::uint8_t* rows, int words);
   /// From the counts of the row of offsets at `rows` to those of the row below it.
   void advanceRow(const TestBand& band, const std::uint8_t* rows, int words);

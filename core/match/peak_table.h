@@ -11,14 +11,14 @@
 
 namespace boresight {
 
-/// Best offset of each 8x8 block of a window, and what offsets are still worth looking at.
+/// Best offset of each 8x8 block of a window, and the bound below which offsets are skipped.
 /// Offsets are compared by S+ max(c-, 1) + S- max(c+, 1) with S- = c- - C + S+, where C = corr(M,
 /// I); ties go to the smaller squared distance from the predicted place, then to raster order.
 ///
-/// The second best depends on where the best ends up, which is known last. But take two offsets
-/// seen so far whose blocks are so far apart that no exclusion square touches both: wherever the
-/// best will be, one of the two stays eligible for the second place, so an offset below both of
-/// them can be neither. That is the bound below which offsets are dropped unseen.
+/// The second best depends on the position of the best, which is known last. Consider two offsets
+/// seen so far whose blocks are so far apart that no exclusion square touches both: for any
+/// position of the best, one of the two stays eligible as second best, so an offset below both can
+/// be neither. This is the bound below which offsets are skipped.
 class PeakTable {
  public:
   /// Offsets along a side of a block.

@@ -13,7 +13,7 @@ namespace {
 
 // Bounds loosen with the square of a box's width: wider boxes of rotations are cut.
 constexpr double kWidestRotation_rad = 0.2;
-constexpr int kMostPieces = 18;
+constexpr int kMostParts = 18;
 constexpr double kNearest_m = 1e-6;
 
 /// The directions q = (x/z, y/z) with normal.q <= bound.
@@ -95,9 +95,9 @@ class PlaceBounds {
   double least_z_m_ = 0.0;
 };
 
-int piecesFor(double rotation_rad) {
-  const double pieces = std::floor(2.0 * rotation_rad / kWidestRotation_rad) + 1.0;
-  return static_cast<int>(std::clamp(pieces, 1.0, static_cast<double>(kMostPieces)));
+int partsFor(double rotation_rad) {
+  const double parts = std::floor(2.0 * rotation_rad / kWidestRotation_rad) + 1.0;
+  return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostParts)));
 }
 
 /// Half planes across the diagonals, and along and across the radius: the further from the axis,
@@ -119,13 +119,13 @@ bool boundDirections(const Eigen::Vector3d& point_in_camera_m, const SeedUncerta
                      DirectionBounds& bounds) {
   const Eigen::Vector3d d = point_in_camera_m - uncertainty.pivot_in_camera_m;
   const Eigen::Vector3d& widest = uncertainty.rotation_rad;
-  const std::array<int, 3> pieces{piecesFor(widest[0]), piecesFor(widest[1]), piecesFor(widest[2])};
+  const std::array<int, 3> parts{partsFor(widest[0]), partsFor(widest[1]), partsFor(widest[2])};
   const auto corner = [&](int axis, int k) {
-    return widest[axis] * (2.0 * k / pieces[static_cast<std::size_t>(axis)] - 1.0);
+    return widest[axis] * (2.0 * k / parts[static_cast<std::size_t>(axis)] - 1.0);
   };
-  for (int i = 0; i < pieces[0]; ++i) {
-    for (int j = 0; j < pieces[1]; ++j) {
-      for (int k = 0; k < pieces[2]; ++k) {
+  for (int i = 0; i < parts[0]; ++i) {
+    for (int j = 0; j < parts[1]; ++j) {
+      for (int k = 0; k < parts[2]; ++k) {
         const RotationBounds rotated({corner(0, i), corner(1, j), corner(2, k)},
                                      {corner(0, i + 1), corner(1, j + 1), corner(2, k + 1)}, d);
         const PlaceBounds places(rotated, uncertainty);
@@ -178,8 +178,8 @@ Polygon polygonOf(const DirectionBounds& bounds) {
 }
 
 /// Pixel of a direction; where the camera cannot see it, of the last direction towards it from
-/// `inside` (which the camera sees) that it can. Along the border of a polygon that pulls the part
-/// outside the valid field in to the field's border.
+/// `inside` (which the camera sees) that it can. Along the border of a polygon that moves the part
+/// outside the valid field to the field's border.
 Eigen::Vector2d pixelTowards(const Camera& camera, const Eigen::Vector2d& inside,
                              const Eigen::Vector2d& direction, bool& pulled_in) {
   constexpr int kBisections = 20;
@@ -232,9 +232,9 @@ void extendBySide(const Camera& camera, const Eigen::Vector2d& inside, const Eig
   }
 }
 
-/// Where the entrance pupil moves along O, a place seen from it is a place seen from the camera's
-/// centre when all is moved the other way: by where the pupil is at most and at least, a further
-/// translation that is not known.
+/// With a pupil that moves along O, the view from the pupil equals the view from the camera's
+/// centre after the opposite translation. The pupil's range is therefore a further unknown
+/// translation.
 void seeFromPupil(const Camera& camera, Eigen::Vector3d& point_in_camera_m,
                   SeedUncertainty& uncertainty) {
   if (!pupilMoves(camera)) return;
@@ -295,7 +295,7 @@ SearchWindow searchWindow(const Camera& camera, const Eigen::Vector3d& point_in_
   if (!boundPixels(camera, point_in_camera_m, uncertainty, pixels)) return {};
 
   // Rounded outwards, so that the window holds the pixels on both sides of every place; one pixel
-  // beyond the clipped range tells that a bound is outside.
+  // beyond the clipped range marks a bound outside.
   SearchWindow window;
   window.x_min = floorWithin(pixels.low.x() - kRounding_px, -1, camera.width + 1);
   window.y_min = floorWithin(pixels.low.y() - kRounding_px, -1, camera.height + 1);

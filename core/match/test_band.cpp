@@ -10,21 +10,21 @@
 namespace boresight {
 namespace {
 
-constexpr int kCacheBytes = 64 * 1024;  ///< what copies may take up
-constexpr int kMostWords = 24;          ///< of a row: a search asks for 19
+constexpr int kCacheBytes = 64 * 1024;  ///< largest size of all copies
+constexpr int kMostWords = 24;          ///< of a row: a search needs 19
 
 // One word more than is asked for is read when rows are shifted by less than a byte.
 int wordsFor(int side, int words) { return (side + 63) / 64 + words + 1; }
 
-// Loading a band costs as much as its rows of template and offsets together, so more rows of
-// offsets are better until they drive the rest out of the cache.
+// Loading a band costs the rows of template and offsets together, so more rows of offsets are
+// better until they evict the rest from the cache.
 constexpr int kSmallSide = 128;
 int offsetRowsFor(int side) { return side <= kSmallSide ? 64 : 32; }
 
 int pixelBytesFor(int side, int stride) { return stride * (side + offsetRowsFor(side)); }
 
-// Behind the rows that hold pixels there are as many zero rows as rows of offsets, since the base
-// of a list of pixels moves down with the row of offsets; the last of them is read beyond its end.
+// The rows with pixels are followed by one zero row per row of offsets, since the base of a list of
+// pixels moves down with the row of offsets; the last of them is read beyond its end.
 int zeroBytesFor(int side, int stride) { return stride * offsetRowsFor(side) + 8 * kWordPadding; }
 
 int bytesFor(int side, int words) {

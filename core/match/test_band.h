@@ -10,10 +10,10 @@
 
 namespace boresight {
 
-/// The rows of test edges that a band of offsets looks at, copied so that the first offset's column
+/// The rows of test edges that a band of offsets reads, copied so that the first offset's column
 /// is bit 0, rows are byte ordered (see byteOrdered) and reading beyond a row's end is harmless.
-/// Small bands are held in up to eight copies, each shifted by some more bits, so that fewer pixels
-/// need a shift of their own; all of it is to stay in the first-level cache.
+/// Small bands are held in up to eight copies with different bit shifts, so that fewer pixels need
+/// their own shift; all copies together fit the first-level cache.
 class TestBand {
  public:
   /// Most shifted copies of a band.
@@ -23,7 +23,7 @@ class TestBand {
   void create(int max_side, int max_words, Arena& arena);
   /// Sets the layout: a row holds `side` + 64 * `words` pixels and slack, in at most `most_copies`.
   void shape(int side, int words, int most_copies = kMostCopies);
-  /// Rows of offsets that a band serves: row k looks at rows k ... k + side of the band.
+  /// Rows of offsets that a band serves: row k reads rows k ... k + side of the band.
   int offsetRows() const { return offset_rows_; }
   /// Copies the rows from (x, y) on; rows below the image are zero.
   void load(const BitImage& test_edges, int x, int y);
@@ -33,7 +33,7 @@ class TestBand {
   /// Bytes from a row to the next one.
   int stride() const { return stride_; }
 
-  /// Pixels with the same shift can be counted together: there are this many different shifts.
+  /// Number of different shifts: pixels with the same shift can be counted together.
   int shifts() const { return 8 / copies_; }
   /// Bytes from a row of offsets to the row of pixel (u, v), which begins there but for a shift to
   /// the right by u % shifts().

@@ -117,7 +117,7 @@ void subpixelPeak(const TemplateView& view, const BitImage& test_edges, const Wh
   };
   const bool along_x = fits(places[kLeft]) && fits(places[kRight]);
   const bool along_y = fits(places[kAbove]) && fits(places[kBelow]);
-  // The count at a place outside the image is not used: the peak's own place stands in for it.
+  // The count at a place outside the image is not used: the peak's own count replaces it.
   for (Place& place : places) {
     if (!fits(place)) place = places[kMiddle];
   }

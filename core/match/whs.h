@@ -18,11 +18,11 @@
 
 namespace boresight {
 
-/// Half-side of the square around the best place in which the second best is not looked for: within
-/// it edges of the same place still match.
+/// Half-side of the square around the best place that is excluded from the second best: within it
+/// edges of the same place still match.
 inline constexpr int kSecondPeakExclusion_px = 6;
 
-/// S in [0, 2] for people: S+ / c+ + S- / c-, a term whose count is 0 being 0.
+/// S in [0, 2] for display: S+ / c+ + S- / c-, a term whose count is 0 being 0.
 double whsScore(const WhsCounts& counts, const WhsNorms& norms);
 
 WhsNorms whsNorms(const TemplateView& view);
@@ -36,12 +36,12 @@ WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int 
 /// is the best among the 8x8 blocks of offsets (aligned to the window's corner) that do not touch
 /// the square of half-side `exclusion_px` around the best. Bit-sliced carry-save counters add the
 /// shifted rows of test edges for 64 offsets at once (EdgePixels, bit_counters.h), the mask term
-/// follows the mask's borders from row to row (MaskCounts), and only offsets that may still matter
-/// are turned into integers (PeakTable). Scratch is taken once.
+/// follows the mask's borders from row to row (MaskCounts), and only offsets above the bound of
+/// PeakTable are turned into integers. Scratch is allocated once.
 class WhsSearch {
  public:
   /// `max_side_px` and `max_window_px` (largest extent of a window along an axis) bound every
-  /// search. kInvalidOption for kernels that are not available. Searches share nothing: each worker
+  /// search. kInvalidOption for kernels that are not available. Searches share no data: each worker
   /// may have its own.
   Status create(int max_side_px, int max_window_px, Kernels kernels, Arena& arena);
   /// The window must be clipped so that the whole template lies inside `test_edges`. The images
@@ -52,7 +52,7 @@ class WhsSearch {
                int predicted_x, int predicted_y, int exclusion_px);
   /// One bounded slice (some rows of offsets); true when `peak()` is complete.
   [[nodiscard]] bool step();
-  /// Best place and second; complete when step() says so.
+  /// Best place and second; complete when step() has returned true.
   const WhsPeak& peak() const { return peak_; }
   /// Edge and empty pixels of the template.
   const WhsNorms& norms() const { return norms_; }
@@ -83,7 +83,7 @@ class WhsSearch {
   bool edges_are_listed_ = false;  ///< all at once; else some rows at a time
 
   // A window is searched in tiles of columns, a tile in bands of rows, so that the band of test
-  // edges stays in the cache; the place where the search stands:
+  // edges stays in the cache; the current position of the search:
   int tile_x_ = 0, tile_width_ = 0;  ///< relative to the window
   int row_ = 0;                      ///< row of offsets, relative to the window
 };
@@ -93,7 +93,7 @@ class WhsSearch {
 void subpixelPeak(const TemplateView& view, const BitImage& test_edges, const WhsPeak& peak,
                   double& x, double& y);
 
-/// The score map of a window, row by row, for people who look (not for the flight loop): `map` has
+/// The score map of a window, row by row, for display (not for the flight loop): `map` has
 /// window.width() * window.height() entries.
 void whsScoreMap(const TemplateView& view, const BitImage& test_edges, const SearchWindow& window,
                  std::span<WhsCounts> map);

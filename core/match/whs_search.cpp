@@ -94,8 +94,8 @@ void WhsSearch::beginTile() {
   tile_width_ = std::min(window_.width() - tile_x_, kTileOffsets);
   row_ = 0;
   // The layout, and with it all byte offsets, follows the width of the tile.
-  // The seven offsets that shifts within a byte lose may take a word more: only then are copies for
-  // all eight shifts worth making.
+  // The seven offsets lost to shifts within a byte may need one more word: only then do copies for
+  // all eight shifts pay.
   const bool takes_more = edgeWords(tile_width_) > wordsFor(tile_width_);
   band_.shape(view_.side_px, edgeWords(tile_width_),
               takes_more ? TestBand::kMostCopies : TestBand::kMostCopies / 2);
@@ -112,7 +112,7 @@ bool WhsSearch::step() {
   return done_;
 }
 
-/// Searches a row of offsets of a tile; returns what it took.
+/// Searches a row of offsets of a tile; returns the words of pixels added.
 std::int64_t WhsSearch::stepRow() {
   const std::int64_t pixels = norms_.edges + 2 * covered_.work() + kRowOverhead;
   const std::int64_t work = pixels * wordsFor(tile_width_);

@@ -41,11 +41,11 @@ struct TemplateView {
 
 /// Result of searching a window.
 struct WhsPeak {
-  int x = 0, y = 0;                ///< best place of the template's centre
-  WhsCounts counts;                ///< there
+  int x = 0, y = 0;                ///< best place of the template's centre, px
+  WhsCounts counts;                ///< at the best place
   int second_x = 0, second_y = 0;  ///< best place outside the exclusion square around the best
-  WhsCounts second_counts;         ///< there
-  bool has_second = false;         ///< there is one
+  WhsCounts second_counts;         ///< at the second place
+  bool has_second = false;         ///< whether there is a second place
   bool operator==(const WhsPeak&) const = default;
 };
 

@@ -7,7 +7,7 @@
 
 namespace boresight {
 
-/// A point of the station and the pixel that shows it.
+/// A 3D point of the station and its pixel.
 struct Correspondence {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();  ///< of the station
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();               ///< px of the full image
@@ -16,7 +16,7 @@ struct Correspondence {
 
 /// Gaussian prior on the pose about a hypothesis, in the axes of SeedUncertainty.
 struct PosePrior {
-  Pose camera_from_station;  ///< where it is centred
+  Pose camera_from_station;  ///< mean of the prior
   SeedUncertainty sigma;     ///< the box read as one sigma per axis
 };
 
@@ -24,10 +24,10 @@ struct PosePrior {
 /// in its range. Others are never inliers and never move a pose.
 bool isUsable(const Correspondence& correspondence);
 
-/// Whether a pose can be started from: finite, with a quaternion of unit length (to 1e-6).
+/// Whether a pose is valid as a start: finite, with a quaternion of unit length (to 1e-6).
 bool isUsable(const Pose& pose);
 
-/// Whether a prior can be used: its pose is, and its sigmas are finite and not negative. Sigmas
+/// Whether a prior is valid: its pose is, and its sigmas are finite and not negative. Sigmas
 /// below 1e-9 (m or rad) count as 1e-9.
 bool isUsable(const PosePrior& prior);
 

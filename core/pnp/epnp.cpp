@@ -64,8 +64,8 @@ bool solveNormal(Eigen::Matrix<double, kSize, kSize> a, Eigen::Matrix<double, kS
   return true;
 }
 
-/// The problem with kControls control points: 4, or 3 of a plane. As many null vectors, each with
-/// its factor, as control points.
+/// The problem with kControls control points: 4, or 3 of a plane. The numbers of null vectors and
+/// factors equal the number of control points.
 template <int kControls>
 class Epnp {
  public:
@@ -212,7 +212,7 @@ class Epnp {
     }
   }
 
-  /// Absolute orientation of the points as the factors place them (Horn, "Closed-form solution of
+  /// Absolute orientation of the points placed by the factors (Horn, "Closed-form solution of
   /// absolute orientation using unit quaternions", JOSA A 1987).
   bool poseOf(const Factors& beta, Pose& camera_from_station) const {
     const Eigen::Matrix<double, kUnknowns, 1> controls = null_space_ * beta;

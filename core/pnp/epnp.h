@@ -16,9 +16,9 @@ namespace boresight {
 /// the distances between control points determine; the factors are refined by Gauss-Newton. Of the
 /// solutions the one of least reprojection error is returned.
 ///
-/// `bearing`: directions in the camera frame with positive z, any length; `point_in_station_m`: as
-/// many points, not on a line. False when the input is degenerate or not finite, or no solution has
-/// the points in front of the camera.
+/// `bearing`: directions in the camera frame with positive z, any length; `point_in_station_m`: one
+/// point per bearing, not all on a line. False when the input is degenerate or not finite, or no
+/// solution has the points in front of the camera.
 [[nodiscard]] bool solveEpnp(std::span<const Eigen::Vector3d> bearing,
                              std::span<const Eigen::Vector3d> point_in_station_m,
                              Pose& camera_from_station);

@@ -12,7 +12,7 @@ namespace boresight {
 namespace {
 
 constexpr double kMissingSquares = 1e12;  ///< of a residual of 1e6 px at unit sigma
-constexpr double kLargestSquares = 1e30;  ///< beyond it a residual says nothing
+constexpr double kLargestSquares = 1e30;  ///< beyond it a residual carries no information
 constexpr double kSmallestSigma = 1e-9;   ///< m or rad
 constexpr double kSmallestPivot = 1e-12;  ///< of H scaled to a unit diagonal
 
@@ -47,7 +47,7 @@ double priorWeight(double sigma) {
 }
 
 /// P S H S P' = L D L' with S = diag(H)^-1/2 and the largest remaining pivot taken first: the last
-/// pivot then tells how well the least determined direction is determined, whichever it is.
+/// pivot then measures how well the least determined direction is determined.
 struct Factors {
   std::array<double, 6> scale{};       ///< S
   std::array<std::size_t, 6> order{};  ///< P: row k of L is parameter order[k]

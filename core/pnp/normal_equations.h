@@ -21,8 +21,8 @@ struct NormalEquations {
   std::int32_t projected = 0;               ///< correspondences that entered
   std::int32_t missing = 0;                 ///< used ones that do not project at this pose
 
-  /// What a step has to lower: a correspondence that stops projecting costs more than any residual,
-  /// so no step gains by pushing points behind the camera.
+  /// Cost that a step must lower: a correspondence that stops projecting costs more than any
+  /// residual, so that no step gains by moving points behind the camera.
   double cost() const;
 };
 

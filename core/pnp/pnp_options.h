@@ -10,7 +10,7 @@ namespace boresight {
 enum class PnpSampler : std::int32_t { kGuided = 0, kEpnp = 1 };
 inline constexpr const char* kPnpSamplerNames[] = {"guided", "epnp"};
 
-/// Of RANSAC and the refits.
+/// Options of RANSAC and the refits.
 struct PnpOptions {
   PnpSampler sampler = PnpSampler::kGuided;
   std::int32_t max_samples = 500;
@@ -26,7 +26,7 @@ struct PnpOptions {
           self.sampler);
     visit(OptionInfo{"pnp.max_samples", "", 1, 100000, "Largest number of RANSAC samples."},
           self.max_samples);
-    visit(OptionInfo{"pnp.min_inliers", "", 4, 10000, "Fewer inliers are no pose."},
+    visit(OptionInfo{"pnp.min_inliers", "", 4, 10000, "Fewer inliers give no pose."},
           self.min_inliers);
     visit(OptionInfo{"pnp.seed", "", 0, 9007199254740991.0, "Seed of the sample generator."},
           self.seed);

@@ -11,7 +11,7 @@ namespace boresight {
 namespace {
 
 constexpr double kNoCost = 1e300;            ///< above every score
-constexpr double kMissingResidual_px = 1e6;  ///< stands for "does not project"
+constexpr double kMissingResidual_px = 1e6;  ///< residual of a point that does not project
 constexpr int kFewestInliersToRefit = 4;
 constexpr int kGuidedSteps = 3;
 constexpr int kLocalSteps = 5;
@@ -69,10 +69,10 @@ double squaredResidualOf(const Transform& camera_from_station, const Camera& cam
   return (item.pixel - projection).squaredNorm();
 }
 
-/// Unit vector from the camera's centre towards what a pixel sees. Where the pupil moves that
-/// depends on how far off it is: the hypothesis says so well enough for a sample (a pupil some
-/// millimetres off centre, a depth wrong by a tenth: 0.1 mrad at half a metre); scores and refits
-/// rest on exact projection.
+/// Unit vector from the camera's centre towards the point seen by a pixel. With a moving pupil it
+/// depends on the point's depth; the hypothesis gives the depth accurately enough for a sample (a
+/// pupil some millimetres off centre, a depth wrong by a tenth: 0.1 mrad at half a metre); scores
+/// and refits use exact projection.
 bool bearingOf(const Camera& camera, const Correspondence& item, const Pose& camera_from_station,
                Eigen::Vector3d& bearing) {
   Ray ray;
@@ -180,8 +180,8 @@ void PnpRansac::listUsable() {
     weight_[i] = 0.0;
     if (!isUsable(item)) continue;
     weight_[i] = 1.0 / (item.sigma_px * item.sigma_px);
-    // The spread of a guided sample is judged where the hypothesis puts its points, which wrong
-    // matches cannot disturb.
+    // The spread of a guided sample is judged at the points' projections by the hypothesis, which
+    // wrong matches cannot disturb.
     Eigen::Vector2d place = item.pixel;
     Eigen::Vector2d predicted;
     const std::size_t view = viewOf(views_, i);
@@ -300,7 +300,7 @@ void PnpRansac::optimizeLocally() {
   const std::span<const std::uint8_t> selected = selected_.first(correspondences_.size());
   for (int round = 0; round < kLocalOptimizations; ++round) {
     std::int32_t count = 0;
-    (void)selectInliers(best_, count);  // whether they changed does not matter here
+    (void)selectInliers(best_, count);  // the result is not used
     if (count < kFewestInliersToRefit) return;
     Pose pose = best_;
     const Status status =
@@ -362,7 +362,7 @@ Status PnpRansac::refine() {
   Pose pose = best_;
   std::int32_t count = 0;
   bool changed = true;
-  (void)selectInliers(pose, count);  // whatever was marked before
+  (void)selectInliers(pose, count);  // regardless of earlier marks
   const int rounds = options_.sampler == PnpSampler::kEpnp ? 1 : kRefineRounds;
   for (int round = 0; round < rounds && changed; ++round) {
     if (count < options_.min_inliers) return Status::kNoConsensus;
@@ -393,7 +393,7 @@ void PnpRansac::writeSolution(const Pose& camera_from_station, bool with_inliers
   for (std::size_t i = 0; i < correspondences_.size(); ++i) {
     const double squared = transforms.squaredResidual(correspondences_, i);
     const double residual_px = std::sqrt(squared);
-    // Written so that a NaN, too, becomes the stand-in.
+    // Written so that a NaN, too, becomes kMissingResidual_px.
     solution.residual_px[i] = residual_px < kMissingResidual_px ? residual_px : kMissingResidual_px;
     solution.inlier[i] = with_inliers ? selected_[i] : std::uint8_t{0};
     if (solution.inlier[i] == 0) continue;

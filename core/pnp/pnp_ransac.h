@@ -16,7 +16,7 @@
 
 namespace boresight {
 
-/// A pose from correspondences, with what supports it.
+/// A pose from correspondences, with its inliers and residuals.
 struct PnpSolution {
   Pose camera_from_station;        ///< the pose
   std::span<std::uint8_t> inlier;  ///< of the *returned* pose, one per correspondence
@@ -32,16 +32,16 @@ struct PnpSolution {
 /// RANSAC in bounded slices, then refinement over all inliers.
 ///
 /// - Samples: three points refined from the hypothesis under its weak prior (the hypothesis itself
-///   is scored first), or five by EPnP (where the entrance pupil moves, the bearings are those of
-///   points as far off as the hypothesis has them).
+///   is scored first), or five by EPnP (with a moving entrance pupil, the bearings assume the
+///   depths of the hypothesis).
 /// - Score: sum of min(residual^2, threshold^2) / sigma^2 over the usable correspondences (MSAC,
 ///   Torr and Zisserman 2000), the lowest wins, the earlier of equals.
 /// - Every new best is refitted to its inliers, without that prior, while this lowers the score
 ///   (LO-RANSAC, Chum, Matas and Kittler 2003).
-/// - Stops when a sample of inliers alone has been drawn with the wanted confidence, given the
+/// - Stops when a sample of inliers alone has been drawn with the required confidence, given the
 ///   best pose's share of inliers, or at max_samples.
-/// - Last, refit to the inliers and select them again until they stay the same. Both halves lower
-///   the score, so this ends; the result minimizes the squares over the inliers it reports.
+/// - Finally refits to the inliers and selects them again until they stay the same. Both halves
+/// lower the score, so this ends; the result minimizes the squares over the inliers it reports.
 /// - With EPnP it is plain RANSAC (Fischler and Bolles 1981): most inliers win, no sample is
 ///   refitted, and the result minimizes the squares over the best sample's inliers.
 ///
@@ -54,11 +54,11 @@ struct PnpSolution {
 /// `residual_px` always is that of the pose in the solution.
 class PnpRansac {
  public:
-  /// Takes the memory for so many correspondences. kArenaTooSmall.
+  /// Allocates for this number of correspondences. kArenaTooSmall.
   Status create(int max_correspondences, Arena& arena);
-  /// `hypothesis` is where guided samples start and what their prior is about (sigma = uncertainty
-  /// times a factor). Spans in `solution` must hold one entry per correspondence. The data must
-  /// outlive the steps.
+  /// Guided samples start from `hypothesis`, the mean of their prior (sigma = uncertainty times a
+  /// factor). Spans in `solution` must hold one entry per correspondence. The data must outlive the
+  /// steps.
   Status begin(std::span<const Correspondence> correspondences, const Camera& camera,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
                PnpSolution& solution);

@@ -12,12 +12,12 @@ namespace boresight {
 
 inline constexpr int kMaxPnpViews = 8;
 
-/// One of up to kMaxPnpViews cameras that are rigidly linked; the pose that is asked for is the
-/// first one's. Correspondences of all views stand in one list, view by view.
+/// One of up to kMaxPnpViews cameras that are rigidly linked; the pose sought is that of the first
+/// camera. The correspondences of all views form one list, view by view.
 struct PnpView {
   const Camera* camera = nullptr;  ///< prepared; not owned
-  Pose camera_from_first;          ///< not looked at in the first
-  std::int32_t end = 0;            ///< its correspondences begin where the view before ends
+  Pose camera_from_first;          ///< not used in the first view
+  std::int32_t end = 0;  ///< end of its correspondences, which begin at the previous view's end
 };
 
 /// The pose of one of the views when the first has this one; the first keeps its bits.

@@ -59,10 +59,10 @@ void iterate(const Problem& problem, int max_iterations, Pose& pose, NormalEquat
     }
     const Pose next = stepped(xi, pose);
     const bool done = hasConverged(xi, pose);
-    const NormalEquations there = equationsAt(problem, next);
-    if (isUsable(next) && there.cost() <= equations.cost() * (1.0 + kRoundingOfCost)) {
+    const NormalEquations next_equations = equationsAt(problem, next);
+    if (isUsable(next) && next_equations.cost() <= equations.cost() * (1.0 + kRoundingOfCost)) {
       pose = next;
-      equations = there;
+      equations = next_equations;
       damping = lowered(damping);
     } else {
       damping = raised(damping);

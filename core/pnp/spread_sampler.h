@@ -12,7 +12,7 @@
 namespace boresight {
 
 /// Draws samples of three to five places without replacement, preferring well spread ones: a sample
-/// that is nearly on a line or in one spot fixes a pose badly, whatever its matches are worth.
+/// nearly on a line or in one spot determines a pose badly, regardless of its matches.
 class SpreadSampler {
  public:
   static constexpr std::size_t kMostPlaces = 5;          ///< of a sample
@@ -24,7 +24,7 @@ class SpreadSampler {
 
   /// Indices of one sample (the first `size` entries), in the order drawn. Draws again, at most 16
   /// times, while the smaller or the larger semi-axis of the sample's scatter is below a fifth of
-  /// that of all places; then takes what came last.
+  /// that of all places; then takes the last sample.
   Sample draw();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The onboard record: what of a run goes to the ground. FORMAT.md says it byte by byte.
+// The onboard record: the downlink record of a run. FORMAT.md describes it byte by byte.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ inline constexpr std::array<std::uint8_t, 8> kRecordMagic = {'B', 'O', 'R', 'S',
 inline constexpr std::uint32_t kRecordVersion = 1;
 inline constexpr std::size_t kRecordHeaderBytes = kRecordMagic.size() + 4;
 
-/// Four letters, as they stand in the file.
+/// Four letters, in the order of the file.
 enum class RecordBlock : std::uint32_t {
   kInputs = 0x494e5054,     ///< "INPT"
   kOptions = 0x4f505453,    ///< "OPTS"

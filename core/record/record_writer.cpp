@@ -31,13 +31,13 @@ void writeInputs(const RecordInputs& inputs, const LocalizationProblem& problem,
   writeVector(problem.uncertainty.pivot_in_camera_m, writer);
 }
 
-/// What an iteration has come to; stages that it did not reach hold values of another one.
+/// Progress of an iteration; stages that it did not reach hold values of another iteration.
 struct Reached {
   const Iteration& iteration;
   Stage stage;
 
   bool refines() const { return iteration.kind == IterationKind::kRefine; }
-  /// A render that failed leaves whatever was there before.
+  /// A failed render leaves the previous content.
   bool rendered() const {
     return stage > Stage::kRender || iteration.status != LocalizationStatus::kFault;
   }
@@ -53,18 +53,18 @@ struct Reached {
 };
 
 void writeCounts(const Reached& at, ByteWriter& writer) {
-  const Iteration& now = at.iteration;
-  writer.i32(now.render.pixel_count);
-  writer.i32(at.selected() ? now.templates.side_px : 0);
-  writer.i32(at.selected() ? now.templates.count : 0);
-  writer.i32(at.matched() ? now.matches.searched : 0);
-  writer.i32(at.matched() ? now.correspondence_count : 0);
-  writer.i32(at.posed() ? now.pnp.inlier_count : 0);
-  writer.i32(at.posed() ? now.pnp.samples : 0);
-  writer.i32(at.refined() ? now.refinement.sample_count : 0);
-  writer.i32(at.refined() ? now.refinement.found_count : 0);
-  writer.i32(at.refined() ? now.refinement.used_count : 0);
-  writer.f64(at.posed() ? now.pnp.rms_px : at.refined() ? now.refinement.rms_px : 0.0);
+  const Iteration& iteration = at.iteration;
+  writer.i32(iteration.render.pixel_count);
+  writer.i32(at.selected() ? iteration.templates.side_px : 0);
+  writer.i32(at.selected() ? iteration.templates.count : 0);
+  writer.i32(at.matched() ? iteration.matches.searched : 0);
+  writer.i32(at.matched() ? iteration.correspondence_count : 0);
+  writer.i32(at.posed() ? iteration.pnp.inlier_count : 0);
+  writer.i32(at.posed() ? iteration.pnp.samples : 0);
+  writer.i32(at.refined() ? iteration.refinement.sample_count : 0);
+  writer.i32(at.refined() ? iteration.refinement.found_count : 0);
+  writer.i32(at.refined() ? iteration.refinement.used_count : 0);
+  writer.f64(at.posed() ? iteration.pnp.rms_px : at.refined() ? iteration.refinement.rms_px : 0.0);
 }
 
 void writeEdges(const EdgeMap& edges, const RecordHash& hash, ByteWriter& writer) {
@@ -75,25 +75,26 @@ void writeEdges(const EdgeMap& edges, const RecordHash& hash, ByteWriter& writer
 }
 
 void writeIteration(const Reached& at, const RecordHash& render_hash, ByteWriter& writer) {
-  const Iteration& now = at.iteration;
-  writer.i32(now.index);
-  writer.i32(now.attempt);
-  writer.u8(static_cast<std::uint8_t>(now.kind));
-  writer.u8(static_cast<std::uint8_t>(now.level));
+  const Iteration& iteration = at.iteration;
+  writer.i32(iteration.index);
+  writer.i32(iteration.attempt);
+  writer.u8(static_cast<std::uint8_t>(iteration.kind));
+  writer.u8(static_cast<std::uint8_t>(iteration.level));
   writer.u8(static_cast<std::uint8_t>(at.stage));
-  writer.u8(static_cast<std::uint8_t>(now.status));
-  writer.f64(now.threshold_px);
-  writePose(now.camera_from_station_before, writer);
-  writePose(at.solved() ? now.camera_from_station : now.camera_from_station_before, writer);
+  writer.u8(static_cast<std::uint8_t>(iteration.status));
+  writer.f64(iteration.threshold_px);
+  writePose(iteration.camera_from_station_before, writer);
+  writePose(at.solved() ? iteration.camera_from_station : iteration.camera_from_station_before,
+            writer);
   writeCounts(at, writer);
-  const bool rolled = !at.refines() && now.hypothesis_count > 0;
-  const auto chosen = static_cast<std::size_t>(rolled ? now.chosen_hypothesis : 0);
-  writer.i32(rolled ? now.hypothesis_count : 0);
-  writer.i32(rolled ? now.chosen_hypothesis : 0);
-  writer.f64(rolled ? now.hypotheses[chosen].roll_rad : 0.0);
-  writer.f64(at.solved() ? now.correction_translation_m : 0.0);
-  writer.f64(at.solved() ? now.correction_rotation_rad : 0.0);
-  writer.f64(at.solved() ? now.correction_image_px : 0.0);
+  const bool rolled = !at.refines() && iteration.hypothesis_count > 0;
+  const auto chosen = static_cast<std::size_t>(rolled ? iteration.chosen_hypothesis : 0);
+  writer.i32(rolled ? iteration.hypothesis_count : 0);
+  writer.i32(rolled ? iteration.chosen_hypothesis : 0);
+  writer.f64(rolled ? iteration.hypotheses[chosen].roll_rad : 0.0);
+  writer.f64(at.solved() ? iteration.correction_translation_m : 0.0);
+  writer.f64(at.solved() ? iteration.correction_rotation_rad : 0.0);
+  writer.f64(at.solved() ? iteration.correction_image_px : 0.0);
   writer.bytes(render_hash);
 }
 
@@ -115,19 +116,19 @@ void writeTemplate(const Template& item, const Match* match, bool inlier, ByteWr
 }
 
 void writeTemplates(const Reached& at, ByteWriter& writer) {
-  const Iteration& now = at.iteration;
-  writer.i32(now.index);
-  writer.u32(static_cast<std::uint32_t>(now.templates.count));
+  const Iteration& iteration = at.iteration;
+  writer.i32(iteration.index);
+  writer.u32(static_cast<std::uint32_t>(iteration.templates.count));
   std::int32_t correspondence = 0;  // in the order of the templates
-  for (std::int32_t i = 0; i < now.templates.count; ++i) {
+  for (std::int32_t i = 0; i < iteration.templates.count; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const Match* match = at.matched() ? &now.matches.matches[index] : nullptr;
+    const Match* match = at.matched() ? &iteration.matches.matches[index] : nullptr;
     const auto c = static_cast<std::size_t>(correspondence);
-    const bool corresponds =
-        at.matched() && correspondence < now.correspondence_count && now.template_of[c] == i;
-    const bool inlier =
-        corresponds && at.posed() && c < now.pnp.inlier.size() && now.pnp.inlier[c] != 0;
-    writeTemplate(now.templates.templates[index], match, inlier, writer);
+    const bool corresponds = at.matched() && correspondence < iteration.correspondence_count &&
+                             iteration.template_of[c] == i;
+    const bool inlier = corresponds && at.posed() && c < iteration.pnp.inlier.size() &&
+                        iteration.pnp.inlier[c] != 0;
+    writeTemplate(iteration.templates.templates[index], match, inlier, writer);
     if (corresponds) ++correspondence;
   }
 }

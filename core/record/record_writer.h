@@ -12,7 +12,7 @@
 
 namespace boresight {
 
-/// What a run was given, by SHA-256. The caller knows the bytes that it was made of.
+/// SHA-256 of a run's inputs. The caller knows the original bytes.
 struct RecordInputs {
   using Hash = std::array<std::uint8_t, 32>;  ///< SHA-256
   Hash pixels{};  ///< the decoded 8-bit pixels that the core saw, row by row
@@ -29,7 +29,7 @@ struct RecordInputs {
 ///     record.end(localizer);
 ///     downlink(record.bytes());
 ///
-/// A block that does not fit is left out, and a reader learns that it is missing; room for the end
+/// A block that does not fit is left out, and a reader detects the gap; room for the end
 /// is kept from the start. A default run of the shipped example takes 8 kB.
 class RecordWriter {
  public:
@@ -38,18 +38,18 @@ class RecordWriter {
   /// Bytes of an empty record.
   static constexpr std::size_t kMinimumBytes = kRecordHeaderBytes + kBlockBytes + kEndBytes;
 
-  /// Writes what the run is given, before the first step.
+  /// Writes the inputs of the run, before the first step.
   void begin(const RecordInputs& inputs, const LocalizationProblem& problem,
              const LocalizerOptions& options);
   /// Options that hold from the next iteration on (Localizer::changeOptions).
   void changeOptions(const LocalizerOptions& options, std::int32_t first_iteration);
-  /// After every step; most of them leave nothing to write.
+  /// Writes the results of a step; call after every step.
   void note(const Localizer& localizer, const StepReport& report);
   void end(const Localizer& localizer);  ///< Writes how the run ended, after the last step
 
-  /// What has been written: a whole record after end().
+  /// The bytes written: a whole record after end().
   std::span<const std::uint8_t> bytes() const { return out_.first(used_); }
-  /// Every block has found room.
+  /// Whether every block has fitted.
   bool complete() const { return complete_; }
 
  private:
@@ -59,7 +59,7 @@ class RecordWriter {
   std::span<std::uint8_t> out_;
   std::size_t used_ = 0;
   std::size_t kept_free_ = kBlockBytes + kEndBytes;
-  std::uint32_t blocks_ = 0;  ///< those that found no room included
+  std::uint32_t blocks_ = 0;  ///< including blocks that did not fit
   std::int32_t iterations_ = 0;
   bool complete_ = true;
 };

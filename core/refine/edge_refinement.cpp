@@ -12,9 +12,9 @@ namespace {
 constexpr double kTukey = 4.685;  ///< 95 % efficiency on Gaussian residuals (Huber 1981)
 constexpr double kMadToSigma = 1.4826;
 constexpr double kMinScale_px = 0.15;
-constexpr double kSettled_px = 0.003;  ///< a step below this moves nothing that is measured
+constexpr double kSettled_px = 0.003;  ///< a step below this does not change the measurements
 
-/// Neighbouring places share their errors: together they count for less than as many measurements.
+/// Neighbouring places share their errors and weigh less than independent measurements.
 constexpr double kSharedNoise = 4.0;
 /// The lower triangle of a symmetric matrix is filled.
 double quadraticForm(const Matrix6d& lower, const Vector6d& x) {
@@ -129,15 +129,15 @@ Status EdgeRefinement::gather(EdgeEquations& found) {
   if (search) scale_px_ = robustScale();
   double weights = 0.0;
   found = weightedEquations(weights);
-  NormalEquations& made = found.step;
+  NormalEquations& equations = found.step;
   if (result.used_count < kMinFound) return Status::kTooFewEdges;
-  const double variance_px2 = made.squares / weights;
+  const double variance_px2 = equations.squares / weights;
   result.rms_px = std::sqrt(variance_px2);
-  motion_ = made.information / weights;
+  motion_ = equations.information / weights;
   const double noise_px2 = std::max(variance_px2, kMinScale_px * kMinScale_px) * kSharedNoise;
-  made.information /= noise_px2;
-  made.gradient /= noise_px2;
-  // Views of different noise are added.
+  equations.information /= noise_px2;
+  equations.gradient /= noise_px2;
+  // Scaled by noise, so that views of different noise can be added.
   found.errors.curvature /= noise_px2;
   found.errors.squares /= noise_px2 * noise_px2;
   return Status::kOk;
@@ -166,10 +166,10 @@ Status EdgeRefinement::advance(EdgeEquations found, bool& settled) {
   RefinementResult& result = *result_;
   NormalEquations& equations = found.step;
   const bool determined = invert(equations.information, result.covariance);
-  Matrix6d measured;  // where the groups give none, errors count as independent
+  Matrix6d measured;  // without groups, errors count as independent
   if (determined && found.errors.covariance(measured)) result.covariance = measured;
   addKnowledge(equations);
-  // What the edges alone leave open is known as well as it was before.
+  // A direction that the edges do not determine keeps its prior uncertainty.
   if (!determined && !invert(equations.information, result.covariance)) return Status::kDegenerate;
   Vector6d xi;
   if (!solve(equations, 0.0, xi)) return Status::kDegenerate;
@@ -193,18 +193,18 @@ bool EdgeRefinement::noteMove(const Vector6d& xi) {
   return step_px < kSettled_px;
 }
 
-/// The seed's uncertainty and the matched pose: weak beside thousands of edges, but where the edges
-/// are few or ambiguous they keep the pose from drifting.
+/// Adds the seed's uncertainty and the matched pose: weak against thousands of edges, but where the
+/// edges are few or ambiguous they prevent drift.
 void EdgeRefinement::addKnowledge(NormalEquations& equations) const {
-  const Pose& now = result_->camera_from_station;
-  if (anchored_) addPrior(anchor_, now, equations);
+  const Pose& camera_from_station = result_->camera_from_station;
+  if (anchored_) addPrior(anchor_, camera_from_station, equations);
   if (!has_matched_) return;
   equations.information += matched_.information;
   equations.gradient +=
-      matched_.information * perturbationBetween(now, matched_.camera_from_station);
+      matched_.information * perturbationBetween(camera_from_station, matched_.camera_from_station);
 }
 
-/// Of the edges found, at the pose as it is now, with Tukey's weights; counts the used ones.
+/// Equations of the edges found, at the current pose, with Tukey's weights; counts the used edges.
 EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
   RefinementResult& result = *result_;
   const Eigen::Matrix3d rotation = result.camera_from_station.matrix();

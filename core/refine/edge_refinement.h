@@ -23,7 +23,7 @@
 
 namespace boresight {
 
-/// Of the last step, which meets the image's own edges.
+/// Options of the last step, the refinement on the image's edges.
 struct RefinementOptions {
   bool enabled = true;
   std::int32_t max_samples = 12000;
@@ -38,13 +38,13 @@ struct RefinementOptions {
   }
 };
 
-/// What is known of a pose already: xi' information xi with xi the perturbation from it.
+/// Prior knowledge of a pose: cost xi' information xi with xi the perturbation from it.
 struct PoseEstimate {
   Pose camera_from_station;                 ///< the estimate
   Matrix6d information = Matrix6d::Zero();  ///< inverse of its covariance, over xi
 };
 
-/// One place on a rendered edge and what the image shows there.
+/// One place on a rendered edge and its measurement in the image.
 struct EdgeSample {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();  ///< on the model's edge
   Eigen::Vector2d normal =
@@ -55,20 +55,20 @@ struct EdgeSample {
   std::uint8_t kind = 0;        ///< EdgeKind bits
 };
 
-/// What the edges of an image say of a pose in a round.
+/// Equations of an image's edges for a pose in a round.
 struct EdgeEquations {
   NormalEquations step;  ///< H and g, in px / px of noise
   ErrorSums errors;      ///< for the covariance
 };
 
-/// What the refinement of a pose gives.
+/// Result of the refinement of a pose.
 struct RefinementResult {
-  Pose camera_from_station;  ///< the pose refined; where it began, before
+  Pose camera_from_station;  ///< the refined pose; before the first round the start pose
   /// As in PnpSolution: of the edges alone; of edges, anchor and matched pose together where the
   /// edges alone leave a direction open.
   Matrix6d covariance = Matrix6d::Zero();
   std::span<EdgeSample> samples;  ///< capacity; the first `sample_count` are valid
-  std::int32_t sample_count = 0;  ///< places looked at
+  std::int32_t sample_count = 0;  ///< places searched
   std::int32_t found_count = 0;   ///< samples with an edge within the radius
   std::int32_t used_count = 0;    ///< samples with a weight above one half
   double rms_px = 0.0;            ///< weighted residual
@@ -77,23 +77,22 @@ struct RefinementResult {
 /// Moves the pose so that the rendered edges meet the image's own (RAPID, Harris and Stennett 1990,
 /// with robust weights, Drummond and Cipolla 2002): places along the salient edges, searched along
 /// the line's normal for the largest derivative of the raw image, Tukey's weights, Gauss-Newton.
-/// What was found serves until the pose has moved so far that the search could find otherwise; the
-/// pose returned is at most that far from where the edges were looked for.
+/// Edges found are reused until the pose has moved so far that a search could give another result;
+/// the pose returned is at most that far from the pose of the last search.
 class EdgeRefinement {
  public:
-  /// Places are taken nearer than the spacing when there are fewer than these: a small object needs
-  /// every one.
+  /// With fewer places than this the spacing is reduced: a small object needs all its places.
   static constexpr int kMinSamples = 4000;
   static constexpr double kSampleSpacing_px = 2.0;  ///< nearer places share their errors
-  static constexpr int kMinFound = 60;              ///< ten per unknown; fewer edges are no pose
+  static constexpr int kMinFound = 60;              ///< ten per unknown; fewer edges give no pose
   static constexpr int kRounds = 10;                ///< of a refinement, at most
-  /// Edges are searched again once the rendered ones have moved by this along their normals (root
-  /// mean square): nearer, the search finds the same.
+  /// Edges are searched again once the rendered edges have moved by this along their normals (root
+  /// mean square): a smaller motion does not change the result.
   static constexpr double kSearchAgain_px = 0.1;
   static constexpr double kDerivativeSigma_px = 1.0;  ///< the blur of a sharp image
   static constexpr double kMinGradient = 2.0;         ///< gray/px; weaker ones are noise
-  /// Weight of edges beyond which the image is brighter than on the nearer surface, next to 1 of
-  /// the others: a lit ground or face beyond a shaded one, whose edges lie 0.1 to 0.3 px inside.
+  /// Weight of edges whose far side is brighter than the nearer surface (other edges: 1): a lit
+  /// ground or face behind a shaded one, whose edges lie 0.1 to 0.3 px inside.
   static constexpr double kRisingWeight = 0.4;
 
   /// Weight of an edge by its side, multiplied with the robust weight.
@@ -106,8 +105,8 @@ class EdgeRefinement {
   /// Other options from the next begin() on, except the one that sizes the memory (max_samples).
   void setOptions(const RefinementOptions& options) { options_ = options; }
   /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
-  /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are what is
-  /// known of the pose besides the edges: where these leave a direction open, it stays there.
+  /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are prior
+  /// knowledge of the pose: they hold directions that the edges do not determine.
   Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                const MeshView& mesh, const EdgeRender& render, double radius_px,
                const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
@@ -115,31 +114,31 @@ class EdgeRefinement {
   void startFrom(const Pose& camera_from_station) {
     result_->camera_from_station = camera_from_station;
   }
-  /// A round that looks for the image's edges does so in chunks of samples that do not depend on
-  /// each other: different ones may be searched at the same time. 0 when what was found still
-  /// serves.
+  /// Number of chunks of a round. Chunks of samples are independent: different chunks may be
+  /// searched at the same time. 0 when the edges found are reused.
   int chunks() const { return searches() ? (result_->sample_count + kChunk - 1) / kChunk : 0; }
-  /// Most chunks that a round can have.
+  /// Largest number of chunks of a round.
   static int chunksOf(const RefinementOptions& options) {
     return (options.max_samples + kChunk - 1) / kChunk;
   }
-  void searchChunk(int chunk);  ///< Looks for the image's edges at the samples of one chunk
-  /// Ends the round when all chunks have been searched; kTooFewEdges when too little is found,
-  /// kDegenerate when the edges and what is known besides do not fix the pose.
+  void searchChunk(int chunk);  ///< Searches the image's edges at the samples of one chunk
+  /// Ends the round when all chunks have been searched; kTooFewEdges when too few edges are found,
+  /// kDegenerate when edges and prior knowledge do not determine the pose.
   Status finishRound(bool& done);
   /// A whole round.
   Status step(bool& done);
 
-  // finishRound() in parts, for those who refine several views as one (core/views). A round is
+  // The parts of finishRound(), for a joint refinement of several views (core/views). A round is
   // then: searchChunk() of every chunk, gather(), and either advance() by the sum of all views'
-  // equations, or moveTo() where that led.
+  // equations, or moveTo() the pose from that step.
 
-  /// Ends the search: what the edges found say of the pose. kTooFewEdges when too little is found.
+  /// Ends the search and returns the equations of the edges found. kTooFewEdges when too few are
+  /// found.
   Status gather(EdgeEquations& found);
-  /// Moves the pose to what solves the equations together with anchor and matched pose, and gives
-  /// its covariance. kDegenerate when they do not fix it.
+  /// Moves the pose to the solution of the equations with anchor and matched pose, and computes its
+  /// covariance. kDegenerate when they do not determine the pose.
   Status advance(EdgeEquations found, bool& settled);
-  /// Takes a pose from elsewhere; whether that hardly moved what is seen.
+  /// Sets a pose from outside; returns whether the image motion is below the limit.
   bool moveTo(const Pose& camera_from_station);
   /// Whether this was the last round.
   bool roundsAreOver() const { return round_ >= kRounds; }
@@ -173,7 +172,7 @@ class EdgeRefinement {
   /// Per sample, where the edge was found: the image's coordinate along the sample's normal.
   std::span<double> found_at_px_;
   std::int32_t round_ = 0;
-  double moved_px_ = 0.0;  ///< since the edges were looked for
+  double moved_px_ = 0.0;  ///< since the last search of the edges
   double scale_px_ = 0.0;  ///< of the residuals then
 };
 

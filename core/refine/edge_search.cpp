@@ -18,11 +18,11 @@ constexpr int kWeightBits = 10;  ///< of a bilinear weight
 constexpr std::int32_t kWeightMask = (1 << kWeightBits) - 1;
 /// Unit of a profile: the three parallels weigh 1, 2, 1.
 constexpr double kProfileUnit_gray = 1.0 / (4 << (2 * kWeightBits));
-/// More than what rounding moves a place by.
+/// Above the change of a place by rounding.
 constexpr double kMargin_px = 1e-3;
 
-/// Steps and places relative to a pixel; symmetric about 0, so that a line searched from its other
-/// side is sampled at the same places.
+/// Rounded steps and places relative to a pixel; symmetric about 0, so that a line searched from
+/// its other side is sampled at the same places.
 std::int32_t toPlace(double value_px) {
   const double scaled = value_px * (1 << kPlaceBits);
   return static_cast<std::int32_t>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
@@ -116,8 +116,8 @@ EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
   const float* middle = slope.data() + inner;
   double best = 0.0;
   for (int i = -inner + 1; i < inner; ++i) {
-    const double here = middle[i];
-    const double strength = std::abs(here);
+    const double slope_at_i = middle[i];
+    const double strength = std::abs(slope_at_i);
     const double before = std::abs(static_cast<double>(middle[i - 1]));
     const double after = std::abs(static_cast<double>(middle[i + 1]));
     if (!(strength >= before && strength > after && strength >= min_gradient)) continue;
@@ -128,7 +128,7 @@ EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
     best = preference;
     const double bend = before - 2.0 * strength + after;
     const double shift = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-    peak = {(i + std::clamp(shift, -0.5, 0.5)) * kStep_px, here};
+    peak = {(i + std::clamp(shift, -0.5, 0.5)) * kStep_px, slope_at_i};
   }
   if (ignore != nullptr && peak.gradient != 0.0) {
     // Inside: the profile around it was sampled.

@@ -9,7 +9,7 @@
 
 namespace boresight {
 
-/// What a search along an edge's normal found.
+/// Result of a search along an edge's normal.
 struct EdgePeak {
   double offset_px = 0.0;  ///< along the normal, from the predicted place
   double gradient = 0.0;   ///< signed derivative along the normal, gray/px; 0: nothing found
@@ -24,7 +24,7 @@ class EdgeSearch {
   /// `sigma_px`: scale of the derivative along the normal.
   explicit EdgeSearch(double sigma_px);
 
-  /// Nearer peaks are preferred: a strength counts (1 - (offset / (radius + 1 px))^2) times. Peaks
+  /// Nearer peaks are preferred: a strength is weighted by 1 - (offset / (radius + 1 px))^2. Peaks
   /// weaker than `min_gradient`, on ignored pixels (`ignore` may be nullptr) or whose profile
   /// leaves the image are none.
   EdgePeak find(const ImageView& image, const BitImage* ignore, const Eigen::Vector2d& predicted_px,

@@ -8,7 +8,7 @@
 namespace boresight {
 namespace {
 
-constexpr double kTangent22 = 0.41421356237309503;  ///< tan 22.5 deg
+constexpr double kTan22 = 0.41421356237309503;  ///< tan 22.5 deg
 
 }  // namespace
 
@@ -34,7 +34,7 @@ int ErrorGroups::sectorOf(const Eigen::Vector2d& direction) {
   const int eighth = across < along ? 0 : 2;
   const double low = std::min(along, across);
   const double high = std::max(along, across);
-  const bool near_axis = low < kTangent22 * high;
+  const bool near_axis = low < kTan22 * high;
   const int within = eighth == 0 ? (near_axis ? 0 : 1) : (near_axis ? 3 : 2);
   return 4 * quarter + within;
 }
@@ -97,10 +97,10 @@ ErrorSums ErrorSums::inFirst(const Pose& camera_from_first) const {
 bool ErrorSums::covariance(Matrix6d& covariance) const {
   Matrix6d inverse;
   if (!suffices || !invert(curvature, inverse)) return false;
-  const Matrix6d made = inverse * squares * inverse;
+  const Matrix6d product = inverse * squares * inverse;
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b <= a; ++b)
-      covariance(a, b) = covariance(b, a) = 0.5 * (made(a, b) + made(b, a));
+      covariance(a, b) = covariance(b, a) = 0.5 * (product(a, b) + product(b, a));
   return covariance.squaredNorm() < 1e300;
 }
 

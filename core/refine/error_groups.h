@@ -20,7 +20,7 @@ struct GroupedError {
   std::uint8_t kind = 0;                             ///< EdgeKind bits
 };
 
-/// What the covariance of a pose is computed from; of several views it is the sum.
+/// Sums from which the covariance of a pose is computed; those of several views are added.
 struct ErrorSums {
   Matrix6d curvature = Matrix6d::Zero();  ///< of half of the robust cost; the lower triangle
   Matrix6d squares = Matrix6d::Zero();    ///< of the sums of errors in the groups
@@ -34,32 +34,31 @@ struct ErrorSums {
   [[nodiscard]] bool covariance(Matrix6d& covariance) const;
 };
 
-/// The covariance of a robust least-squares pose from its measured residuals, where these are not
-/// independent: places near each other share what the mesh does not know of the part; edges that
-/// look the same way share what the light makes of them, those of one kind their rounded corners.
-/// Errors are summed up within a group before they are squared (the cluster-robust estimator, Liang
-/// and Zeger 1986), in three ways of grouping, whose sums are added (Cameron, Gelbach and Miller
-/// 2011, without subtracting what the ways have in common: an error that is alone in all three
-/// counts three times, so that this errs to the large side):
-/// 8 x 8 cells; 8 directions by the sign of the gradient; 16 directions by the kind of edge.
-/// What moves all edges alike leaves no residual but another pose: an offset outwards (bevels,
-/// blur) and a shift of the image along each axis (light from one side, sampling) of
-/// kCommonOffset_px are added as if they had been measured.
+/// The covariance of a robust least-squares pose from its measured residuals, where the residuals
+/// are not independent: nearby places share errors of the mesh; edges of one orientation share
+/// effects of the light, edges of one kind their rounded corners. Errors are summed up within a
+/// group before they are squared (the cluster-robust estimator, Liang and Zeger 1986), in three
+/// ways of grouping, whose sums are added (Cameron, Gelbach and Miller 2011, without subtracting
+/// the intersections: an error that is alone in all three counts three times, so that the
+/// covariance is rather too large): 8 x 8 cells; 8 directions by the sign of the gradient; 16
+/// directions by the kind of edge. An error common to all edges changes the pose and leaves no
+/// residual: an offset outwards (bevels, blur) and a shift of the image along each axis (light from
+/// one side, sampling) of kCommonOffset_px are added as if measured.
 class ErrorGroups {
  public:
   Status create(Arena& arena);  ///< Takes the sums from `arena`. kArenaTooSmall.
-  void clear();                 ///< Forgets all errors
+  void clear();                 ///< Removes all errors
   /// `slope`: weight times row, which is the derivative of the place along the normal with respect
   /// to the pose.
   void add(const GroupedError& error, double residual_px, const Vector6d& slope);
-  /// The squares of the groups, each way of grouping G / (G - 1) times for its G groups that hold
-  /// something.
+  /// The squares of the groups, each way of grouping weighted by G / (G - 1) for its G non-empty
+  /// groups.
   void sum(ErrorSums& sums) const;
 
   /// 0 ... 15, of 22.5 degrees each, beginning at +x, towards +y.
   static int sectorOf(const Eigen::Vector2d& direction);
 
-  static constexpr double kCommonOffset_px = 0.05;   ///< of all edges alike, one sigma
+  static constexpr double kCommonOffset_px = 0.05;   ///< common to all edges, one sigma
   static constexpr int kCells = 8;                   ///< along each side
   static constexpr int kSectors = 16;                ///< of directions
   static constexpr int kKinds = 8;                   ///< of edges

@@ -12,7 +12,7 @@ namespace {
 constexpr double kTukey = 4.685;
 constexpr double kMadToSigma = 1.4826;
 constexpr double kMinScale_px = 0.15;
-/// The equations leave the focal length open when the pose explains all but this share of it.
+/// The focal length is undetermined when the pose explains all but this share of it.
 constexpr double kLeastShare = 1e-9;
 
 /// Sums of the errors of one unknown over the groups of one way of grouping.
@@ -20,7 +20,7 @@ template <std::size_t N>
 class ScalarGroups {
  public:
   void add(int group, double error) { sums_[static_cast<std::size_t>(group)] += error; }
-  /// The squares, G / (G - 1) times for G groups that hold something; 0 of fewer than two.
+  /// The squares, weighted by G / (G - 1) for G non-empty groups; 0 for fewer than two.
   double squares() const {
     double squares = 0.0;
     int filled = 0;
@@ -126,7 +126,8 @@ void FocalFitter::weigh(Sums& sums) const {
   }
 }
 
-/// A Gauss-Newton step, the pose eliminated first. False where the edges leave something open.
+/// A Gauss-Newton step, the pose eliminated first. False when the edges do not determine all
+/// unknowns.
 bool FocalFitter::solve(const Sums& sums) {
   Matrix6d covariance;
   if (!invert(sums.pose, covariance)) return false;

@@ -12,14 +12,14 @@
 
 namespace boresight {
 
-/// The focal length for which the edges of a refined pose ask, relative to the camera's. A pose
-/// from a wrong focal length has a wrong depth, of which no residual of the pose alone tells.
+/// Focal length that fits the edges of a refined pose best, relative to the camera's. A pose from a
+/// wrong focal length has a wrong depth, which its residuals do not reveal.
 struct FocalFit {
   double change = 0.0;      ///< relative change of the focal length
   double sigma = 0.0;       ///< one sigma of it
-  bool determined = false;  ///< whether the edges determine the focal length beside the pose
+  bool determined = false;  ///< whether the edges determine the focal length together with the pose
 
-  /// Whether the image determines the focal length well enough, and asks for another one.
+  /// Whether the image determines the focal length well enough and contradicts the camera's.
   bool disagrees() const {
     return determined && sigma <= kLargestSigma && magnitude() > kLeastChange &&
            magnitude() > kSigmas * sigma;
@@ -27,16 +27,17 @@ struct FocalFit {
   /// Absolute value of the change.
   double magnitude() const { return change < 0.0 ? -change : change; }
 
-  /// Of a less certain focal length nothing is concluded: objects that are small or flat leave it
-  /// open by 2 to 30 %, and what the mesh does not know of the part then decides it.
+  /// A less certain focal length is not used: small or flat objects determine it only to 2 to 30 %,
+  /// so that errors of the mesh dominate.
   static constexpr double kLargestSigma = 0.01;
-  static constexpr double kLeastChange = 0.004;  ///< right cameras of rendered stations: to 0.0026
-  static constexpr double kSigmas = 4.0;         ///< right cameras of photographs: to 3.5
+  static constexpr double kLeastChange =
+      0.004;                              ///< correct cameras of rendered stations: up to 0.0026
+  static constexpr double kSigmas = 4.0;  ///< correct cameras of photographs: up to 3.5
 };
 
-/// Measures the focal length beside a refined pose: the equations of its edges with one unknown
-/// more, the scale of the image about its principal point, solved again with Tukey's weights about
-/// their own residuals. Sigma is computed from the errors as they are shared (compare ErrorGroups).
+/// Measures the focal length together with a refined pose: the equations of its edges with one more
+/// unknown, the scale of the image about its principal point, solved again with Tukey's weights
+/// about their own residuals. Sigma accounts for shared errors (compare ErrorGroups).
 class FocalFitter {
  public:
   static constexpr int kRounds = 5;  ///< each a step
@@ -47,11 +48,11 @@ class FocalFitter {
   void begin(const Camera& camera, const RefinementResult& refined);
   /// One round; true when fit() is complete.
   [[nodiscard]] bool step();
-  /// What was measured.
+  /// The measured focal length.
   const FocalFit& fit() const { return fit_; }
 
  private:
-  /// What a sample says: derivatives of its place along the normal, and the residual.
+  /// Equation of a sample: derivatives of its place along the normal, and the residual.
   struct Row {
     Vector6d by_pose;
     double by_focal = 0.0;

@@ -15,17 +15,17 @@ namespace boresight {
 
 /// Moves a pose so that its render meets the directed edges of a small image: from each rendered
 /// edge place along its normal to the nearest edge whose direction differs by at most one step.
-/// Robust (Tukey), Gauss-Newton; the seed's uncertainty holds what the edges leave open. For poses
-/// that are several pixels off, where the strongest gradient nearby (EdgeRefinement) is often
-/// another edge.
+/// Robust (Tukey), Gauss-Newton; the seed's uncertainty constrains directions that the edges do not
+/// determine. For poses that are several pixels off, where the strongest gradient nearby
+/// (EdgeRefinement) is often another edge.
 class OutlineRefinement {
  public:
   static constexpr int kMaxSamples = 1200;  ///< edge places used, at most
 
   /// Takes the samples' memory from `arena`.
   Status create(Arena& arena);
-  /// One render's worth of rounds. `view_from_station` is the pose rendered; the prior is in the
-  /// view's frame. False, and the pose as it was, when too few edges are met.
+  /// The rounds of one render. `view_from_station` is the pose rendered; the prior is in the
+  /// view's frame. False, with the pose unchanged, when too few edges are found.
   [[nodiscard]] bool refine(const DirectedEdges& edges, const MeshView& mesh,
                             const EdgeRender& render, const PosePrior& prior, double radius_px,
                             Pose& view_from_station);

@@ -66,8 +66,8 @@ void BandPainter::open(const BandSource& source, int band, int y, int rows) {
   drawn_band_ = band;
 }
 
-/// Whether more faces than kMostLayers cover the open band. Of some of its rows alone it is true
-/// only if it is of all.
+/// Whether more faces than kMostLayers cover the open band. True for some of its rows only if true
+/// for all rows.
 bool BandPainter::overdrawn(const BandSource& source) const {
   return raster_.work_px > kMostLayers * source.band_rows * source.rays.camera().width;
 }

@@ -15,12 +15,12 @@
 
 namespace boresight {
 
-/// What is drawn, the same for all bands of a render.
+/// Input of a render, the same for all its bands.
 struct BandSource {
   const CameraScene& scene;       ///< the mesh from the pose
   const RayGrid& rays;            ///< of the camera
   const FaceBins& bins;           ///< the faces of each band
-  const SurfaceRender& surfaces;  ///< what else is wanted
+  const SurfaceRender& surfaces;  ///< optional further outputs
   int band_rows;                  ///< rows of a band
 
   /// Bands of the image.
@@ -28,13 +28,13 @@ struct BandSource {
 };
 
 /// Draws bands of rows one after the other and finds their salient edges; memory is one band. A
-/// render may be divided among several painters, each with some bands in a row: what comes out for
-/// a row does not depend on where the others begin.
+/// render may be divided among several painters, each with consecutive bands: the result of a row
+/// does not depend on the division.
 class BandPainter {
  public:
-  /// Faces that may cover the pixels of a band, on average over the image's width. What is made of
-  /// real surfaces stays far below, and without a bound a render would take as long as it has faces
-  /// times pixels.
+  /// Faces that may cover the pixels of a band, on average over the image's width. Meshes of real
+  /// surfaces stay far below; without a bound the time of a render could grow with faces times
+  /// pixels.
   static constexpr std::int64_t kMostLayers = 512;
 
   /// Takes the memory of one band from `arena`.
@@ -62,12 +62,12 @@ class BandPainter {
 
   RasterBand raster_;
   SalientEdges salient_edges_;
-  int band_ = 0;  ///< to go on with
+  int band_ = 0;  ///< next band
   int end_band_ = 0;
   bool open_ = false;
   int drawn_band_ = 0;            ///< the open one
   int list_ = 0;                  ///< of its faces
-  std::int32_t next_drawn_ = -1;  ///< face of that list to go on with
+  std::int32_t next_drawn_ = -1;  ///< next face of that list
 };
 
 }  // namespace boresight

@@ -11,7 +11,7 @@
 namespace boresight {
 namespace {
 
-/// Faces that turn by more than 45 deg are compared pixel by pixel whatever the thresholds.
+/// Faces that turn by more than 45 deg are compared pixel by pixel for any thresholds.
 constexpr double kSharpestSmooth = 0.7071;
 /// Steps of 1/128 px at most.
 constexpr int kMostShift = 7;
@@ -102,8 +102,8 @@ Eigen::Vector3d CameraScene::outerNormal(std::size_t face) const {
   return crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
 }
 
-/// Vertices are known to single precision. Of a face whose altitude is not some thirty times that,
-/// the normal is noise.
+/// Vertices are known to single precision. The normal of a face whose altitude is below some thirty
+/// times that is noise.
 bool CameraScene::normalIsKnown(std::size_t face, const Eigen::Vector3d& normal) const {
   constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the station frame
   Eigen::Vector3d corner[3];
@@ -124,7 +124,7 @@ bool CameraScene::normalIsKnown(std::size_t face, const Eigen::Vector3d& normal)
 
 /// Sets a face's kNormalKnown, and the bits of its edges to faces after it, on both sides.
 void CameraScene::setFlags(std::size_t face) {
-  const Face& here = mesh.faces[face];
+  const Face& own = mesh.faces[face];
   const Eigen::Vector3d normal = outerNormal(face);
   const double length2 = dotProduct(normal, normal);
   unsigned flags = face_flags[face];
@@ -132,21 +132,23 @@ void CameraScene::setFlags(std::size_t face) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int32_t beyond = adjacency.neighbour[face][i];
     if (beyond < 0 || static_cast<std::size_t>(beyond) < face) continue;
-    const auto other = static_cast<std::size_t>(beyond);
-    const Face& there = mesh.faces[other];
-    const std::int32_t from = here.vertex[i];
-    const std::int32_t to = here.vertex[i < 2 ? i + 1 : 0];
+    const auto neighbour_index = static_cast<std::size_t>(beyond);
+    const Face& neighbour = mesh.faces[neighbour_index];
+    const std::int32_t from = own.vertex[i];
+    const std::int32_t to = own.vertex[i < 2 ? i + 1 : 0];
     for (std::size_t k = 0; k < 3; ++k) {
-      // Oriented alike: the other runs along the common edge the other way.
-      if (there.vertex[k] != to || there.vertex[k < 2 ? k + 1 : 0] != from) continue;
-      const Eigen::Vector3d other_normal = outerNormal(other);
+      // Same orientation: the neighbour traverses the common edge in the opposite direction.
+      if (neighbour.vertex[k] != to || neighbour.vertex[k < 2 ? k + 1 : 0] != from) continue;
+      const Eigen::Vector3d other_normal = outerNormal(neighbour_index);
       const double lengths = std::sqrt(length2 * dotProduct(other_normal, other_normal));
-      const double threshold = std::max(std::max(cos_normal_threshold[mesh.part_of_face[face]],
-                                                 cos_normal_threshold[mesh.part_of_face[other]]),
-                                        kSharpestSmooth);
+      const double threshold =
+          std::max(std::max(cos_normal_threshold[mesh.part_of_face[face]],
+                            cos_normal_threshold[mesh.part_of_face[neighbour_index]]),
+                   kSharpestSmooth);
       if (!(lengths > 0.0 && dotProduct(normal, other_normal) > threshold * lengths)) continue;
       flags |= 1U << i;
-      face_flags[other] = static_cast<std::uint8_t>(face_flags[other] | (1U << k));
+      face_flags[neighbour_index] =
+          static_cast<std::uint8_t>(face_flags[neighbour_index] | (1U << k));
     }
   }
   face_flags[face] = static_cast<std::uint8_t>(flags);
@@ -183,7 +185,7 @@ void CameraScene::begin(const Pose& camera_from_station, const RayGrid& rays) {
 
 namespace {
 
-/// Some vertices at once, coordinate by coordinate: loops over these need no branch.
+/// A block of vertices, coordinate by coordinate, so that loops need no branch.
 constexpr std::size_t kBlock = 64;
 struct VertexBlock {
   double station[3][kBlock];
@@ -333,17 +335,17 @@ double bendMargin(const RayGrid& rays, double length2) {
 }
 
 /// The box of a face whose edges may bend far, as some at the border of the valid field do: the
-/// bends of an edge's pieces are smaller by the square of their number. False when a piece ends
+/// bends of an edge's segments are smaller by the square of their number. False when a segment ends
 /// outside the valid field.
-bool boxByPieces(const CameraScene& scene, const RayGrid& rays, std::int32_t face, FaceBox& box) {
-  constexpr int kPieces = 8;
+bool boxBySegments(const CameraScene& scene, const RayGrid& rays, std::int32_t face, FaceBox& box) {
+  constexpr int kSegments = 8;
   double longest2 = 0.0;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d& from = scene.vertex(face, i);
     const Eigen::Vector3d& to = scene.vertex(face, i < 2 ? i + 1 : 0);
     Eigen::Vector2d before;
-    for (int k = 0; k <= kPieces; ++k) {
-      const double s = k / static_cast<double>(kPieces);
+    for (int k = 0; k <= kSegments; ++k) {
+      const double s = k / static_cast<double>(kSegments);
       Eigen::Vector2d pixel;
       if (!projectDirection(rays.camera(), from + (to - from) * s, pixel)) return false;
       box.include(pixel.x(), pixel.y());
@@ -372,8 +374,8 @@ PixelBounds faceBounds(const CameraScene& scene, const RayGrid& rays, std::int32
   box.y_min = scene.scale.middle_y + box.y_min * pixels_per_step;
   box.y_max = scene.scale.middle_y + box.y_max * pixels_per_step;
   box.margin = bendMargin(rays, box.length2());
-  FaceBox pieces;
-  if (box.margin > kFarBend_px && boxByPieces(scene, rays, face, pieces)) box = pieces;
+  FaceBox by_segments;
+  if (box.margin > kFarBend_px && boxBySegments(scene, rays, face, by_segments)) box = by_segments;
   // Half a step for the rounding of the vertices, and as much for all other rounding.
   const double margin = box.margin + pixels_per_step;
   const Camera& camera = rays.camera();

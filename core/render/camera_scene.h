@@ -33,7 +33,7 @@ struct FixedScale {
   int middle_y = 0;                     ///< likewise
   double low_m = 0.0;                   ///< z of depth 0
   double per_m = 0.0;                   ///< steps of depth per metre
-  int gap = 0;                          ///< depths this far apart differ beyond all rounding
+  int gap = 0;                          ///< depths this far apart differ by more than rounding
 
   /// Steps to a pixel.
   int steps() const { return 1 << shift; }
@@ -41,7 +41,7 @@ struct FixedScale {
 
 /// The mesh seen from one pose: its vertices in the camera frame (where the entrance pupil moves:
 /// as seen from the pupil of their own rays), and their pixels and depths in
-/// few bits, which serve for bounds and for what is clear without more. Refilled for every pose.
+/// few bits, for bounds and for clear decisions. Refilled for every pose.
 struct CameraScene {
   /// Surfaces nearer than this are not rendered: no camera is in focus there.
   static constexpr double kNearPlane_m = 0.01;
@@ -50,21 +50,21 @@ struct CameraScene {
   MeshAdjacency adjacency;                              ///< of the mesh
   Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();  ///< box of all vertices, station frame
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();  ///< the other corner of it
-  std::span<Eigen::Vector3d> vertex_in_camera_m;        ///< as many as the mesh has
+  std::span<Eigen::Vector3d> vertex_in_camera_m;        ///< one per vertex of the mesh
   std::span<FixedPixel> vertex_px;                      ///< of each
   std::span<std::uint16_t> vertex_depth;                ///< floor((z - low_m) per_m)
   FixedScale scale;                                     ///< of pixels and depths
   std::span<double> cos_normal_threshold;               ///< per part
-  /// Per face: bit i when the surface goes on smoothly over edge i to a face oriented alike;
-  /// kFrontFacing when the outer side is seen from this pose; kNormalKnown when the face is wide
-  /// enough for its normal to be known.
+  /// Per face: bit i when the surface continues smoothly over edge i to a face of the same
+  /// orientation; kFrontFacing when the outer side is seen from this pose; kNormalKnown when the
+  /// face is wide enough for its normal to be known.
   std::span<std::uint8_t> face_flags;
   /// Bit of face_flags.
   static constexpr std::uint8_t kFrontFacing = 8;
   /// Bit of face_flags.
   static constexpr std::uint8_t kNormalKnown = 16;
 
-  /// The mesh and its adjacency must outlive the scene. What depends on the pose comes from
+  /// The mesh and its adjacency must outlive the scene. Data that depends on the pose comes from
   /// `scratch`.
   static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, Arena& kept,
                        Arena& scratch, CameraScene& scene);
@@ -92,8 +92,8 @@ struct CameraScene {
     return (face_flags[static_cast<std::size_t>(face)] & kNormalKnown) != 0;
   }
 
-  /// True when two faces share an edge over which the surface goes on smoothly, and show the same
-  /// side: where they meet there is no edge to be found.
+  /// True when two faces share an edge over which the surface continues smoothly, and show the same
+  /// side: no salient edge separates them.
   bool continues(std::int32_t face, std::int32_t other) const {
     const auto& around = adjacency.neighbour[static_cast<std::size_t>(face)];
     const std::uint8_t flags = face_flags[static_cast<std::size_t>(face)];

@@ -10,8 +10,8 @@ namespace {
 /// Altitude over length below which a triangle's plane is uncertain: 1e-3, squared.
 constexpr double kThin2 = 1e-6;
 
-/// The line a x + b y + c = 0 belongs to the face on its positive side, or to the other one: a rule
-/// that changes with the line's sign.
+/// Whether the line a x + b y + c = 0 belongs to the face on its positive side or to the other
+/// face: a rule that changes with the line's sign.
 bool ownsLine(const Eigen::Vector3d& edge) {
   if (edge.x() != 0.0) return edge.x() > 0.0;
   if (edge.y() != 0.0) return edge.y() > 0.0;
@@ -39,7 +39,7 @@ bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) 
   const double z_min = std::min({v0.z(), v1.z(), v2.z()});
   const double z_max = std::max({v0.z(), v1.z(), v2.z()});
   if (!(z_max >= CameraScene::kNearPlane_m)) return false;
-  // Within a face 1/z stays in a range; the plane of a sliver is not known that well.
+  // Within a face 1/z stays in a range; the plane of a sliver is too uncertain.
   const Eigen::Vector3d side1 = v1 - v0;
   const Eigen::Vector3d side2 = v2 - v0;
   const Eigen::Vector3d normal = crossProduct(side1, side2);

@@ -27,7 +27,7 @@ struct DrawnFace {
   }
 };
 
-/// Sets up everything but `slack`. False when nothing of the face can be seen.
+/// Sets up all members except `slack`. False when the face is invisible.
 [[nodiscard]] bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
 
 /// Whether a ray passes inside all three edges. Rows of the rasterizer compute the same terms in

@@ -10,13 +10,12 @@
 
 namespace boresight {
 
-/// What is known of one salient edge pixel. It belongs to the *nearer* of the two surfaces that
-/// meet in it.
+/// A salient edge pixel. It belongs to the *nearer* of the two surfaces that meet in it.
 struct EdgePixel {
   std::int16_t x = 0;  ///< px
   std::int16_t y = 0;  ///< px
-  /// z of the nearer surface's plane at the pixel's centre, extended by at most one pixel. Of a
-  /// face seen at less than 9 deg, whose extended plane says little, z at the line itself.
+  /// z of the nearer surface's plane at the pixel's centre, extended by at most one pixel. For a
+  /// face seen at less than 9 deg, whose extended plane is uncertain, z at the line itself.
   float depth_m = 0.0F;
   /// The nearer surface's face (its part and normal follow): the one seen at the pixel, or, where
   /// the pixel lies beyond the surface, the one that ends at the line.
@@ -43,7 +42,7 @@ struct EdgeRender {
   std::span<EdgePixel> pixels;        ///< capacity; the first `pixel_count` are valid, raster order
   std::span<std::int32_t> row_begin;  ///< height + 1 indices into pixels
   std::int32_t pixel_count = 0;       ///< salient edge pixels
-  /// Words for the largest image; `edges` and `mask` use as many as the camera at hand needs.
+  /// Words for the largest image; `edges` and `mask` use the words that the current camera needs.
   std::span<std::uint64_t> edge_words;
   std::span<std::uint64_t> mask_words;  ///< of the mask, likewise
   Camera camera;                        ///< the camera at this level

@@ -11,7 +11,7 @@ namespace {
 
 /// Vertices or faces of one step: about a millisecond on the ground.
 constexpr std::size_t kSlice = 16384;
-/// Less than this is not worth sharing out: vertices or faces, bands.
+/// Least work of a task: vertices or faces, bands.
 constexpr std::size_t kLeastItems = 1024;
 constexpr std::size_t kLeastBands = 2;
 /// The largest image: coordinates are recorded in 16 bits.
@@ -109,7 +109,7 @@ Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency
   band_rows_ = std::min(band_rows, max_height);
   const int bands = (max_height - 1) / band_rows_ + 1;
   painter_ = BandPainter::create(max_width, band_rows_, scratch);
-  bins_ = FaceBins::create(mesh.faces.size(), bands, std::max(mostPieces(workers), 1), scratch);
+  bins_ = FaceBins::create(mesh.faces.size(), bands, std::max(mostTasks(workers), 1), scratch);
   createWorkers(workers, max_width * max_height, options, kept, scratch);
   phase_ = Phase::kIdle;
   if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
@@ -121,11 +121,11 @@ void EdgeRenderer::createWorkers(int workers, int max_pixels, const RenderOption
   workers_ = {};
   if (workers < 2) return;
   workers_ = kept.allocate<Worker>(static_cast<std::size_t>(workers));
-  blocks_ = scratch.allocate<Block>(static_cast<std::size_t>(mostPieces(workers)));
+  blocks_ = scratch.allocate<Block>(static_cast<std::size_t>(mostTasks(workers)));
   for (int i = 0; i < workers; ++i) {
     Worker counted;
     Worker& worker = workers_.empty() ? counted : workers_[static_cast<std::size_t>(i)];
-    // The first one's is that of a render by one alone.
+    // The first worker's memory equals that of a render by one worker.
     worker.painter = i == 0 ? painter_ : BandPainter::create(max_width_, band_rows_, scratch);
     worker.pixels = scratch.allocate<EdgePixel>(
         static_cast<std::size_t>(std::min(options.max_edge_pixels, max_pixels)));
@@ -151,19 +151,19 @@ Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station,
   output_ = &output;
   surfaces_ = surfaces;
   scene_.begin(camera_from_station, rays);
-  bins_.begin(scene_, rays, band_rows_, plain_, std::max(piecesOf(Phase::kFaces), 1));
+  bins_.begin(scene_, rays, band_rows_, plain_, std::max(tasksOf(Phase::kFaces), 1));
   enter(Phase::kVertices);
   return Status::kOk;
 }
 
-/// What a phase goes through.
+/// Items of a phase.
 std::size_t EdgeRenderer::itemsOf(Phase phase) const {
   if (phase == Phase::kVertices) return scene_.vertex_in_camera_m.size();
   if (phase == Phase::kFaces) return scene_.mesh.faces.size();
   return static_cast<std::size_t>(covered_count_);
 }
 
-int EdgeRenderer::piecesOf(Phase phase) const {
+int EdgeRenderer::tasksOf(Phase phase) const {
   if (workers_.empty()) return 0;
   const bool bands = phase == Phase::kBands;
   if (bands && band_rows_ < 2) return 1;
@@ -179,7 +179,7 @@ void EdgeRenderer::enter(Phase phase) {
     findCoveredBands();
     painter_.begin(source(), 0, source().bands(), *output_);
   }
-  piece_count_ = piecesOf(phase);
+  task_count_ = tasksOf(phase);
   for (Worker& worker : workers_) worker.pixel_count = 0;
 }
 
@@ -212,7 +212,7 @@ Status EdgeRenderer::step(bool& done) {
 }
 
 Status EdgeRenderer::stepWhole(bool& done) {
-  for (int piece = 0; piece < pieces(); ++piece) work(piece, 0);
+  for (int task = 0; task < tasks(); ++task) runTask(task, 0);
   return step(done);
 }
 
@@ -233,30 +233,31 @@ Status EdgeRenderer::stepAlone(bool& done) {
   return Status::kOk;
 }
 
-void EdgeRenderer::work(int piece, int worker) {
-  if (piece < 0 || piece >= pieces() || worker < 0 ||
+void EdgeRenderer::runTask(int task, int worker) {
+  if (task < 0 || task >= tasks() || worker < 0 ||
       static_cast<std::size_t>(worker) >= workers_.size())
     return;
-  if (phase_ == Phase::kBands) return drawBlock(piece, worker);
+  if (phase_ == Phase::kBands) return drawBlock(task, worker);
   const std::size_t count = itemsOf(phase_);
-  const auto pieces = static_cast<std::size_t>(piece_count_);
-  const std::size_t first = count * static_cast<std::size_t>(piece) / pieces;
-  const std::size_t last = count * (static_cast<std::size_t>(piece) + 1) / pieces;
+  const auto tasks = static_cast<std::size_t>(task_count_);
+  const std::size_t first = count * static_cast<std::size_t>(task) / tasks;
+  const std::size_t last = count * (static_cast<std::size_t>(task) + 1) / tasks;
   if (phase_ == Phase::kVertices)
     scene_.transform(output_->camera_from_station, *rays_, first, last);
   else
-    bins_.add(scene_, *rays_, first, last, piece);
+    bins_.add(scene_, *rays_, first, last, task);
 }
 
-/// The bands that hold faces in equal parts, those above and below with the outermost.
+/// Divides the bands with faces into equal blocks; the outermost blocks also take the bands above
+/// and below.
 int EdgeRenderer::beginOfBlock(int block) const {
   if (block <= 0) return 0;
-  if (block >= piece_count_) return source().bands();
-  return covered_first_ + covered_count_ * block / piece_count_;
+  if (block >= task_count_) return source().bands();
+  return covered_first_ + covered_count_ * block / task_count_;
 }
 
-/// Bits go into rows of the output that are this block's alone; edge pixels to the worker's own,
-/// where a row's first is counted from the block's first.
+/// Bits are written to rows of the output that belong to this block; edge pixels to the worker's
+/// list, with row indices relative to the block's first pixel.
 void EdgeRenderer::drawBlock(int index, int worker_index) {
   Worker& worker = workers_[static_cast<std::size_t>(worker_index)];
   Block& block = blocks_[static_cast<std::size_t>(index)];
@@ -272,13 +273,13 @@ void EdgeRenderer::drawBlock(int index, int worker_index) {
   worker.pixel_count += rows.pixel_count;
 }
 
-/// The blocks' edge pixels one after the other. Where there is no room for all, the rows before are
-/// those of a render by one alone, as is all else: it is made anew.
+/// Joins the blocks' edge pixels. When the capacity is exceeded, one worker renders the image
+/// again, so that the partial output equals that of a render by one worker.
 Status EdgeRenderer::joinBlocks() {
   EdgeRender& output = *output_;
   const int height = output.camera.height;
   bool fits = true;
-  for (int index = 0; index < piece_count_ && fits; ++index) {
+  for (int index = 0; index < task_count_ && fits; ++index) {
     const Block& block = blocks_[static_cast<std::size_t>(index)];
     const auto begin = static_cast<std::size_t>(output.pixel_count);
     const auto count = static_cast<std::size_t>(block.count);
@@ -288,7 +289,7 @@ Status EdgeRenderer::joinBlocks() {
     std::copy_n(worker.pixels.begin() + block.first, block.count,
                 output.pixels.begin() + output.pixel_count);
     const int first_row = BandPainter::firstRow(beginOfBlock(index), band_rows_);
-    const int end_row = index + 1 < piece_count_
+    const int end_row = index + 1 < task_count_
                             ? BandPainter::firstRow(beginOfBlock(index + 1), band_rows_)
                             : height;
     for (int y = first_row; y < end_row; ++y)

@@ -22,7 +22,7 @@
 
 namespace boresight {
 
-/// Of the salient edges' render.
+/// Options of the render of salient edges.
 struct RenderOptions {
   std::int32_t max_edge_pixels = 80000;
 
@@ -58,11 +58,11 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
 /// Renders in bands of rows; memory is one band, not an image, and the mesh in the camera frame.
 /// The result does not depend on the bands' height.
 ///
-/// With several workers each phase (vertices, faces, bands) consists of pieces that may be done at
-/// the same time, and the result does not depend on who does which:
+/// With several workers each phase (vertices, faces, bands) consists of tasks that may be done at
+/// the same time, and the result does not depend on the assignment of tasks to workers:
 ///
 ///     while (!done) {
-///       for piece in 0 ... pieces() - 1, at the same time:  work(piece, worker)
+///       for task in 0 ... tasks() - 1, at the same time:  runTask(task, worker)
 ///       step(done)
 ///     }
 class EdgeRenderer {
@@ -78,40 +78,40 @@ class EdgeRenderer {
     return create(mesh, adjacency, max_width, max_height, options, arena, arena, band_rows,
                   workers);
   }
-  /// The same with what is only needed from begin() to the last step in `scratch`: between two
-  /// renders somebody else may use that memory. Each worker takes a band's memory, and when they
-  /// are several, room for all edge pixels.
+  /// The same with temporary data (from begin() to the last step) in `scratch`, which may be reused
+  /// between two renders. Each worker takes the memory of a band; several workers also take room
+  /// for all edge pixels.
   Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
                 const RenderOptions& options, Arena& kept, Arena& scratch,
                 int band_rows = kBandRows, int workers = 1);
-  /// Draws small faces like all others, for comparison: the result is the same.
+  /// Draws small faces like other faces, for comparison: the result is the same.
   void drawPlainly(bool plain) { plain_ = plain; }
-  /// Starts one render; rays must be made for the camera of this level, and outlive the steps, as
-  /// must the output. kInvalidPose, kInvalidImage when the output or the renderer is too small.
+  /// Starts one render; `rays` must be those of the camera of this level. Rays and output must
+  /// outlive the steps. kInvalidPose, kInvalidImage when the output or the renderer is too small.
   Status begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
                const SurfaceRender& surfaces = {});
   /// One slice: some thousand vertices or faces, or a band; `done` when the render is complete.
   /// kCapacityExceeded when max_edge_pixels is not enough, kTooManyLayers when a band has more than
   /// BandPainter::kMostLayers: the rows before are valid, `done` set.
-  /// With several workers it ends a phase all of whose pieces have been done.
+  /// With several workers it ends a phase all of whose tasks have been done.
   Status step(bool& done);
 
-  /// A step for a caller that does not share pieces out: does all pieces of the phase itself, then
-  /// step().
+  /// A step for a caller that does not share out the tasks: does all tasks of the phase itself,
+  /// then step().
   Status stepWhole(bool& done);
 
-  /// Pieces of the phase at hand; 0 with one worker, whose steps do everything.
-  int pieces() const { return phase_ == Phase::kIdle ? 0 : piece_count_; }
-  /// Most pieces that a phase has with so many workers.
-  static int mostPieces(int workers) { return workers > 1 ? kPiecesPerWorker * workers : 0; }
-  /// Does one piece, each exactly once before the step. Calls at the same time need different
-  /// pieces and different workers.
-  void work(int piece, int worker);
+  /// Number of tasks in the current phase; 0 with one worker, whose steps do everything.
+  int tasks() const { return phase_ == Phase::kIdle ? 0 : task_count_; }
+  /// Largest number of tasks in a phase with this number of workers.
+  static int mostTasks(int workers) { return workers > 1 ? kTasksPerWorker * workers : 0; }
+  /// Runs a task, each exactly once before the step. Calls at the same time need different
+  /// tasks and different workers.
+  void runTask(int task, int worker);
 
  private:
   enum class Phase : std::uint8_t { kIdle, kVertices, kFaces, kBands };
-  /// More than one, so that a worker with a full part of the image need not be waited for.
-  static constexpr int kPiecesPerWorker = 4;
+  /// Several tasks per worker balance the load between parts of the image.
+  static constexpr int kTasksPerWorker = 4;
   /// Bands in a row that one worker draws, and their edge pixels until all are known.
   struct Block {
     int worker = 0;
@@ -119,7 +119,7 @@ class EdgeRenderer {
     std::int32_t count = 0;
     bool complete = false;
   };
-  /// What a worker has to itself.
+  /// Data of one worker.
   struct Worker {
     BandPainter painter;
     std::span<EdgePixel> pixels;
@@ -129,7 +129,7 @@ class EdgeRenderer {
   void createWorkers(int workers, int max_pixels, const RenderOptions& options, Arena& kept,
                      Arena& scratch);
   std::size_t itemsOf(Phase phase) const;
-  int piecesOf(Phase phase) const;
+  int tasksOf(Phase phase) const;
   void enter(Phase phase);
   Status stepAlone(bool& done);
   Status joinBlocks();
@@ -144,16 +144,16 @@ class EdgeRenderer {
   int max_width_ = 0;
   int max_height_ = 0;
   int band_rows_ = kBandRows;
-  std::span<Worker> workers_;  ///< kept; empty when there is one, who needs nothing more
+  std::span<Worker> workers_;  ///< kept; empty with one worker
   std::span<Block> blocks_;    ///< from the last phase's beginning to its end
 
   const RayGrid* rays_ = nullptr;
   EdgeRender* output_ = nullptr;
   SurfaceRender surfaces_;
   Phase phase_ = Phase::kIdle;
-  std::size_t next_ = 0;  ///< vertex or face to go on with
+  std::size_t next_ = 0;  ///< next vertex or face
   bool plain_ = false;
-  int piece_count_ = 0;
+  int task_count_ = 0;
   int covered_first_ = 0;  ///< bands from here on hold faces
   int covered_count_ = 0;
 };

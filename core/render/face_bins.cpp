@@ -10,7 +10,7 @@ namespace {
 /// Faces that are looked at together.
 constexpr std::size_t kChunk = 128;
 
-/// The pixels of some faces' vertices, x and y in turn: both are compared alike.
+/// The pixels of some faces' vertices, x and y alternating: the same comparison applies to both.
 class Chunk {
  public:
   void gather(const CameraScene& scene, std::size_t first, std::size_t count) {
@@ -157,7 +157,8 @@ void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face
   enter(face, scene.isFrontFacing(face) ? kSmallFront : kSmallBack, bounds, share);
 }
 
-/// Most faces of a fine mesh lie between the centres of pixels: such are found many at a time.
+/// Most faces of a fine mesh lie between the centres of pixels: such faces are found many at a
+/// time.
 void FaceBins::add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last,
                    int share) {
   const Share entered = shareOf(share);

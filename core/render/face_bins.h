@@ -28,10 +28,10 @@ class FaceBins {
     }
   };
 
-  /// Takes the lists from `arena`, for so many faces, bands and shares.
+  /// Allocates the lists from `arena` for the given numbers of faces, bands and shares.
   static FaceBins create(std::size_t faces, int max_bands, int max_shares, Arena& arena);
   /// `plain`: no face is treated as small, for comparison. Faces may be added in up to `max_shares`
-  /// shares, each by somebody else.
+  /// shares, each by another worker.
   void begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain, int shares);
   /// Adds faces first .. last - 1 and sets their kFrontFacing.
   void add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last, int share);

@@ -17,7 +17,7 @@ constexpr int kNarrow_px = 8;
 constexpr int kShort_px = 8;
 /// Columns that are tested together: inside all edges, outside one, or across some.
 constexpr int kChunk_px = 64;
-/// What a chunk takes that the face does not cover.
+/// Cost of a chunk that the face does not cover.
 constexpr int kChunkWork_px = 16;
 
 /// Columns of a row that may be inside (possible) and that surely are (certain).
@@ -274,7 +274,7 @@ void RasterBand::advance(const RayGrid& rays, int y, int count, int x_first, int
       std::fill_n(depth_row, length, 0.0F);
       std::fill_n(face_row, length, kBackground);
     } else {
-      // An infinitely near nothing keeps surfaces off pixels without a ray.
+      // An infinitely near background keeps surfaces off pixels without a ray.
       for (int i = 0; i < length; ++i) {
         depth_row[i] =
             valid[static_cast<std::size_t>(i)] != 0 ? 0.0F : std::numeric_limits<float>::infinity();
@@ -294,7 +294,7 @@ void drawFace(const CameraScene& scene, const RayGrid& rays, std::int32_t face,
 
   DrawnFace drawn;
   if (!prepareFace(scene, face, drawn)) return;
-  // Where pixels without a ray may lie, nothing is said of a run of pixels by its ends.
+  // With pixels without a ray in the image, the ends of a run do not bound its pixels.
   const bool narrow = x_last - x_first < kNarrow_px || !rays.smooth();
   if (!narrow) setSlack(rays, band, x_first, x_last, row_first, row_last, drawn);
   const auto draw_as = rays.level() ? (drawn.clamped ? draw<true, true> : draw<true, false>)

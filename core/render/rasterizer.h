@@ -13,12 +13,12 @@
 
 namespace boresight {
 
-/// Rows of the image while they are rendered: per pixel its ray, and what is nearest there.
+/// Rows of the image while they are rendered: per pixel its ray and the nearest surface.
 /// Row 0 carries the last row of the band before, so that vertical pairs of pixels meet.
 struct RasterBand {
   static constexpr std::int32_t kBackground = -1;  ///< where no face is
   static constexpr std::int32_t kInvalid = -2;     ///< outside the camera's valid field
-  /// Of a small face whose depth nobody has asked for yet.
+  /// Depth of a small face that has not been computed yet.
   static constexpr float kUnknownDepth = -1.0F;
 
   std::span<double> ray_x;         ///< x/z
@@ -31,8 +31,8 @@ struct RasterBand {
 
   int first_y = 0;  ///< image row of band row 1
   int rows = 0;     ///< new rows, carried row excluded
-  /// What drawing the new rows took: their pixels, each for every face that covers it, and some for
-  /// every chunk of columns in which a face's edges are looked for.
+  /// Cost of drawing the new rows: pixels, each counted for every face that covers it, and a share
+  /// for every chunk of columns in which a face's edges are tested.
   std::int64_t work_px = 0;
   int x_begin = 0;  ///< columns x_begin .. x_end - 1 are prepared
   int x_end = 0;    ///< the column after the last one drawn

@@ -119,7 +119,7 @@ Status RayGrid::create(const Camera& camera, Arena& arena, RayGrid& grid) {
   // Four nodes are enough for a camera with little distortion, and cheaper at every pixel.
   if (!grid.chooseStencils()) {
     grid.wide_stencil_ = true;
-    (void)grid.chooseStencils();  // what is still too coarse is unprojected pixel by pixel
+    (void)grid.chooseStencils();  // cells that are still too coarse are unprojected pixel by pixel
   }
   return Status::kOk;
 }
@@ -147,7 +147,7 @@ void RayGrid::fillNodes() {
   }
 }
 
-/// Second differences over the image and one node beyond; a factor of two covers what happens
+/// Second differences over the image and one node beyond; a factor of two covers the variation
 /// between nodes. At the border of the valid field smaller steps come nearer to it.
 void RayGrid::measureBends() {
   double ray_bend = 0.0;

@@ -34,7 +34,7 @@ struct StepMatrix {
   }
 };
 template <int kNodes>
-constexpr StepMatrix<kNodes> kSteps{};  ///< The matrix, made when compiled
+constexpr StepMatrix<kNodes> kSteps{};  ///< the matrix, computed at compile time
 
 /// Lagrange's weights of the stencil's nodes at pixel `i` of a cell.
 template <int kNodes>
@@ -61,8 +61,8 @@ std::array<double, kNodes> pixelSteps(std::array<double, kNodes> v) {
   return steps;
 }
 
-/// Sums up `count` values from the differences, after `skip` that are not wanted: the same bits for
-/// every piece of a cell.
+/// Sums up `count` values from the differences, after `skip` that are not needed: the same bits for
+/// every part of a cell.
 template <int kNodes>
 void sumUp(std::array<double, kNodes> steps, int skip, int count, double* values) {
   for (int i = -skip; i < count; ++i) {
@@ -77,7 +77,8 @@ void interpolateCell(const std::array<double, kNodes>& v, int skip, int count, d
   sumUp<kNodes>(pixelSteps<kNodes>(v), skip, count, values);
 }
 
-/// Four nodes, most cameras' case, spelled out: p(u) = v1 + u (c1 + u (c2 + u c3)), u in cells.
+/// Four nodes, the case of most cameras, written out: p(u) = v1 + u (c1 + u (c2 + u c3)), u in
+/// cells.
 template <>
 inline void interpolateCell<4>(const std::array<double, 4>& v, int skip, int count,
                                double* values) {

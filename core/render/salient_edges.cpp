@@ -14,10 +14,10 @@ namespace {
 /// Two surfaces meet, rather than one hiding the other, when their depths at the line differ by
 /// less than this share.
 constexpr double kContact = 2e-4;
-/// Sine of the angle between ray and face below which an extended plane says little.
+/// Sine of the angle between ray and face below which an extended plane is uncertain.
 constexpr double kGrazing = 0.15;
 
-/// Pixels that are looked at together; a run does not straddle the words of a bit image.
+/// Pixels that are compared together; a run does not straddle the words of a bit image.
 constexpr int kRun_px = 16;
 
 /// One bit for each of up to 16 pixels whose faces in `a` and `b` differ: most do not, which is
@@ -60,7 +60,7 @@ std::int8_t rounded8(double value) {
   return static_cast<std::int8_t>(floorClamped(value + 0.5, -127, 127));
 }
 
-/// Order among what several pairs say about one pixel.
+/// Order among the candidates of several pairs for one pixel.
 bool preferred(const EdgePixel& a, const EdgePixel& b) {
   if (a.depth_m != b.depth_m) return a.depth_m < b.depth_m;
   return std::abs(a.offset) < std::abs(b.offset);
@@ -93,14 +93,14 @@ bool SalientEdges::crossBorder(const Context& context, const Sample& p, const Sa
                                Crossing& crossing) {
   crossing.nearer_is_p = p.face >= 0;
   const Sample& nearer = crossing.nearer_is_p ? p : q;
-  const Sample& other = crossing.nearer_is_p ? q : p;
+  const Sample& farther = crossing.nearer_is_p ? q : p;
   if (!context.scene.part(nearer.face).match) return false;
   const SurfaceEnd end =
-      traceSurface(context.scene, planes_, nearer.face, nearer.ray, other.ray, -1);
+      traceSurface(context.scene, planes_, nearer.face, nearer.ray, farther.ray, -1);
   if (!end.ends) {
-    // Not an end of the surface, but of what the near plane leaves of it.
+    // The near plane cuts the surface here: not an end of the surface.
     const PlaneCache::Entry plane = planes_.get(context.scene, nearer.face);
-    if (dotProduct(plane.plane, other.ray) * CameraScene::kNearPlane_m >= 1.0) return false;
+    if (dotProduct(plane.plane, farther.ray) * CameraScene::kNearPlane_m >= 1.0) return false;
   }
   const double s = std::min(end.s, 1.0);
   crossing.s = crossing.nearer_is_p ? s : 1.0 - s;
@@ -138,7 +138,7 @@ bool SalientEdges::crossSurfaces(const Context& context, const Sample& p, const 
   crossing.line = end_p.reached ? end_p.line : Eigen::Vector3d(-end_q.line);
   crossing.edge_of = end_p.reached ? end_p.face : end_q.face;
   crossing.edge = end_p.reached ? end_p.edge : end_q.edge;
-  // Both faces hold the line; the flatter one's plane is the better known beside it.
+  // Both faces contain the line; the plane of the flatter one is better known next to it.
   crossing.nearer_is_p = flatter(plane_p, plane_q);
   if (!crossing.nearer_is_p) crossing.line = -crossing.line;
   crossing.face = crossing.nearer_is_p ? p.face : q.face;
@@ -180,10 +180,11 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
   }
   const SurfaceEnd& end = crossing.nearer_is_p ? end_p : end_q;
   if (!intersect) {
-    const Sample& other = crossing.nearer_is_p ? q : p;
+    const Sample& farther = crossing.nearer_is_p ? q : p;
     const Eigen::Vector3d& plane = crossing.nearer_is_p ? plane_p.plane : plane_q.plane;
     // Cut by the near plane, which is no end of the surface.
-    if (!end.ends && dotProduct(plane, other.ray) * CameraScene::kNearPlane_m >= 1.0) return false;
+    if (!end.ends && dotProduct(plane, farther.ray) * CameraScene::kNearPlane_m >= 1.0)
+      return false;
     crossing.s = crossing.nearer_is_p ? std::min(s_p, 1.0) : std::max(s_q, 0.0);
     crossing.has_line = true;
     crossing.line = end.line;
@@ -191,12 +192,13 @@ bool SalientEdges::crossOverlap(const Context& context, const Sample& p, const S
       crossing.edge_of = end.face;
       crossing.edge = end.edge;
     }
-    // It covers the other pixel and is not seen there: the two planes meet in that very pixel.
+    // It covers the other pixel and is hidden there: the two planes meet in that pixel.
     if (!end.ends) crossing.line = crossing.nearer_is_p ? difference : Eigen::Vector3d(-difference);
   }
   crossing.face = end.face;
 
-  // Where the surfaces touch, neither hides the other: the flatter one's plane is the better known.
+  // Where the surfaces touch, neither hides the other: the plane of the flatter one is better
+  // known.
   const Eigen::Vector3d ray = between(p.ray, q.ray, crossing.s);
   const double depth_p = dotProduct(plane_p.plane, ray);
   const double depth_q = dotProduct(plane_q.plane, ray);
@@ -278,8 +280,8 @@ float SalientEdges::depthOf(const Context& context, const Sample& own, const Sam
 }
 
 /// The line as a pixel sees it. Where the entrance pupil moves, vertices are seen from the pupils
-/// of their own rays, which bends what lies between them by what the pupil's place along an edge
-/// differs from linear; from this pixel's own pupil the edge's line is exact.
+/// of their own rays, which bends the line between them by the deviation of the pupil's place along
+/// the edge from linear; from this pixel's own pupil the edge's line is exact.
 Eigen::Vector3d SalientEdges::lineAt(const Context& context, const Crossing& crossing, int x,
                                      int y) {
   const EdgeRender& output = context.output;
@@ -363,7 +365,7 @@ void SalientEdges::compareWithin(const Context& context, int row, int x_first, i
   const auto isMatched = [&scene](std::int32_t at) -> unsigned {
     return at >= 0 && scene.part(at).match ? ~0U : 0U;
   };
-  unsigned matched = 0;  // all bits, of the face at hand
+  unsigned matched = 0;  // all bits, for the current face
   if (x_first <= x_last) matched = isMatched(face[x_first]);
   for (int x = x_first; x <= x_last;) {
     const int end = std::min((x / kRun_px + 1) * kRun_px, x_last + 1);

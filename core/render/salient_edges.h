@@ -31,8 +31,8 @@ class SalientEdges {
   /// Clears the output for a render.
   static void clear(EdgeRender& output);
 
-  /// Begins with bands from which rows first_y .. last_y of the image are completed; what pairs say
-  /// about pixels of other rows is somebody else's to find.
+  /// Begins with bands from which rows first_y .. last_y of the image are completed; candidates of
+  /// pairs for pixels of other rows are left to the neighbouring bands.
   void begin(int first_y, int last_y);
 
   /// Of the band's first two new rows, the pairs between them: they belong to the row below, the
@@ -54,13 +54,13 @@ class SalientEdges {
     std::int32_t face = -1;
     Eigen::Vector3d ray = Eigen::Vector3d::Zero();
   };
-  /// In what two surfaces differ.
+  /// Difference between two surfaces.
   struct Difference {
     bool nearer_is_p = true;
     bool crease = false;
     bool occluding = false;
   };
-  /// What lies between two pixels.
+  /// The crossing between two pixels.
   struct Crossing {
     double s = 0.0;  ///< place on the way from p to q
     bool nearer_is_p = true;

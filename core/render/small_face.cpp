@@ -25,8 +25,8 @@ DepthRange depthRange(const CameraScene& scene, std::int32_t face) {
   return {std::min({a, b, c}), std::max({a, b, c})};
 }
 
-/// The face at hand: what exact answers need is computed at most once, also about the face that it
-/// met last.
+/// The current face: the data of exact tests is computed at most once, also for the face tested
+/// last.
 class SmallFace {
  public:
   SmallFace(const CameraScene& scene, std::int32_t face, RasterBand& band)
@@ -35,7 +35,7 @@ class SmallFace {
   bool covers(std::size_t at) {
     return prepare() && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]);
   }
-  /// The same for a face with one pixel, of which no more may be asked.
+  /// The same for a face with one pixel, without further tests.
   bool coversOnly(std::size_t at) {
     return insideFace(scene_, face_, band_.ray_x[at], band_.ray_y[at]) && prepare();
   }
@@ -67,10 +67,10 @@ class SmallFace {
     owner_prepared_ = false;
     if (!depth_known_) depth_ = depthRange(scene_, face_);
     depth_known_ = true;
-    const DepthRange other = depthRange(scene_, owner);
-    relation_ = depth_.low >= other.high + scene_.scale.gap   ? Relation::kFarther
-                : other.low >= depth_.high + scene_.scale.gap ? Relation::kNearer
-                                                              : Relation::kUnclear;
+    const DepthRange owner_depth = depthRange(scene_, owner);
+    relation_ = depth_.low >= owner_depth.high + scene_.scale.gap   ? Relation::kFarther
+                : owner_depth.low >= depth_.high + scene_.scale.gap ? Relation::kNearer
+                                                                    : Relation::kUnclear;
   }
 
   /// Neither is clearly nearer: as the rasterizer compares.
@@ -95,7 +95,7 @@ class SmallFace {
   const CameraScene& scene_;
   RasterBand& band_;
   std::int32_t face_;
-  std::int32_t owner_ = -1;  ///< the face met last
+  std::int32_t owner_ = -1;  ///< the face tested last
   Relation relation_ = Relation::kUnclear;
   bool prepared_ = false;
   bool visible_ = false;

@@ -9,7 +9,7 @@
 
 namespace boresight {
 
-/// A face as its vertices' fixed pixels show it. The true vertices are at most half a step away
+/// A face by the fixed pixels of its vertices. The true vertices are at most half a step away
 /// along each axis, so the value of a line through two of them, at a point of the face's box, is
 /// wrong by at most the box's extents; the bend of lines adds its share of them, and four steps
 /// cover the box's slack and terms of second order.

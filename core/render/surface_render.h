@@ -12,8 +12,8 @@
 
 namespace boresight {
 
-/// What else the pass can give, for people who look and for methods that compare intensities; never
-/// needed by the flight loop. Each span is empty (not wanted) or has width * height entries, row by
+/// Optional outputs of a render, for display and for methods that compare intensities; never needed
+/// by the flight loop. Each span is empty (not requested) or has width * height entries, row by
 /// row, of the camera rendered with.
 struct SurfaceRender {
   std::span<float> depth_m;           ///< z at the pixel's centre; 0 where nothing is
@@ -21,7 +21,7 @@ struct SurfaceRender {
   std::span<std::uint8_t> intensity;  ///< Lambert, lit from the camera: 30 + 225 |n . ray|
   std::span<Eigen::Vector3f> normal_in_camera;  ///< unit, towards the camera; 0 where nothing is
 
-  /// Whether anything is wanted.
+  /// Whether any output is requested.
   bool wanted() const {
     return !depth_m.empty() || !face.empty() || !intensity.empty() || !normal_in_camera.empty();
   }

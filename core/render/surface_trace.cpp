@@ -31,7 +31,7 @@ Exit findExit(const Eigen::Vector3d edge[3], int entered_through, double s_enter
 }
 
 /// The face beyond an edge folds back behind the surface when its third vertex lies on the
-/// surface's side of the edge; this does not rest on how the mesh is oriented.
+/// surface's side of the edge; this does not depend on the orientation of the mesh.
 bool foldsBack(const CameraScene& scene, std::int32_t face, int edge, std::int32_t beyond,
                const Eigen::Vector3d& line) {
   const Face& from = scene.mesh.faces[static_cast<std::size_t>(face)];
@@ -73,8 +73,8 @@ std::int32_t acrossLongestEdge(const CameraScene& scene, std::int32_t face, std:
   return across;
 }
 
-/// Of a face that is too narrow for its normal to be known, a neighbour's along the longest edge is
-/// the surface's: the first that is wide enough, or the face itself where there is none.
+/// For a face that is too narrow for its normal to be known: the first face along the longest edges
+/// that is wide enough, or the face itself where there is none.
 std::int32_t trustedFace(const CameraScene& scene, std::int32_t face) {
   std::int32_t at = face;
   std::int32_t from = -1;
@@ -87,7 +87,7 @@ std::int32_t trustedFace(const CameraScene& scene, std::int32_t face) {
   return face;
 }
 
-/// Cosine-like measure of how near a face's normal is to another's.
+/// Cosine-like similarity of two faces' normals.
 double nearness(const PlaneCache::Entry& face, const PlaneCache::Entry& other) {
   return dotProduct(face.plane, other.plane) * other.inverse_norm;
 }
@@ -114,9 +114,9 @@ void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry)
 SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,
                         const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
                         std::int32_t target) {
-  PlaneCache::Entry here = planes.get(scene, start);
-  const PlaneCache::Entry first = here;
-  const PlaneCache::Entry last = target >= 0 ? planes.get(scene, target) : first;
+  PlaneCache::Entry plane = planes.get(scene, start);
+  const PlaneCache::Entry first_plane = plane;
+  const PlaneCache::Entry last_plane = target >= 0 ? planes.get(scene, target) : first_plane;
   SurfaceEnd end;
   end.face = start;
   SurfaceEnd turn;
@@ -141,15 +141,17 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
       end.reached = true;
       break;
     }
-    const PlaneCache::Entry there = planes.get(scene, next);
-    if (!there.valid ||
-        normalsDiffer(here, there, scene.cos_normal_threshold[scene.partIndex(end.face)]))
+    const PlaneCache::Entry next_plane = planes.get(scene, next);
+    if (!next_plane.valid ||
+        normalsDiffer(plane, next_plane, scene.cos_normal_threshold[scene.partIndex(end.face)]))
       break;
-    if (target >= 0 && !turn.ends && nearness(there, last) > nearness(there, first)) turn = end;
+    if (target >= 0 && !turn.ends &&
+        nearness(next_plane, last_plane) > nearness(next_plane, first_plane))
+      turn = end;
     entered_through = edgeTowards(scene, next, end.face);
     if (entered_through < 0) break;
     end.face = next;
-    here = there;
+    plane = next_plane;
   }
   return end;
 }

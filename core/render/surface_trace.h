@@ -11,19 +11,19 @@
 
 namespace boresight {
 
-/// Planes of the faces met last (see facePlane): neighbouring pixels ask for the same few again.
+/// Cache of the planes of the latest faces (see facePlane): neighbouring pixels need the same few.
 class PlaneCache {
  public:
   /// A face and its plane.
   struct Entry {
-    std::int32_t face = -1;                           ///< -1: none yet
+    std::int32_t face = -1;                           ///< -1: empty
     bool valid = false;                               ///< it has a plane
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();  ///< 1/z = plane . ray
     double inverse_norm = 0.0;  ///< distance of the plane from the camera centre, m
   };
 
   static PlaneCache create(Arena& arena);  ///< Takes the entries from `arena`
-  void clear();                            ///< Forgets all planes
+  void clear();                            ///< Removes all planes
   /// Valid until the next call.
   const Entry& get(const CameraScene& scene, std::int32_t face) {
     Entry& entry = entries_[static_cast<std::size_t>(face) % kEntries];
@@ -54,7 +54,7 @@ struct SurfaceEnd {
   Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the surface's side
 };
 
-/// Follows the surface from `start` over edges across which it goes on smoothly and faces the
+/// Follows the surface from `start` over edges across which it continues smoothly and faces the
 /// camera: silhouettes of tessellated curved surfaces consist of slivers narrower than a pixel, and
 /// stopping at the first face's edge would shift them inwards. When `target` (-1: none) is
 /// reached, `s` and `line` are where the normal turns from the start's to the target's.

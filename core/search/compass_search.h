@@ -15,12 +15,12 @@ namespace boresight {
 
 /// Moves a pose of a coarse grid to where its outline lies nearest to the image's edges: compass
 /// search (Kolda, Lewis and Torczon 2003) over turns about the object's middle, slides and depth,
-/// with steps that are halved. The places of the outline are those of one render; they are points
-/// in space, whose directions turn with the pose.
+/// with steps that are halved. The places of the outline come from one render; they are 3D points
+/// whose edge directions turn with the pose.
 class CompassSearch {
  public:
-  /// Takes the places of a render's outline, evenly; where there is hardly any outline, of all
-  /// edges. False when there are none.
+  /// Takes evenly spaced places of a render's outline; of all edges where the outline is too short.
+  /// False when there are none.
   [[nodiscard]] bool takePlaces(const MeshView& mesh, const EdgeRender& render);
   /// Descends from the pose that was rendered. `middle_in_station_m` is the object's. Returns the
   /// mean distance of the places, px.
@@ -44,13 +44,13 @@ class CompassSearch {
   int count_ = 0;
 };
 
-/// Whether the pixel is one of an outline.
+/// Whether the pixel belongs to an outline.
 inline bool isOutline(const EdgePixel& pixel) {
   return (pixel.kind & (kEdgeBorder | kEdgeOccluding)) != 0;
 }
 
-/// Calls take(pixel) for at most SlideSums::kMaxPlaces pixels of a render's outline, evenly; where
-/// there is hardly any outline, of all edges.
+/// Calls take(pixel) for at most SlideSums::kMaxPlaces evenly spaced pixels of a render's outline;
+/// of all edges where the outline is too short.
 template <class Take>
 void takeEvenly(const EdgeRender& render, Take&& take) {
   const auto pixels = render.pixels.first(static_cast<std::size_t>(render.pixel_count));

@@ -25,26 +25,26 @@ constexpr std::array<Scale, 3> kScales = {{
 constexpr int kLastScale = static_cast<int>(kScales.size()) - 1;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
 
-/// Poses with less evidence than the pose found by this are not refined; not refined further.
+/// Competing poses whose evidence is lower by more than this are not refined; not refined further.
 constexpr double kBehind_nats = 0.6;
 constexpr double kBehindRefined_nats = 0.25;
-/// A place is the other pose's, too, when that has one within this, kDistanceUnit_px.
+/// A place counts as common when the other pose has a place within this distance, kDistanceUnit_px.
 constexpr int kSamePlace = 30;
-/// Renders of which each has this share of its places alone differ visibly.
+/// Two renders differ visibly when each has at least this share of places without a counterpart.
 constexpr double kVisible = 0.1;
 constexpr double kAlong = 8.0;  ///< edge pixels that go together
 
 /// Slides shorter than this, of the view's pixels, are refined to the pose found.
 constexpr int kShortestSlide_px = 4;
-/// Poses of which the object's middle is farther from that of the pose found, as a share of the
-/// object's size, are slid.
+/// A pose counts as slid when the object's centre is farther from that of the pose found, as a
+/// share of the object's size.
 constexpr double kSlid = 0.05;
-/// Slides at which the outline is farther from the render's edges, in the mean, are left out.
+/// Slides whose mean distance of the outline from the render's edges is larger are left out.
 constexpr double kAlike_px = 2.0;
 /// Slides of a view, px to either side.
 constexpr int kLongestSlide_px = 36;
 
-/// What a refinement may move a pose by, as shares of the object's size.
+/// Largest motion of a pose by the refinement, as shares of the object's size.
 constexpr double kLateral = 0.1;
 constexpr double kDepth = 0.2;
 constexpr double kRotation_rad = 0.3;
@@ -96,42 +96,43 @@ SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
     }
   };
   using Corners = std::array<Eigen::Vector3d, 3>;
-  SurfaceAxes made;
+  SurfaceAxes surface_axes;
   double area = 0.0;
   forMatched([&](const Corners& corners, double weight) {
-    made.middle_m += weight / 3.0 * (corners[0] + corners[1] + corners[2]);
+    surface_axes.middle_m += weight / 3.0 * (corners[0] + corners[1] + corners[2]);
     area += weight;
   });
-  if (!(area > 0.0)) return made;
-  made.middle_m /= area;
+  if (!(area > 0.0)) return surface_axes;
+  surface_axes.middle_m /= area;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   // The second moment of a triangle about a point is area / 12 times this.
   forMatched([&](const Corners& corners, double weight) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& corner : corners) {
-      const Eigen::Vector3d from = corner - made.middle_m;
+      const Eigen::Vector3d from = corner - surface_axes.middle_m;
       spread += weight / area * from * from.transpose();
       sum += from;
     }
     spread += weight / area * sum * sum.transpose();
   });
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    rotateToDiagonal(0, 1, spread, made.axes);
-    rotateToDiagonal(0, 2, spread, made.axes);
-    rotateToDiagonal(1, 2, spread, made.axes);
+    rotateToDiagonal(0, 1, spread, surface_axes.axes);
+    rotateToDiagonal(0, 2, spread, surface_axes.axes);
+    rotateToDiagonal(1, 2, spread, surface_axes.axes);
   }
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return spread(a, a) < spread(b, b) || (spread(a, a) == spread(b, b) && a < b);
   });
-  const Eigen::Matrix3d axes = made.axes;
-  for (int i = 0; i < 3; ++i) made.axes.col(i) = axes.col(order[static_cast<std::size_t>(i)]);
-  return made;
+  const Eigen::Matrix3d axes = surface_axes.axes;
+  for (int i = 0; i < 3; ++i)
+    surface_axes.axes.col(i) = axes.col(order[static_cast<std::size_t>(i)]);
+  return surface_axes;
 }
 
 Status CompetingPoseTest::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
-  (void)view_edges_.create(kLongestView_px, channels, arena);  // nothing shares its memory
+  (void)view_edges_.create(kLongestView_px, channels, arena);  // its memory is not shared
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
   own_.marks.direction = arena.allocate<std::uint8_t>(kPixels);
   other_.marks.direction = arena.allocate<std::uint8_t>(kPixels);
@@ -279,8 +280,8 @@ void CompetingPoseTest::stepMaps() {
   nextHypothesis();
 }
 
-/// Slides the outline of the pose found over its own render, and takes the slides at which they are
-/// most alike, apart from each other.
+/// Slides the outline of the pose found over its own render, and takes the slides with the least
+/// distance that are apart from each other.
 void CompetingPoseTest::takeSlides() {
   const Camera& camera = view_edges_.view().camera;
   std::array<SlideSums::Place, SlideSums::kMaxPlaces> places;
@@ -383,7 +384,7 @@ void CompetingPoseTest::markRender(DirectedEdges& marks) const {
   }
 }
 
-/// Places of the direction at hand that are not the other pose's.
+/// Places of the current direction without a counterpart in the other pose.
 void CompetingPoseTest::addAlone(const DirectedEdges& others, Prediction& prediction) {
   const DirectedEdges& places = prediction.marks;
   const DirectedEdges& image = view_edges_.edges();
@@ -411,7 +412,7 @@ void CompetingPoseTest::compareDirection() {
 
 void CompetingPoseTest::conclude() {
   const double least = std::min(own_.share(), other_.share());
-  // A pose that is slid competes even when it shows the same: the ends are out of sight.
+  // A slid pose competes even when it shows the same edges: the object's ends are out of view.
   if (least >= kVisible || slid_px() >= kSlid * view_edges_.view().span_px) {
     CompetingPose& pose = competing_[static_cast<std::size_t>(count_++)];
     pose.camera_from_station = promising_.poses[static_cast<std::size_t>(competitor_)];
@@ -421,7 +422,7 @@ void CompetingPoseTest::conclude() {
   nextPromising();
 }
 
-/// How far the object's middle is from that of the pose found, px of the view.
+/// Distance of the object's centre from that of the pose found, px of the view.
 double CompetingPoseTest::slid_px() const {
   const Pose& camera_from_station = promising_.poses[static_cast<std::size_t>(competitor_)];
   const Eigen::Vector3d found_m = view_edges_.inView(found_) * problem_.scene.centre();

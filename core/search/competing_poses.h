@@ -18,21 +18,22 @@ namespace boresight {
 struct CompetingPose {
   Pose camera_from_station;  ///< refined
   double similarity = 0.0;   ///< share of the rendered edges that both poses have in common
-  /// Evidence of the pose found beyond this one's: of the edges that one of both alone predicts.
+  /// Evidence of the pose found minus that of this pose, over the edges that only one of them
+  /// predicts.
   double margin_nats = 0.0;
 };
 
 /// Looks for poses that show about the same edges as the pose found: half turns about the principal
 /// axes of the matched surface, the tilt of its flattest side reversed about the line of sight (the
 /// second pose of a plane: Oberkampf et al. 1996), and slides at which the outline lies near edges
-/// of its own render again (repeated features, long handles). Those that the image supports about
-/// as well at a small scale are refined on its edges, and compared with the pose found where the
+/// of its own render again (repeated features, long handles). Poses that the image supports about
+/// as well at a small scale are refined on its edges and compared with the pose found where the
 /// renders differ. A pose whose render is the same within some pixels of a small view does not
 /// compete: the mesh is symmetric as far as the image can tell.
 class CompetingPoseTest {
  public:
-  static constexpr int kTurned = 4;      ///< poses looked at, turned
-  static constexpr int kMostSlides = 4;  ///< poses looked at, slid
+  static constexpr int kTurned = 4;      ///< turned poses that are tested
+  static constexpr int kMostSlides = 4;  ///< slid poses that are tested
   static constexpr int kMostPoses = kTurned + kMostSlides;
   static constexpr int kLongestView_px = 312;   ///< of views
   static constexpr int kMaxEdgePixels = 12000;  ///< of renders
@@ -40,23 +41,24 @@ class CompetingPoseTest {
   /// Takes the memory from `arena`, for images of up to `channels` channels. kArenaTooSmall.
   Status create(int channels, Arena& arena);
   /// What the problem points to and the renderer (for images of kLongestView_px) must outlive the
-  /// steps. False when the scene is not in sight.
+  /// steps. False when the scene is outside the image.
   [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,
                            EdgeRenderer& renderer);
   /// One bounded slice; true when poses() is complete.
   [[nodiscard]] bool step();
 
-  /// Those whose renders differ visibly.
+  /// The competing poses whose renders differ visibly.
   std::span<const CompetingPose> poses() const {
     return std::span(competing_).first(static_cast<std::size_t>(count_));
   }
 
  private:
   enum class Phase : std::uint8_t { kView = 0, kMaps, kRender, kCompare, kDone };
-  /// What is made of a render once it is complete.
+  /// Processing of a completed render.
   enum class Purpose : std::uint8_t { kFound = 0, kScreen, kRefine, kCompeting, kFoundAgain };
 
-  /// The places that a pose predicts, and what the image says of those that it alone predicts.
+  /// Edge places that a pose predicts, and the image's evidence for those that only this pose
+  /// predicts.
   struct Prediction {
     DirectedEdges marks;     ///< places of the render, by direction
     std::int32_t all = 0;    ///< places that the image shows
@@ -112,7 +114,7 @@ class CompetingPoseTest {
   PoseList poses_;  ///< hypotheses, in the view
   int hypothesis_ = 0;
   bool refined_ = false;  ///< the hypothesis, at the first scale
-  Pose now_;              ///< view_from_station of the hypothesis at hand
+  Pose now_;              ///< view_from_station of the current hypothesis
   PoseList promising_;
   int competitor_ = 0;  ///< of the promising ones
 

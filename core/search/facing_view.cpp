@@ -11,7 +11,7 @@ namespace boresight {
 namespace {
 
 constexpr int kWeightBits = 8;
-/// Rays farther off the view's axis than this (87 deg) are not seen in it.
+/// Rays farther off the view's axis than this (87 deg) are outside the view.
 constexpr double kLeastZ = 0.05;
 
 /// A box of tangents (x/z, y/z).
@@ -26,7 +26,7 @@ struct TangentBox {
   }
 };
 
-/// Where the view sees the matched parts.
+/// Bounds of the matched parts in the view.
 TangentBox boxOfScene(const MeshView& mesh, const Pose& view_from_station) {
   TangentBox box;
   const Eigen::Matrix3d rotation = view_from_station.matrix();

@@ -10,10 +10,10 @@
 
 namespace boresight {
 
-/// A small pinhole camera at the place of the real one that looks at the middle of the scene. In
-/// its image there is no distortion, the object is small, and a turn of the camera shifts what is
-/// seen. Cameras whose rays start at several places (CAHVORE) are taken as if all rays started at
-/// the camera's centre.
+/// A small pinhole camera at the position of the real camera, facing the centre of the scene. Its
+/// image has no distortion, the object is small, and a turn of the camera shifts the image. Cameras
+/// whose rays start at several places (CAHVORE) are taken as if all rays started at the camera's
+/// centre.
 struct FacingView {
   Camera camera;               ///< pinhole, prepared
   Pose view_from_camera;       ///< a rotation
@@ -21,13 +21,13 @@ struct FacingView {
   double span_px = 0.0;        ///< longer side of the visible object, px of the view
 };
 
-/// How large a view is asked for.
+/// Requested size of a view.
 struct ViewSize {
   double span_px = 0.0;  ///< longer side of the visible object; less where the real image has less
   double margin_px = 0.0;   ///< around the object
-  double slide_x = 0.0;     ///< how far the object may move, as tangents
+  double slide_x = 0.0;     ///< range of the object's motion to either side, as tangents
   double slide_y = 0.0;     ///< the same, downwards
-  double least_half = 0.0;  ///< half of the object's longer side is taken as this at least, tangent
+  double least_half = 0.0;  ///< least half of the object's longer side, as a tangent
   int most_px = 0;          ///< longest side of the image
 };
 
@@ -38,13 +38,13 @@ Pose viewTowards(const Eigen::Vector3d& point_in_camera_m);
 [[nodiscard]] bool faceScene(const SearchProblem& problem, const Pose& camera_from_station,
                              const ViewSize& size, FacingView& view);
 
-/// Channels of the image that edges are looked for in: those of its colour, or its gray.
+/// Channels of the image in which edges are detected: colour, or gray.
 inline int channelsOf(const SearchProblem& problem) {
   return problem.color.data != nullptr ? ColorView::kChannels : 1;
 }
 
 /// Fills rows `first` ... `end - 1` of the view's image, all its channels: the mean of the real
-/// image over what each pixel covers. Pixels outside the real image, and ignored ones, are not
+/// image over the area of each pixel. Pixels outside the real image, and ignored ones, are not
 /// known.
 void fillViewRows(const SearchProblem& problem, const FacingView& view, int first, int end,
                   SmallImage& output);

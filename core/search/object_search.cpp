@@ -20,7 +20,7 @@ constexpr double kBeyond = 1.15;
 /// Nearer candidates are the same: share of the size, on the grid and after the descent.
 constexpr double kApartOnGrid = 0.06;
 constexpr double kApart = 0.03;
-/// Candidates on the grid that are behind the best by more are left out.
+/// Candidates on the grid whose distance exceeds the least one by more are left out.
 constexpr double kBehind_px = 0.7;
 
 /// Cells that a range to either side is divided into: odd, so that the seed is in the middle of
@@ -32,7 +32,8 @@ int placesFor(double range, double spacing) {
 
 int nearest(double value) { return static_cast<int>(std::floor(value + 0.5)); }
 
-/// How far a turn about the pivot and a translation can move the scene's middle, per camera axis.
+/// Largest motion of the scene's centre by a turn about the pivot and a translation, per camera
+/// axis.
 Eigen::Vector3d reachOf(const SearchProblem& problem) {
   const SeedUncertainty& seed = problem.uncertainty;
   const Eigen::Vector3d arm_m =
@@ -49,8 +50,8 @@ Eigen::Vector3d reachOf(const SearchProblem& problem) {
                                                   away(squared.x() + squared.y()) * arm_m.z());
 }
 
-/// The nearest rotation inside the seed's box: a sample of the grid beyond it stands for those
-/// inside. The object stays where it is.
+/// The nearest rotation inside the seed's box: a grid sample beyond the box represents the
+/// rotations inside. The object's centre keeps its position.
 Pose pulledIntoBox(const SearchProblem& problem, const Pose& camera_from_station) {
   const Eigen::Quaterniond& seed = problem.camera_from_station_seed.rotation;
   const Eigen::Vector3d box_rad = problem.uncertainty.rotation_rad;
@@ -103,7 +104,7 @@ bool ObjectSearch::layOut(ViewSize& size) {
   const Eigen::Vector3d reach_m = turn * reachOf(problem);
   const Eigen::Vector3d box_rad =
       problem.uncertainty.rotation_rad.cwiseMin(Eigen::Vector3d::Constant(kPi));
-  // What is seen from aside is seen tilted.
+  // An object off the camera's axis appears tilted.
   rotations_ = RotationGrid({box_rad,
                              view_from_camera.rotation,
                              {atan(reach_m.y() / depth_m_), atan(reach_m.x() / depth_m_)}});
@@ -170,7 +171,7 @@ void ObjectSearch::descend() {
   found_.insert(candidate);
 }
 
-/// A pose that cannot be rendered is passed over.
+/// A pose that cannot be rendered is skipped.
 bool ObjectSearch::stepRender() {
   bool complete = false;
   Status status = Status::kOk;

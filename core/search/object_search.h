@@ -17,11 +17,11 @@
 namespace boresight {
 
 /// Searches the pose of the whole object over its seed's uncertainty, at most 60 % of the depth and
-/// 56 deg aside: outlines rendered for the view directions of a RotationGrid are turned, scaled and
-/// slid over maps of directed distances (SlideSums); the poses whose outlines lie nearest to the
-/// image's edges are the candidates. Chamfer matching (Borgefors 1988) with directions (Olson and
-/// Huttenlocher 1997). The object is small in the search's image, and the grid is coarse: a compass
-/// search starts from each candidate.
+/// 56 deg off the axis: outlines rendered for the view directions of a RotationGrid are turned,
+/// scaled and slid over maps of directed distances (SlideSums); the candidates are the poses whose
+/// outlines lie nearest to the image's edges. Chamfer matching (Borgefors 1988) with directions
+/// (Olson and Huttenlocher 1997). The object is small in the search's image, and the grid is
+/// coarse: a compass search starts from each candidate.
 class ObjectSearch {
  public:
   static constexpr double kSpan_px = 48.0;  ///< of the object in the search's image
@@ -29,8 +29,8 @@ class ObjectSearch {
   /// Takes the memory of a search from `arena`, apart from the view's and the render's.
   void create(Arena& arena) { sums_.create(arena); }
   /// Lays out the grid. The problem, `view_edges`, the renderer (for images of
-  /// SlideSums::kMaxView_px) and the render must outlive the steps. False when the scene is not in
-  /// sight.
+  /// SlideSums::kMaxView_px) and the render must outlive the steps. False when the scene is outside
+  /// the image.
   [[nodiscard]] bool begin(const SearchProblem& problem, ViewEdges& view_edges,
                            EdgeRenderer& renderer, EdgeRender& render);
   /// One bounded slice; true when the candidates are complete.

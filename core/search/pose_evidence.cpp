@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMargin = 0.1;          ///< around the object, of its size
 constexpr int kLongestView_px = 312;     ///< holds the object with its margins
-constexpr double kAlongNormal_px = 4.0;  ///< to see which way a normal points in the view
+constexpr double kAlongNormal_px = 4.0;  ///< step that gives a normal's direction in the view
 
 std::int32_t strideOf(const EdgeRender& render) {
   return std::max(1, (render.pixel_count + ContourEvidenceMeter::kMaxPlaces - 1) /

@@ -8,12 +8,12 @@
 
 namespace boresight {
 
-/// Size of the object in the views in which evidence is measured, so that all is measured alike.
+/// Size of the object in the views in which evidence is measured: the same for all poses.
 inline constexpr double kEvidenceSpan_px = 256.0;
-/// Of the view of a pose's evidence.
+/// Request for the view in which a pose's evidence is measured.
 ViewSize evidenceViewSize();
 
-/// Adds the places of a render in the view itself to the meter, evenly.
+/// Adds evenly spaced places of a render in the view itself to the meter.
 void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter);
 
 /// Measures the evidence for a pose that was rendered for the real camera, in bounded slices.
@@ -21,11 +21,11 @@ class PoseEvidence {
  public:
   /// Takes the memory from `arena`, for images of up to `channels` channels. kArenaTooSmall.
   Status create(int channels, Arena& arena);
-  /// The problem and the render must outlive the steps. False when the scene is not in sight.
+  /// The problem and the render must outlive the steps. False when the scene is outside the image.
   [[nodiscard]] bool begin(const SearchProblem& problem, const EdgeRender& render);
   /// One slice; true when evidence() is complete.
   [[nodiscard]] bool step();
-  /// What was measured.
+  /// The measured evidence.
   const ContourEvidence& evidence() const { return evidence_; }
 
  private:

@@ -16,7 +16,7 @@ struct Level {
   int passes = 0;
   std::array<double, 3> radius_px{};
 };
-/// Scales grow by 1.8: what one leaves is within the next one's radius.
+/// Scales grow by 1.8: the error after one scale is within the next one's radius.
 constexpr std::array<Level, 4> kLevels = {{
     {ObjectSearch::kSpan_px, 1, {4.0, 0.0, 0.0}},
     {88.0, 3, {6.0, 4.0, 3.0}},
@@ -25,13 +25,14 @@ constexpr std::array<Level, 4> kLevels = {{
 }};
 constexpr int kMeasuring = static_cast<int>(kLevels.size());
 
-/// Poses that are refined at some levels, each to the end, and compared by their evidence.
+/// A round: poses refined at some levels and compared by their evidence.
 struct Round {
   int first_level = 0;
   int last_level = 0;
-  int most = 0;              ///< poses
-  int least = 0;             ///< poses, however little evidence they have
-  double behind_nats = 0.0;  ///< others with less evidence than the best by more are left out
+  int most = 0;   ///< poses
+  int least = 0;  ///< poses that are kept regardless of their evidence
+  double behind_nats =
+      0.0;  ///< other poses whose evidence is lower than the best by more are left out
 };
 constexpr std::array<Round, 3> kRounds = {{
     {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
@@ -40,11 +41,11 @@ constexpr std::array<Round, 3> kRounds = {{
 }};
 constexpr int kLastRound = static_cast<int>(kRounds.size()) - 1;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
-/// Poses that differ by less in the view in which they were refined are the same.
+/// Poses that differ by less, in the view of their refinement, count as the same.
 constexpr double kSame_px = 1.2;
-/// Error that the last scale leaves, px of its view.
+/// Error after the last scale, px of its view.
 constexpr double kRemaining_px = 1.5;
-/// A candidate of so much evidence needs no other beside it, unless the next has about as much.
+/// A candidate with this much evidence needs no alternative, unless the next one has about as much.
 constexpr double kConvincing_nats = 0.75;
 constexpr double kConvincingWeakest_nats = 0.45;
 constexpr double kAsGood_nats = 0.15;
@@ -117,7 +118,7 @@ void PoseSearch::takeFound() {
   round_ = next_ = 0;
 }
 
-/// The next of those waiting; false when there is none left, and all rounds are over.
+/// Starts the next waiting pose; false when none is left and all rounds are over.
 bool PoseSearch::beginNext() {
   do {
     const Round& round = kRounds[static_cast<std::size_t>(round_)];
@@ -143,16 +144,15 @@ bool PoseSearch::beginRound() {
   return true;
 }
 
-/// The pose at the end of its round, by its evidence. Of poses that are the same the one with more
-/// evidence is kept.
+/// Inserts the refined pose by its evidence. Of equal poses the one with more evidence is kept.
 bool PoseSearch::keep() {
   const bool is_last = round_ == kLastRound;
   int kept = 0;
   for (int i = 0; i < kept_count_; ++i) {
-    const PoseCandidate& other = kept_[static_cast<std::size_t>(i)];
-    const bool same = !is_last && isSame(other.camera_from_station, now_.camera_from_station);
-    if (same && other.rank_nats() >= now_.rank_nats()) return !beginNext();
-    if (!same) kept_[static_cast<std::size_t>(kept++)] = other;
+    const PoseCandidate& kept_pose = kept_[static_cast<std::size_t>(i)];
+    const bool same = !is_last && isSame(kept_pose.camera_from_station, now_.camera_from_station);
+    if (same && kept_pose.rank_nats() >= now_.rank_nats()) return !beginNext();
+    if (!same) kept_[static_cast<std::size_t>(kept++)] = kept_pose;
   }
   int place = kept;
   for (; place > 0 && kept_[static_cast<std::size_t>(place - 1)].rank_nats() < now_.rank_nats();
@@ -165,7 +165,7 @@ bool PoseSearch::keep() {
   return true;
 }
 
-/// Whether the next of those waiting has about as much evidence as the best one.
+/// Whether the next waiting pose has about as much evidence as the best pose.
 bool PoseSearch::nextIsAsGood() const {
   return next_ < waiting_count_ && waiting_[static_cast<std::size_t>(next_)].rank_nats() >
                                        waiting_[0].rank_nats() - kAsGood_nats;
@@ -179,7 +179,7 @@ bool PoseSearch::isKept(const Pose& camera_from_station) const {
 }
 
 /// Whether two poses show the corners of the scene's box at about the same places.
-bool PoseSearch::isSame(const Pose& one, const Pose& other) const {
+bool PoseSearch::isSame(const Pose& first_pose, const Pose& second_pose) const {
   const BoundingBox& box = problem_.scene;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d corner((i & 1) != 0 ? box.maximum_m.x() : box.minimum_m.x(),
@@ -187,8 +187,8 @@ bool PoseSearch::isSame(const Pose& one, const Pose& other) const {
                                  (i & 4) != 0 ? box.maximum_m.z() : box.minimum_m.z());
     Eigen::Vector2d first;
     Eigen::Vector2d second;
-    if (!project(view_edges_.view().camera, view_edges_.inView(one) * corner, first) ||
-        !project(view_edges_.view().camera, view_edges_.inView(other) * corner, second) ||
+    if (!project(view_edges_.view().camera, view_edges_.inView(first_pose) * corner, first) ||
+        !project(view_edges_.view().camera, view_edges_.inView(second_pose) * corner, second) ||
         !((first - second).squaredNorm() < kSame_px * kSame_px))
       return false;
   }

@@ -19,15 +19,15 @@ struct PoseCandidate {
   SearchCandidate found;     ///< as the search found it
   Pose camera_from_station;  ///< refined
   ContourEvidence evidence;  ///< of the refined pose
-  double error_px = 0.0;     ///< that the refinement may have left, px of the real image
+  double error_px = 0.0;     ///< possible error after the refinement, px of the real image
 
-  /// What candidates are ordered by.
+  /// Sort key of the candidates.
   double rank_nats() const { return evidence.strongest_nats() + 0.5 * evidence.weakest_nats(); }
 };
 
-/// Finds where the whole object may be: searches the seed's uncertainty (ObjectSearch), refines the
-/// poses found on directed edges (OutlineRefinement), first at the search's scale, and measures
-/// their evidence. From round to round fewer poses, those with most evidence, are refined at finer
+/// Finds candidate poses of the whole object: searches the seed's uncertainty (ObjectSearch),
+/// refines the poses on directed edges (OutlineRefinement), first at the search's scale, and
+/// measures their evidence. Each round refines fewer poses, those with most evidence, at finer
 /// scales.
 class PoseSearch {
  public:
@@ -38,7 +38,7 @@ class PoseSearch {
   /// Takes the memory from `arena`, for images of up to `channels` channels.
   Status create(int channels, Arena& arena);
   /// What the problem points to and the renderer (for images of kLongestView_px) must
-  /// outlive the steps. False when the scene is not in sight of the seed.
+  /// outlive the steps. False when the scene is outside the image at the seed.
   [[nodiscard]] bool begin(const SearchProblem& problem, EdgeRenderer& renderer);
   /// One bounded slice; true when candidates() is complete.
   [[nodiscard]] bool step();
@@ -48,7 +48,7 @@ class PoseSearch {
     if (phase_ != Phase::kDone) return {};
     return std::span(kept_).first(static_cast<std::size_t>(kept_count_));
   }
-  /// What was searched.
+  /// The search on the grid.
   const ObjectSearch& search() const { return search_; }
 
  private:
@@ -64,7 +64,7 @@ class PoseSearch {
   bool measure();
   bool nextIsAsGood() const;
   bool isConvincing(const PoseCandidate& candidate) const;
-  bool isSame(const Pose& one, const Pose& other) const;
+  bool isSame(const Pose& first, const Pose& second) const;
   bool isKept(const Pose& camera_from_station) const;
   PosePrior prior() const;
 
@@ -75,14 +75,14 @@ class PoseSearch {
   ObjectSearch search_;
   OutlineRefinement refinement_;
   ContourEvidenceMeter meter_;
-  /// Of the round before, and of this one; the most evidence first.
+  /// Poses of the previous round and of the current round, by descending evidence.
   std::array<PoseCandidate, CandidateList::kCapacity> waiting_, kept_;
   int waiting_count_ = 0;
   int kept_count_ = 0;
 
   Phase phase_ = Phase::kDone;
   int round_ = 0;
-  int next_ = 0;   ///< of those waiting
+  int next_ = 0;   ///< index of the next waiting pose
   int level_ = 0;  ///< of the refinement: 0 the search's; the last one measures
   int pass_ = 0;   ///< of the level
   bool rendering_ = false;

@@ -10,7 +10,7 @@ namespace boresight {
 namespace {
 
 constexpr int kRings = RotationGrid::kTurns / 2 + 1;
-/// A sample stands for the rotations around it: half a spacing of turns, more than half a spacing
+/// Range of rotations that a sample represents: half a spacing of turns, more than half a spacing
 /// of tilts, as the nearest samples of several rings do not lie along the box's axes.
 constexpr double kTurnReach_rad = 0.5 * RotationGrid::kSpacing_rad;
 constexpr double kTiltReach_rad = 0.6 * RotationGrid::kSpacing_rad;

@@ -20,16 +20,16 @@ class RotationGrid {
   static constexpr int kTurns = 24;                           ///< of a full turn
   static constexpr double kSpacing_rad = 2.0 * kPi / kTurns;  ///< 15 deg
 
-  /// What a grid covers.
+  /// Range of a grid.
   struct Range {
     Eigen::Vector3d box_rad = Eigen::Vector3d::Zero();  ///< of rotation vectors, camera axes
     Eigen::Quaterniond view_from_camera = Eigen::Quaterniond::Identity();  ///< axes of the view
-    /// About the view's x and y axes: further tilt of objects that are seen aside.
+    /// About the view's x and y axes: further tilt of objects off the camera's axis.
     Eigen::Vector2d aside_rad = Eigen::Vector2d::Zero();
   };
 
   RotationGrid() = default;
-  /// Stands before the first direction.
+  /// Starts before the first direction.
   explicit RotationGrid(const Range& range) : range_(range) {}
 
   /// Goes to the next direction of which at least one turn is within reach. False: none is left.

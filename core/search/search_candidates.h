@@ -27,8 +27,8 @@ class CandidateList {
   static constexpr int kCapacity = 32;  ///< candidates that are kept
 
   CandidateList() = default;
-  /// `radius_px`: half the object's size; `apart_px`: nearer ones are the same; px of the search.
-  /// `axis`: the view's axis in the camera's frame.
+  /// `radius_px`: half the object's size; `apart_px`: nearer candidates count as the same; px of
+  /// the search. `axis`: the view's axis in the camera's frame.
   CandidateList(double radius_px, double apart_px, const Eigen::Vector3d& axis)
       : radius_px_(radius_px), apart_px_(apart_px), axis_(axis) {}
 
@@ -44,7 +44,7 @@ class CandidateList {
   }
 
  private:
-  bool same(const SearchCandidate& one, const SearchCandidate& other) const;
+  bool same(const SearchCandidate& first, const SearchCandidate& second) const;
 
   double radius_px_ = 1.0;
   double apart_px_ = 1.0;

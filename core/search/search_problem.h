@@ -8,7 +8,7 @@
 
 namespace boresight {
 
-/// What a search works on; what it points to must outlive the search.
+/// Input of a search; the data that it points to must outlive the search.
 struct SearchProblem {
   ImageView image;                   ///< 8-bit gray, raw, of the camera's size
   ColorView color;                   ///< of the same pixels; may be without data
@@ -16,7 +16,7 @@ struct SearchProblem {
   Camera camera;                     ///< prepared
   MeshView mesh;                     ///< station frame
   BoundingBox scene;                 ///< of the matched parts
-  Pose camera_from_station_seed;     ///< the middle of what is searched
+  Pose camera_from_station_seed;     ///< centre of the searched range
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
 };
 

@@ -36,7 +36,7 @@ void SlideSums::begin(int width, int height, int slide_x_px, int slide_y_px) {
 
 void SlideSums::takeMap(const DirectedEdges& edges, int direction) {
   const std::span<std::uint8_t> map = maps_[static_cast<std::size_t>(direction)];
-  // In the map's own memory first: the border is spread from the last row on.
+  // Computed in the map's own memory first; then the border is spread, last row first.
   distanceToDirection(edges, direction, map);
   constexpr int kPerStep = static_cast<int>(kStep_px / kDistanceUnit_px + 0.5);
   std::uint32_t sum = 0;
@@ -58,8 +58,8 @@ void SlideSums::takeMap(const DirectedEdges& edges, int direction) {
   std::fill_n(begin + (kBorder_px + height_) * stride_, kBorder_px * stride_, mean);
 }
 
-/// What the place meets in the first row and column of the slides. Places far outside the view are
-/// taken as if they were at its border's end.
+/// Map entry of the place at the first row and column of the slides. Places far outside the view
+/// are clamped to the end of the border.
 const std::uint8_t* SlideSums::cornerOf(const Place& place) const {
   const int x = std::clamp(kBorder_px + width_ / 2 + place.x - slide_x_, 0, stride_ - sum_stride_);
   const int y = std::clamp(kBorder_px + height_ / 2 + place.y - slide_y_, 0,

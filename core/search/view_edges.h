@@ -8,7 +8,7 @@
 
 namespace boresight {
 
-/// The directed edges of the image of a view, made in bounded slices.
+/// The directed edges of the image of a view, computed in bounded slices.
 class ViewEdges {
  public:
   /// Takes memory from `arena` for images of up to `longest_px` along each side, and of up to
@@ -25,7 +25,7 @@ class ViewEdges {
   const FacingView& view() const { return view_; }
   /// Its rays, for renders.
   const RayGrid& rays() const { return rays_; }
-  /// What it shows.
+  /// The edges of its image.
   const DirectedEdges& edges() const { return edges_; }
   /// A station pose of the real camera, in the view.
   Pose inView(const Pose& camera_from_station) const {

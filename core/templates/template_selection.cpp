@@ -104,8 +104,8 @@ void TemplateSelector::sumScatter(const EdgeRender& render, int side_px) {
 }
 
 TemplateSelector::Scatter TemplateSelector::scatterAround(int x, int y, int side_px) const {
-  // The square in whole blocks: the block of the pixel in the middle, as many blocks as fit the
-  // side.
+  // The square in whole blocks: centred on the pixel's block, with the number of blocks that fit
+  // the side.
   const int reach = std::max(1, side_px / block_px_ / 2);
   const int bx0 = std::max(0, x / block_px_ - reach);
   const int by0 = std::max(0, y / block_px_ - reach);
@@ -174,8 +174,8 @@ int TemplateSelector::cellSize(const EdgeRender& render, int side_px) {
   return enough;
 }
 
-/// The most distinct pixel of every cell that holds any. There are at most as many as templates:
-/// that is how the cell size was chosen.
+/// The most distinct pixel of every occupied cell. The cell size limits their number to that of the
+/// templates.
 void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cell_px,
                                   const BitImage* ignore, int level) {
   const int columns = ceilDivide(render.edges.width, cell_px);

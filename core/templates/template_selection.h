@@ -14,7 +14,7 @@
 
 namespace boresight {
 
-/// Of the choice of templates.
+/// Options of the template selection.
 struct TemplateOptions {
   std::int32_t count = 96;
   double feature_size_m = 0.0;
@@ -61,15 +61,15 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 /// Picks places where edges of more than one direction meet (a straight edge slides along itself):
 /// in every cell of a square grid over the render, the edge pixel whose surrounding square has the
 /// largest smaller eigenvalue of the scatter of edge normals, sum of n n'. The cell size is the
-/// smallest one that yields no more than `options.count` templates. Pham 2025, Sec. III-A and III-B,
-/// centres templates on edge pixels and states neither their number nor how they are chosen.
+/// smallest one that yields no more than `options.count` templates. Pham 2025, Sec. III-A and
+/// III-B, centres templates on edge pixels and states neither their number nor how they are chosen.
 /// `ignore` (full resolution, may be nullptr) belongs to the image at `level` 0.
 class TemplateSelector {
  public:
   static constexpr int kMinSide_px = 16;   ///< smaller squares hold too few edge pixels
   static constexpr int kMaxSide_px = 256;  ///< larger squares take long to match
-  static constexpr int kMinCount = 6;      ///< as many inliers as a pose needs by default
-  /// Edge pixels that a template must hold: fewer match anywhere.
+  static constexpr int kMinCount = 6;      ///< the default number of inliers that a pose needs
+  /// Least number of edge pixels in a template: fewer match anywhere.
   static constexpr int kMinEdgePixels = 12;
   /// Of a template's predicted area: the rest must hold enough of the image to match.
   static constexpr double kMaxIgnoredShare = 0.3;
@@ -78,7 +78,8 @@ class TemplateSelector {
   Status create(int max_width, int max_height, const TemplateOptions& options, Arena& arena);
   /// Other options from the next select() on, except those that size the memory (count).
   void setOptions(const TemplateOptions& options) { options_ = options; }
-  /// kTooFewTemplates when fewer than kMinCount can be placed; `output` then holds those.
+  /// kTooFewTemplates when fewer than kMinCount can be placed; `output` then holds the templates
+  /// found.
   Status select(const EdgeRender& render, int side_px, const BitImage* ignore, int level,
                 TemplateSet& output);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which view works when, refinement, support and the end.
+// Order of the views, refinement, support and the end.
 #include "core/views/views_localizer.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOpti
   return Status::kOk;
 }
 
-/// What this needs besides the views' own blocks; only counts without `to`.
+/// Memory besides the views' own blocks; only counts without `to`.
 void ViewsLocalizer::layOut(const ViewsProblem& problem, const LocalizerOptions& options,
                             Arena& arena, ViewsLocalizer* to) {
   const std::size_t most = problem.views.size() * static_cast<std::size_t>(options.templates.count);
@@ -68,13 +68,14 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
   layOut(problem, options, counter, nullptr);
   bytes = counter.highWater();
   for (const View& view : problem.views) {
-    LocalizationProblem one;
-    one.image = view.image;
-    one.ignore = view.ignore;
-    one.camera = view.camera;
-    one.mesh = problem.mesh;
+    LocalizationProblem view_problem;
+    view_problem.image = view.image;
+    view_problem.ignore = view.ignore;
+    view_problem.camera = view.camera;
+    view_problem.mesh = problem.mesh;
     std::size_t own = 0;
-    const Status sized = boresight::requiredBytes(sizeOf(one), options, workers, own, kernels);
+    const Status sized =
+        boresight::requiredBytes(sizeOf(view_problem), options, workers, own, kernels);
     if (sized != Status::kOk) return sized;
     bytes += (own + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
   }
@@ -83,17 +84,18 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
 
 LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
   const View& view = problem_.views[index];
-  LocalizationProblem made;
-  made.image = view.image;
-  made.ignore = view.ignore;
-  made.camera = view.camera;
-  made.mesh = problem_.mesh;
-  made.camera_from_station_seed = inCamera(view.camera_from_rig, problem_.rig_from_station_seed);
-  made.uncertainty = problem_.uncertainty;
+  LocalizationProblem view_problem;
+  view_problem.image = view.image;
+  view_problem.ignore = view.ignore;
+  view_problem.camera = view.camera;
+  view_problem.mesh = problem_.mesh;
+  view_problem.camera_from_station_seed =
+      inCamera(view.camera_from_rig, problem_.rig_from_station_seed);
+  view_problem.uncertainty = problem_.uncertainty;
   if (index > 0)
-    made.uncertainty = turnedInto(
+    view_problem.uncertainty = turnedInto(
         view.camera_from_rig * problem_.views[0].camera_from_rig.inverse(), problem_.uncertainty);
-  return made;
+  return view_problem;
 }
 
 ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptions& options,
@@ -251,7 +253,7 @@ bool ViewsLocalizer::stepView(std::size_t index, StepReport& report) {
   return true;
 }
 
-/// A capacity or the memory did not suffice for one view: that is the run's.
+/// A capacity or memory fault of one view ends the run.
 StepReport ViewsLocalizer::finishFault(std::size_t index) {
   const bool ran = status_ == Status::kOk;
   result_.status = LocalizationStatus::kFault;
@@ -269,7 +271,7 @@ StepReport ViewsLocalizer::finishFault(std::size_t index) {
   return report;
 }
 
-/// What follows from the attempt's ruling, or from the support of all views.
+/// Acts on the attempt's ruling, or on the support of all views.
 StepReport ViewsLocalizer::decide(const Ruling& ruling) {
   first().show(ruling);
   StepReport report = StepReport::of(ruling.stage, true);
@@ -384,7 +386,7 @@ Status ViewsLocalizer::advance(bool& settled) {
 }
 
 StepReport ViewsLocalizer::stepSupport() {
-  // Without refinement those that matched are asked.
+  // Without refinement the views that matched are judged.
   if (leading().kind == IterationKind::kMatch) chooseRefining();
   int supported = 0;
   int refused = 0;
@@ -414,7 +416,7 @@ StepReport ViewsLocalizer::stepSupport() {
 const Iteration* ViewsLocalizer::iterationOf(int index) const {
   if (status_ != Status::kOk || view(0).workspace().iteration == nullptr) return nullptr;
   if (index == 0) return &leading();
-  // A view without part in it still holds an earlier iteration.
+  // A view that does not take part still holds an earlier iteration.
   const bool second = &leading() == &view(0).recordAt(1);
   const Iteration& own = view(index).recordAt(second ? 1 : 0);
   const bool began = view(index).workspace().iteration != nullptr;

@@ -58,16 +58,16 @@ class ViewsLocalizer {
   /// One slice of one view, or of the pose of all; after `finished` it does nothing. An iteration
   /// is complete when the first view's is.
   StepReport step();
-  /// Number of tasks that may run now at the same time, those of one view; see Localizer::tasks().
+  /// Number of tasks that may run at the same time, all of one view; see Localizer::tasks().
   int tasks() const;
   /// Runs a task with the scratch of a worker; see Localizer::runTask().
   void runTask(int task, int worker);
 
-  /// How the run stands, or ended.
+  /// State of the run.
   const ViewsResult& result() const { return result_; }
   /// Number of views of the problem.
   int viewCount() const { return static_cast<int>(views_.size()); }
-  /// The pass of a view, for looking at; there is none when status() is not kOk.
+  /// The pass of a view, for inspection; there is none when status() is not kOk.
   const Pass& view(int index) const { return views_[static_cast<std::size_t>(index)].pass; }
   /// A view's record of the iteration that the first view's workspace shows: of rolled hypotheses
   /// the same one. nullptr before the first iteration, and for a view without part in it.

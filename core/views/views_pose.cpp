@@ -8,8 +8,8 @@
 namespace boresight {
 namespace {
 
-/// Whether some edge of the template met one of the image. Where there is no edge at all every
-/// place is as good as the predicted one, so that such matches agree with any hypothesis.
+/// Whether an edge of the template met an edge of the image. Without any edge every place scores as
+/// well as the predicted one, so that such matches agree with any hypothesis.
 bool meetsEdges(const Match& match) { return match.peak.counts.edge_hits > 0; }
 
 }  // namespace
@@ -34,7 +34,7 @@ StepReport ViewsLocalizer::stepPose() {
   return supplyPose(status);
 }
 
-/// Those that have something to say of this hypothesis.
+/// Views with matches for this hypothesis.
 void ViewsLocalizer::chooseViews() {
   for (std::size_t v = 0; v < views_.size(); ++v) {
     Share& share = shares()[v];
@@ -51,17 +51,17 @@ void ViewsLocalizer::chooseViews() {
 
 /// Correspondences of a view that rest on edges of its image.
 std::int32_t ViewsLocalizer::seeing(std::size_t index) const {
-  const Iteration& now = *view(static_cast<int>(index)).workspace().iteration;
+  const Iteration& iteration = *view(static_cast<int>(index)).workspace().iteration;
   std::int32_t count = 0;
-  for (std::int32_t i = 0; i < now.correspondence_count; ++i) {
-    const auto of = static_cast<std::size_t>(now.template_of[static_cast<std::size_t>(i)]);
-    count += meetsEdges(now.matches.matches[of]) ? 1 : 0;
+  for (std::int32_t i = 0; i < iteration.correspondence_count; ++i) {
+    const auto of = static_cast<std::size_t>(iteration.template_of[static_cast<std::size_t>(i)]);
+    count += meetsEdges(iteration.matches.matches[of]) ? 1 : 0;
   }
   return count;
 }
 
-/// From the correspondences of the views chosen. Of one alone all count, as they would without the
-/// others; of several only those that rest on edges.
+/// Starts PnP on the correspondences of the chosen views. All correspondences of a single view
+/// count, as in a run of that view alone; of several views only those that rest on edges.
 Status ViewsLocalizer::beginPose() {
   const Shares& chosen = shares();
   const auto taking = std::count_if(
@@ -75,20 +75,20 @@ Status ViewsLocalizer::beginPose() {
     end = pnp_views_[v].end;
   }
   const auto count = static_cast<std::size_t>(end);
-  const Iteration& now = leading();
-  const PosePrior hypothesis{now.camera_from_station_before, now.uncertainty};
+  const Iteration& iteration = leading();
+  const PosePrior hypothesis{iteration.camera_from_station_before, iteration.uncertainty};
   return ransac_.begin(correspondences_.first(count), std::span(pnp_views_).first(views_.size()),
-                       hypothesis, now.threshold_px, options_.pnp, pnp_);
+                       hypothesis, iteration.threshold_px, options_.pnp, pnp_);
 }
 
 void ViewsLocalizer::collect(std::size_t index, bool all) {
-  const Iteration& now = *view(static_cast<int>(index)).workspace().iteration;
+  const Iteration& iteration = *view(static_cast<int>(index)).workspace().iteration;
   std::int32_t& end = pnp_views_[index].end;
-  for (std::int32_t i = 0; i < now.correspondence_count; ++i) {
+  for (std::int32_t i = 0; i < iteration.correspondence_count; ++i) {
     const auto own = static_cast<std::size_t>(i);
-    const auto of = static_cast<std::size_t>(now.template_of[own]);
-    if (!all && !meetsEdges(now.matches.matches[of])) continue;
-    correspondences_[static_cast<std::size_t>(end)] = now.correspondences[own];
+    const auto of = static_cast<std::size_t>(iteration.template_of[own]);
+    if (!all && !meetsEdges(iteration.matches.matches[of])) continue;
+    correspondences_[static_cast<std::size_t>(end)] = iteration.correspondences[own];
     own_index_[static_cast<std::size_t>(end)] = i;
     ++end;
     ++shares()[index].correspondences;
@@ -105,17 +105,18 @@ void ViewsLocalizer::noteInliers() {
   }
 }
 
-/// Views whose matches disagree with a pose that others carry; false when there are none.
+/// Leaves out views whose matches disagree with a pose that other views support; false when there
+/// are none.
 bool ViewsLocalizer::leaveOutDissenters() {
   const std::int32_t enough = options_.pnp.min_inliers;
   const std::span<Share> all = std::span(shares()).first(views_.size());
-  const bool carried =
-      std::any_of(all.begin(), all.end(), [&](const Share& one) { return one.inliers >= enough; });
+  const bool carried = std::any_of(all.begin(), all.end(),
+                                   [&](const Share& share) { return share.inliers >= enough; });
   bool left_out = false;
-  for (Share& one : all) {
-    const bool dissents = one.status == LocalizationStatus::kRunning && one.inliers < enough;
+  for (Share& share : all) {
+    const bool dissents = share.status == LocalizationStatus::kRunning && share.inliers < enough;
     if (!carried || !dissents) continue;
-    one.status = LocalizationStatus::kPnpFailed;
+    share.status = LocalizationStatus::kPnpFailed;
     left_out = true;
   }
   return left_out;
@@ -125,9 +126,9 @@ StepReport ViewsLocalizer::supplyPose(Status status) {
   JointPose joint;
   Agreement agreement;
   const bool solved = status == Status::kOk;
-  for (const Share& one : std::span(shares()).first(views_.size())) {
-    agreement.inliers += solved ? one.inliers : 0;
-    agreement.correspondences += one.correspondences;
+  for (const Share& share : std::span(shares()).first(views_.size())) {
+    agreement.inliers += solved ? share.inliers : 0;
+    agreement.correspondences += share.correspondences;
   }
   // With no view left, the first view's reason is reported.
   const LocalizationStatus own = first().failed();
@@ -154,11 +155,11 @@ StepReport ViewsLocalizer::supplyPose(Status status) {
   return decide(ruling);
 }
 
-/// Inliers and residuals of the view's own list. What was left out is no inlier.
+/// Inliers and residuals of the view's own list. Correspondences left out are not inliers.
 void ViewsLocalizer::fillSolution(std::size_t index, Status status) {
   PnpSolution& own = views_[index].pass.record().pnp;
-  const Iteration& now = *view(static_cast<int>(index)).workspace().iteration;
-  const auto count = static_cast<std::size_t>(now.correspondence_count);
+  const Iteration& iteration = *view(static_cast<int>(index)).workspace().iteration;
+  const auto count = static_cast<std::size_t>(iteration.correspondence_count);
   own.inlier = {own.inlier.data(), count};
   own.residual_px = {own.residual_px.data(), count};
   std::fill(own.inlier.begin(), own.inlier.end(), std::uint8_t{0});

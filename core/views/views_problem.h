@@ -23,7 +23,7 @@ struct View {
   ImageView image;                   ///< 8-bit gray, of the camera's size
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
-  Pose camera_from_rig;              ///< where the camera sits
+  Pose camera_from_rig;              ///< mounting of the camera
 };
 
 /// Several views of one station, solved for the one pose that they share. Everything is the
@@ -36,7 +36,7 @@ struct ViewsProblem {
   SeedUncertainty uncertainty;
 };
 
-/// What became of a view.
+/// Result of a view.
 struct ViewReport {
   /// kConverged: it took part in the pose. Else why not: kTooFewEdges, kTooFewTemplates or
   /// kTooFewMatches (its own stages), kPnpFailed (too few of its matches, or edges, agree with the
@@ -50,14 +50,14 @@ struct ViewReport {
   double probability = 0.0;  ///< that the pose is right, by this view; 0 where none was searched
   Pose camera_from_station;  ///< of this view
 
-  /// Whether the view had a say in the pose.
+  /// Whether the view contributed to the pose.
   bool tookPart() const { return status == LocalizationStatus::kConverged; }
 };
 
-/// What a caller can look at; the workspace of each view's localizer has the rest.
+/// State of a run; the workspace of each view's pass has the rest.
 struct ViewsResult {
-  LocalizationStatus status = LocalizationStatus::kRunning;  ///< how the run stands, or ended
-  Status fault = Status::kOk;                                ///< what did not suffice, with kFault
+  LocalizationStatus status = LocalizationStatus::kRunning;  ///< state of the run
+  Status fault = Status::kOk;                                ///< with kFault: the reason
   Pose rig_from_station;                                     ///< the seed unless converged
   /// Over xi = (rotation rad, translation m), left perturbation, in the rig's frame.
   Matrix6d covariance = Matrix6d::Zero();

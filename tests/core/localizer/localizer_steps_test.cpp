@@ -203,7 +203,7 @@ std::vector<int> shuffled(int count, Random& random) {
   return order;
 }
 
-TEST(LocalizerPieces, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
+TEST(LocalizerTasks, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
   const Case scene = stationCase(4, true);
   for (const bool paper : {false, true}) {
     const LocalizerOptions options = paper ? paperProfile() : withoutSearch();
@@ -217,15 +217,15 @@ TEST(LocalizerPieces, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
       bool refined = false;
       StepReport report;
       while (!report.finished) {
-        for (const int piece : shuffled(run.localizer.tasks(), random)) {
+        for (const int task : shuffled(run.localizer.tasks(), random)) {
           if (random.below(100) >= share) continue;
-          run.localizer.runTask(piece, static_cast<int>(random.below(3)));
+          run.localizer.runTask(task, static_cast<int>(random.below(3)));
         }
-        const bool had_pieces = run.localizer.tasks() > 0;
+        const bool had_tasks = run.localizer.tasks() > 0;
         report = run.localizer.step();
-        rendered = rendered || (had_pieces && report.stage == Stage::kRender);
-        matched = matched || (had_pieces && report.stage == Stage::kMatch);
-        refined = refined || (had_pieces && report.stage == Stage::kRefine);
+        rendered = rendered || (had_tasks && report.stage == Stage::kRender);
+        matched = matched || (had_tasks && report.stage == Stage::kMatch);
+        refined = refined || (had_tasks && report.stage == Stage::kRefine);
       }
       EXPECT_TRUE(rendered);
       EXPECT_TRUE(matched);
@@ -236,19 +236,19 @@ TEST(LocalizerPieces, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
   }
 }
 
-TEST(LocalizerPieces, MayBeDoneAtTheSameTime) {
+TEST(LocalizerTasks, MayBeDoneAtTheSameTime) {
   const Case scene = stationCase(6);
   OwnedRun plain(scene.problem(), defaultProfile());
   plain.finish();
   for (const int workers : {2, 3, 8}) {
     SharedRun run(scene.problem(), defaultProfile(), workers);
     do {
-      const int pieces = run.localizer.tasks();
+      const int tasks = run.localizer.tasks();
       std::vector<std::jthread> threads;
-      for (int worker = 0; worker < workers && pieces > 0; ++worker) {
-        threads.emplace_back([&run, pieces, worker, workers] {
-          for (int piece = worker; piece < pieces; piece += workers)
-            run.localizer.runTask(piece, worker);
+      for (int worker = 0; worker < workers && tasks > 0; ++worker) {
+        threads.emplace_back([&run, tasks, worker, workers] {
+          for (int task = worker; task < tasks; task += workers)
+            run.localizer.runTask(task, worker);
         });
       }
     } while (!run.localizer.step().finished);
@@ -256,8 +256,8 @@ TEST(LocalizerPieces, MayBeDoneAtTheSameTime) {
   }
 }
 
-/// A fault while the render is shared out, and nobody but step() to do the pieces.
-TEST(LocalizerPieces, FaultsAreTheSame) {
+/// A fault while the render is shared out, and nobody but step() to do the tasks.
+TEST(LocalizerTasks, FaultsAreTheSame) {
   const Case scene = stationCase(4);
   LocalizerOptions options = defaultProfile();
   options.render.max_edge_pixels = 1000;
@@ -274,34 +274,34 @@ TEST(LocalizerPieces, FaultsAreTheSame) {
   }
 }
 
-TEST(LocalizerPieces, AreAStageOnceTheyAreDone) {
+TEST(LocalizerTasks, AreAStageOnceTheyAreDone) {
   const Case scene = stationCase(4);
   SharedRun run(scene.problem(), withoutSearch(), 1);
   EXPECT_EQ(run.localizer.tasks(), 0);
   while (run.localizer.tasks() == 0) ASSERT_FALSE(run.localizer.step().finished);
   EXPECT_EQ(run.localizer.tasks(), run.localizer.workspace().iteration->templates.count);
-  for (int piece = 0; piece < run.localizer.tasks(); ++piece) run.localizer.runTask(piece, 0);
+  for (int task = 0; task < run.localizer.tasks(); ++task) run.localizer.runTask(task, 0);
   const StepReport report = run.localizer.step();
   EXPECT_EQ(report.stage, Stage::kMatch);
   EXPECT_TRUE(report.stage_complete);
 }
 
-TEST(LocalizerPieces, ThatDoNotExistAreNotDone) {
+TEST(LocalizerTasks, ThatDoNotExistAreNotDone) {
   const Case scene = stationCase(4);
   OwnedRun plain(scene.problem(), defaultProfile());
   plain.finish();
   SharedRun run(scene.problem(), defaultProfile(), 2);
   do {
-    const int pieces = run.localizer.tasks();
+    const int tasks = run.localizer.tasks();
     run.localizer.runTask(-1, 0);
-    run.localizer.runTask(pieces, 0);
+    run.localizer.runTask(tasks, 0);
     run.localizer.runTask(0, -1);
     run.localizer.runTask(0, 2);
   } while (!run.localizer.step().finished);
   EXPECT_EQ(run.localizer.digest(), plain.localizer.digest());
 }
 
-TEST(LocalizerPieces, WorkersNeedMemory) {
+TEST(LocalizerTasks, WorkersNeedMemory) {
   const Case scene = stationCase(1);
   const ProblemSize size = sizeOf(scene.problem());
   std::size_t one = 0;

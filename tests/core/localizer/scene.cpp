@@ -471,11 +471,11 @@ std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
   std::vector<std::byte> memory(bytes + Arena::kAlignment);
   Localizer shared(problem, options, memory, workers, bestKernels());
   do {
-    const int pieces = shared.tasks();
+    const int tasks = shared.tasks();
     std::vector<std::jthread> threads;
-    for (int worker = 0; worker < workers && pieces > 0; ++worker) {
-      threads.emplace_back([&shared, pieces, worker, workers] {
-        for (int piece = worker; piece < pieces; piece += workers) shared.runTask(piece, worker);
+    for (int worker = 0; worker < workers && tasks > 0; ++worker) {
+      threads.emplace_back([&shared, tasks, worker, workers] {
+        for (int task = worker; task < tasks; task += workers) shared.runTask(task, worker);
       });
     }
   } while (!shared.step().finished);

@@ -61,19 +61,19 @@ struct Shared {
   }
 };
 
-/// Pieces in any order, each by any worker; `most` is the largest number of pieces seen.
+/// Tasks in any order, each by any worker; `most` is the largest number of tasks seen.
 Status finishShuffled(Shared& shared, int workers, Random& random, int& most) {
   Status status = Status::kOk;
   bool done = false;
   while (!done && status == Status::kOk) {
-    std::vector<int> order(static_cast<std::size_t>(shared.renderer.pieces()));
+    std::vector<int> order(static_cast<std::size_t>(shared.renderer.tasks()));
     std::iota(order.begin(), order.end(), 0);
     most = std::max(most, static_cast<int>(order.size()));
     for (std::size_t i = order.size(); i > 1; --i)
       std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
-    for (const int piece : order)
-      shared.renderer.work(piece,
-                           static_cast<int>(random.below(static_cast<std::uint32_t>(workers))));
+    for (const int task : order)
+      shared.renderer.runTask(task,
+                              static_cast<int>(random.below(static_cast<std::uint32_t>(workers))));
     status = shared.renderer.step(done);
   }
   EXPECT_TRUE(done);
@@ -87,7 +87,7 @@ void expectSameWords(const EdgeRender& a, const EdgeRender& b) {
   EXPECT_TRUE(std::ranges::equal(a.row_begin.first(rows), b.row_begin.first(rows)));
 }
 
-TEST(EdgeRendererPieces, GiveTheBitsOfOneAlone) {
+TEST(EdgeRendererTasks, GiveTheBitsOfOneAlone) {
   Random random(7);
   const Pose ahead = poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5});
   const Pose inside = poseOf({0.4, -0.2, 1.3}, {0.0, 0.03, 0.05});
@@ -115,7 +115,7 @@ TEST(EdgeRendererPieces, GiveTheBitsOfOneAlone) {
   }
 }
 
-TEST(EdgeRendererPieces, MayBeCutAnywhere) {
+TEST(EdgeRendererTasks, MayBeCutAnywhere) {
   Random random(9);
   const SceneMesh mesh = scattered(5, 64);
   const Camera camera = brownCamera(201, 149, 200.0, -0.25);
@@ -133,7 +133,7 @@ TEST(EdgeRendererPieces, MayBeCutAnywhere) {
   }
 }
 
-TEST(EdgeRendererPieces, MayBeDoneAtTheSameTime) {
+TEST(EdgeRendererTasks, MayBeDoneAtTheSameTime) {
   constexpr int kWorkers = 4;
   const SceneMesh mesh = scattered(8, 1500);
   const Camera camera = pinholeCamera(240, 200, 240.0);
@@ -146,9 +146,9 @@ TEST(EdgeRendererPieces, MayBeDoneAtTheSameTime) {
     {
       std::vector<std::jthread> threads;
       for (int worker = 0; worker < kWorkers; ++worker)
-        threads.emplace_back([&shared, worker, pieces = shared.renderer.pieces()] {
-          for (int piece = worker; piece < pieces; piece += kWorkers)
-            shared.renderer.work(piece, worker);
+        threads.emplace_back([&shared, worker, tasks = shared.renderer.tasks()] {
+          for (int task = worker; task < tasks; task += kWorkers)
+            shared.renderer.runTask(task, worker);
         });
     }
     ASSERT_EQ(shared.renderer.step(done), Status::kOk);
@@ -157,8 +157,8 @@ TEST(EdgeRendererPieces, MayBeDoneAtTheSameTime) {
   expectSameWords(alone.edges, shared.output);
 }
 
-/// Too little room ends as it does for one alone, wherever the pieces were cut.
-TEST(EdgeRendererPieces, CapacityExceededLeavesWhatOneAloneLeaves) {
+/// Too little room ends as it does for one alone, wherever the tasks were cut.
+TEST(EdgeRendererTasks, CapacityExceededLeavesWhatOneAloneLeaves) {
   Random random(11);
   RenderOptions options;
   options.max_edge_pixels = 1000;
@@ -181,7 +181,7 @@ TEST(EdgeRendererPieces, CapacityExceededLeavesWhatOneAloneLeaves) {
   }
 }
 
-TEST(EdgeRendererPieces, TooManyLayersAreRefusedAsByOneAlone) {
+TEST(EdgeRendererTasks, TooManyLayersAreRefusedAsByOneAlone) {
   Random random(12);
   SceneMesh mesh = scattered(6, 64);
   // The lower half of the image is covered again and again.
@@ -205,7 +205,7 @@ TEST(EdgeRendererPieces, TooManyLayersAreRefusedAsByOneAlone) {
   }
 }
 
-TEST(EdgeRendererPieces, NothingInSightIsNothing) {
+TEST(EdgeRendererTasks, NothingInSightIsNothing) {
   Random random(13);
   const SceneMesh mesh = scattered(6, 64);
   const Camera camera = pinholeCamera(100, 90, 100.0);
@@ -217,7 +217,7 @@ TEST(EdgeRendererPieces, NothingInSightIsNothing) {
   EXPECT_TRUE(std::ranges::all_of(shared.face, [](std::int32_t face) { return face == -1; }));
 }
 
-TEST(EdgeRendererPieces, WorkersTakeWhatTheyCount) {
+TEST(EdgeRendererTasks, WorkersTakeWhatTheyCount) {
   const SceneMesh mesh = scattered(6, 64);
   const RenderOptions options;
   std::vector<std::byte> memory(std::size_t{16} << 20);
