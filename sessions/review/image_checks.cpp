@@ -9,7 +9,7 @@ namespace boresight::sessions {
 namespace {
 
 constexpr CheckName kSaturated{"image_saturated", "Saturated pixels on the station"};
-constexpr CheckName kWidth{"image_sharpness", "Width of the strongest edges on the station"};
+constexpr CheckName kSharpness{"image_sharpness", "Width of the strongest edges on the station"};
 constexpr CheckName kRange{"image_range", "Range of gray levels on the station"};
 
 }  // namespace
@@ -24,7 +24,7 @@ void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
         stationRegion(loaded.source.camera, loaded.scene.view(), subject.camera_from_station));
   }
   if (!quality) {
-    for (const CheckName& name : {kSaturated, kRange, kWidth})
+    for (const CheckName& name : {kSaturated, kRange, kSharpness})
       checks.push_back(notAskedCheck(name, "The pose shows no pixel of the station in the image."));
     return;
   }
@@ -38,11 +38,11 @@ void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
       "The pixels on the station span " + sentenceNumber(quality->range_gray) + " gray levels.",
       "Use an image with more exposure, or state the bit depth."));
   if (quality->edge_width_px == 0.0) {
-    checks.push_back(notAskedCheck(kWidth, "Too few edges on the station are strong enough."));
+    checks.push_back(notAskedCheck(kSharpness, "Too few edges on the station are strong enough."));
     return;
   }
   checks.push_back(measuredCheck(
-      kWidth, "px", quality->edge_width_px, limits.edge_width_px, LimitSide::kAtMost,
+      kSharpness, "px", quality->edge_width_px, limits.edge_width_px, LimitSide::kAtMost,
       "The strongest edges on the station are " + sentenceNumber(quality->edge_width_px) +
           " px wide in the direction that is least sharp, wherever the pose has its edges.",
       "The image is blurred by motion or focus, or overexposed: use a sharper one."));
