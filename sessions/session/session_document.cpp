@@ -90,6 +90,7 @@ Recovery readJournal(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, 2 * kMaxJsonBytes, FileUse::kSession);
   return JsonDocument(file, asText(bytes)).read(kJournalFormat, kJournalVersion, readRecovery);
 }
+
 SessionDocument::SessionDocument(const fs::path& file)
     : file_(fs::absolute(file).lexically_normal()) {}
 
