@@ -38,9 +38,9 @@ Status solveSoundly(const PnpScene& scene, double threshold_px, const PnpOptions
 class PnpRansacBadInput : public ::testing::TestWithParam<PnpSampler> {
  protected:
   PnpOptions options() const {
-    PnpOptions options;
-    options.sampler = GetParam();
-    return options;
+    PnpOptions sampling;
+    sampling.sampler = GetParam();
+    return sampling;
   }
 };
 

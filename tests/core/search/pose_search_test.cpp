@@ -198,8 +198,8 @@ TEST(CandidateList, RandomCandidates_AreKeptInOrderAndApart) {
     list.insert(candidate);
     const auto kept = list.candidates();
     if (!accepted) {
-      EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), [&](const auto& kept) {
-        return kept.slide_x_px == candidate.slide_x_px;
+      EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), [&](const auto& other) {
+        return other.slide_x_px == candidate.slide_x_px;
       }));
     }
     for (std::size_t a = 0; a + 1 < kept.size(); ++a)

@@ -19,9 +19,8 @@ namespace {
 struct Maps {
   Maps(int width, int height, int slide_x, int slide_y, Random& random)
       : direction(static_cast<std::size_t>(width * height), DirectedEdges::kNone), block(1 << 20) {
-    for (std::uint8_t& direction : direction)
-      if (random.below(12) == 0)
-        direction = static_cast<std::uint8_t>(random.below(kEdgeDirections));
+    for (std::uint8_t& pixel : direction)
+      if (random.below(12) == 0) pixel = static_cast<std::uint8_t>(random.below(kEdgeDirections));
     edges.direction = direction;
     edges.width = width;
     edges.height = height;
@@ -34,9 +33,9 @@ struct Maps {
       steps.resize(direction.size());
       distanceToDirection(edges, i, steps);
       long sum = 0;
-      for (std::uint8_t& steps : steps) {
-        steps = static_cast<std::uint8_t>(std::floor(steps * kDistanceUnit_px / 0.4 + 0.5 + 1e-9));
-        sum += steps;
+      for (std::uint8_t& step : steps) {
+        step = static_cast<std::uint8_t>(std::floor(step * kDistanceUnit_px / 0.4 + 0.5 + 1e-9));
+        sum += step;
       }
       mean[i] = static_cast<int>(
           std::floor(static_cast<double>(sum) / static_cast<double>(steps.size()) + 0.5));
