@@ -67,7 +67,7 @@ inline bool isSupported(const EdgeSupport& support, const SupportOptions& option
   return !options.gate || support.share() >= options.min_support;
 }
 
-/// The same of a pose that a search has found.
+/// The same for a pose found by a search.
 inline bool isProbable(double probability, const SupportOptions& options) {
   return !options.gate || probability >= options.min_probability;
 }

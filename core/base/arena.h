@@ -38,7 +38,7 @@ class Arena {
     return {first, count};
   }
 
-  /// Where the next allocation begins, for rewind().
+  /// Begin of the next allocation, for rewind().
   std::size_t mark() const { return used_; }
   /// Frees everything allocated since the mark was taken.
   void rewind(std::size_t mark) { used_ = mark; }

@@ -136,8 +136,8 @@ void Equalizer::begin(const ImageView& image, const BitImage* ignore, const Edge
   if (equalization_ == Equalization::kClahe) beginTiles(arena);
 }
 
-/// Where the sides do not divide by the tiles, OpenCV lengthens *both* to the next multiple (a side
-/// that did divide by a whole tile more), mirrored.
+/// When a side is not divisible by the number of tiles, OpenCV extends *both* sides to the next
+/// multiple (a divisible side by a whole tile), mirrored.
 void Equalizer::beginTiles(Arena& arena) {
   tile_width_ = image_.width / tiles_;
   tile_height_ = image_.height / tiles_;

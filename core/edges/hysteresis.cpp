@@ -100,7 +100,7 @@ std::int32_t Hysteresis::floodRow(int y, const BitImage& candidates, BitImage& e
     carry = row[w] >> 63;
   }
   const std::int32_t visited = w - first;
-  // What reached the lower end of a word goes on in the word before.
+  // Runs that reach the lower end of a word continue in the word before.
   for (w = changed_last - 1; w >= 0; --w) {
     const std::uint64_t seed = open[w] & ~row[w] & (row[w + 1] << 63);
     if (seed == 0 && w < changed_first) break;

@@ -232,7 +232,7 @@ double widestAngle(double linearity) {
   return limit;
 }
 
-/// Where the pupil lies for rays in the image and 64 px around it. The angle to O grows outwards,
+/// Range of the pupil for rays in the image and 64 px around it. The angle to O grows outwards,
 /// so it is largest in a corner.
 void measurePupil(Camera& camera) {
   constexpr double kMargin_px = 64.0;

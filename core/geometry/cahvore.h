@@ -27,7 +27,7 @@ bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vect
 /// Also d q / d point.
 bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q,
                  Eigen::Matrix<double, 2, 3>& jacobian);
-/// Of a direction, as if from a point infinitely far off.
+/// Distorted direction of a point infinitely far off.
 bool distortCahvDirection(const Camera& camera, const Eigen::Vector3d& direction,
                           Eigen::Vector2d& q);
 bool undistortCahv(const Camera& camera, const Eigen::Vector2d& q, Ray& ray);

@@ -36,7 +36,7 @@ struct CahvLens {
   /// (theta / sin theta - 1) (e0 + e1 theta^2 + e2 theta^4) along O. CAHVORE.
   Eigen::Vector3d entrance_m = Eigen::Vector3d::Zero();
   double linearity = 1.0;  ///< L of CAHVORE: 1 perspective (type 1), 0 fisheye (type 2), or between
-  /// Where the entrance pupil lies along O for all rays in and around the image; from
+  /// Range of the entrance pupil along O over all rays in and around the image; from
   /// `prepareCamera`.
   double pupil_low_m = 0.0;
   double pupil_high_m = 0.0;  ///< the far end of the same range

@@ -12,7 +12,7 @@ constexpr int kMostNewtonRounds = 40;
 constexpr int kMostTries = 30;  // each half as long as the one before
 /// On the plane z = 1, times (1 + |q|): reached by Newton's last step, 3e-11 px at 3000 px.
 constexpr double kTargetResidual = 1e-14;
-/// What is still taken for a solution (the radial factor of a rational model may round worse).
+/// Largest residual of a solution (the radial factor of a rational model may round worse).
 constexpr double kAcceptedResidual = 1e-11;
 
 /// The radial factor g and its derivative by s = |p|^2.

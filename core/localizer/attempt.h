@@ -24,7 +24,7 @@ class Attempt {
   /// Starts from another pose than the seed's, within the seed's uncertainty.
   Attempt(int index, const Seed& seed, int iteration, const Pose& camera_from_station);
 
-  /// What the next pass works on.
+  /// Plan of the next pass.
   PassPlan plan(const RunContext& run) const;
   /// Takes the outcome of that pass; kPose: the attempt has converged. Fills in the records'
   /// hypotheses, pose and corrections.

@@ -18,7 +18,7 @@ namespace boresight {
 /// uncertain, candidates of about equal evidence are tried, too.
 class CandidateTrials {
  public:
-  /// What follows an attempt.
+  /// Next action after an attempt.
   enum class Next : std::uint8_t {
     kTry = 0,   ///< the attempt of next()
     kReturn,    ///< the attempt of best(): its last iteration again

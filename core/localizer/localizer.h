@@ -100,7 +100,7 @@ class Localizer {
   std::array<std::uint8_t, 32> digest() const { return pass_.digest().digest(); }
 
  private:
-  /// Which policy plans the next pass.
+  /// The policy that plans the next pass.
   enum class Phase : std::uint8_t { kEdges = 0, kSearch, kIterate, kAccept, kCompare, kEnded };
 
   Status begin(const LocalizationProblem& problem, const LocalizerOptions& options);

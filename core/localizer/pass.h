@@ -17,7 +17,7 @@
 
 namespace boresight {
 
-/// What a pass waits for from outside.
+/// Input from outside that a pass waits for.
 enum class PassNeed : std::uint8_t {
   kNothing = 0,
   kMatches,  ///< supplyMatches(), after matchOutside()
@@ -64,7 +64,7 @@ class Pass {
   /// Runs a task with the scratch of a worker. Each task at most once between two steps.
   void runTask(int task, int worker);
 
-  /// What the pass waits for from outside.
+  /// Input from outside that the pass waits for.
   PassNeed needs() const;
   /// Leaves matching to the caller; renders also fill `surfaces`. See Localizer::matchOutside.
   void matchOutside(const SurfaceRender& surfaces);

@@ -27,7 +27,7 @@ enum class PassKind : std::uint8_t {
   kCompare,    ///< compares the final pose with others that show about the same edges
 };
 
-/// What a pass works on.
+/// Input of a pass.
 struct PassPlan {
   PassKind kind = PassKind::kEdges;  ///< what the pass does
   int record = 0;                ///< 0 or 1: the record, and the render memory, that the pass fills
@@ -45,7 +45,7 @@ struct PassPlan {
   PoseEstimate matched;   ///< from the latest templates
 };
 
-/// How a pass ended. Its record (Iteration) holds the results; `status` there is kRunning when
+/// Outcome of a pass. Its record (Iteration) holds the results; `status` there is kRunning when
 /// there is a pose.
 struct PassOutcome {
   Stage reached = Stage::kEdges;  ///< the last stage that ran
@@ -61,9 +61,9 @@ struct Agreement {
   std::int32_t correspondences = 0;  ///< all matches, inliers among them
 };
 
-/// What a policy decided after a pass.
+/// Decision of a policy after a pass.
 struct Ruling {
-  /// What follows: another pass, a pose, or a failure.
+  /// Next action: another pass, a pose, or a failure.
   enum class Next : std::uint8_t { kPass = 0, kPose, kFailed };
 
   Next next = Next::kPass;  ///< another pass, a pose to go on with, or a failure

@@ -13,7 +13,7 @@
 
 namespace boresight {
 
-/// How an option's value is written.
+/// Encoding of an option's value.
 enum class OptionKind : std::uint8_t { kBoolean = 0, kInteger = 1, kReal = 2, kChoice = 3 };
 
 template <class Field>

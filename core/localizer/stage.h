@@ -19,7 +19,7 @@ enum class Stage : std::uint8_t {
 };
 const char* stageText(Stage stage);
 
-/// What one step did.
+/// Result of one step.
 struct StepReport {
   Stage stage = Stage::kEdges;      ///< the stage that was worked on
   bool stage_complete = false;      ///< the stage is done

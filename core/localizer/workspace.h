@@ -131,7 +131,7 @@ struct Workspace {
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< state of the run
   Status fault = Status::kOk;                                ///< with kFault: the reason
   Pose camera_from_station;  ///< best estimate; the seed unless converged
-  /// Of camera_from_station, over (rotation rad, translation m), left perturbation.
+  /// Covariance of camera_from_station, over (rotation rad, translation m), left perturbation.
   Matrix6d covariance = Matrix6d::Zero();
   std::int32_t iterations = 0;  ///< of all attempts, those that failed included
   std::int32_t attempts = 1;    ///< begun so far

@@ -36,7 +36,7 @@ inline std::uint64_t sideMask(int side, int word) {
   return rest >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rest) - 1;
 }
 
-/// A word whose *memory* holds pixels 8 k .. 8 k + 7 in byte k, whatever the machine's byte order,
+/// A word whose *memory* holds pixels 8 k .. 8 k + 7 in byte k, for any byte order of the machine,
 /// from the word that holds pixel k in bit k; its own inverse. Rows stored so can be read at any
 /// byte, which shifts them by 8 pixels per byte at no cost.
 inline std::uint64_t byteOrdered(std::uint64_t word) {

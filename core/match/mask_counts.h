@@ -27,7 +27,7 @@ class MaskCounts {
   void begin(const TemplateView& view, const TestBand& band);
   /// Counts a row of offsets from scratch; `rows` is the band's row of this row of offsets.
   void computeRow(const TestBand& band, const std::uint8_t* rows, int words);
-  /// From the counts of the row of offsets at `rows` to those of the row below it.
+  /// Updates the counts of the row of offsets at `rows` to those of the row below it.
   void advanceRow(const TestBand& band, const std::uint8_t* rows, int words);
 
   /// C at offset 64 word + bit of the row.

@@ -37,7 +37,7 @@ struct TemplateFlags {
   static constexpr std::uint8_t kSearched = 1;
   /// The peak lies on the window's border.
   static constexpr std::uint8_t kAtBorder = 2;
-  /// There is another place.
+  /// The match has a second place.
   static constexpr std::uint8_t kHasSecond = 4;
   /// The match agrees with the pose.
   static constexpr std::uint8_t kInlier = 8;

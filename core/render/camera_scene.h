@@ -24,8 +24,8 @@ struct FixedPixel {
   static constexpr std::int16_t kNotProjected = -32000;
 };
 
-/// How pixels and depths of one render are put into 16 bits, as finely as the image's size and the
-/// scene's depth allow.
+/// Conversion of pixels and depths of one render to 16 bits, with the finest steps that the image's
+/// size and the scene's depth allow.
 struct FixedScale {
   static constexpr int kLimit = 31000;  ///< pixels farther off are moved here, outside the image
   int shift = 0;                        ///< 2^shift steps to a pixel

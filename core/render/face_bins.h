@@ -38,7 +38,7 @@ class FaceBins {
   /// After the last face, before the first band.
   void finish();
 
-  /// What the faces of a band may cover.
+  /// Columns that the faces of a band may cover.
   const Columns& columns(int band) const { return columns_[static_cast<std::size_t>(band)]; }
 
   /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. lists() -
@@ -55,9 +55,9 @@ class FaceBins {
 
  private:
   enum Kind : std::uint8_t { kSmallFront, kSmallBack, kWide };
-  /// Of the blocks of 2, 4, 8 .. bands into which faces that touch many bands are sorted.
+  /// Levels of blocks of 2, 4, 8 .. bands for faces that touch many bands.
   static constexpr int kMostLevels = 16;
-  /// Where the faces of one share are entered.
+  /// Lists of the faces of one share.
   struct Share {
     std::span<std::int32_t> head;
     std::span<Columns> columns;

@@ -206,8 +206,8 @@ class FaceDrawer {
   RasterBand& band_;
 };
 
-/// How far the edges' values may be from linear within a chunk: rays differ from linear by at most
-/// bend L^2 / 8 along L pixels; the rest is rounding.
+/// Largest deviation of the edges' values from linear within a chunk: rays differ from linear by at
+/// most bend L^2 / 8 along L pixels; the rest is rounding.
 void setSlack(const RayGrid& rays, const RasterBand& band, int x_first, int x_last, int row_first,
               int row_last, DrawnFace& drawn) {
   const int length = std::min(x_last - x_first + 1, kChunk_px);

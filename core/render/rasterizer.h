@@ -40,7 +40,7 @@ struct RasterBand {
   /// Room for `rows` new rows of `width` pixels.
   static RasterBand create(int width, int rows, Arena& arena);
 
-  /// Of a pixel's entry.
+  /// Index of a pixel's entry.
   std::size_t index(int x, int band_row) const {
     return static_cast<std::size_t>(band_row) * static_cast<std::size_t>(stride) +
            static_cast<std::size_t>(x);

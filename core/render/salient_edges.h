@@ -35,8 +35,8 @@ class SalientEdges {
   /// pairs for pixels of other rows are left to the neighbouring bands.
   void begin(int first_y, int last_y);
 
-  /// Of the band's first two new rows, the pairs between them: they belong to the row below, the
-  /// first to be completed.
+  /// The pairs between the band's first two new rows: they belong to the lower row, the first to be
+  /// completed.
   void addRowAbove(const CameraScene& scene, const RasterBand& band, int x_first, int x_last,
                    EdgeRender& output);
 

@@ -44,7 +44,7 @@ inline bool normalsDiffer(const PlaneCache::Entry& a, const PlaneCache::Entry& b
   return dotProduct(a.plane, b.plane) * (a.inverse_norm * b.inverse_norm) < cos_threshold;
 }
 
-/// Where a surface ends on the way from the centre of one pixel (s = 0) to another's (s = 1).
+/// End of a surface on the path from the centre of one pixel (s = 0) to another's (s = 1).
 struct SurfaceEnd {
   bool ends = false;       ///< false: the surface covers the whole way
   bool reached = false;    ///< the way leads over one connected surface to the target face

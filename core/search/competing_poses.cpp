@@ -168,8 +168,8 @@ bool CompetingPoseTest::step() {
       if (view_edges_.step()) {
         const bool finds = purpose_ == Purpose::kFound || purpose_ == Purpose::kFoundAgain;
         if (!finds)
-          now_ = view_edges_.inView(promising_.poses[static_cast<std::size_t>(competitor_)]);
-        beginRender(finds ? view_edges_.inView(found_) : now_, purpose_);
+          current_ = view_edges_.inView(promising_.poses[static_cast<std::size_t>(competitor_)]);
+        beginRender(finds ? view_edges_.inView(found_) : current_, purpose_);
       }
       break;
     case Phase::kMaps:
@@ -199,7 +199,7 @@ void CompetingPoseTest::beginView(double span_px, Purpose purpose) {
 }
 
 void CompetingPoseTest::beginRender(const Pose& view_from_station, Purpose purpose) {
-  now_ = view_from_station;
+  current_ = view_from_station;
   purpose_ = purpose;
   rendering_ = false;
   phase_ = Phase::kRender;
@@ -208,7 +208,7 @@ void CompetingPoseTest::beginRender(const Pose& view_from_station, Purpose purpo
 void CompetingPoseTest::stepRender() {
   bool complete = false;
   const Status status = rendering_ ? renderer_->stepWhole(complete)
-                                   : renderer_->begin(view_edges_.rays(), now_, render_);
+                                   : renderer_->begin(view_edges_.rays(), current_, render_);
   rendering_ = status == Status::kOk && !complete;
   if (rendering_) return;
   if (status == Status::kOk)
@@ -230,7 +230,7 @@ void CompetingPoseTest::takeRender() {
       const double least = found_rank_nats_ - (refined_ ? kBehindRefined_nats : kBehind_nats);
       if (rankOfRender() < least) return nextHypothesis();
       if (refined_) {
-        promising_.add(view_edges_.inCamera(now_));
+        promising_.add(view_edges_.inCamera(current_));
         return nextHypothesis();
       }
       pass_ = 0;
@@ -259,13 +259,13 @@ void CompetingPoseTest::takeFound() {
   found_rank_nats_ = rankOfRender();
   markRender(own_.marks);
   const SurfaceAxes surface = surfaceAxesOf(problem_.mesh);
-  const Eigen::Vector3d middle_m = now_ * surface.middle_m;
-  const Eigen::Matrix3d axes = now_.matrix() * surface.axes;
+  const Eigen::Vector3d middle_m = current_ * surface.middle_m;
+  const Eigen::Matrix3d axes = current_.matrix() * surface.axes;
   poses_.count = 0;
-  for (int i = 0; i < 3; ++i) poses_.add(turnedAbout(middle_m, halfTurn(axes.col(i)), now_));
+  for (int i = 0; i < 3; ++i) poses_.add(turnedAbout(middle_m, halfTurn(axes.col(i)), current_));
   const Eigen::Matrix3d about_sight = halfTurn(middle_m.normalized());
   const Eigen::Vector3d normal = about_sight * axes.col(0);
-  poses_.add(turnedAbout(middle_m, halfTurn(normal) * about_sight, now_));
+  poses_.add(turnedAbout(middle_m, halfTurn(normal) * about_sight, current_));
   const Camera& camera = view_edges_.view().camera;
   sums_.begin(camera.width, camera.height, kLongestSlide_px, kLongestSlide_px);
   direction_ = 0;
@@ -296,11 +296,11 @@ void CompetingPoseTest::takeSlides() {
   const int middle_y = sums_.rows() / 2;
   const double most = kAlike_px / SlideSums::kStep_px * static_cast<double>(count);
   std::array<Eigen::Vector2i, kMostSlides + 1> taken = {Eigen::Vector2i(middle_x, middle_y)};
-  const double depth_m = (now_ * problem_.scene.centre()).z();
+  const double depth_m = (current_ * problem_.scene.centre()).z();
   for (int slides = 1; slides <= kMostSlides; ++slides) {
     Eigen::Vector2i& best = taken[static_cast<std::size_t>(slides)];
     if (!bestSlide(std::span(taken).first(static_cast<std::size_t>(slides)), most, best)) break;
-    Pose slid = now_;
+    Pose slid = current_;
     slid.translation_m.x() += (best.x() - middle_x) * depth_m / camera.fx;
     slid.translation_m.y() += (best.y() - middle_y) * depth_m / camera.fy;
     poses_.add(slid);
@@ -331,18 +331,19 @@ bool CompetingPoseTest::bestSlide(std::span<const Eigen::Vector2i> taken, double
 /// Moves the hypothesis towards the image's edges, from its render.
 void CompetingPoseTest::refine() {
   const Scale& scale = kScales[static_cast<std::size_t>(scale_)];
-  Pose moved = now_;
-  const bool met = refinement_.refine(view_edges_.edges(), problem_.mesh, render_, priorOf(now_),
-                                      scale.radius_px[static_cast<std::size_t>(pass_)], moved);
+  Pose moved = current_;
+  const bool met =
+      refinement_.refine(view_edges_.edges(), problem_.mesh, render_, priorOf(current_),
+                         scale.radius_px[static_cast<std::size_t>(pass_)], moved);
   if (!met) return scale_ == 0 ? nextHypothesis() : nextPromising();
-  now_ = moved;
-  if (++pass_ < scale.passes) return beginRender(now_, Purpose::kRefine);
+  current_ = moved;
+  if (++pass_ < scale.passes) return beginRender(current_, Purpose::kRefine);
   if (scale_ == 0) {
     refined_ = true;
-    return beginRender(now_, Purpose::kScreen);
+    return beginRender(current_, Purpose::kScreen);
   }
-  promising_.poses[static_cast<std::size_t>(competitor_)] = view_edges_.inCamera(now_);
-  if (scale_ == kLastScale) return beginRender(now_, Purpose::kCompeting);
+  promising_.poses[static_cast<std::size_t>(competitor_)] = view_edges_.inCamera(current_);
+  if (scale_ == kLastScale) return beginRender(current_, Purpose::kCompeting);
   pass_ = 0;
   ++scale_;
   beginView(kScales[static_cast<std::size_t>(scale_)].span_px, Purpose::kRefine);

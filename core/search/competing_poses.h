@@ -40,7 +40,7 @@ class CompetingPoseTest {
 
   /// Takes the memory from `arena`, for images of up to `channels` channels. kArenaTooSmall.
   Status create(int channels, Arena& arena);
-  /// What the problem points to and the renderer (for images of kLongestView_px) must outlive the
+  /// The data of the problem and the renderer (for images of kLongestView_px) must outlive the
   /// steps. False when the scene is outside the image.
   [[nodiscard]] bool begin(const SearchProblem& problem, const Pose& camera_from_station,
                            EdgeRenderer& renderer);
@@ -114,7 +114,7 @@ class CompetingPoseTest {
   PoseList poses_;  ///< hypotheses, in the view
   int hypothesis_ = 0;
   bool refined_ = false;  ///< the hypothesis, at the first scale
-  Pose now_;              ///< view_from_station of the current hypothesis
+  Pose current_;          ///< view_from_station of the current hypothesis
   PoseList promising_;
   int competitor_ = 0;  ///< of the promising ones
 

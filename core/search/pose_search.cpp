@@ -89,7 +89,7 @@ bool PoseSearch::step() {
       return !beginNext();
     case Phase::kView:
       if (!view_edges_.step()) return false;
-      view_from_station_ = view_edges_.inView(now_.camera_from_station);
+      view_from_station_ = view_edges_.inView(current_.camera_from_station);
       phase_ = Phase::kRender;
       rendering_ = false;
       return false;
@@ -123,8 +123,8 @@ bool PoseSearch::beginNext() {
   do {
     const Round& round = kRounds[static_cast<std::size_t>(round_)];
     while (next_ < std::min(waiting_count_, round.most)) {
-      now_ = waiting_[static_cast<std::size_t>(next_++)];
-      if (next_ > round.least && now_.rank_nats() < waiting_[0].rank_nats() - round.behind_nats)
+      current_ = waiting_[static_cast<std::size_t>(next_++)];
+      if (next_ > round.least && current_.rank_nats() < waiting_[0].rank_nats() - round.behind_nats)
         break;
       level_ = round.first_level;
       if (beginLevel()) return true;
@@ -150,15 +150,16 @@ bool PoseSearch::keep() {
   int kept = 0;
   for (int i = 0; i < kept_count_; ++i) {
     const PoseCandidate& kept_pose = kept_[static_cast<std::size_t>(i)];
-    const bool same = !is_last && isSame(kept_pose.camera_from_station, now_.camera_from_station);
-    if (same && kept_pose.rank_nats() >= now_.rank_nats()) return !beginNext();
+    const bool same =
+        !is_last && isSame(kept_pose.camera_from_station, current_.camera_from_station);
+    if (same && kept_pose.rank_nats() >= current_.rank_nats()) return !beginNext();
     if (!same) kept_[static_cast<std::size_t>(kept++)] = kept_pose;
   }
   int place = kept;
-  for (; place > 0 && kept_[static_cast<std::size_t>(place - 1)].rank_nats() < now_.rank_nats();
+  for (; place > 0 && kept_[static_cast<std::size_t>(place - 1)].rank_nats() < current_.rank_nats();
        --place)
     kept_[static_cast<std::size_t>(place)] = kept_[static_cast<std::size_t>(place - 1)];
-  kept_[static_cast<std::size_t>(place)] = now_;
+  kept_[static_cast<std::size_t>(place)] = current_;
   kept_count_ = kept + 1;
   if (!is_last || !isConvincing(kept_[0]) || nextIsAsGood()) return !beginNext();
   phase_ = Phase::kDone;
@@ -199,7 +200,7 @@ bool PoseSearch::beginLevel() {
   pass_ = 0;
   rendering_ = false;
   if (level_ == 0) {
-    view_from_station_ = view_edges_.inView(now_.camera_from_station);
+    view_from_station_ = view_edges_.inView(current_.camera_from_station);
     phase_ = Phase::kRender;
     return true;
   }
@@ -210,7 +211,7 @@ bool PoseSearch::beginLevel() {
     size.most_px = kLongestView_px;
   }
   phase_ = Phase::kView;
-  return view_edges_.begin(problem_, now_.camera_from_station, size);
+  return view_edges_.begin(problem_, current_.camera_from_station, size);
 }
 
 bool PoseSearch::stepRender() {
@@ -248,9 +249,9 @@ bool PoseSearch::refine() {
   const bool moved = refinement_.refine(view_edges_.edges(), problem_.mesh, render_, prior(),
                                         radius_px, view_from_station_);
   phase_ = Phase::kRender;
-  now_.camera_from_station = view_edges_.inCamera(view_from_station_);
-  if (moved || level_ <= 1) now_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
-  if (round_ < kLastRound && isKept(now_.camera_from_station)) return !beginNext();
+  current_.camera_from_station = view_edges_.inCamera(view_from_station_);
+  if (moved || level_ <= 1) current_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
+  if (round_ < kLastRound && isKept(current_.camera_from_station)) return !beginNext();
   if (moved && ++pass_ < level.passes) return false;
   // The last render is from close by.
   if (level_ == kRounds[static_cast<std::size_t>(round_)].last_level) return measure();
@@ -261,7 +262,7 @@ bool PoseSearch::refine() {
 bool PoseSearch::measure() {
   meter_.clear();
   addPlaces(render_, meter_);
-  now_.evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
+  current_.evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
   return keep();
 }
 

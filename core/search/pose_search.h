@@ -37,7 +37,7 @@ class PoseSearch {
 
   /// Takes the memory from `arena`, for images of up to `channels` channels.
   Status create(int channels, Arena& arena);
-  /// What the problem points to and the renderer (for images of kLongestView_px) must
+  /// The data of the problem and the renderer (for images of kLongestView_px) must
   /// outlive the steps. False when the scene is outside the image at the seed.
   [[nodiscard]] bool begin(const SearchProblem& problem, EdgeRenderer& renderer);
   /// One bounded slice; true when candidates() is complete.
@@ -86,7 +86,7 @@ class PoseSearch {
   int level_ = 0;  ///< of the refinement: 0 the search's; the last one measures
   int pass_ = 0;   ///< of the level
   bool rendering_ = false;
-  PoseCandidate now_;
+  PoseCandidate current_;
   Pose view_from_station_;
 };
 

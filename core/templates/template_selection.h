@@ -42,7 +42,7 @@ struct Template {
   std::int32_t center_y = 0;  ///< px at the level of the render
   float depth_m = 0.0F;       ///< z of the edge at the centre
   float distinctness = 0.0F;  ///< smaller eigenvalue of the edge normals' scatter, in edge pixels
-  /// Where the edge at the centre lies.
+  /// Position of the edge at the centre.
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
 };
 
@@ -71,7 +71,7 @@ class TemplateSelector {
   static constexpr int kMinCount = 6;      ///< the default number of inliers that a pose needs
   /// Least number of edge pixels in a template: fewer match anywhere.
   static constexpr int kMinEdgePixels = 12;
-  /// Of a template's predicted area: the rest must hold enough of the image to match.
+  /// Share of a template's predicted area: the rest must hold enough of the image to match.
   static constexpr double kMaxIgnoredShare = 0.3;
 
   /// Takes the memory for renders of up to this size. kArenaTooSmall, kInvalidOption.

@@ -85,7 +85,7 @@ class ViewsLocalizer {
     bool is_prepared = false;  ///< it has edges, and was searched
     bool has_begun = false;    ///< the pass of the attempt's current plan
   };
-  /// What a view contributes to a hypothesis.
+  /// Contribution of a view to a hypothesis.
   struct Share {
     LocalizationStatus status = LocalizationStatus::kRunning;
     std::int32_t correspondences = 0;

@@ -61,7 +61,7 @@ TEST_F(ContourEvidenceTest, OutlineOnItsEdges_IsStrongEvidence) {
   EXPECT_GT(evidence.weakest_nats(), 0.7);
 }
 
-TEST_F(ContourEvidenceTest, NoEdgesAtAll_SpeakAgainstThePose) {
+TEST_F(ContourEvidenceTest, ImageWithoutEdges_GivesNegativeEvidence) {
   // Everything is far from edges, around the places as well: nearly log(0.4).
   EXPECT_NEAR(measure().outline_nats, std::log(0.4), 0.01);
 }
@@ -72,7 +72,7 @@ TEST_F(ContourEvidenceTest, DisplacedOrTurnedOutline_IsNoEvidence) {
   EXPECT_LT(measure(0, 4).outline_nats, 0.0) << "edges of other directions";
 }
 
-TEST_F(ContourEvidenceTest, EdgesEverywhere_ExplainThemselves) {
+TEST_F(ContourEvidenceTest, EdgesEverywhere_GiveNoEvidence) {
   Random random(5);
   for (auto& direction : direction_)
     if (random.below(3) == 0) direction = static_cast<std::uint8_t>(random.below(8));
@@ -116,10 +116,10 @@ TEST(PoseProbability, GrowsWithEvidenceAndSupport) {
   for (int i = 0; i <= 10; ++i) {
     evidence.outline_nats = 0.1 * i;
     support.covered = 5 * i;
-    const double now = poseProbability(evidence, support);
-    EXPECT_GT(now, before);
-    EXPECT_LE(now, 1.0);
-    before = now;
+    const double probability = poseProbability(evidence, support);
+    EXPECT_GT(probability, before);
+    EXPECT_LE(probability, 1.0);
+    before = probability;
   }
   EXPECT_GT(before, 0.99);
 }

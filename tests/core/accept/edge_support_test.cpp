@@ -125,7 +125,7 @@ struct RandomMaps {
   }
 };
 
-TEST(EdgeSupport, ExplanationIsThatOfACount) {
+TEST(EdgeSupport, Explanation_EqualsABruteForceCount) {
   const Picture flat = flatPicture(RandomMaps::kWidth, RandomMaps::kHeight, 9);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const RandomMaps maps(seed);
@@ -162,7 +162,7 @@ TEST(EdgeSupport, ExplanationIsThatOfACount) {
   }
 }
 
-TEST(EdgeSupport, NothingSupportsNothing) {
+TEST(EdgeSupport, FlatImageOrNoCounts_GiveNoSupport) {
   const EdgeSupport none;
   EXPECT_EQ(none.share(), 0.0);
   Case scene = stationCase(1);

@@ -58,7 +58,7 @@ TEST(EdgeWidth, Motion_WidensTheEdgesAcrossItAlone) {
   EXPECT_TRUE(width.places[4] < 30 || width.width_px[4] < 4.0) << width.width_px[4];
 }
 
-TEST(EdgeWidth, NothingToSee_IsNoBlur) {
+TEST(EdgeWidth, TooFewEdges_AreNotBlurred) {
   const Case scene = stationCase(1);
   const Picture flat = flatPicture(512, 512, 90);
   EXPECT_EQ(widthOf(scene, flat).widest_px(), 0.0);

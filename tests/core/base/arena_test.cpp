@@ -56,7 +56,7 @@ TEST(Arena, CountingGivesExactlyWhatUsingNeeds) {
   EXPECT_TRUE(short_by_one.exhausted());
 }
 
-TEST(Arena, GivesNothingOnceItIsExhausted) {
+TEST(Arena, ExhaustedArena_GivesEmptySpans) {
   std::vector<std::byte> block(64);
   Arena arena(block);
   EXPECT_EQ(arena.allocate<double>(8).size(), 8u);

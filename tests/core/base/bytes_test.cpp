@@ -27,7 +27,7 @@ TEST(Bytes, AreBigEndian) {
   EXPECT_EQ(block[19], 0xc0);  // -2.0 is c000000000000000
 }
 
-TEST(Bytes, ComeBackAsTheyWere) {
+TEST(Bytes, WrittenValues_AreReadBack) {
   const double tiny = -std::numeric_limits<double>::denorm_min();
   std::array<std::uint8_t, 64> block{};
   ByteWriter writer(block);
@@ -47,7 +47,7 @@ TEST(Bytes, ComeBackAsTheyWere) {
   EXPECT_FALSE(reader.failed());
 }
 
-TEST(Bytes, AWriterWithoutRoomCounts) {
+TEST(Bytes, WriterWithoutABlock_CountsBytes) {
   ByteWriter counter;
   counter.u64(1);
   counter.u16(1);
@@ -58,7 +58,7 @@ TEST(Bytes, AWriterWithoutRoomCounts) {
   EXPECT_EQ(block, (std::array<std::uint8_t, 4>{1, 2, 9, 9}));
 }
 
-TEST(Bytes, PastTheEndEverythingIsZeroAndFailed) {
+TEST(Bytes, ReadsPastTheEnd_GiveZeroAndFail) {
   const std::array<std::uint8_t, 3> block = {1, 2, 3};
   ByteReader reader(block);
   EXPECT_TRUE(reader.fits(3, 1));

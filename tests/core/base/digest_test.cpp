@@ -35,7 +35,7 @@ TEST(Sha256, GivesThePublishedDigests) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST(Sha256, DoesNotDependOnHowItIsFed) {
+TEST(Sha256, DigestDoesNotDependOnTheSplitOfTheInput) {
   Random random(1);
   std::string text;
   for (int i = 0; i < 1000; ++i) text.push_back(static_cast<char>(random.below(256)));
@@ -92,7 +92,7 @@ TEST(Sha256, TakesValuesAsTheirBytes) {
   }
 }
 
-TEST(Sha256, MayBeFedAfterItsDigestWasTaken) {
+TEST(Sha256, UpdateAfterDigest_Continues) {
   Sha256 sha;
   sha.update(bytesOf("a"));
   const auto early = sha.digest();

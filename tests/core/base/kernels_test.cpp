@@ -19,8 +19,8 @@ TEST(Kernels, HaveNames) {
 TEST(Kernels, AreAvailableUpToTheBest) {
   EXPECT_TRUE(kernelsAvailable(Kernels::kPortable));
   for (int k = 0; k < kKernelSets; ++k) {
-    const Kernels one = static_cast<Kernels>(k);
-    EXPECT_EQ(kernelsAvailable(one), one <= bestKernels()) << kernelsName(one);
+    const Kernels kernels = static_cast<Kernels>(k);
+    EXPECT_EQ(kernelsAvailable(kernels), kernels <= bestKernels()) << kernelsName(kernels);
   }
   EXPECT_FALSE(kernelsAvailable(static_cast<Kernels>(kKernelSets)));
   RecordProperty("best", kernelsName(bestKernels()));

@@ -102,7 +102,7 @@ bool callsTheCLibrary(const std::string& text) {
          (std::regex_search(code, unqualified) && !std::regex_search(code, declared));
 }
 
-TEST(Layering, NoStageIncludesALaterOneOrAnythingForeign) {
+TEST(Layering, NoStageIncludesALaterStageOrAForeignHeader) {
   const fs::path source_dir = BORESIGHT_SOURCE_DIR;
   const std::vector<Include> includes = includesOfCore(source_dir);
   EXPECT_GT(includes.size(), 50u) << "the sources were not found in " << source_dir;
@@ -125,7 +125,7 @@ TEST(Layering, ElementaryFunctionsInCore_AreCoresOwn) {
   EXPECT_FALSE(callsTheCLibrary("double a = std::sqrt(x);  // not sin(x)"));
 }
 
-TEST(Layering, NoticesWhatItIsThereFor) {
+TEST(Layering, ForbiddenIncludes_AreDetected) {
   const auto faulty = [](const std::string& folder, const std::string& header, bool quoted) {
     return !fault(folder, {"x.cpp", header, quoted}).empty();
   };

@@ -17,7 +17,7 @@ bool anyWithin(const BitImage& bits, int x, int y, int margin_px) {
   return false;
 }
 
-TEST(DilateRow, SetsWhatIsWithinTheMargin) {
+TEST(DilateRow, SetsPixelsWithinTheMargin) {
   Random random(31);
   for (const Size size : kSizes) {
     for (const int margin_px : {0, 1, 2, 3, 5, 13, 63, 64}) {

@@ -124,7 +124,7 @@ TEST(DirectedEdges, FlatImage_HasNone) {
   EXPECT_EQ(std::count(scene.direction.begin(), scene.direction.end(), DirectedEdges::kNone), 1200);
 }
 
-TEST(DirectedEdges, UnseenPixels_AreNoEdgesAndMakeNone) {
+TEST(DirectedEdges, UnseenPixels_AreNotEdgesAndCauseNone) {
   Scene scene(64, 64);
   for (int y = 0; y < 64; ++y)
     for (int x = 32; x < 64; ++x) {

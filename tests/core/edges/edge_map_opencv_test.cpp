@@ -193,7 +193,7 @@ std::vector<std::string> imagesBelow(const std::string& folder, std::size_t step
 
 struct DataFolder {
   const char* name;
-  std::size_t step;  ///< every so many images
+  std::size_t step;  ///< use every step-th image
 };
 
 void PrintTo(const DataFolder& folder, std::ostream* out) { *out << folder.name; }

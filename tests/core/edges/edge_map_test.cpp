@@ -45,7 +45,7 @@ std::vector<EdgeOptions> someOptions() {
   return all;
 }
 
-TEST(DetectEdges, HoldsAPyramidOfOrs) {
+TEST(DetectEdges, EachLevel_IsTheOrOfTheLevelBefore) {
   Random random(51);
   for (const Size size : kSizes) {
     const TestImage image = makeImage(Pattern::kDisks, size, random);
@@ -68,7 +68,7 @@ TEST(DetectEdges, HoldsAPyramidOfOrs) {
   }
 }
 
-TEST(DetectEdges, CountingTellsTheMemoryForEveryOptionAndTouchesNothing) {
+TEST(DetectEdges, CountingArena_MeasuresTheMemoryForEveryOptionWithoutPixels) {
   Random random(52);
   const TestImage image = makeImage(Pattern::kDisks, {330, 170}, random);
   TestBits ignore(image.width, image.height);
@@ -98,7 +98,7 @@ TEST(DetectEdges, CountingTellsTheMemoryForEveryOptionAndTouchesNothing) {
   }
 }
 
-TEST(DetectEdges, NeedsLittleMemoryBesidesTheMap) {
+TEST(DetectEdges, MapAndScratch_StayWithinTheirMemoryBounds) {
   ImageView image;
   image.width = 2048;
   image.height = 2048;
@@ -111,7 +111,7 @@ TEST(DetectEdges, NeedsLittleMemoryBesidesTheMap) {
   }
 }
 
-TEST(EdgeDetector, StepsGiveTheSameMapWhereverItIsInterrupted) {
+TEST(EdgeDetector, InterruptedSteps_GiveTheSameMap) {
   Random random(53);
   const TestImage image = makeImage(Pattern::kDisks, {1100, 1000}, random);
   TestBits ignore(image.width, image.height);
@@ -119,7 +119,7 @@ TEST(EdgeDetector, StepsGiveTheSameMapWhereverItIsInterrupted) {
   for (const EdgeOptions& options : someOptions()) {
     const MapCopy whole = detect(image.view(), &*ignore, options);
     TestArena arena;
-    // Two detectors take turns; whatever one left in the caches or statics would show.
+    // Two detectors alternate; shared state between them would change the result.
     TestArena other_arena;
     EdgeMap map;
     EdgeMap other_map;
@@ -138,7 +138,7 @@ TEST(EdgeDetector, StepsGiveTheSameMapWhereverItIsInterrupted) {
   }
 }
 
-/// Moving a detector about between the steps (as part of its owner) must not hurt.
+/// Moving a detector between steps (as part of its owner) must not change the result.
 TEST(EdgeDetector, MayBeCopiedBetweenSteps) {
   Random random(54);
   const TestImage image = makeImage(Pattern::kDisks, {900, 700}, random);
@@ -184,8 +184,8 @@ TEST(DetectEdges, HasNoEdgeWithinTheMarginOfIgnoredPixels) {
   }
 }
 
-/// What stands in ignored pixels reaches no further than the filters do: the thresholds stay, and
-/// so do all edges beyond the margin, as long as the margin covers the filters' reach.
+/// The content of ignored pixels affects only pixels within reach of the filters: the thresholds
+/// stay, and so do all edges beyond the margin, as long as the margin covers the filters' reach.
 TEST(DetectEdges, DoesNotDependOnTheContentOfIgnoredPixels) {
   Random random(57);
   EdgeOptions options;
@@ -260,7 +260,7 @@ TEST(EdgeOptions, EachFieldOutOfRangeIsRefused) {
   EXPECT_EQ(statusOf([=](EdgeOptions& o) { o.high_threshold = -1.0; }), Status::kInvalidOption);
 }
 
-TEST(DetectEdges, RefusesImagesThatAreNone) {
+TEST(DetectEdges, RefusesInvalidImages) {
   Random random(61);
   const TestImage image = makeImage(Pattern::kNoise, {20, 20}, random);
   const auto statusOf = [](const ImageView& view, const BitImage* ignore) {

@@ -91,7 +91,7 @@ TEST(Hysteresis, FillsRowsInBothDirections) {
 }
 
 /// One line that winds through the whole image, the hardest shape for sweeps over rows, from either
-/// end: against the direction of the first sweep only the words beside a change are visited.
+/// end: against the direction of the first sweep only the words next to a change are visited.
 TEST(Hysteresis, FollowsASerpentine) {
   const int side = 257;
   for (const bool upright : {false, true}) {
@@ -112,7 +112,7 @@ TEST(Hysteresis, FollowsASerpentine) {
   }
 }
 
-TEST(Hysteresis, DoesNotLeaveItsBudgetByMoreThanARow) {
+TEST(Hysteresis, ExceedsItsBudgetByAtMostARow) {
   TestBits candidates(640, 300);
   for (std::uint64_t& word : candidates->words) word = ~std::uint64_t{0};
   TestBits edges(640, 300);
@@ -139,7 +139,7 @@ std::int32_t quantileOf(const std::vector<std::int32_t>& magnitudes, double shar
   return histogram.quantile(share);
 }
 
-TEST(GradientHistogram, QuantileIsTheSmallestThatEnoughDoNotExceed) {
+TEST(GradientHistogram, Quantile_IsTheSmallestThresholdThatTheShareDoesNotExceed) {
   const std::vector<std::int32_t> magnitudes = {49, 1, 9, 25};
   EXPECT_EQ(quantileOf(magnitudes, 0.5), 3);
   EXPECT_EQ(quantileOf(magnitudes, 0.5 + 1e-9), 5);
@@ -181,7 +181,7 @@ TEST(GradientHistogram, EqualsTheSortedMagnitudes) {
   }
 }
 
-TEST(GradientHistogram, WithoutPixelsNothingExceedsTheQuantile) {
+TEST(GradientHistogram, WithoutPixels_NothingExceedsTheQuantile) {
   EXPECT_EQ(quantileOf({500, 600}, 0.9, {3}), 1443);
 }
 

@@ -19,7 +19,7 @@ inline ImageView asView(const cv::Mat& image) {
           static_cast<std::ptrdiff_t>(image.step[0])};
 }
 
-/// The whole image as the core's own stage leaves it: equalized as `options` say, then smoothed.
+/// The whole image after core's own stages: equalized by `options`, then smoothed.
 inline cv::Mat byCore(const ImageView& image, const BitImage* ignore, const EdgeOptions& options) {
   TestArena arena;
   Equalizer equalizer;

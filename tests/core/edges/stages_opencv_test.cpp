@@ -65,7 +65,7 @@ TEST(GaussianBlur, EqualsOpenCv) {
   }
 }
 
-/// Against floating point: rounding of the weights is all that may differ.
+/// Against floating point: only the rounding of the weights may differ.
 TEST(GaussianBlur, IsWithinOneGrayLevelOfTheExactGaussianOnStructure) {
   Random random(12);
   for (const double sigma_px : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
@@ -264,7 +264,7 @@ TEST(EqualizeImage, AnEmptyIgnoreMaskChangesNothing) {
   }
 }
 
-TEST(EqualizeImage, TilesDoNotSeeIgnoredPixels) {
+TEST(EqualizeImage, IgnoredPixels_DoNotAffectTheTiles) {
   Random random(5);
   TestImage image = makeImage(Pattern::kDisks, {131, 119}, random);
   TestBits ignore(image.width, image.height);
@@ -281,7 +281,7 @@ TEST(EqualizeImage, TilesDoNotSeeIgnoredPixels) {
   EXPECT_EQ(countDifferent(first, second), 0);
 }
 
-TEST(EqualizeImage, EverythingIgnoredLeavesTheImageAsItIs) {
+TEST(EqualizeImage, EverythingIgnored_LeavesTheImageUnchanged) {
   Random random(6);
   TestImage image = makeImage(Pattern::kNoise, {70, 20}, random);
   TestBits ignore(image.width, image.height);

@@ -31,7 +31,7 @@ class EveryPlanetaryCamera : public ::testing::TestWithParam<PlanetaryCamera> {
 INSTANTIATE_TEST_SUITE_P(Cahv, EveryPlanetaryCamera, ::testing::ValuesIn(planetaryCameras()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST_P(EveryPlanetaryCamera, AgreesWithFiftyDigitsOfThePublishedMathematics) {
+TEST_P(EveryPlanetaryCamera, AgreesWithTheFiftyDigitReference) {
   for (const PlanetaryCamera::Sight& sight : GetParam().sights) {
     const Eigen::Vector2d pixel = pixelOf(camera_, camera_from_reference_ * sight.point_m);
     EXPECT_LT((pixel - sight.pixel).norm(), 1e-9) << sight.pixel.transpose();
@@ -84,19 +84,21 @@ TEST_P(EveryPlanetaryCamera, JacobianAgreesWithFiniteDifferences) {
 TEST_P(EveryPlanetaryCamera, JacobianIsSmoothThroughTheOpticalAxis) {
   const Eigen::Vector3d on_axis = 0.7 * camera_.cahv.optical_axis;
   Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> there;
-  ASSERT_TRUE(projectWithJacobian(camera_, on_axis, pixel, there));
+  Eigen::Matrix<double, 2, 3> on_axis_jacobian;
+  ASSERT_TRUE(projectWithJacobian(camera_, on_axis, pixel, on_axis_jacobian));
   for (const double off : {0.0, 1e-300, 1e-12, 1e-9, 1e-7, 0.69e-4, 0.71e-4}) {
-    Eigen::Matrix<double, 2, 3> beside;
-    ASSERT_TRUE(
-        projectWithJacobian(camera_, on_axis + Eigen::Vector3d(off, -off, 0.0), pixel, beside));
-    EXPECT_LT((beside - there).norm(), (1e-9 + 20.0 * off) * there.norm()) << off;
-    expectDerivatives(camera_, on_axis + Eigen::Vector3d(off, -off, 0.0), beside, 1e-6,
-                      1e-6 * there.norm());
+    Eigen::Matrix<double, 2, 3> off_axis_jacobian;
+    ASSERT_TRUE(projectWithJacobian(camera_, on_axis + Eigen::Vector3d(off, -off, 0.0), pixel,
+                                    off_axis_jacobian));
+    EXPECT_LT((off_axis_jacobian - on_axis_jacobian).norm(),
+              (1e-9 + 20.0 * off) * on_axis_jacobian.norm())
+        << off;
+    expectDerivatives(camera_, on_axis + Eigen::Vector3d(off, -off, 0.0), off_axis_jacobian, 1e-6,
+                      1e-6 * on_axis_jacobian.norm());
   }
 }
 
-TEST_P(EveryPlanetaryCamera, ALevelAndAPartOfTheImageSeeTheSamePoints) {
+TEST_P(EveryPlanetaryCamera, LevelsAndCrops_ProjectTheSamePoints) {
   Random random = randomFor("CahvLevel" + GetParam().name);
   Camera part = camera_;
   ASSERT_EQ(cutToFrame(100, -37, 400, 300, part), Status::kOk);
@@ -115,7 +117,7 @@ TEST_P(EveryPlanetaryCamera, ALevelAndAPartOfTheImageSeeTheSamePoints) {
   }
 }
 
-TEST_P(EveryPlanetaryCamera, SeenFromItsPupilAPointLiesInTheDirectionOfItsPixel) {
+TEST_P(EveryPlanetaryCamera, SeenFromPupil_LiesInTheDirectionOfThePixel) {
   Random random = randomFor("CahvSeen" + GetParam().name);
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector2d at = pixel(random);
@@ -132,7 +134,7 @@ TEST_P(EveryPlanetaryCamera, SeenFromItsPupilAPointLiesInTheDirectionOfItsPixel)
   }
 }
 
-TEST_P(EveryPlanetaryCamera, VectorsComeBackInTheReferenceFrame) {
+TEST_P(EveryPlanetaryCamera, CahvVectors_RoundTripThroughTheReferenceFrame) {
   const CahvModel again = cahvFromCamera(camera_, camera_from_reference_);
   const CahvModel& cahv = GetParam().cahv;
   EXPECT_LT((again.c_m - cahv.c_m).norm(), 1e-15);
@@ -167,7 +169,7 @@ TEST_P(EveryPlanetaryCamera, RefusesPointsBehindAndNonFiniteInput) {
 
 /// Anything that projects, wherever it lands, is on the ray of the pixel where it does: nothing
 /// folds back.
-TEST_P(EveryPlanetaryCamera, NothingFoldsBack) {
+TEST_P(EveryPlanetaryCamera, ProjectedPoints_LieOnTheRayOfTheirPixel) {
   Random random = randomFor("CahvFolds" + GetParam().name);
   int projected = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -183,7 +185,7 @@ TEST_P(EveryPlanetaryCamera, NothingFoldsBack) {
   EXPECT_GT(projected, 100);
 }
 
-TEST(Cahv, OfAPinholeIsThatPinhole) {
+TEST(Cahv, VectorsOfAPinhole_GiveThatPinhole) {
   Random random = randomFor("CahvPinhole");
   for (int k = 0; k < 20; ++k) {
     const Camera pinhole = randomCamera(random, CameraModel::kPinhole);
@@ -226,19 +228,20 @@ TEST(Cahv, VectorsOfRoundedLengthGiveTheSamePixels) {
 }
 
 /// Two cameras give the same pixels over the image of the first.
-void expectSamePixels(const Camera& one, const Camera& other) {
+void expectSamePixels(const Camera& expected_camera, const Camera& camera) {
   Random random = randomFor("CahvSamePixels");
-  ASSERT_EQ(pupilMoves(one), false);
+  ASSERT_EQ(pupilMoves(expected_camera), false);
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector2d at(random.uniform(0.0, one.width), random.uniform(0.0, one.height));
-    const Ray ray = rayOf(one, at);
+    const Eigen::Vector2d at(random.uniform(0.0, expected_camera.width),
+                             random.uniform(0.0, expected_camera.height));
+    const Ray ray = rayOf(expected_camera, at);
     Eigen::Vector2d pixel;
     Eigen::Vector2d expected;
     Eigen::Matrix<double, 2, 3> jacobian;
     Eigen::Matrix<double, 2, 3> expected_jacobian;
     const Eigen::Vector3d point = ray.at(random.uniform(0.1, 2.0));
-    ASSERT_TRUE(projectWithJacobian(one, point, expected, expected_jacobian));
-    ASSERT_TRUE(projectWithJacobian(other, point, pixel, jacobian));
+    ASSERT_TRUE(projectWithJacobian(expected_camera, point, expected, expected_jacobian));
+    ASSERT_TRUE(projectWithJacobian(camera, point, pixel, jacobian));
     EXPECT_LT((pixel - expected).norm(), 1e-9) << at.transpose();
     EXPECT_LT((jacobian - expected_jacobian).norm(), 1e-9 * expected_jacobian.norm());
   }
@@ -257,7 +260,7 @@ TEST(Cahvor, WithoutRadialTermsIsCahv) {
 }
 
 /// k1 = r1 / (1 + r0), k2 = r2 / (1 + r0), and focal lengths times 1 + r0, when O is A.
-TEST(Cahvor, AlongTheAxisIsBrownsRadialModel) {
+TEST(Cahvor, AxisAlongZ_EqualsBrownsRadialModel) {
   Camera camera = planetaryCamera("Wide");
   camera.cahv.optical_axis = Eigen::Vector3d::UnitZ();
   camera.cahv.skew_px = 0.0;
@@ -272,13 +275,13 @@ TEST(Cahvor, AlongTheAxisIsBrownsRadialModel) {
                    changed(camera, CameraModel::kCahvor));
 }
 
-TEST(Cahvore, OfAStillPupilAndPerspectiveIsCahvor) {
+TEST(Cahvore, FixedPupilPerspective_EqualsCahvor) {
   Camera camera = planetaryCamera("Wide");
   expectSamePixels(changed(camera, CameraModel::kCahvor), changed(camera, CameraModel::kCahvore));
 }
 
 /// theta (1 + r1 theta^2 + r2 theta^4): k1 = r1, k2 = r2.
-TEST(Cahvore, OfAStillPupilAndFisheyeIsKannalaBrandt) {
+TEST(Cahvore, FixedPupilFisheye_EqualsKannalaBrandt) {
   Camera camera = planetaryCamera("Fisheye");
   camera.cahv.optical_axis = Eigen::Vector3d::UnitZ();
   camera.cahv.entrance_m.setZero();
@@ -339,7 +342,7 @@ TEST(Cahvore, RefusesPointsWhereRaysCross) {
   EXPECT_TRUE(project(camera, Eigen::Vector3d(1.0, 0.5, 0.7) * 0.1, pixel));
 }
 
-TEST(CameraFromCahv, RefusesWhatCannotBeACamera) {
+TEST(CameraFromCahv, RefusesInvalidVectors) {
   const PlanetaryCamera good = planetaryCameras().back();
   const auto status = [&good](auto&& change) {
     CahvModel cahv = good.cahv;

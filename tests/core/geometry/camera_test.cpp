@@ -94,7 +94,7 @@ TEST_P(EveryCamera, BothProjectionsGiveTheSamePixel) {
   }
 }
 
-TEST_P(EveryCamera, PrincipalPointSeesStraightAhead) {
+TEST_P(EveryCamera, PrincipalPoint_HasTheRayAlongZ) {
   const Camera& camera = GetParam().camera;
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> jacobian;
@@ -126,7 +126,7 @@ TEST_P(EveryCamera, RefusesPointsBehindAndNonFiniteInput) {
     EXPECT_FALSE(unproject(camera, bad, ray)) << bad.transpose();
 }
 
-TEST_P(EveryCamera, LevelSeesTheSameRayAtTheScaledPixel) {
+TEST_P(EveryCamera, CameraAtLevel_HasTheSameRayAtTheScaledPixel) {
   const Camera& camera = GetParam().camera;
   for (int level = 0; level <= 5; ++level) {
     const Camera pooled = cameraAtLevel(camera, level);
@@ -141,7 +141,7 @@ TEST_P(EveryCamera, LevelSeesTheSameRayAtTheScaledPixel) {
   }
 }
 
-TEST(PrepareCamera, RefusesWhatCannotProject) {
+TEST(PrepareCamera, RefusesInvalidParameters) {
   const Camera good = makeCamera(CameraModel::kBrownConrady, 640, 480, 500.0, {-0.1});
   ASSERT_GT(good.valid_radius, 0.0);
   const auto status = [&good](auto&& change) {

@@ -19,14 +19,14 @@ struct NamedCamera {
 
 inline void PrintTo(const NamedCamera& named, std::ostream* out) { *out << named.name; }
 
-/// Where the camera sees a point, which it must.
+/// Pixel of a point; the test fails when it does not project.
 inline Eigen::Vector2d pixelOf(const Camera& camera, const Eigen::Vector3d& point) {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   EXPECT_TRUE(project(camera, point, pixel)) << point.transpose();
   return pixel;
 }
 
-/// The ray of a pixel, which it must have.
+/// The ray of a pixel; the test fails when there is none.
 inline Ray rayOf(const Camera& camera, const Eigen::Vector2d& pixel) {
   Ray ray;
   EXPECT_TRUE(unprojectRay(camera, pixel, ray)) << pixel.transpose();

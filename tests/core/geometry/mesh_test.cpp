@@ -123,7 +123,7 @@ TEST(BuildAdjacency, LeavesEdgesOfThreeFacesOpen) {
   EXPECT_EQ(bruteAdjacency(mesh)[0][2], -1);
 }
 
-TEST(BuildAdjacency, LooksThroughFacesWithARepeatedVertex) {
+TEST(BuildAdjacency, FacesWithARepeatedVertex_AreSkipped) {
   OwnedMesh mesh = grid(3);
   mesh.addFace(0, 0, 1);
   mesh.addFace(0, 5, 0);
@@ -144,7 +144,7 @@ TEST(BuildAdjacency, EqualsTheDefinitionOnRandomFaces) {
   }
 }
 
-TEST(BuildAdjacency, SaysWhenTheArenaIsTooSmall) {
+TEST(BuildAdjacency, SmallArena_IsReported) {
   const OwnedMesh mesh = grid(4);
   Arena counter;
   MeshAdjacency adjacency;
@@ -164,7 +164,7 @@ TEST(ValidateMesh, AcceptsDegenerateFacesAndLooseVertices) {
   EXPECT_EQ(validateMesh(mesh.view()), Status::kOk);
 }
 
-TEST(ValidateMesh, RefusesWhatWouldReadOutOfBounds) {
+TEST(ValidateMesh, RefusesIndicesOutOfBounds) {
   const auto status = [](auto&& change) {
     OwnedMesh mesh = tetrahedron();
     change(mesh);

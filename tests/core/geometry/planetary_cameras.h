@@ -10,7 +10,7 @@
 
 namespace boresight::test {
 
-/// What cahv_reference.py has computed, in the reference frame.
+/// Results of cahv_reference.py, in the reference frame.
 struct PlanetaryCamera {
   struct Sight {
     Eigen::Vector2d pixel;

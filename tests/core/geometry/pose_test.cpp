@@ -29,7 +29,7 @@ double angleBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return 2.0 * (a.coeffs() * (a.dot(b) < 0.0 ? -1.0 : 1.0) - b.coeffs()).norm();
 }
 
-TEST(Pose, ActsLikeItsMatrix) {
+TEST(Pose, AgreesWithItsMatrix) {
   Random random = randomFor("Pose.ActsLikeItsMatrix");
   for (int i = 0; i < 300; ++i) {
     const Pose a_from_b = randomPose(random);
@@ -52,7 +52,7 @@ TEST(Pose, LongChainsStayRotations) {
   EXPECT_NEAR(chain.rotation.norm(), 1.0, 4e-16);
 }
 
-TEST(Pose, IsFiniteLooksAtEveryNumber) {
+TEST(Pose, IsFinite_ChecksEveryNumber) {
   EXPECT_TRUE(Pose{}.isFinite());
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     for (int i = 0; i < 4; ++i) {
@@ -174,7 +174,7 @@ TEST(PoseFromMatrix, HandlesHalfTurnsAboutEveryAxis) {
   }
 }
 
-TEST(PoseFromMatrix, RefusesWhatIsNotARotation) {
+TEST(PoseFromMatrix, RefusesMatricesThatAreNotRotations) {
   Pose pose;
   double deviation = 0.0;
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();

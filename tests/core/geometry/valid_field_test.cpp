@@ -55,7 +55,7 @@ TEST(ValidField, EndsWhereTheBarrelStopsIncreasing) {
   EXPECT_FALSE(unproject(camera, {0.0, -10.0 * edge}, ray));
 }
 
-TEST(ValidField, HasNoEndInSightWhereTheModelKeepsIncreasing) {
+TEST(ValidField, IsUnlimitedForAnIncreasingModel) {
   EXPECT_GT(unitCamera(CameraModel::kPinhole, {}).valid_radius, 1e3);
   EXPECT_GT(unitCamera(CameraModel::kBrownConrady, {}).valid_radius, 1e3);
   // 1 - 0.36 s + 0.3 s^2 has no real root; the field ends where |q| becomes absurd.
@@ -123,7 +123,7 @@ TEST(ValidField, TangentialTermsEndItWhereTheFirstDirectionFolds) {
   EXPECT_NEAR(smallestEigenvalue(camera, last), 0.0, 1e-10);
 }
 
-TEST(ValidField, EveryPointInsideIsFoundAgainFromItsPixel) {
+TEST(ValidField, EveryPointInside_IsRecoveredFromItsPixel) {
   Random random = randomFor("EveryPointInsideIsFoundAgain");
   for (int i = 0; i < 2000; ++i) {
     const bool fisheye = i % 4 == 0;
@@ -149,7 +149,7 @@ TEST(ValidField, EveryPointInsideIsFoundAgainFromItsPixel) {
   }
 }
 
-TEST(ValidField, UnprojectNeverAnswersWrongly) {
+TEST(ValidField, Unproject_IsCorrectOrFails) {
   Random random = randomFor("UnprojectNeverAnswersWrongly");
   int refused = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -235,7 +235,7 @@ TEST(PositiveUpTo, FindsTheFirstOfManyRoots) {
   }
 }
 
-TEST(PositiveUpTo, SeesTwoRootsThatAreCloseTogether) {
+TEST(PositiveUpTo, FindsTheFirstOfTwoCloseRoots) {
   // (x - 1) (x - 1.0001): negative on a ten-thousandth only.
   const Polynomial dip{{1.0001, -2.0001, 1.0}};
   EXPECT_NEAR(positiveUpTo(dip, 100.0), 1.0, 1e-9);

@@ -74,16 +74,16 @@ std::vector<Setting> settings() {
 }
 
 Case caseOf(const Setting& setting, const Picture& picture, std::uint64_t seed) {
-  Case made;
-  made.solid = stationMesh();
-  made.camera = setting.camera;
-  made.picture = &picture;
+  Case scene;
+  scene.solid = stationMesh();
+  scene.camera = setting.camera;
+  scene.picture = &picture;
   Pose turned;
   turned.rotation = rotationExp({0.0, setting.turn_rad, 0.0});
-  made.truth = turned * truthPose();
-  made.seed = displacedSeed(made.truth, uncertaintyAbout(made.solid, made.truth), 0.8, seed);
-  made.uncertainty = uncertaintyAbout(made.solid, made.seed);
-  return made;
+  scene.truth = turned * truthPose();
+  scene.seed = displacedSeed(scene.truth, uncertaintyAbout(scene.solid, scene.truth), 0.8, seed);
+  scene.uncertainty = uncertaintyAbout(scene.solid, scene.seed);
+  return scene;
 }
 
 class LocalizerOnPlanetaryCameras : public ::testing::TestWithParam<Setting> {};
@@ -116,7 +116,7 @@ TEST_P(LocalizerOnPlanetaryCameras, ConvergesToTheTruth) {
   }
 }
 
-TEST_P(LocalizerOnPlanetaryCameras, AreTheSameFromAProblemsBytes) {
+TEST_P(LocalizerOnPlanetaryCameras, DecodedProblem_GivesTheSameRun) {
   const Picture picture = noisePicture(512, 512, 3);
   const Case scene = caseOf(GetParam(), picture, 1);
   const LocalizationProblem problem = scene.problem();

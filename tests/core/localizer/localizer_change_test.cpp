@@ -18,7 +18,7 @@ namespace {
 
 using Digest = std::array<std::uint8_t, 32>;
 
-/// What a run came to, iteration by iteration.
+/// Results of a run by iteration.
 struct Course {
   std::vector<Digest> poses;  ///< after each iteration
   Digest digest{};
@@ -69,7 +69,7 @@ Course plainCourse(const LocalizationProblem& problem, const LocalizerOptions& o
   return courseOf(problem, options, [](Localizer&, int) {});
 }
 
-/// `wanted`, with what holds for a whole run as in `base`.
+/// `wanted`, with the fixed options of `base`.
 LocalizerOptions changeable(const LocalizerOptions& base, LocalizerOptions wanted) {
   wanted.edges = base.edges;
   wanted.render = base.render;
@@ -83,7 +83,7 @@ LocalizerOptions changeable(const LocalizerOptions& base, LocalizerOptions wante
   return wanted;
 }
 
-TEST(LocalizerChange, TheSameOptionsChangeNoBit) {
+TEST(LocalizerChange, SameOptions_ChangeNoBit) {
   const Case scene = stationCase(4);
   int asked = 0;
   const Course course =
@@ -95,7 +95,7 @@ TEST(LocalizerChange, TheSameOptionsChangeNoBit) {
   EXPECT_EQ(course.digest, plainCourse(scene.problem(), withoutSearch()).digest);
 }
 
-TEST(LocalizerChange, KeepsWhatWasAndHearsOfWhatChangesAndWhen) {
+TEST(LocalizerChange, Digest_DependsOnTheChangedOptionsAndTheirIteration) {
   const Case scene = stationCase(4);
   LocalizerOptions other = defaultProfile();
   other.loop.render_again_px *= 2.0;
@@ -112,9 +112,9 @@ TEST(LocalizerChange, KeepsWhatWasAndHearsOfWhatChangesAndWhen) {
   }
 }
 
-/// The oracle of what a change does: before the first iteration it must be as if the run had had
-/// the new options from the start.
-TEST(LocalizerChange, BeforeTheFirstIterationItIsARunWithTheNewOptions) {
+/// Oracle of a change: before the first iteration the run must equal a run with the new options
+/// from the start.
+TEST(LocalizerChange, ChangeBeforeTheFirstIteration_EqualsARunWithTheNewOptions) {
   const Camera camera = smallCamera();
   const Picture picture = takePicture(stationMesh(), camera, truthPose());
   Random random(5);
@@ -130,10 +130,10 @@ TEST(LocalizerChange, BeforeTheFirstIterationItIsARunWithTheNewOptions) {
     EXPECT_EQ(course.status, expected.status);
     if (plainCourse(scene.problem(), before).poses != expected.poses) ++changed;
   }
-  EXPECT_GT(changed, 20) << "the changes must be such as show";
+  EXPECT_GT(changed, 20) << "too few changes have an effect";
 }
 
-TEST(LocalizerChange, WheneverAndWhateverItEndsWithinItsMemory) {
+TEST(LocalizerChange, AnyChangeAtAnyIteration_EndsWithinTheMemory) {
   const Camera camera = smallCamera();
   const Picture picture = takePicture(stationMesh(), camera, truthPose());
   Random random(6);
@@ -152,7 +152,7 @@ TEST(LocalizerChange, WheneverAndWhateverItEndsWithinItsMemory) {
   }
 }
 
-TEST(LocalizerChange, RefusesWhatHoldsForAWholeRun) {
+TEST(LocalizerChange, FixedOptions_AreRefused) {
   const Case scene = stationCase(4);
   const Course plain = plainCourse(scene.problem(), defaultProfile());
   int refused = 0;
@@ -182,12 +182,12 @@ TEST(LocalizerChange, RefusesWhatHoldsForAWholeRun) {
         options.loop.inlier_threshold_px = -1.0;
         EXPECT_FALSE(localizer.changeOptions(options)) << "out of range";
       });
-  EXPECT_EQ(course.digest, plain.digest) << "what is refused leaves no trace";
+  EXPECT_EQ(course.digest, plain.digest) << "a refused change must not change the digest";
   EXPECT_EQ(refused, 15);
   EXPECT_EQ(accepted, 26);
 }
 
-TEST(LocalizerChange, OnlyBetweenIterations) {
+TEST(LocalizerChange, ChangeWithinAnIteration_IsRefused) {
   const Case scene = stationCase(4);
   LocalizerOptions other = defaultProfile();
   other.pnp.seed = 99;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digest depends on what a run works on and on nothing else.
+// The digest depends on the inputs of a run and on nothing else.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -84,7 +84,7 @@ TEST(LocalizerDigest, DoesNotDependOnTheImagesPadding) {
   EXPECT_EQ(digestOf(problem, defaultProfile()), expected);
 }
 
-TEST(LocalizerDigest, LookingChangesNothing) {
+TEST(LocalizerDigest, ReadAccess_ChangesNothing) {
   const Case scene = stationCase(4);
   OwnedRun run(scene.problem(), withoutSearch());
   double sum = 0.0;
@@ -96,17 +96,17 @@ TEST(LocalizerDigest, LookingChangesNothing) {
       const Iteration iteration = *copy.iteration;
       sum += iteration.camera_from_station.translation_m.sum() + iteration.render.pixel_count;
     }
-    const Digest now = run.localizer.digest();
-    EXPECT_EQ(run.localizer.digest(), now);
-    if (report.stage_complete && now != before) ++stages;
-    before = now;
+    const Digest current = run.localizer.digest();
+    EXPECT_EQ(run.localizer.digest(), current);
+    if (report.stage_complete && current != before) ++stages;
+    before = current;
   });
   EXPECT_GT(sum, 0.0);
   EXPECT_GT(stages, 10);
   EXPECT_EQ(run.localizer.digest(), digestOf(scene.problem(), withoutSearch()));
 }
 
-/// Everything that belongs to the inputs; each must be heard.
+/// Every change of an input; each must change the digest.
 TEST(LocalizerDigest, ChangesWithEveryInput) {
   struct Inputs {
     Case scene = stationCase(4);
@@ -173,7 +173,7 @@ TEST(LocalizerDigest, ChangesWithEveryOption) {
   EXPECT_GT(count, 40);
 }
 
-TEST(LocalizerDigest, ARestartIsAFreshRun) {
+TEST(LocalizerDigest, Restart_GivesTheDigestOfANewRun) {
   const Case scene = stationCase(4);
   const Case other = stationCase(5);
   LocalizerOptions first = withoutSearch();
@@ -198,10 +198,10 @@ TEST(LocalizerDigest, ARestartIsAFreshRun) {
             fresh.localizer.workspace().edges.edge_count);
 }
 
-TEST(LocalizerDigest, ARestartInTheMiddleIsAFreshRun) {
+TEST(LocalizerDigest, RestartInTheMiddle_GivesTheDigestOfANewRun) {
   const Case scene = stationCase(4);
   const Digest expected = digestOf(scene.problem(), paperProfile());
-  // What needs as much as there is, then what needs less, and back.
+  // Options that need all the memory, then options that need less, and back.
   std::vector<std::byte> memory(std::max(blockFor(scene.problem(), paperProfile()).size(),
                                          blockFor(scene.problem(), defaultProfile()).size()));
   Localizer localizer(scene.problem(), paperProfile(), memory);

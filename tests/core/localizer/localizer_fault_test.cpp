@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bad input comes back as a status, never as a crash.
+// Invalid input gives a status, never a crash.
 #include <functional>
 #include <limits>
 #include <string>

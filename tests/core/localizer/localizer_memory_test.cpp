@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One block, exactly as large as announced, and nothing beside it.
+// A run uses one block of exactly the required bytes and no other memory.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -43,22 +43,22 @@ struct Variant {
 };
 
 std::vector<Variant> variants() {
-  std::vector<Variant> made = {{"default", {}},           {"paper", paperProfile()},
-                               {"pyramid", {}},           {"unrolled", {}},
-                               {"unrefined", {}},         {"fixed", {}},
-                               {"equalized locally", {}}, {"without search", {}}};
-  made[7].options.search.enabled = false;
-  made[2].options.loop.coarse_size_px = 128;
-  made[3].options.loop.max_rolled_hypotheses = 1;
-  made[4].options.refinement.enabled = false;
-  made[5].options.edges.thresholds = CannyThresholds::kAbsolute;
-  made[5].options.edges.gaussian_sigma_px = 0.0;
-  made[6].options.edges.equalization = Equalization::kClahe;
-  made[6].options.edges.gaussian_sigma_px = 8.0;
-  return made;
+  std::vector<Variant> variants = {{"default", {}},           {"paper", paperProfile()},
+                                   {"pyramid", {}},           {"unrolled", {}},
+                                   {"unrefined", {}},         {"fixed", {}},
+                                   {"equalized locally", {}}, {"without search", {}}};
+  variants[7].options.search.enabled = false;
+  variants[2].options.loop.coarse_size_px = 128;
+  variants[3].options.loop.max_rolled_hypotheses = 1;
+  variants[4].options.refinement.enabled = false;
+  variants[5].options.edges.thresholds = CannyThresholds::kAbsolute;
+  variants[5].options.edges.gaussian_sigma_px = 0.0;
+  variants[6].options.edges.equalization = Equalization::kClahe;
+  variants[6].options.edges.gaussian_sigma_px = 8.0;
+  return variants;
 }
 
-TEST(LocalizerMemory, IsExactlyWhatWasAnnounced) {
+TEST(LocalizerMemory, UsedBytes_EqualTheRequiredBytes) {
   Mask mask(512, 512);
   mask.fill(0, 0, 40, 40);
   for (const bool distorted : {false, true}) {
@@ -91,7 +91,7 @@ TEST(LocalizerMemory, IsExactlyWhatWasAnnounced) {
   }
 }
 
-TEST(LocalizerMemory, IsNeverLeftHoweverSmallItIs) {
+TEST(LocalizerMemory, BlockTooSmall_IsReportedAndNotOverrun) {
   const Case scene = stationCase(1, true);
   std::size_t bytes = 0;
   ASSERT_EQ(requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
@@ -107,7 +107,7 @@ TEST(LocalizerMemory, IsNeverLeftHoweverSmallItIs) {
   }
 }
 
-TEST(LocalizerMemory, MayBeginAnywhere) {
+TEST(LocalizerMemory, UnalignedBlocks_Work) {
   const Case scene = stationCase(1);
   std::size_t bytes = 0;
   ASSERT_EQ(requiredBytes(sizeOf(scene.problem()), {}, bytes), Status::kOk);
@@ -127,7 +127,7 @@ TEST(LocalizerMemory, MayBeginAnywhere) {
   }
 }
 
-TEST(LocalizerMemory, HoldsAnyOfTheSizes) {
+TEST(LocalizerMemory, RequiredBytes_GrowWithTheProblem) {
   Random random(5);
   for (int i = 0; i < 12; ++i) {
     ProblemSize size;
@@ -148,7 +148,7 @@ TEST(LocalizerMemory, HoldsAnyOfTheSizes) {
   }
 }
 
-/// What the caller holds, byte by byte.
+/// Bytes of the caller's inputs.
 std::size_t inputBytes(const ProblemSize& size) {
   const auto pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
   const std::size_t mask = size.ignore ? pixels / 8 : 0;
@@ -221,7 +221,7 @@ TEST(LocalizerMemory, FinerEdgeMapsLastUntilTheFirstRender) {
 
 TEST(LocalizerMemory, NothingIsAllocated) {
   {
-    // The counter hears all of them.
+    // The counter registers all of them.
     const int before = heapAllocations();
     void* volatile block = std::malloc(10);
     std::free(block);

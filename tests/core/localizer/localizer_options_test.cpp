@@ -87,7 +87,7 @@ std::array<std::uint8_t, 32> digestOf(const LocalizerOptions& options) {
   return writer.digest();
 }
 
-/// Colour excepted: whether a run looks at it is seen from the problem's digest.
+/// Except colour: the problem's digest shows whether a run uses it.
 TEST(LocalizerOptions, EachOption_ChangesTheDigest) {
   LocalizerOptions options = defaultProfile();
   std::set<std::array<std::uint8_t, 32>> digests = {digestOf(options)};
@@ -154,7 +154,7 @@ TEST(LocalizerOptions, PaperProfileIsAsPublished) {
   EXPECT_EQ(paper.edges.equalization, Equalization::kHistogram);
 }
 
-TEST(LocalizerOptions, FirstInvalidOptionNamesTheCulprit) {
+TEST(LocalizerOptions, FirstInvalidOption_NamesTheOption) {
   LocalizerOptions options;
   LocalizerOptions::visitFields(options, [&options](const OptionInfo& info, auto& field) {
     using Field = std::remove_reference_t<decltype(field)>;
@@ -180,7 +180,7 @@ TEST(LocalizerOptions, FirstInvalidOptionNamesTheCulprit) {
   });
 }
 
-TEST(LocalizerRandom, EveryRunEndsWithinItsMemoryAndAlwaysAlike) {
+TEST(LocalizerRandom, RandomOptions_EndWithinTheMemoryAndRepeatTheirDigest) {
   const Camera camera = smallCamera();
   const Picture picture = takePicture(stationMesh(), camera, truthPose());
   Mask mask(131, 97);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Matches that come from outside, in the same loop.
+// Matches from outside core, in the same loop.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -10,7 +10,7 @@
 namespace boresight::test {
 namespace {
 
-/// WHS as somebody outside would do it, from the core's own parts.
+/// WHS as an external matcher, built from parts of core.
 class OutsideWhs {
  public:
   OutsideWhs(const Camera& camera, const LocalizerOptions& options)
@@ -23,10 +23,10 @@ class OutsideWhs {
   }
 
   std::vector<SuppliedMatch> match(const Workspace& workspace) {
-    const Iteration& now = *workspace.iteration;
+    const Iteration& iteration = *workspace.iteration;
     std::vector<SuppliedMatch> found;
-    for (std::int32_t i = 0; i < now.templates.count; ++i)
-      found.push_back(find(workspace, now.templates.templates[static_cast<std::size_t>(i)]));
+    for (std::int32_t i = 0; i < iteration.templates.count; ++i)
+      found.push_back(find(workspace, iteration.templates.templates[static_cast<std::size_t>(i)]));
     return found;
   }
 
@@ -34,15 +34,15 @@ class OutsideWhs {
   static constexpr int kMostSide = 256;
 
   SuppliedMatch find(const Workspace& workspace, const Template& item) {
-    const Iteration& now = *workspace.iteration;
-    const BitImage& edges = workspace.edges.level[static_cast<std::size_t>(now.level)];
-    const TemplateView view{&now.render.edges, &now.render.mask, item.center_x, item.center_y,
-                            now.templates.side_px};
+    const Iteration& iteration = *workspace.iteration;
+    const BitImage& edges = workspace.edges.level[static_cast<std::size_t>(iteration.level)];
+    const TemplateView view{&iteration.render.edges, &iteration.render.mask, item.center_x,
+                            item.center_y, iteration.templates.side_px};
     SuppliedMatch match;
     match.item = item;
-    match.window =
-        searchWindow(now.render.camera, now.camera_from_station_before * item.point_in_station_m,
-                     now.uncertainty, now.templates.side_px);
+    match.window = searchWindow(iteration.render.camera,
+                                iteration.camera_from_station_before * item.point_in_station_m,
+                                iteration.uncertainty, iteration.templates.side_px);
     if (match.window.empty() ||
         search_.begin(view, edges, match.window, item.center_x, item.center_y,
                       kSecondPeakExclusion_px) != Status::kOk)
@@ -61,12 +61,12 @@ class OutsideWhs {
   WhsSearch search_;
 };
 
-void expectSamePose(const Pose& one, const Pose& other) {
-  EXPECT_EQ(one.rotation.coeffs(), other.rotation.coeffs());
-  EXPECT_EQ(one.translation_m, other.translation_m);
+void expectSamePose(const Pose& first, const Pose& second) {
+  EXPECT_EQ(first.rotation.coeffs(), second.rotation.coeffs());
+  EXPECT_EQ(first.translation_m, second.translation_m);
 }
 
-TEST(LocalizerOutside, TheSameMatchesMakeTheSameBits) {
+TEST(LocalizerOutside, SameMatches_GiveTheSameBits) {
   for (const bool distorted : {false, true}) {
     const Case scene = stationCase(2, distorted);
     const LocalizerOptions options = withoutSearch();
@@ -93,7 +93,7 @@ TEST(LocalizerOutside, TheSameMatchesMakeTheSameBits) {
   }
 }
 
-/// A run that stands where it waits for matches.
+/// A run that waits for matches.
 struct WaitingRun {
   Case scene = stationCase(2);
   std::vector<std::uint8_t> intensity;
@@ -123,7 +123,7 @@ struct WaitingRun {
   }
 };
 
-TEST(LocalizerOutside, WaitsUntilThereAreMatches) {
+TEST(LocalizerOutside, WithoutMatches_StepWaits) {
   WaitingRun waiting;
   Localizer& localizer = waiting.run.localizer;
   ASSERT_TRUE(localizer.awaitsMatches());
@@ -133,20 +133,20 @@ TEST(LocalizerOutside, WaitsUntilThereAreMatches) {
     EXPECT_EQ(report.stage, Stage::kMatch);
     EXPECT_FALSE(report.stage_complete);
   }
-  const Iteration& now = *localizer.workspace().iteration;
-  const EdgePixel& pixel = now.render.pixels[0];
+  const Iteration& iteration = *localizer.workspace().iteration;
+  const EdgePixel& pixel = iteration.render.pixels[0];
   EXPECT_GT(*std::max_element(waiting.intensity.begin(), waiting.intensity.end()), 30)
       << "the shaded render came with the edges, around " << pixel.x;
   ASSERT_EQ(localizer.supplyMatches(waiting.everyTemplate()), Status::kOk);
   EXPECT_FALSE(localizer.awaitsMatches());
   EXPECT_EQ(localizer.supplyMatches(waiting.everyTemplate()), Status::kInvalidOption);
   EXPECT_TRUE(localizer.step().stage_complete);
-  EXPECT_EQ(now.matches.searched, now.templates.count);
-  EXPECT_DOUBLE_EQ(whsScore(now.matches.matches[0].peak.counts, now.matches.matches[0].norms),
-                   1.25);
+  EXPECT_EQ(iteration.matches.searched, iteration.templates.count);
+  EXPECT_DOUBLE_EQ(
+      whsScore(iteration.matches.matches[0].peak.counts, iteration.matches.matches[0].norms), 1.25);
 }
 
-TEST(LocalizerOutside, RefusesMoreThanThereIsRoomFor) {
+TEST(LocalizerOutside, TooManyMatches_ExceedTheCapacity) {
   WaitingRun waiting;
   std::vector<SuppliedMatch> many(
       static_cast<std::size_t>(waiting.run.localizer.options().templates.count) + 1);
@@ -154,7 +154,7 @@ TEST(LocalizerOutside, RefusesMoreThanThereIsRoomFor) {
   EXPECT_TRUE(waiting.run.localizer.awaitsMatches());
 }
 
-TEST(LocalizerOutside, WhatIsNotFiniteIsNotFound) {
+TEST(LocalizerOutside, NonFiniteMatches_CountAsNotFound) {
   WaitingRun waiting;
   std::vector<SuppliedMatch> matches = waiting.everyTemplate();
   ASSERT_GT(matches.size(), 6u);
@@ -168,10 +168,10 @@ TEST(LocalizerOutside, WhatIsNotFiniteIsNotFound) {
   Localizer& localizer = waiting.run.localizer;
   ASSERT_EQ(localizer.supplyMatches(matches), Status::kOk);
   localizer.step();
-  const Iteration& now = *localizer.workspace().iteration;
-  EXPECT_EQ(now.matches.searched, now.matches.count - 4);
-  EXPECT_TRUE(now.matches.matches[3].searched) << "a score is for people";
-  EXPECT_EQ(now.templates.templates[5].center_x, 0);
+  const Iteration& iteration = *localizer.workspace().iteration;
+  EXPECT_EQ(iteration.matches.searched, iteration.matches.count - 4);
+  EXPECT_TRUE(iteration.matches.matches[3].searched) << "the score does not decide";
+  EXPECT_EQ(iteration.templates.templates[5].center_x, 0);
 }
 
 TEST(LocalizerOutside, NoMatchesEndTheRunAsTooFew) {
@@ -187,7 +187,7 @@ TEST(LocalizerOutside, NoMatchesEndTheRunAsTooFew) {
   EXPECT_EQ(localizer.workspace().status, LocalizationStatus::kTooFewMatches);
 }
 
-TEST(LocalizerOutside, NobodyAsksARunWithoutIt) {
+TEST(LocalizerOutside, WithoutMatchOutside_NoMatchesAreAwaited) {
   const Case scene = stationCase(2);
   OwnedRun run(scene.problem(), defaultProfile());
   run.finish([&](const StepReport&) { ASSERT_FALSE(run.localizer.awaitsMatches()); });

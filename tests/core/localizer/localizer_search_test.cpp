@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole runs that begin with a search, also on features that repeat: no pose one pitch off is taken
-// for the truth.
+// Whole runs that begin with a search, also on features that repeat: no pose one pitch off is
+// accepted.
 #include <algorithm>
 #include <cmath>
 
@@ -50,7 +50,7 @@ TEST(LocalizerSearch, RailWhoseEndsAreSeen_IsFoundAtItsPitch) {
   EXPECT_GE(wrong_without, 3);  // else these seeds show nothing
 }
 
-/// Whatever pitch they lock on, they say so, and nothing is returned but the seed.
+/// For any pitch that they converge on, the runs are ambiguous and return the seed.
 TEST(LocalizerSearch, RailWithoutVisibleEnds_IsAmbiguous) {
   int ambiguous = 0;
   for (const Ends ends : {Ends::kHidden, Ends::kOutside}) {
@@ -60,7 +60,7 @@ TEST(LocalizerSearch, RailWithoutVisibleEnds_IsAmbiguous) {
       OwnedRun run(scene.problem(), defaultProfile());
       EXPECT_GT(run.finish(), 0);
       const Workspace& workspace = run.localizer.workspace();
-      // What is left to see of the hidden ends may do.
+      // The visible rest of the hidden ends may suffice.
       if (ends == Ends::kHidden && workspace.status == LocalizationStatus::kConverged &&
           isRight(scene, workspace.camera_from_station))
         continue;
@@ -81,7 +81,7 @@ TEST(LocalizerSearch, RailWithoutVisibleEnds_IsAmbiguous) {
   EXPECT_GE(ambiguous, 4);
 }
 
-/// The true place lies outside what was stated: nothing inside is taken for it.
+/// The truth lies outside the stated uncertainty: no pose inside is accepted.
 TEST(LocalizerSearch, RailWhoseTruthIsOutsideTheUncertainty_IsRefused) {
   const Case scene = railCase(Ends::kSeen, 1.0, 0.6, 2);
   OwnedRun without(scene.problem(), withoutSearch());
@@ -91,7 +91,7 @@ TEST(LocalizerSearch, RailWhoseTruthIsOutsideTheUncertainty_IsRefused) {
   EXPECT_STRNE(localizationStatusText(endOf(scene, defaultProfile())), "converged");
 }
 
-/// What the seed rules out is no ambiguity.
+/// Poses that the seed excludes are not ambiguous.
 TEST(LocalizerSearch, RailWhoseSeedExcludesOtherPitches_IsNotAmbiguous) {
   const Case scene = railCase(Ends::kOutside, 0.0, 0.6, 2);
   OwnedRun run(scene.problem(), defaultProfile());
@@ -102,16 +102,16 @@ TEST(LocalizerSearch, RailWhoseSeedExcludesOtherPitches_IsNotAmbiguous) {
   EXPECT_GE(workspace.competing_poses.size(), 0u);
 }
 
-/// The seed turned about the view through the station's middle, as its uncertainty says.
+/// The seed turned about the view through the station's middle, within its stated uncertainty.
 Case turnedCase(std::uint64_t seed, double turn_rad) {
-  Case made = stationCase(seed);
-  const Eigen::Vector3d middle_m = made.seed * matchedBounds(made.solid.view()).centre();
+  Case turned = stationCase(seed);
+  const Eigen::Vector3d middle_m = turned.seed * matchedBounds(turned.solid.view()).centre();
   const Eigen::Quaterniond turn = rotationExp(middle_m.normalized() * turn_rad);
-  made.seed.rotation = (turn * made.seed.rotation).normalized();
-  made.seed.translation_m = turn * (made.seed.translation_m - middle_m) + middle_m;
-  made.uncertainty.pivot_in_camera_m = middle_m;
-  made.uncertainty.rotation_rad.z() = kPi;
-  return made;
+  turned.seed.rotation = (turn * turned.seed.rotation).normalized();
+  turned.seed.translation_m = turn * (turned.seed.translation_m - middle_m) + middle_m;
+  turned.uncertainty.pivot_in_camera_m = middle_m;
+  turned.uncertainty.rotation_rad.z() = kPi;
+  return turned;
 }
 
 void expectTruth(const Case& scene, const Workspace& workspace) {
@@ -121,7 +121,7 @@ void expectTruth(const Case& scene, const Workspace& workspace) {
   EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
 }
 
-TEST(LocalizerSearch, TurnedSeed_IsFoundWhenTheUncertaintySaysSo) {
+TEST(LocalizerSearch, TurnedSeed_IsFoundWithinAStatedUncertainty) {
   for (const double turn_deg : {-160.0, 75.0, 100.0, 180.0}) {
     SCOPED_TRACE(turn_deg);
     const Case scene = turnedCase(3, turn_deg * kDegree_rad);
@@ -132,7 +132,7 @@ TEST(LocalizerSearch, TurnedSeed_IsFoundWhenTheUncertaintySaysSo) {
   }
 }
 
-TEST(LocalizerSearch, SeedTurnedAboutTheCamera_IsFoundBesideTheOpticalAxis) {
+TEST(LocalizerSearch, SeedTurnedAboutTheCamera_IsFoundOffTheOpticalAxis) {
   Case scene = stationCase(3);
   scene.truth.translation_m += Eigen::Vector3d(0.06, 0.01, 0.2);
   const Picture picture = takePicture(scene.solid, scene.camera, scene.truth);
@@ -147,7 +147,7 @@ TEST(LocalizerSearch, SeedTurnedAboutTheCamera_IsFoundBesideTheOpticalAxis) {
   expectTruth(scene, run.localizer.workspace());
 }
 
-TEST(LocalizerSearch, Seed75MillimetresOff_IsFoundWhenTheUncertaintySaysSo) {
+TEST(LocalizerSearch, Seed75MillimetresOff_IsFoundWithinAStatedUncertainty) {
   for (const Eigen::Vector3d& off_m :
        {Eigen::Vector3d(0.0, 0.0, 0.075), Eigen::Vector3d(0.0, 0.0, -0.075),
         Eigen::Vector3d(0.06, -0.03, 0.03)}) {
@@ -195,7 +195,7 @@ TEST(LocalizerSearch, FocalLengthStated5PercentTooLong_IsRefusedAsACameraMismatc
   EXPECT_LT(run.localizer.workspace().focal.change, -0.02);
 }
 
-TEST(LocalizerSearch, WrongMeshBeforeASharpImage_IsNotCalledBlurred) {
+TEST(LocalizerSearch, WrongMeshWithASharpImage_IsNotReportedAsBlurred) {
   Case scene = stationCase(3);
   scene.solid = Solid();
   scene.solid.addBox(0.0, 0.0, 0.05, 0.03, 0.4, 0.0, 0.09, 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `step()` says of itself.
+// The reports of `step()`.
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -15,25 +15,25 @@ namespace boresight::test {
 namespace {
 
 /// Stages that may follow a completed one.
-bool mayFollow(Stage before, Stage now) {
+bool mayFollow(Stage before, Stage next) {
   switch (before) {
     case Stage::kEdges:
-      return now == Stage::kRender || now == Stage::kSearch;
+      return next == Stage::kRender || next == Stage::kSearch;
     case Stage::kSearch:
-      return now == Stage::kRender;
+      return next == Stage::kRender;
     case Stage::kRender:
-      return now == Stage::kTemplates || now == Stage::kRefine;
+      return next == Stage::kTemplates || next == Stage::kRefine;
     case Stage::kTemplates:
-      return now == Stage::kMatch;
+      return next == Stage::kMatch;
     case Stage::kMatch:
-      return now == Stage::kPose;
+      return next == Stage::kPose;
     case Stage::kPose:
     case Stage::kRefine:
-      return now == Stage::kRender || now == Stage::kSupport;
+      return next == Stage::kRender || next == Stage::kSupport;
     case Stage::kSupport:  // of the pose, then of competing poses
-      return now == Stage::kSupport || now == Stage::kFinished;
+      return next == Stage::kSupport || next == Stage::kFinished;
     case Stage::kFinished:
-      return now == Stage::kFinished;
+      return next == Stage::kFinished;
   }
   return false;
 }
@@ -123,7 +123,7 @@ TEST(LocalizerSteps, EachIterationOfAFailedRunIsCompleteOnce) {
   }
 }
 
-TEST(LocalizerSteps, NothingHappensAfterTheEnd) {
+TEST(LocalizerSteps, StepAfterTheEnd_DoesNothing) {
   const Case scene = stationCase(2);
   OwnedRun run(scene.problem(), defaultProfile());
   run.finish();
@@ -178,7 +178,7 @@ TEST(LocalizerSteps, TextsAreDistinct) {
   }
 }
 
-// Stages shared out among workers: the same bits whoever does what, and in which order.
+// Stages run by several workers: the same bits for any assignment and order of tasks.
 
 /// A run with scratch for some workers.
 struct SharedRun {
@@ -203,7 +203,7 @@ std::vector<int> shuffled(int count, Random& random) {
   return order;
 }
 
-TEST(LocalizerTasks, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
+TEST(LocalizerTasks, AnyOrderWorkerOrSubset_GivesTheSameBits) {
   const Case scene = stationCase(4, true);
   for (const bool paper : {false, true}) {
     const LocalizerOptions options = paper ? paperProfile() : withoutSearch();
@@ -236,7 +236,7 @@ TEST(LocalizerTasks, MayBeDoneInAnyOrderByAnyWorkerOrNotAtAll) {
   }
 }
 
-TEST(LocalizerTasks, MayBeDoneAtTheSameTime) {
+TEST(LocalizerTasks, ParallelThreads_GiveTheSameBits) {
   const Case scene = stationCase(6);
   OwnedRun plain(scene.problem(), defaultProfile());
   plain.finish();
@@ -256,8 +256,8 @@ TEST(LocalizerTasks, MayBeDoneAtTheSameTime) {
   }
 }
 
-/// A fault while the render is shared out, and nobody but step() to do the tasks.
-TEST(LocalizerTasks, FaultsAreTheSame) {
+/// A fault during a shared render whose tasks are all left to step().
+TEST(LocalizerTasks, SharedTasks_GiveTheSameFaults) {
   const Case scene = stationCase(4);
   LocalizerOptions options = defaultProfile();
   options.render.max_edge_pixels = 1000;
@@ -274,7 +274,7 @@ TEST(LocalizerTasks, FaultsAreTheSame) {
   }
 }
 
-TEST(LocalizerTasks, AreAStageOnceTheyAreDone) {
+TEST(LocalizerTasks, StepAfterAllTasks_CompletesTheStage) {
   const Case scene = stationCase(4);
   SharedRun run(scene.problem(), withoutSearch(), 1);
   EXPECT_EQ(run.localizer.tasks(), 0);
@@ -286,7 +286,7 @@ TEST(LocalizerTasks, AreAStageOnceTheyAreDone) {
   EXPECT_TRUE(report.stage_complete);
 }
 
-TEST(LocalizerTasks, ThatDoNotExistAreNotDone) {
+TEST(LocalizerTasks, TasksOutOfRange_DoNothing) {
   const Case scene = stationCase(4);
   OwnedRun plain(scene.problem(), defaultProfile());
   plain.finish();
@@ -301,17 +301,17 @@ TEST(LocalizerTasks, ThatDoNotExistAreNotDone) {
   EXPECT_EQ(run.localizer.digest(), plain.localizer.digest());
 }
 
-TEST(LocalizerTasks, WorkersNeedMemory) {
+TEST(LocalizerTasks, MoreWorkers_NeedMoreMemory) {
   const Case scene = stationCase(1);
   const ProblemSize size = sizeOf(scene.problem());
-  std::size_t one = 0;
-  std::size_t two = 0;
+  std::size_t bytes_of_one = 0;
+  std::size_t bytes_of_two = 0;
   std::size_t many = 0;
-  ASSERT_EQ(requiredBytes(size, {}, one), Status::kOk);
-  ASSERT_EQ(requiredBytes(size, {}, 2, two), Status::kOk);
+  ASSERT_EQ(requiredBytes(size, {}, bytes_of_one), Status::kOk);
+  ASSERT_EQ(requiredBytes(size, {}, 2, bytes_of_two), Status::kOk);
   ASSERT_EQ(requiredBytes(size, {}, 64, many), Status::kOk);
-  EXPECT_LT(one, two);
-  EXPECT_LT(two, many);
+  EXPECT_LT(bytes_of_one, bytes_of_two);
+  EXPECT_LT(bytes_of_two, many);
   for (const int workers : {-1, 0, Localizer::kMaxWorkers + 1}) {
     EXPECT_EQ(requiredBytes(size, {}, workers, many), Status::kInvalidOption);
     std::vector<std::byte> memory(std::size_t{1} << 23);
@@ -319,7 +319,7 @@ TEST(LocalizerTasks, WorkersNeedMemory) {
     EXPECT_EQ(localizer.status(), Status::kInvalidOption);
     EXPECT_TRUE(localizer.step().finished);
   }
-  std::vector<std::byte> memory(one);
+  std::vector<std::byte> memory(bytes_of_one);
   Localizer starved(scene.problem(), {}, memory, 2);
   EXPECT_EQ(starved.status(), Status::kArenaTooSmall);
 }

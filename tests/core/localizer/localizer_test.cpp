@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole runs: where they end and why.
+// Whole runs: their final pose and status.
 #include "core/localizer/localizer.h"
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 
-/// What must hold of every run that did not converge.
+/// Properties of every run that did not converge.
 void expectSeed(const Case& scene, const Workspace& workspace) {
   EXPECT_NE(workspace.status, LocalizationStatus::kConverged);
   EXPECT_EQ(workspace.camera_from_station.translation_m, scene.seed.translation_m);
@@ -82,11 +82,11 @@ void expectPlacesOfTheImage(const Iteration& iteration) {
     const auto k = static_cast<std::size_t>(i);
     const Match& match =
         iteration.matches.matches[static_cast<std::size_t>(iteration.template_of[k])];
-    const Correspondence& made = iteration.correspondences[k];
+    const Correspondence& correspondence = iteration.correspondences[k];
     EXPECT_TRUE(match.searched);
-    EXPECT_DOUBLE_EQ(made.pixel.x() + 0.5, scale * (match.x + 0.5));
-    EXPECT_DOUBLE_EQ(made.pixel.y() + 0.5, scale * (match.y + 0.5));
-    EXPECT_DOUBLE_EQ(made.sigma_px, scale);
+    EXPECT_DOUBLE_EQ(correspondence.pixel.x() + 0.5, scale * (match.x + 0.5));
+    EXPECT_DOUBLE_EQ(correspondence.pixel.y() + 0.5, scale * (match.y + 0.5));
+    EXPECT_DOUBLE_EQ(correspondence.sigma_px, scale);
   }
   EXPECT_EQ(iteration.correspondence_count, iteration.matches.searched);
 }
@@ -170,7 +170,7 @@ TEST(Localizer, ConvergesWithAFifthOfTheImageIgnored) {
   EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kRunning);
 }
 
-TEST(Localizer, EndsWithTooFewEdgesWhenTheSeedLooksAway) {
+TEST(Localizer, SeedFacingAway_EndsWithTooFewEdges) {
   Case scene = stationCase(1);
   scene.seed.translation_m.x() += 5.0;
   EXPECT_EQ(endOf(scene, defaultProfile()), LocalizationStatus::kTooFewEdges);
@@ -223,13 +223,13 @@ TEST(Localizer, EndsAtTheIterationLimit) {
 
 TEST(Localizer, EndsWhenThePoseLeavesTheUncertainty) {
   Case scene = stationCase(1);
-  // As large sideways as ever, so that the matches find it, but the rotation declared known.
+  // Unchanged laterally, so that the matches find it, but with the rotation declared known.
   scene.uncertainty.rotation_rad.setConstant(0.001);
   LocalizerOptions options = paperProfile();
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kLeftUncertainty);
 }
 
-TEST(Localizer, TheGateRefusesUnsupportedPoses) {
+TEST(Localizer, UnsupportedPoses_AreRefused) {
   const Case scene = stationCase(1);
   LocalizerOptions options = withoutSearch();
   options.support.min_support = 0.99;
@@ -251,7 +251,7 @@ TEST(Localizer, EndsWithTooFewTemplatesMatchesAndEdges) {
   EXPECT_EQ(endOf(scene, withoutSearch()), LocalizationStatus::kPnpFailed);
 }
 
-TEST(Localizer, AFurtherAttemptBeginsAtTheSeedWithOtherTemplates) {
+TEST(Localizer, FurtherAttempt_StartsFromTheSeedWithOtherTemplateSizes) {
   const Case scene = stationCase(1);
   LocalizerOptions options = withoutSearch();
   options.support.min_support = 0.99;  // every attempt fails
@@ -304,7 +304,7 @@ std::vector<int> rolledRenders(const Case& scene, const LocalizerOptions& option
   return counts;
 }
 
-TEST(Localizer, AConvincingRenderSparesTheOthersInAFirstAttempt) {
+TEST(Localizer, ConvincingRenderOfAFirstAttempt_SkipsTheOtherRolls) {
   Case scene = stationCase(2);
   scene.uncertainty.rotation_rad.z() = 0.17;
   LocalizerOptions options = withoutSearch();
@@ -314,7 +314,7 @@ TEST(Localizer, AConvincingRenderSparesTheOthersInAFirstAttempt) {
   EXPECT_EQ(all[0], 5);
   options.loop.enough_inliers = 0.0;
   EXPECT_EQ(rolledRenders(scene, options), std::vector<int>{1});
-  // A run that fails looks at all of them when it tries again.
+  // After a failure the next attempt renders all of them.
   options.support.min_support = 1.0;
   const std::vector<int> attempts = rolledRenders(scene, options);
   ASSERT_GE(attempts.size(), 2u);
@@ -322,7 +322,7 @@ TEST(Localizer, AConvincingRenderSparesTheOthersInAFirstAttempt) {
   EXPECT_EQ(attempts[1], 5);
 }
 
-TEST(Localizer, ARenderServesWhileTheSceneHardlyMoves) {
+TEST(Localizer, SmallMotion_ReusesTheRender) {
   int reused = 0;
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     const Case scene = stationCase(seed);
@@ -333,11 +333,11 @@ TEST(Localizer, ARenderServesWhileTheSceneHardlyMoves) {
       OwnedRun run(scene.problem(), options);
       run.finish([&](const StepReport& report) {
         if (!report.iteration_complete) return;
-        const Iteration& now = *run.localizer.workspace().iteration;
-        if (now.kind != IterationKind::kRefine) return;
+        const Iteration& iteration = *run.localizer.workspace().iteration;
+        if (iteration.kind != IterationKind::kRefine) return;
         const double moved_px =
-            meanDisplacement_px(scene.solid, scene.camera, now.render.camera_from_station,
-                                now.camera_from_station_before);
+            meanDisplacement_px(scene.solid, scene.camera, iteration.render.camera_from_station,
+                                iteration.camera_from_station_before);
         EXPECT_TRUE(!again || moved_px == 0.0) << moved_px;
         EXPECT_LT(moved_px, 0.5);  // the box's corners lie outside of the mesh
         reused += moved_px > 0.0 ? 1 : 0;

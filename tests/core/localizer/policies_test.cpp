@@ -14,7 +14,7 @@
 namespace boresight {
 namespace {
 
-/// Stands in for a pass: fills in what a policy reads of a record, without an image.
+/// Replaces a pass: fills in the fields of a record that a policy reads, without an image.
 class ScriptedPass {
  public:
   ScriptedPass() {
@@ -140,7 +140,7 @@ TEST(Acceptance, EachRequirementThatFails_IsTheReason) {
   EXPECT_EQ(judgeSupport(measured, seed, right, ungated, true), LocalizationStatus::kConverged);
 }
 
-/// Edge support alone counts where nothing was searched.
+/// Without a search only edge support counts.
 TEST(Acceptance, WithoutASearch_RestsOnEdgeSupport) {
   Workspace measured;
   const Seed seed = seedInFront();
@@ -159,11 +159,11 @@ class CandidateTrialsTest : public testing::Test {
   /// Candidates 1 mm apart, each with a little less evidence than the one before.
   void offer(int count, double behind_nats, double error_px) {
     for (int i = 0; i < count; ++i) {
-      PoseCandidate made;
-      made.camera_from_station = movedBy(seed.camera_from_station, 0.001 * (i + 1));
-      made.evidence.edges_nats = 0.8 - behind_nats * i;
-      made.error_px = error_px;
-      candidates.push_back(made);
+      PoseCandidate candidate;
+      candidate.camera_from_station = movedBy(seed.camera_from_station, 0.001 * (i + 1));
+      candidate.evidence.edges_nats = 0.8 - behind_nats * i;
+      candidate.error_px = error_px;
+      candidates.push_back(candidate);
     }
     trials = CandidateTrials(candidates, seed);
   }

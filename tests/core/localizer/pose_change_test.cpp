@@ -30,7 +30,7 @@ Camera pinhole() {
   return camera;
 }
 
-TEST(PoseChange, TranslationIsOfTheCameraOrOfTheScene) {
+TEST(PoseChange, Translation_IsMeasuredAtTheCameraOrTheScene) {
   const BoundingBox scene{{0.9, -0.1, -0.1}, {1.1, 0.1, 0.1}};  // a metre from the origin
   const Pose before;
   Pose turned;
@@ -41,7 +41,7 @@ TEST(PoseChange, TranslationIsOfTheCameraOrOfTheScene) {
   EXPECT_NEAR(rotationBetween_rad(before, turned), kPi / 2.0, 1e-12);
 }
 
-TEST(PoseChange, ADisplacementAcrossTheViewIsFocalLengthOverDepth) {
+TEST(PoseChange, DisplacementAcrossTheView_IsFocalLengthOverDepth) {
   // Flat, so that every corner is two metres away.
   const BoundingBox scene{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}};
   Pose before;
@@ -53,7 +53,7 @@ TEST(PoseChange, ADisplacementAcrossTheViewIsFocalLengthOverDepth) {
   EXPECT_EQ(displacementBetween_px(before, after, scene, pinhole()), 1e6);
 }
 
-TEST(PoseChange, RollingLeavesTheMiddleOfTheSceneWhereItIs) {
+TEST(PoseChange, Roll_KeepsTheCentreOfTheScene) {
   Random random = randomFor("PoseChange.Rolling");
   for (int trial = 0; trial < 100; ++trial) {
     const Pose before = randomCameraFromStation(random, 0.5, 0.3);
@@ -65,7 +65,7 @@ TEST(PoseChange, RollingLeavesTheMiddleOfTheSceneWhereItIs) {
   }
 }
 
-TEST(PoseChange, WhatLiesInsideTheUncertaintyStaysAndTheRestComesToItsEdge) {
+TEST(PoseChange, PosesInsideTheUncertainty_StayAndOthersMoveToItsEdge) {
   Random random = randomFor("PoseChange.Uncertainty");
   LocalizationProblem problem;
   problem.uncertainty.translation_m = {0.01, 0.02, 0.03};

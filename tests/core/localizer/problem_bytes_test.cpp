@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What encodeProblem writes comes back the same; whatever else the bytes are is refused or is a
-// problem that can be run.
+// decodeProblem restores the output of encodeProblem; other bytes are refused or give a problem
+// that runs.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -25,7 +25,7 @@ Bytes encoded(const LocalizationProblem& problem, const LocalizerOptions& option
   return bytes;
 }
 
-/// The checksum made anew, so that a change gets past it.
+/// The checksum computed again, so that a change passes it.
 Bytes resealed(Bytes bytes) {
   Sha256 sha;
   sha.update(std::span<const std::uint8_t>(bytes).first(bytes.size() - 32));
@@ -84,7 +84,7 @@ struct Problem {
   Bytes bytes() const { return encoded(problem, options); }
 };
 
-TEST(ProblemBytes, EverythingComesBack) {
+TEST(ProblemBytes, Problem_RoundTrips) {
   for (const bool distorted : {false, true}) {
     const Case scene = stationCase(4, distorted);
     const LocalizationProblem problem = scene.problem();
@@ -97,7 +97,7 @@ TEST(ProblemBytes, EverythingComesBack) {
   }
 }
 
-TEST(ProblemBytes, SoDoMaskPartsAndEveryOption) {
+TEST(ProblemBytes, MaskPartsAndEveryOption_RoundTrip) {
   const Problem unusual;
   Decoded decoded(unusual.bytes());
   ASSERT_EQ(decoded.fault(), ProblemFault::kNone);
@@ -109,7 +109,7 @@ TEST(ProblemBytes, SoDoMaskPartsAndEveryOption) {
   EXPECT_EQ(encoded(decoded.problem, decoded.options), unusual.bytes());
 }
 
-TEST(ProblemBytes, BeginAsTheFormatSays) {
+TEST(ProblemBytes, Header_FollowsTheFormat) {
   const Case scene = stationCase(4);
   const Bytes bytes = encoded(scene.problem(), defaultProfile());
   const auto size = static_cast<std::uint32_t>(bytes.size());
@@ -157,10 +157,10 @@ TEST(ProblemBytes, EveryFlippedBitIsRefused) {
   }
 }
 
-/// Where the first option's name stands, and where it ends.
+/// Begin of the first option's name, and its end.
 constexpr std::size_t kFirstOption = 16 + 4;
 
-TEST(ProblemBytes, OptionsMustBeTheOnesThereAre) {
+TEST(ProblemBytes, UnknownOrMissingOptions_AreRefused) {
   const Bytes bytes = Problem().bytes();
   const auto faultWith = [&bytes](std::size_t at, std::uint8_t value) {
     Bytes changed = bytes;
@@ -181,7 +181,7 @@ TEST(ProblemBytes, OptionsMustBeTheOnesThereAre) {
   EXPECT_EQ(faultWith(19, static_cast<std::uint8_t>(bytes[19] - 1)).fault, ProblemFault::kOption);
 }
 
-TEST(ProblemBytes, ValuesThatCannotBeAreRefused) {
+TEST(ProblemBytes, InvalidValues_AreRefused) {
   const auto faultOf = [](auto&& change) {
     Problem unusual;
     change(unusual);
@@ -204,7 +204,7 @@ TEST(ProblemBytes, ValuesThatCannotBeAreRefused) {
   EXPECT_EQ(faultOf([](Problem& p) { p.problem.camera.width = 500; }), ProblemFault::kIgnore);
 }
 
-TEST(ProblemBytes, AnArenaThatIsTooSmallIsSaid) {
+TEST(ProblemBytes, SmallArena_IsReported) {
   const Bytes bytes = Problem().bytes();
   const std::size_t enough = Decoded(bytes).arena.used();
   for (std::size_t size = 16; size < enough; size += 976) {
@@ -213,7 +213,7 @@ TEST(ProblemBytes, AnArenaThatIsTooSmallIsSaid) {
   EXPECT_EQ(Decoded(bytes, enough).fault(), ProblemFault::kNone);
 }
 
-TEST(ProblemBytes, DamageWithAChecksumThatFitsIsRefusedOrRuns) {
+TEST(ProblemBytes, DamageWithAValidChecksum_IsRefusedOrRuns) {
   const Problem unusual;
   const Bytes bytes = unusual.bytes();
   Random random(11);

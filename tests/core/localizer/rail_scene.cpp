@@ -23,7 +23,7 @@ Pose railPose() {
   return pose;
 }
 
-/// Boxes before both ends, that the mesh knows nothing of.
+/// Boxes in front of both ends that are missing in the mesh.
 Solid hiddenRail() {
   Solid solid = railMesh(kSleeves, true);
   for (const double side : {-1.0, 1.0})
@@ -58,28 +58,28 @@ Solid railMesh(int sleeves, bool with_ends) {
 }
 
 Case railCase(Ends ends, double off_pitches, double declared_pitches, std::uint64_t seed) {
-  Case made;
-  made.solid = ends == Ends::kOutside ? railMesh(kEndless, false) : railMesh(kSleeves, true);
-  made.camera = pinholeCamera();
-  made.picture = &pictureOf(ends);
-  made.truth = railPose();
+  Case scene;
+  scene.solid = ends == Ends::kOutside ? railMesh(kEndless, false) : railMesh(kSleeves, true);
+  scene.camera = pinholeCamera();
+  scene.picture = &pictureOf(ends);
+  scene.truth = railPose();
   SeedUncertainty box;
   box.translation_m.setConstant(0.010);
   box.translation_m.x() = declared_pitches * kPitch_m;
   box.rotation_rad.setConstant(0.05);
-  box.pivot_in_camera_m = made.truth * matchedBounds(made.solid.view()).centre();
+  box.pivot_in_camera_m = scene.truth * matchedBounds(scene.solid.view()).centre();
   Random random(seed);
   Vector6d offset;
   for (int i = 0; i < 6; ++i) {
     const double limit = i < 3 ? box.rotation_rad[i] : box.translation_m[i - 3];
     offset[i] = random.uniform(-0.6, 0.6) * limit;
   }
-  const Eigen::Vector3d along = made.truth.matrix().col(0) * (off_pitches * kPitch_m);
+  const Eigen::Vector3d along = scene.truth.matrix().col(0) * (off_pitches * kPitch_m);
   offset.tail<3>() = along + 0.3 * Eigen::Vector3d(0.0, offset[4], offset[5]);
-  made.seed = displacedAboutPivot(made.truth, offset, box.pivot_in_camera_m);
-  made.uncertainty = box;
-  made.uncertainty.pivot_in_camera_m = made.seed * matchedBounds(made.solid.view()).centre();
-  return made;
+  scene.seed = displacedAboutPivot(scene.truth, offset, box.pivot_in_camera_m);
+  scene.uncertainty = box;
+  scene.uncertainty.pivot_in_camera_m = scene.seed * matchedBounds(scene.solid.view()).centre();
+  return scene;
 }
 
 PitchError pitchError(const Case& scene, const Pose& estimate) {

@@ -8,7 +8,7 @@ namespace boresight::test {
 
 inline constexpr double kPitch_m = 0.022;
 
-/// What of a rail's ends the picture shows.
+/// Visibility of a rail's ends in the picture.
 enum class Ends { kSeen, kHidden, kOutside };
 
 /// A bar along x with `sleeves` equal sleeves; between its ends, a box and a prism, unless it goes
@@ -17,7 +17,7 @@ Solid railMesh(int sleeves, bool with_ends);
 /// The rail before the pinhole camera, the seed `off_pitches` along the bar from the truth (and a
 /// little off in everything else), the uncertainty as wide as `declared_pitches` along it.
 Case railCase(Ends ends, double off_pitches, double declared_pitches, std::uint64_t seed);
-/// How many pitches along the bar an estimate is from the truth, and how far from that place.
+/// Number of pitches along the bar between an estimate and the truth, and the remaining distance.
 struct PitchError {
   double pitches = 0.0;
   double rest_m = 0.0;

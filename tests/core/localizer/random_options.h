@@ -16,10 +16,10 @@ namespace boresight::test {
 
 /// The station before a small camera: a run takes a few milliseconds.
 inline Case smallCase(const Picture& picture, const Camera& camera, std::uint64_t seed) {
-  Case made = stationCase(seed);
-  made.camera = camera;
-  made.picture = &picture;
-  return made;
+  Case scene = stationCase(seed);
+  scene.camera = camera;
+  scene.picture = &picture;
+  return scene;
 }
 
 inline Camera smallCamera() {

@@ -401,27 +401,27 @@ Pose displacedSeed(const Pose& truth, const SeedUncertainty& uncertainty, double
 }
 
 LocalizationProblem Case::problem() const {
-  LocalizationProblem made;
-  made.image = picture->view();
-  made.ignore = ignore;
-  made.camera = camera;
-  made.mesh = solid.view();
-  made.camera_from_station_seed = seed;
-  made.uncertainty = uncertainty;
-  return made;
+  LocalizationProblem problem;
+  problem.image = picture->view();
+  problem.ignore = ignore;
+  problem.camera = camera;
+  problem.mesh = solid.view();
+  problem.camera_from_station_seed = seed;
+  problem.uncertainty = uncertainty;
+  return problem;
 }
 
 namespace {
 
 Case caseOf(Solid solid, const Camera& camera, const Picture& picture, std::uint64_t seed) {
-  Case made;
-  made.solid = std::move(solid);
-  made.camera = camera;
-  made.picture = &picture;
-  made.truth = truthPose();
-  made.seed = displacedSeed(made.truth, uncertaintyAbout(made.solid, made.truth), 0.8, seed);
-  made.uncertainty = uncertaintyAbout(made.solid, made.seed);
-  return made;
+  Case scene;
+  scene.solid = std::move(solid);
+  scene.camera = camera;
+  scene.picture = &picture;
+  scene.truth = truthPose();
+  scene.seed = displacedSeed(scene.truth, uncertaintyAbout(scene.solid, scene.truth), 0.8, seed);
+  scene.uncertainty = uncertaintyAbout(scene.solid, scene.seed);
+  return scene;
 }
 
 }  // namespace

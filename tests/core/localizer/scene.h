@@ -39,7 +39,7 @@ struct Solid {
 };
 
 /// A plate of 16 x 13 cm with boxes, a triangular and a hexagonal prism and cylinders of different
-/// heights; nothing about it is symmetric. Its outside is towards +z.
+/// heights; without any symmetry. Its outside is towards +z.
 Solid stationMesh();
 /// The station with a bar floating above it, part 1, which occludes and is not matched.
 Solid occludedStationMesh();
@@ -57,10 +57,10 @@ struct Picture {
   ImageView view() const { return {gray.data(), width, height, width}; }
 };
 
-/// What the camera sees: nine rays a pixel, shaded by a lamp at the side, in front of a blotchy
+/// The camera's picture: nine rays a pixel, shaded by a lamp at the side, in front of a blotchy
 /// background, blurred 3 x 3, with a little noise.
 Picture takePicture(const Solid& solid, const Camera& camera, const Pose& camera_from_station);
-/// The same by casting each ray on its own, from where it starts: knows nothing of the renderer.
+/// The same by casting each ray on its own, from its own origin: independent of the renderer.
 Picture takePictureByRays(const Solid& solid, const Camera& camera,
                           const Pose& camera_from_station);
 Picture noisePicture(int width, int height, std::uint64_t seed);
@@ -92,7 +92,7 @@ SeedUncertainty uncertaintyAbout(const Solid& solid, const Pose& camera_from_sta
 Pose displacedSeed(const Pose& truth, const SeedUncertainty& uncertainty, double share,
                    std::uint64_t seed);
 
-/// Everything of a run that a problem points to. The picture is shared: it takes longest.
+/// All data of a run that a problem points to. The picture is shared: it takes longest to compute.
 struct Case {
   Solid solid;
   Camera camera;
@@ -131,7 +131,7 @@ struct OwnedRun {
 std::vector<std::byte> blockFor(const LocalizationProblem& problem,
                                 const LocalizerOptions& options);
 
-/// The digest of a run with the best kernels, its pieces shared out among so many threads.
+/// The digest of a run with the best kernels, its tasks shared by `workers` threads.
 std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
                                           const LocalizerOptions& options, int workers);
 

@@ -8,7 +8,7 @@
 namespace boresight {
 namespace {
 
-TEST(Schedule, TheFirstLevelIsTheFinestThatIsSmallEnough) {
+TEST(Schedule, FirstLevel_IsTheFinestWithinTheSizeLimit) {
   LocalizerOptions options;
   options.loop.coarse_size_px = 512;
   options.loop.halved_size_px = 400;
@@ -71,14 +71,14 @@ TEST(Schedule, ThePivotMovesWithTheHypothesis) {
   loop.shrink_iterations = 3;
   Pose moved = problem.camera_from_station_seed;
   moved.translation_m.x() += 0.5;
-  const SeedUncertainty now = uncertaintyAt(seedOf(problem), loop, 2, moved);
-  EXPECT_TRUE(now.pivot_in_camera_m.isApprox(Eigen::Vector3d(0.6, 0.0, 2.0)));
-  EXPECT_TRUE(now.translation_m.isApprox(0.25 * problem.uncertainty.translation_m));
+  const SeedUncertainty shrunk = uncertaintyAt(seedOf(problem), loop, 2, moved);
+  EXPECT_TRUE(shrunk.pivot_in_camera_m.isApprox(Eigen::Vector3d(0.6, 0.0, 2.0)));
+  EXPECT_TRUE(shrunk.translation_m.isApprox(0.25 * problem.uncertainty.translation_m));
   problem.uncertainty.pivot_in_camera_m.setZero();  // an arm camera turns about itself
   EXPECT_TRUE(uncertaintyAt(seedOf(problem), loop, 2, moved).pivot_in_camera_m.isZero());
 }
 
-TEST(Schedule, ARunMayEndAfterTheIterationsThatItNeeds) {
+TEST(Schedule, Run_MayEndAfterItsLeastNumberOfIterations) {
   LocalizerOptions options;
   options.loop.match_iterations = 2;
   options.loop.converged_iterations = 2;

@@ -14,7 +14,7 @@
 namespace boresight::test {
 namespace {
 
-/// The tests below run for every set of kernels that is there.
+/// The tests below run for every available set of kernels.
 class BitCounters : public testing::TestWithParam<Kernels> {
  protected:
   const BitKernels& kernels_ = bitKernels(GetParam());
@@ -138,7 +138,7 @@ TEST(CountOnes, CountsEveryBit) {
   }
 }
 
-TEST_P(BitCounters, BecomeLanes) {
+TEST_P(BitCounters, Lanes_HoldTheCounters) {
   Dice dice;
   for (int planes = 0; planes <= 16; ++planes) {
     OwnedRow row(planes);
@@ -155,7 +155,7 @@ TEST_P(BitCounters, BecomeLanes) {
   }
 }
 
-TEST_P(BitCounters, AddUpWhatLiesToTheLeft) {
+TEST_P(BitCounters, PrefixSums_AddTheCountersToTheLeft) {
   Dice dice;
   for (int planes = 0; planes <= 10; ++planes) {
     OwnedRow row(planes);

@@ -64,7 +64,8 @@ inline WhsNorms whsNormsReference(const TemplateView& view) {
   return norms;
 }
 
-/// What WhsSearch must find, by trying every offset twice; `counts_at` gives the counts at (x, y).
+/// Expected result of WhsSearch, by trying every offset twice; `counts_at` gives the counts at (x,
+/// y).
 template <class CountsAt>
 WhsPeak peakByTrying(const CountsAt& counts_at, const WhsNorms& norms, const SearchWindow& window,
                      int predicted_x, int predicted_y, int exclusion_px) {

@@ -237,7 +237,7 @@ TEST_P(SearchWindowOf, ContainsEveryPlaceAndLittleMore) {
   RecordProperty("largest_area_ratio", std::to_string(tally.ratio_max));
   RecordProperty("microseconds", std::to_string(1e6 * spent_s / kPoints));
   std::printf(
-      "%s: area beside the smallest rectangle of the samples %.3f mean, %.3f max; %.1f us\n",
+      "%s: area relative to the smallest rectangle of the samples %.3f mean, %.3f max; %.1f us\n",
       setting.name.c_str(), mean_ratio, tally.ratio_max, 1e6 * spent_s / kPoints);
 }
 

@@ -97,7 +97,7 @@ TEST(WhsByFft, GivesTheSameIntegersAsTheCore) {
   }
 }
 
-TEST(WhsByFft, HasItsLargestValueWhereEverySearchEnds) {
+TEST(WhsByFft, Maximum_IsAtTheResultOfEverySearch) {
   Dice dice;
   std::vector<OwnedSearch> searches;
   searches.reserve(kKernelSets);  // a search points into its own memory
@@ -114,8 +114,8 @@ TEST(WhsByFft, HasItsLargestValueWhereEverySearchEnds) {
     for (OwnedSearch& owned : searches) {
       const WhsPeak peak = run(owned.search, *problem);
       const int x = peak.x - window.x_min, y = peak.y - window.y_min;
-      const WhsCounts& there = map[static_cast<std::size_t>(y * window.width() + x)];
-      ASSERT_EQ(peak.counts, there) << "trial " << trial;
+      const WhsCounts& counts_at_peak = map[static_cast<std::size_t>(y * window.width() + x)];
+      ASSERT_EQ(peak.counts, counts_at_peak) << "trial " << trial;
       ASSERT_EQ(whsComparable(peak.counts, norms), largest) << "trial " << trial;
     }
   }

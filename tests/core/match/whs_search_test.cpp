@@ -44,7 +44,7 @@ TEST(WhsSearch, BreaksTiesByDistanceThenRasterOrder) {
   }
 }
 
-TEST(WhsSearch, FindsTheNearestOffsetWhereNothingDistinguishes) {
+TEST(WhsSearch, EqualScores_FindTheNearestOffset) {
   Dice dice;
   OwnedSearch owned(32, 300);
   Problem problem(noise(32, 32, 0.1, dice), makeMask(32, 32, MaskKind::kFull, 32, dice),
@@ -117,7 +117,7 @@ TEST(WhsSearch, FindsACopyInTheLastColumnsOfEveryWidth) {
   }
 }
 
-TEST(WhsSearch, CountsMasksThatHideAndBareTheWholeImageByTurns) {
+TEST(WhsSearch, StripedMaskOnStripedEdges_MatchesTheDefinition) {
   // Rows of mask on rows of test edges: from one offset to the next all or nothing is covered.
   for (const int side : {64, 254, 258, 300, 512}) {
     Dice dice;
@@ -136,7 +136,7 @@ TEST(WhsSearch, CountsMasksThatHideAndBareTheWholeImageByTurns) {
   }
 }
 
-TEST(WhsSearch, TakesBoundedStepsWhichOtherSearchesMayInterrupt) {
+TEST(WhsSearch, InterleavedSearches_TakeBoundedStepsWithTheSameResults) {
   Dice dice;
   OwnedSearch first(256, 700), second(256, 700);
   std::vector<std::unique_ptr<Problem>> problems;
@@ -159,7 +159,7 @@ TEST(WhsSearch, TakesBoundedStepsWhichOtherSearchesMayInterrupt) {
   EXPECT_EQ(second.search.peak(), second_whole);
 }
 
-TEST(WhsSearch, MayBeginAgainBeforeItIsDone) {
+TEST(WhsSearch, BeginBeforeTheEnd_StartsANewSearch) {
   Dice dice;
   OwnedSearch owned(256, 700);
   Problem large(noise(256, 256, 0.03, dice), makeMask(256, 256, MaskKind::kRing, 256, dice),
@@ -170,7 +170,7 @@ TEST(WhsSearch, MayBeginAgainBeforeItIsDone) {
   EXPECT_EQ(run(owned.search, *problem), reference(*problem));
 }
 
-TEST(WhsSearch, RefusesWhatItCannotSearch) {
+TEST(WhsSearch, InvalidTemplatesAndWindows_AreRefused) {
   Dice dice;
   OwnedSearch owned(64, 100);
   Problem problem(noise(128, 128, 0.1, dice), makeMask(128, 128, MaskKind::kFull, 64, dice),
@@ -209,7 +209,7 @@ TEST(WhsSearch, RefusesWhatItCannotSearch) {
   EXPECT_TRUE(fresh.step());
 }
 
-TEST(WhsSearch, NeedsLittleMemoryAndSaysWhenItHasLess) {
+TEST(WhsSearch, Memory_IsSmallAndAShortArenaIsReported) {
   Arena count;
   WhsSearch search;
   ASSERT_EQ(search.create(512, 1400, Kernels::kPortable, count), Status::kOk);
@@ -228,7 +228,7 @@ TEST(WhsSearch, NeedsLittleMemoryAndSaysWhenItHasLess) {
   }
 }
 
-TEST(WhsSearch, ListsTemplatesWithMorePixelsThanFitSomeRowsAtATime) {
+TEST(WhsSearch, TemplatesAboveTheListCapacity_AreSearchedRowsAtATime) {
   Dice dice;
   OwnedSearch owned(512, 200);
   ASSERT_EQ(owned.status, Status::kOk);
@@ -241,7 +241,7 @@ TEST(WhsSearch, ListsTemplatesWithMorePixelsThanFitSomeRowsAtATime) {
   }
 }
 
-// Every set of kernels that this machine has finds what the definition says.
+// Every available set of kernels equals the definition.
 
 constexpr int kMaskKinds = static_cast<int>(MaskKind::kCount);
 
@@ -299,7 +299,7 @@ TEST_P(WhsKernels, EqualTheDefinitionAroundWordsAndRegisters) {
   }
 }
 
-TEST_P(WhsKernels, EqualTheDefinitionWhereAllIsTied) {
+TEST_P(WhsKernels, EqualTheDefinitionForEqualScores) {
   Dice dice;
   OwnedSearch owned(64, 300, kernels_);
   ASSERT_EQ(owned.status, Status::kOk);
@@ -356,8 +356,8 @@ TEST_P(WhsKernels, EqualTheMapOfCountsForWideWindows) {
   }
 }
 
-TEST_P(WhsKernels, SearchesInTurnAsAFreshOneWould) {
-  // What one search leaves behind must not reach the next, whatever their sizes.
+TEST_P(WhsKernels, ReusedSearch_EqualsANewSearch) {
+  // The state of one search must not affect the next, for any sizes.
   Dice dice;
   OwnedSearch owned(256, 300, kernels_);
   for (int trial = 0; trial < 60; ++trial) {

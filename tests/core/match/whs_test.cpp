@@ -41,7 +41,7 @@ TEST(WhsCountsAt, CountsNothingOutside) {
   EXPECT_EQ(whsNorms({nullptr, &bits.image, 32, 32, 32}), WhsNorms{});
 }
 
-TEST(WhsScore, AddsTheTwoSharesAndNoneWhereNothingCounts) {
+TEST(WhsScore, AddsTheSharesAndIsZeroWithoutPixels) {
   EXPECT_DOUBLE_EQ(whsScore({3, 10}, {4, 20}), 0.75 + 0.5);
   EXPECT_DOUBLE_EQ(whsScore({4, 20}, {4, 20}), 2.0);
   EXPECT_DOUBLE_EQ(whsScore({0, 5}, {0, 20}), 0.25);

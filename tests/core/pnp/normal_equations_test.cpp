@@ -23,7 +23,7 @@ Matrix6d symmetric(const Matrix6d& lower) {
 
 class ReprojectionEquations : public ::testing::TestWithParam<CameraModel> {};
 
-TEST_P(ReprojectionEquations, AreThoseOfFiniteDifferences) {
+TEST_P(ReprojectionEquations, MatchFiniteDifferences) {
   Random random = randomFor("ReprojectionEquations.AreThoseOfFiniteDifferences");
   const Camera camera = randomCamera(random, GetParam());
   PnpScene scene = makeScene(random, {.points = 20, .noise_px = 3.0}, camera);
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(EveryModel, ReprojectionEquations,
                          ::testing::Values(CameraModel::kPinhole, CameraModel::kBrownConrady,
                                            CameraModel::kKannalaBrandt));
 
-TEST(NormalEquationsCost, OfAPointBehindTheCameraExceedsAnyResidual) {
+TEST(NormalEquationsCost, PointBehindTheCamera_CostsMoreThanAnyResidual) {
   Random random = randomFor("NormalEquationsCost.OfAPointBehindTheCameraExceedsAnyResidual");
   PnpScene scene = makeScene(random, {.points = 5});
   const NormalEquations before =
@@ -74,7 +74,7 @@ TEST(NormalEquationsCost, OfAPointBehindTheCameraExceedsAnyResidual) {
   EXPECT_GE(after.cost(), before.cost() + 1e12);
 }
 
-TEST(AddPrior, IsTheGradientOfTheOffsetsSquares) {
+TEST(AddPrior, AddsTheGradientOfTheSquaredOffsets) {
   Random random = randomFor("AddPrior.IsTheGradientOfTheOffsetsSquares");
   for (int trial = 0; trial < 100; ++trial) {
     PosePrior prior;
@@ -126,7 +126,7 @@ TEST(Solve, AgreesWithEigenOnRandomInformation) {
   }
 }
 
-TEST(Solve, RefusesWhatIsNotDetermined) {
+TEST(Solve, RefusesUndeterminedEquations) {
   Random random = randomFor("Solve.RefusesWhatIsNotDetermined");
   Vector6d xi;
   Matrix6d covariance;
@@ -148,7 +148,7 @@ TEST(Solve, RefusesWhatIsNotDetermined) {
   EXPECT_FALSE(solve(equations, 0.0, xi));
 }
 
-/// Draws the pixels of a scene anew around their exact places.
+/// Draws new noisy pixels of a scene around their exact places.
 void drawPixels(Random& random, const PnpScene& exact, PnpScene& noisy) {
   for (std::size_t i = 0; i < exact.correspondences.size(); ++i) {
     const double sigma_px = exact.correspondences[i].sigma_px;
@@ -213,7 +213,7 @@ TEST(PoseCovariance, DoesNotDependOnACommonScaleOfTheSigmas) {
   EXPECT_LT((unit - scaled_sigma).norm(), 1e-12 * unit.norm());
 }
 
-TEST(PoseCovariance, OfExactDataIsTinyButDefinite) {
+TEST(PoseCovariance, ExactData_GivesATinyPositiveDefiniteMatrix) {
   Random random = randomFor("PoseCovariance.OfExactDataIsTinyButDefinite");
   const PnpScene scene = makeScene(random, {.points = 20});
   Matrix6d covariance;
@@ -224,7 +224,7 @@ TEST(PoseCovariance, OfExactDataIsTinyButDefinite) {
   EXPECT_LT(covariance.norm(), 1e-12);
 }
 
-TEST(PoseCovariance, OfThreePointsExists) {
+TEST(PoseCovariance, ThreePoints_GiveACovariance) {
   Random random = randomFor("PoseCovariance.OfThreePointsExists");
   const PnpScene scene = makeScene(random, {.points = 3, .noise_px = 0.1});
   Matrix6d covariance;
@@ -234,7 +234,7 @@ TEST(PoseCovariance, OfThreePointsExists) {
   EXPECT_TRUE(isFiniteMatrix(covariance));
 }
 
-TEST(PoseCovariance, OfUndeterminedPosesIsDegenerate) {
+TEST(PoseCovariance, UndeterminedPose_IsDegenerate) {
   Random random = randomFor("PoseCovariance.OfUndeterminedPosesIsDegenerate");
   PnpScene scene = makeScene(random, {.points = 20});
   Matrix6d covariance;

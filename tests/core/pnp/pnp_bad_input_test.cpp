@@ -12,7 +12,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Whatever the status: a finite pose, and figures that belong to it.
+/// For any status: a finite pose with consistent inliers and residuals.
 void expectSound(const PnpSolution& solution, Status status) {
   EXPECT_TRUE(solution.camera_from_station.isFinite());
   EXPECT_NEAR(solution.camera_from_station.rotation.norm(), 1.0, 1e-6);
@@ -38,9 +38,9 @@ Status solveSoundly(const PnpScene& scene, double threshold_px, const PnpOptions
 class PnpRansacBadInput : public ::testing::TestWithParam<PnpSampler> {
  protected:
   PnpOptions options() const {
-    PnpOptions made;
-    made.sampler = GetParam();
-    return made;
+    PnpOptions sampling;
+    sampling.sampler = GetParam();
+    return sampling;
   }
 };
 
@@ -79,14 +79,14 @@ TEST_P(PnpRansacBadInput, CollinearPointsAreDegenerate) {
   }
 }
 
-TEST_P(PnpRansacBadInput, OnePointManyTimesIsDegenerate) {
+TEST_P(PnpRansacBadInput, OneRepeatedPointIsDegenerate) {
   Random random = randomFor("PnpRansacBadInput.OnePointManyTimesIsDegenerate");
   PnpScene scene = makeScene(random, {.points = 1});
   scene.correspondences.resize(20, scene.correspondences[0]);
   EXPECT_EQ(solveSoundly(scene, 2.0, options()), Status::kDegenerate);
 }
 
-TEST_P(PnpRansacBadInput, RepeatedPointsDoNoHarm) {
+TEST_P(PnpRansacBadInput, RepeatedPoints_GiveTheTruePose) {
   Random random = randomFor("PnpRansacBadInput.RepeatedPointsDoNoHarm");
   PnpScene scene = makeScene(random, {.points = 10});
   for (int copy = 0; copy < 5; ++copy) {
@@ -155,7 +155,7 @@ TEST_P(PnpRansacBadInput, BadHypothesesAreInvalid) {
   }
 }
 
-TEST_P(PnpRansacBadInput, AHypothesisThatSeesNothingEndsWithAStatus) {
+TEST_P(PnpRansacBadInput, HypothesisFacingAway_EndsWithAStatus) {
   Random random = randomFor("PnpRansacBadInput.AHypothesisThatSeesNothingEndsWithAStatus");
   PnpScene scene = makeScene(random, {.points = 20});
   scene.hypothesis.camera_from_station.translation_m.z() = -0.5;
@@ -191,7 +191,7 @@ TEST_P(PnpRansacBadInput, BadCamerasAreInvalid) {
   EXPECT_EQ(solveSoundly(scene, 2.0, options()), Status::kInvalidCamera);
 }
 
-TEST_P(PnpRansacBadInput, MoreThanItWasCreatedForExceedsTheCapacity) {
+TEST_P(PnpRansacBadInput, MoreCorrespondencesThanAllocated_ExceedTheCapacity) {
   Random random = randomFor("PnpRansacBadInput.MoreThanItWasCreatedForExceedsTheCapacity");
   const PnpScene scene = makeScene(random, {.points = 21});
   Solver solver(20);
@@ -204,7 +204,7 @@ TEST_P(PnpRansacBadInput, MoreThanItWasCreatedForExceedsTheCapacity) {
   EXPECT_TRUE(done);
 }
 
-TEST(PnpRansac, SteppedBeforeItBeganIsDone) {
+TEST(PnpRansac, StepBeforeBegin_IsDone) {
   PnpRansac ransac;
   bool done = false;
   EXPECT_EQ(ransac.step(done), Status::kTooFewPoints);

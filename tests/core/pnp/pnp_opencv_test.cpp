@@ -46,7 +46,7 @@ Pose poseFromOpenCv(const cv::Mat& rotation_vector, const cv::Mat& translation) 
   return pose;
 }
 
-/// By one of OpenCV's solvers; `refined`: then by its Levenberg-Marquardt until it stands still.
+/// By one of OpenCV's solvers; `refined`: then by its Levenberg-Marquardt until convergence.
 Pose solveByOpenCv(const Matched& matched, const Camera& camera, cv::SolvePnPMethod method,
                    bool refined = false) {
   cv::Mat rotation_vector, translation;

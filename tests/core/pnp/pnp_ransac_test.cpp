@@ -15,7 +15,7 @@
 namespace boresight::test {
 namespace {
 
-/// Checks that what is reported belongs to the pose that is reported, from the definitions.
+/// Checks the reported figures against the reported pose, from the definitions.
 void expectSelfConsistent(const PnpScene& scene, double threshold_px, const PnpSolution& solution) {
   int count = 0;
   double sum = 0.0;
@@ -51,7 +51,7 @@ double normalizedSquaredError(const PnpScene& scene, const PnpSolution& solution
   return xi.dot(Eigen::LLT<Matrix6d>(solution.covariance).solve(xi));
 }
 
-/// How often an outlier is called an inlier or the other way round.
+/// Number of outliers classified as inliers and of inliers classified as outliers.
 int misjudged(const PnpScene& scene, const PnpSolution& solution) {
   int count = 0;
   for (std::size_t i = 0; i < scene.correspondences.size(); ++i) {
@@ -256,7 +256,7 @@ bool sameBits(const PnpSolution& a, const PnpSolution& b) {
          equal(a.residual_px.data(), b.residual_px.data(), a.residual_px.size() * sizeof(double));
 }
 
-TEST(PnpRansac, GivesTheSameBitsHoweverItIsRun) {
+TEST(PnpRansac, SteppedOrRepeatedRuns_GiveTheSameBits) {
   Random random = randomFor("PnpRansac.GivesTheSameBitsHoweverItIsRun");
   const PnpScene scene = makeScene(random, {.points = 90, .outlier_share = 0.5, .noise_px = 1.0});
   const PnpScene other = makeScene(random, {.points = 50, .outlier_share = 0.6, .noise_px = 2.0});
@@ -314,7 +314,7 @@ TEST(PnpRansac, NothingIsAllocated) {
   }
 }
 
-TEST(PnpRansac, TakesFromTheArenaWhatItCounts) {
+TEST(PnpRansac, UsesExactlyTheCountedBytes) {
   Arena counting;
   PnpRansac ransac;
   ASSERT_EQ(ransac.create(300, counting), Status::kOk);
@@ -356,7 +356,7 @@ TEST_P(PnpSamplersWithAMovingPupil, FindsTheTruthDespiteOutliers) {
   }
 }
 
-/// A minimal sample is exact where the hypothesis knows how far off its points are.
+/// A minimal sample is exact when the hypothesis has the exact depths of its points.
 TEST(PnpWithAMovingPupil, OneMinimalSampleIsExact) {
   const Camera camera = planetaryCamera("HazardDeepPupil");
   Random random = randomFor("OneMinimalSampleIsExact");

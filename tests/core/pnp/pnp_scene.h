@@ -51,19 +51,22 @@ inline PnpScene makeScene(Random& random, const PnpSceneOptions& options, const 
       displacedAboutPivot(scene.camera_from_station, randomOffset(random, scene.hypothesis.sigma),
                           scene.hypothesis.sigma.pivot_in_camera_m);
   for (int i = 0; i < options.points; ++i) {
-    Correspondence made;
-    made.sigma_px = options.sigma_px;
-    made.point_in_station_m = {random.uniform(-1.0, 1.0) * options.half_width_m,
-                               random.uniform(-1.0, 1.0) * options.half_width_m,
-                               random.uniform(-1.0, 1.0) * options.half_depth_m};
-    const Eigen::Vector3d point_in_camera_m = scene.camera_from_station * made.point_in_station_m;
+    Correspondence correspondence;
+    correspondence.sigma_px = options.sigma_px;
+    correspondence.point_in_station_m = {random.uniform(-1.0, 1.0) * options.half_width_m,
+                                         random.uniform(-1.0, 1.0) * options.half_width_m,
+                                         random.uniform(-1.0, 1.0) * options.half_depth_m};
+    const Eigen::Vector3d point_in_camera_m =
+        scene.camera_from_station * correspondence.point_in_station_m;
     const bool outlier = i < static_cast<int>(options.outlier_share * options.points);
-    if (!project(camera, point_in_camera_m, made.pixel)) made.pixel.setConstant(-1e5);
-    made.pixel += options.noise_px * Eigen::Vector2d{random.normal(), random.normal()};
+    if (!project(camera, point_in_camera_m, correspondence.pixel))
+      correspondence.pixel.setConstant(-1e5);
+    correspondence.pixel += options.noise_px * Eigen::Vector2d{random.normal(), random.normal()};
     if (outlier) {
-      made.pixel = {random.uniform(0.0, camera.width), random.uniform(0.0, camera.height)};
+      correspondence.pixel = {random.uniform(0.0, camera.width),
+                              random.uniform(0.0, camera.height)};
     }
-    scene.correspondences.push_back(made);
+    scene.correspondences.push_back(correspondence);
     scene.is_outlier.push_back(outlier);
   }
   for (std::size_t i = scene.correspondences.size(); i > 1; --i) {
@@ -83,7 +86,7 @@ inline PnpScene makeScene(Random& random, const PnpSceneOptions& options) {
 }
 
 /// A PnpRansac, its arena, and a solution with room for `capacity` correspondences. The solution
-/// starts filled with rubbish, so that what a status leaves behind is seen.
+/// starts with invalid values, so that values left by a status are detected.
 struct Solver {
   explicit Solver(std::size_t capacity)
       : memory(capacity * 64 + 1024), inlier(capacity, 7), residual_px(capacity, -1.0) {
@@ -161,14 +164,14 @@ template <class Cost>
 double newtonStepLeft(const Cost& cost, const Pose& camera_from_station) {
   const double h = 1e-5;
   double largest = 0.0;
-  const double here = cost(camera_from_station);
+  const double cost_at_pose = cost(camera_from_station);
   for (int k = 0; k < 6; ++k) {
     Vector6d xi = Vector6d::Zero();
     xi[k] = h;
     const double above = cost(perturbed(xi, camera_from_station));
     const double below = cost(perturbed(-xi, camera_from_station));
     const double gradient = (above - below) / (2.0 * h);
-    const double curvature = (above - 2.0 * here + below) / (h * h);
+    const double curvature = (above - 2.0 * cost_at_pose + below) / (h * h);
     largest = std::max(largest, std::abs(gradient / curvature));
   }
   return largest;

@@ -21,7 +21,7 @@ TEST_P(RefinePoseCameras, RecoversExactDataFromTheHypothesis) {
   }
 }
 
-TEST_P(RefinePoseCameras, EndsWhereTheSquaresAreLeast) {
+TEST_P(RefinePoseCameras, EndsAtTheLeastSquares) {
   Random random = randomFor("RefinePoseCameras.Least." + GetParam().name);
   for (int trial = 0; trial < 5; ++trial) {
     const PnpScene scene = makeScene(random, {.points = 30, .noise_px = 2.0}, GetParam().camera);
@@ -56,7 +56,7 @@ TEST(RefinePose, WeighsByInverseVariance) {
   EXPECT_THAT(unweighted, ::testing::Not(poseNear(plain, 1e-6, 1e-6)));
 }
 
-TEST(RefinePose, UsesOnlyWhatIsMarked) {
+TEST(RefinePose, UsesMarkedCorrespondencesOnly) {
   Random random = randomFor("RefinePose.UsesOnlyWhatIsMarked");
   const PnpScene scene = makeScene(random, {.points = 40, .outlier_share = 0.5});
   std::vector<std::uint8_t> use;
@@ -66,7 +66,7 @@ TEST(RefinePose, UsesOnlyWhatIsMarked) {
   EXPECT_THAT(pose, poseNear(scene.camera_from_station, 1e-9, 1e-9));
 }
 
-TEST(RefinePose, LeavesOutWhatIsNotUsable) {
+TEST(RefinePose, LeavesOutUnusableCorrespondences) {
   Random random = randomFor("RefinePose.LeavesOutWhatIsNotUsable");
   PnpScene scene = makeScene(random, {.points = 20});
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -171,7 +171,7 @@ PosePrior randomPrior(Random& random, const PnpScene& scene) {
   return prior;
 }
 
-TEST(RefinePosePrior, AloneLeadsToTheHypothesis) {
+TEST(RefinePosePrior, WithoutCorrespondences_LeadsToTheHypothesis) {
   Random random = randomFor("RefinePosePrior.AloneLeadsToTheHypothesis");
   for (int trial = 0; trial < 50; ++trial) {
     const PnpScene scene = makeScene(random, {.points = 0});

@@ -65,7 +65,7 @@ TEST(SpreadSampler, AvoidsLinesAndSpots) {
   }
 }
 
-TEST(SpreadSampler, StillDrawsWhenNothingIsSpread) {
+TEST(SpreadSampler, CollinearPlaces_AreStillDrawn) {
   const std::vector<Eigen::Vector2d> same(5, Eigen::Vector2d(3.0, 4.0));
   std::vector<Eigen::Vector2d> line;
   for (int i = 0; i < 5; ++i) line.emplace_back(i, 2.0 * i);
@@ -77,7 +77,7 @@ TEST(SpreadSampler, StillDrawsWhenNothingIsSpread) {
   }
 }
 
-TEST(SpreadSampler, TheSeedAloneDecides) {
+TEST(SpreadSampler, SamplesDependOnTheSeedOnly) {
   Random random = test::randomFor("SpreadSampler.TheSeedAloneDecides");
   const std::vector<Eigen::Vector2d> places = randomPlaces(random, 30);
   SpreadSampler first, second, other;

@@ -46,7 +46,7 @@ TEST(RecordWriter, TakesNoMemoryAndFitsTheDownlink) {
   RecordProperty("bytes", static_cast<int>(bytes.size()));
 }
 
-TEST(RecordWriter, WritesBlocksAsTheFormatSays) {
+TEST(RecordWriter, Blocks_FollowTheFormat) {
   const Case scene = stationCase(3);
   std::vector<std::uint8_t> memory(65536);
   std::span<const std::uint8_t> bytes;
@@ -80,7 +80,7 @@ TEST(RecordWriter, WritesBlocksAsTheFormatSays) {
   EXPECT_EQ(types.back(), static_cast<std::uint32_t>(RecordBlock::kEnd));
 }
 
-/// The bytes that FORMAT.md says a level of the edge map to be.
+/// The bytes of a level of the edge map as FORMAT.md defines them.
 void appendBits(const BitImage& image, std::vector<std::uint8_t>& bytes) {
   const auto append = [&bytes](std::uint64_t value, int count) {
     for (int i = count - 1; i >= 0; --i)

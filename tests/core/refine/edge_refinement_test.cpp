@@ -83,7 +83,7 @@ TEST(EdgeRefinement, ConvergesFromPixelsAway) {
   }
 }
 
-TEST(EdgeRefinement, EdgesFoundServeUntilThePoseHasMoved) {
+TEST(EdgeRefinement, SmallMotion_ReusesTheEdges) {
   const Case scene = stationCase(1);
   const Pose start = poseOff(scene, 1.0, 5);
   Refined refined;
@@ -91,7 +91,7 @@ TEST(EdgeRefinement, EdgesFoundServeUntilThePoseHasMoved) {
   ASSERT_EQ(refined.status, Status::kOk);
   EXPECT_GE(refined.searches, 2);
   EXPECT_LT(refined.searches, refined.rounds);
-  // The edges at the pose returned lead to no other pose.
+  // The edges at the returned pose give the same pose.
   Refined again;
   again.pass(scene, refined.result.camera_from_station, 3.0);
   ASSERT_EQ(again.status, Status::kOk);
@@ -100,7 +100,7 @@ TEST(EdgeRefinement, EdgesFoundServeUntilThePoseHasMoved) {
             0.02);
 }
 
-TEST(EdgeRefinement, CountsWhatItUses) {
+TEST(EdgeRefinement, UsesExactlyTheCountedBytes) {
   const Case scene = stationCase(1);
   Refined refined;
   refined.pass(scene, poseOff(scene, 1.0, 9), 3.0);
@@ -160,7 +160,7 @@ TEST(EdgeRefinement, FindsTooFewEdgesInAFlatImage) {
   EXPECT_EQ(refined.result.camera_from_station.translation_m, scene.truth.translation_m);
 }
 
-TEST(EdgeRefinement, SeesThatTheRenderHoldsTooFewEdges) {
+TEST(EdgeRefinement, RenderWithTooFewEdges_IsReported) {
   const Case scene = stationCase(1);
   Pose far_away = scene.truth;
   far_away.translation_m *= 40.0;
@@ -171,7 +171,7 @@ TEST(EdgeRefinement, SeesThatTheRenderHoldsTooFewEdges) {
   EXPECT_EQ(refined.rounds, 0);  // at once
 }
 
-TEST(EdgeRefinement, KeepsToItsLimits) {
+TEST(EdgeRefinement, SamplesAndRounds_StayWithinTheirLimits) {
   const Case scene = stationCase(1);
   RefinementOptions options;
   options.max_samples = 300;
@@ -214,7 +214,7 @@ Picture negativeOf(Picture picture) {
   return picture;
 }
 
-/// A sheet that covers the left of the image: one straight edge, all else out of sight.
+/// A sheet that covers the left of the image: one straight edge, all other edges hidden.
 struct OneEdge {
   Picture picture;
   Case scene;
@@ -222,7 +222,7 @@ struct OneEdge {
   OneEdge() {
     scene.solid.addPrism({{-1.0, -1.0}, {0.01, -1.0}, {0.01, 1.0}, {-1.0, 1.0}}, -0.001, 0.0, 0.9);
     scene.camera = pinholeCamera();
-    // Not along the columns: there all rays of the picture's edge pixels would err alike.
+    // Not along the columns: there all rays of the picture's edge pixels would share one error.
     scene.truth.rotation = rotationExp({0.0, 0.0, 0.11}) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
     scene.truth.translation_m = {0.0, 0.0, 0.45};
     picture = takePicture(scene.solid, scene.camera, scene.truth);
@@ -236,62 +236,62 @@ struct OneEdge {
   }
 };
 
-TEST(EdgeRefinement, OneEdgeAloneIsDegenerate) {
-  const OneEdge one;
+TEST(EdgeRefinement, SingleEdge_IsDegenerate) {
+  const OneEdge edge;
   Refined refined;
-  refined.pass(one.scene, one.scene.truth, 3.0);
+  refined.pass(edge.scene, edge.scene.truth, 3.0);
   EXPECT_EQ(refined.status, Status::kDegenerate);
 }
 
-/// The edge is met, and what it leaves open stays where it was.
-void expectHeld(const OneEdge& one, const Pose& start, const Pose& end) {
+/// The edge is matched, and the undetermined direction keeps its value.
+void expectHeld(const OneEdge& edge, const Pose& start, const Pose& end) {
   const Eigen::Vector2d along =
-      (one.placeOf(one.scene.truth, 0.05) - one.placeOf(one.scene.truth, -0.05)).normalized();
+      (edge.placeOf(edge.scene.truth, 0.05) - edge.placeOf(edge.scene.truth, -0.05)).normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
   for (const double y_m : {-0.05, 0.0, 0.06}) {
-    const Eigen::Vector2d end_px = one.placeOf(end, y_m);
-    EXPECT_NEAR(across.dot(end_px - one.placeOf(one.scene.truth, y_m)), 0.0, 0.05);
-    EXPECT_NEAR(along.dot(end_px - one.placeOf(start, y_m)), 0.0, 0.5);  // 2 px from the truth
-    EXPECT_GT(std::abs(along.dot(end_px - one.placeOf(one.scene.truth, y_m))), 1.0);
+    const Eigen::Vector2d end_px = edge.placeOf(end, y_m);
+    EXPECT_NEAR(across.dot(end_px - edge.placeOf(edge.scene.truth, y_m)), 0.0, 0.05);
+    EXPECT_NEAR(along.dot(end_px - edge.placeOf(start, y_m)), 0.0, 0.5);  // 2 px from the truth
+    EXPECT_GT(std::abs(along.dot(end_px - edge.placeOf(edge.scene.truth, y_m))), 1.0);
   }
   EXPECT_NEAR(end.translation_m.z(), start.translation_m.z(), 1e-4);
 }
 
-Pose startOf(const OneEdge& one) {
-  Pose start = one.scene.truth;
+Pose startOf(const OneEdge& edge) {
+  Pose start = edge.scene.truth;
   start.translation_m += Eigen::Vector3d(0.0006, 0.001, 0.002);
   start.rotation = (rotationExp({0.0, 0.0, 0.004}) * start.rotation).normalized();
   return start;
 }
 
-TEST(EdgeRefinement, AnAnchorHoldsWhatOneEdgeLeavesOpen) {
-  const OneEdge one;
-  const Pose start = startOf(one);
+TEST(EdgeRefinement, Anchor_HoldsDirectionsThatOneEdgeDoesNotDetermine) {
+  const OneEdge edge;
+  const Pose start = startOf(edge);
   PosePrior anchor;
   anchor.camera_from_station = start;
   anchor.sigma.translation_m.setConstant(0.005);
   anchor.sigma.rotation_rad.setConstant(0.02);
   anchor.sigma.pivot_in_camera_m = {0.0, 0.0, 0.45};
   Refined refined;
-  refined.pass(one.scene, start, 4.0, &anchor);
+  refined.pass(edge.scene, start, 4.0, &anchor);
   ASSERT_EQ(refined.status, Status::kOk);
-  expectHeld(one, start, refined.result.camera_from_station);
-  // Along the edge it is known as well as before, across it far better.
+  expectHeld(edge, start, refined.result.camera_from_station);
+  // The uncertainty along the edge is unchanged; across it, it is far smaller.
   const Matrix6d& covariance = refined.result.covariance;
   EXPECT_EQ(covariance.llt().info(), Eigen::Success);
   EXPECT_GT(std::sqrt(covariance(4, 4)), 0.004);
 }
 
-TEST(EdgeRefinement, AMatchedPoseHoldsWhatOneEdgeLeavesOpen) {
-  const OneEdge one;
-  const Pose start = startOf(one);
+TEST(EdgeRefinement, MatchedPose_HoldsDirectionsThatOneEdgeDoesNotDetermine) {
+  const OneEdge edge;
+  const Pose start = startOf(edge);
   PoseEstimate matched;
   matched.camera_from_station = start;
   matched.information.diagonal() << 2500.0, 2500.0, 2500.0, 4e4, 4e4, 4e4;
   Refined refined;
-  refined.pass(one.scene, start, 4.0, nullptr, &matched);
+  refined.pass(edge.scene, start, 4.0, nullptr, &matched);
   ASSERT_EQ(refined.status, Status::kOk);
-  expectHeld(one, start, refined.result.camera_from_station);
+  expectHeld(edge, start, refined.result.camera_from_station);
 }
 
 /// Holds all but the translation along the image's rows.
@@ -303,7 +303,7 @@ PoseEstimate holdingAllButX(const Pose& camera_from_station) {
 }
 
 /// A strip across the image, gray before black on the left and before white on the right, where
-/// its edge stands `aside_px` further out than the mesh has it.
+/// its edge lies `aside_px` further out than in the mesh.
 struct Strip {
   static constexpr double kHalf_m = 0.03;
   Picture picture;
@@ -351,24 +351,24 @@ struct Strip {
 };
 
 /// Both edges are as long: the one that rises pulls by its weight, 0.4 next to 1.
-TEST(EdgeRefinement, RisingEdge_CountsForLessThanAFallingOne) {
+TEST(EdgeRefinement, RisingEdge_WeighsLessThanAFallingEdge) {
   constexpr double kAside_px = 0.3;
   const double pulled_px = Strip(kAside_px).shift_px() - Strip(0.0).shift_px();
   EXPECT_NEAR(pulled_px, kAside_px * 0.4 / 1.4, 0.02);
 }
 
-TEST(EdgeRefinement, WhereAllEdgesRise_TheyAreUsedAllTheSame) {
-  OneEdge one;
-  const Picture negative = negativeOf(one.picture);
-  const PoseEstimate held = holdingAllButX(startOf(one));
+TEST(EdgeRefinement, OnlyRisingEdges_AreUsed) {
+  OneEdge edge;
+  const Picture negative = negativeOf(edge.picture);
+  const PoseEstimate held = holdingAllButX(startOf(edge));
   std::vector<double> across_px;
-  for (const Picture* picture : {&std::as_const(one.picture), &negative}) {
-    one.scene.picture = picture;
+  for (const Picture* picture : {&std::as_const(edge.picture), &negative}) {
+    edge.scene.picture = picture;
     Refined refined;
-    refined.pass(one.scene, startOf(one), 4.0, nullptr, &held);
+    refined.pass(edge.scene, startOf(edge), 4.0, nullptr, &held);
     ASSERT_EQ(refined.status, Status::kOk);
     EXPECT_GT(refined.result.used_count, 60);
-    across_px.push_back(one.placeOf(refined.result.camera_from_station, 0.0).x());
+    across_px.push_back(edge.placeOf(refined.result.camera_from_station, 0.0).x());
   }
   EXPECT_NEAR(across_px[0], across_px[1], 2e-2);
 }

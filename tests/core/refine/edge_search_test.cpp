@@ -44,7 +44,7 @@ TEST(EdgeSearch, FindsStepsToAFewHundredthsOfAPixel) {
     const double expected = edge.distance_px - edge.normal.dot(predicted);
     const EdgePeak peak = search.find(picture.view(), nullptr, predicted, edge.normal, 5.0, 2.0);
     ASSERT_GT(peak.gradient, 0.0) << angle << " " << shift;
-    // Interpolation errs most along rows and columns, where all of an edge's pixels err alike.
+    // Interpolation errs most along rows and columns, where all pixels of an edge share one error.
     EXPECT_NEAR(peak.offset_px, expected, 0.055) << angle << " " << shift;
     beyond += std::abs(peak.offset_px - expected) > 0.03 ? 1 : 0;
     sum_px += peak.offset_px - expected;
@@ -74,11 +74,11 @@ TEST(EdgeSearch, TurnedNormalTurnsTheSigns) {
   const EdgeSearch search(1.0);
   const StepEdge edge = edgeAt(0.6, 0.8, 90.0);
   const Picture picture = drawSteps(kSide, kSide, 20.0, {edge});
-  const EdgePeak there = search.find(picture.view(), nullptr, kCentre, edge.normal, 4.0, 2.0);
+  const EdgePeak forward = search.find(picture.view(), nullptr, kCentre, edge.normal, 4.0, 2.0);
   const EdgePeak back = search.find(picture.view(), nullptr, kCentre, -edge.normal, 4.0, 2.0);
-  EXPECT_NEAR(there.offset_px, 0.8, 0.03);
-  EXPECT_NEAR(there.offset_px, -back.offset_px, 1e-6);
-  EXPECT_NEAR(there.gradient, -back.gradient, 1e-6);
+  EXPECT_NEAR(forward.offset_px, 0.8, 0.03);
+  EXPECT_NEAR(forward.offset_px, -back.offset_px, 1e-6);
+  EXPECT_NEAR(forward.gradient, -back.gradient, 1e-6);
 }
 
 TEST(EdgeSearch, ReachesTheRadiusAndNoFurther) {
@@ -100,7 +100,7 @@ TEST(EdgeSearch, ReachesTheRadiusAndNoFurther) {
   }
 }
 
-TEST(EdgeSearch, PrefersTheNearerOfTwo) {
+TEST(EdgeSearch, PrefersTheNearerOfTwoEdges) {
   const EdgeSearch search(0.8);
   // With a reach of 6 + 1 px: 60 (1 - (0.5/7)^2) = 59.7 against 90 (1 - (5/7)^2) = 44.
   const StepEdge near = edgeAt(0.3, -0.5, 60.0);
@@ -119,7 +119,7 @@ TEST(EdgeSearch, PrefersTheNearerOfTwo) {
               0.1);
 }
 
-TEST(EdgeSearch, WeakEdgesAreNone) {
+TEST(EdgeSearch, WeakEdges_AreNotFound) {
   const EdgeSearch search(1.0);
   const StepEdge edge = edgeAt(2.0, 0.2, 50.0);
   const Picture picture = drawSteps(kSide, kSide, 20.0, {edge});
@@ -133,7 +133,7 @@ TEST(EdgeSearch, WeakEdgesAreNone) {
   EXPECT_EQ(strengthAbove(1.01 * gradient), 0.0);
 }
 
-TEST(EdgeSearch, FlatAndEvenlySlopedImagesHoldNone) {
+TEST(EdgeSearch, FlatAndEvenlySlopedImages_HaveNoEdge) {
   const EdgeSearch search(1.0);
   const Picture flat = flatPicture(kSide, kSide, 77);
   Picture slope = flat;
@@ -148,7 +148,7 @@ TEST(EdgeSearch, FlatAndEvenlySlopedImagesHoldNone) {
   EXPECT_EQ(search.find(slope.view(), nullptr, kCentre, {1.0, 0.0}, 4.0, 0.0).gradient, 0.0);
 }
 
-TEST(EdgeSearch, IgnoredEdgesAreNone) {
+TEST(EdgeSearch, IgnoredEdges_AreNotFound) {
   const EdgeSearch search(1.0);
   const StepEdge edge = edgeAt(0.0, 1.5, 90.0);  // at x = 33, y = 31 or 32
   const Picture picture = drawSteps(kSide, kSide, 20.0, {edge});
@@ -158,13 +158,13 @@ TEST(EdgeSearch, IgnoredEdgesAreNone) {
   elsewhere.bits.reset(33, 31);
   EXPECT_GT(search.find(picture.view(), &elsewhere.bits, predicted, edge.normal, 4.0, 2.0).gradient,
             0.0);
-  Mask there(kSide, kSide);
-  there.bits.set(33, 31);
-  EXPECT_EQ(search.find(picture.view(), &there.bits, predicted, edge.normal, 4.0, 2.0).gradient,
+  Mask mask(kSide, kSide);
+  mask.bits.set(33, 31);
+  EXPECT_EQ(search.find(picture.view(), &mask.bits, predicted, edge.normal, 4.0, 2.0).gradient,
             0.0);
 }
 
-TEST(EdgeSearch, ProfilesThatLeaveTheImageAreNone) {
+TEST(EdgeSearch, ProfilesThatLeaveTheImage_FindNoEdge) {
   const EdgeSearch search(1.0);
   const Picture noise = noisePicture(kSide, kSide, 2);
   Random random(3);
@@ -190,7 +190,7 @@ TEST(EdgeSearch, ProfilesThatLeaveTheImageAreNone) {
   EXPECT_GT(found, 3000);
 }
 
-TEST(EdgeSearch, AnswersToAnything) {
+TEST(EdgeSearch, AnyInput_GivesAFiniteResult) {
   const Picture noise = noisePicture(kSide, kSide, 2);
   const double values[] = {0.0,
                            -1e300,

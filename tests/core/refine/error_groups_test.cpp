@@ -82,7 +82,7 @@ TEST(ErrorGroups, SectorsAreThoseOfTheAngle) {
   EXPECT_EQ(ErrorGroups::sectorOf({0.0, -1.0}), 12);
 }
 
-TEST(ErrorGroups, IsWhatSumsOverMapsGive) {
+TEST(ErrorGroups, EqualsSumsOverMaps) {
   Random random(2);
   std::vector<Sample> samples;
   for (int i = 0; i < 3000; ++i) {
@@ -171,7 +171,7 @@ TEST(ErrorGroups, ErrorsThatNeighboursShareAreCovered) {
   EXPECT_LT(mean, 6.6) << "larger would be a covariance that is too small";
 }
 
-TEST(ErrorGroups, TwoViews_AreWorthTheSumOfTheirErrorsInOneFrame) {
+TEST(ErrorGroups, TwoViews_AddTheirErrorsInOneFrame) {
   Random random(6);
   std::vector<Sample> samples;
   for (int i = 0; i < 500; ++i) {
@@ -199,7 +199,7 @@ TEST(ErrorGroups, TwoViews_AreWorthTheSumOfTheirErrorsInOneFrame) {
   EXPECT_FALSE(sum.covariance(both));
 }
 
-TEST(ErrorGroups, NothingIsToldOfOneGroup) {
+TEST(ErrorGroups, SingleGroup_GivesNoCovariance) {
   Random random(5);
   std::vector<Sample> samples(20, randomSample(random));
   for (Sample& sample : samples) {

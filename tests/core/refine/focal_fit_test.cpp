@@ -10,7 +10,7 @@
 namespace boresight::test {
 namespace {
 
-/// The pose refined on the case's edges, and the focal length beside it.
+/// The pose refined on the case's edges, and its focal length.
 FocalFit fitAfterRefining(const Case& scene) {
   const RefinementOptions options;
   std::vector<std::byte> memory(std::size_t{4} << 20);
@@ -64,7 +64,7 @@ TEST(FocalFit, FocalLengthStatedWrong_IsMeasuredAndDisagrees) {
   }
 }
 
-TEST(FocalFit, PlateSeenFromTheFront_LeavesTheFocalLengthOpen) {
+TEST(FocalFit, PlateSeenFromTheFront_DoesNotDetermineTheFocalLength) {
   Case scene = stationCase(1);
   scene.solid = Solid();
   scene.solid.addBox(0.0, 0.0, 0.06, 0.05, 0.3, 0.0, 0.001, 0.6);

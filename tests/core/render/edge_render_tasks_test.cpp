@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renders shared out among workers: the same bits as by one alone, whoever does what.
+// Renders by several workers have the same bits as by one, for any assignment of tasks.
 #include <algorithm>
 #include <numeric>
 #include <thread>
@@ -87,7 +87,7 @@ void expectSameWords(const EdgeRender& a, const EdgeRender& b) {
   EXPECT_TRUE(std::ranges::equal(a.row_begin.first(rows), b.row_begin.first(rows)));
 }
 
-TEST(EdgeRendererTasks, GiveTheBitsOfOneAlone) {
+TEST(EdgeRendererTasks, SharedTasks_GiveTheBitsOfOneWorker) {
   Random random(7);
   const Pose ahead = poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5});
   const Pose inside = poseOf({0.4, -0.2, 1.3}, {0.0, 0.03, 0.05});
@@ -115,7 +115,7 @@ TEST(EdgeRendererTasks, GiveTheBitsOfOneAlone) {
   }
 }
 
-TEST(EdgeRendererTasks, MayBeCutAnywhere) {
+TEST(EdgeRendererTasks, AnyDivision_GivesTheSameBits) {
   Random random(9);
   const SceneMesh mesh = scattered(5, 64);
   const Camera camera = brownCamera(201, 149, 200.0, -0.25);
@@ -133,7 +133,7 @@ TEST(EdgeRendererTasks, MayBeCutAnywhere) {
   }
 }
 
-TEST(EdgeRendererTasks, MayBeDoneAtTheSameTime) {
+TEST(EdgeRendererTasks, ParallelThreads_GiveTheSameBits) {
   constexpr int kWorkers = 4;
   const SceneMesh mesh = scattered(8, 1500);
   const Camera camera = pinholeCamera(240, 200, 240.0);
@@ -157,8 +157,8 @@ TEST(EdgeRendererTasks, MayBeDoneAtTheSameTime) {
   expectSameWords(alone.edges, shared.output);
 }
 
-/// Too little room ends as it does for one alone, wherever the tasks were cut.
-TEST(EdgeRendererTasks, CapacityExceededLeavesWhatOneAloneLeaves) {
+/// An exceeded capacity ends as with one worker, for any division into tasks.
+TEST(EdgeRendererTasks, CapacityExceeded_LeavesTheOutputOfOneWorker) {
   Random random(11);
   RenderOptions options;
   options.max_edge_pixels = 1000;
@@ -181,7 +181,7 @@ TEST(EdgeRendererTasks, CapacityExceededLeavesWhatOneAloneLeaves) {
   }
 }
 
-TEST(EdgeRendererTasks, TooManyLayersAreRefusedAsByOneAlone) {
+TEST(EdgeRendererTasks, TooManyLayers_AreRefusedAsByOneWorker) {
   Random random(12);
   SceneMesh mesh = scattered(6, 64);
   // The lower half of the image is covered again and again.
@@ -205,7 +205,7 @@ TEST(EdgeRendererTasks, TooManyLayersAreRefusedAsByOneAlone) {
   }
 }
 
-TEST(EdgeRendererTasks, NothingInSightIsNothing) {
+TEST(EdgeRendererTasks, SceneOutsideTheImage_GivesNoEdges) {
   Random random(13);
   const SceneMesh mesh = scattered(6, 64);
   const Camera camera = pinholeCamera(100, 90, 100.0);
@@ -217,7 +217,7 @@ TEST(EdgeRendererTasks, NothingInSightIsNothing) {
   EXPECT_TRUE(std::ranges::all_of(shared.face, [](std::int32_t face) { return face == -1; }));
 }
 
-TEST(EdgeRendererTasks, WorkersTakeWhatTheyCount) {
+TEST(EdgeRendererTasks, UseExactlyTheCountedBytes) {
   const SceneMesh mesh = scattered(6, 64);
   const RenderOptions options;
   std::vector<std::byte> memory(std::size_t{16} << 20);

@@ -30,7 +30,7 @@ SceneMesh cluttered(std::uint64_t seed) {
 
 const Pose kAhead = poseOf(Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(0.01, 0.0, 0.5));
 
-TEST(EdgeRenderer, BandsDoNotShow) {
+TEST(EdgeRenderer, HeightOfBands_DoesNotChangeTheRender) {
   const SceneMesh mesh = cluttered(3);
   for (const Camera& camera :
        {pinholeCamera(201, 149, 220.0), brownCamera(201, 149, 200.0, -0.25)}) {
@@ -74,7 +74,7 @@ TEST(EdgeRenderer, RecordsAreInRasterOrderAndConsistent) {
   EXPECT_EQ(findEdgePixel(edges, 0, edges.camera.height), -1);
 }
 
-/// What holds for every render, whatever the scene.
+/// Properties of every render, for any scene.
 void expectRulesKept(const Rendered& rendered, const SceneMesh& mesh) {
   const EdgeRender& edges = rendered.edges;
   const int width = edges.camera.width;
@@ -158,7 +158,7 @@ struct Bench {
   }
 };
 
-TEST(EdgeRenderer, CapacityExceededIsSaid) {
+TEST(EdgeRenderer, CapacityExceeded_IsReported) {
   Bench bench;
   bench.options.max_edge_pixels = 1000;
   bench.camera = brownCamera(800, 600, 800.0, -0.2);
@@ -227,7 +227,7 @@ TEST(EdgeRenderer, RefusesFacesThatCoverTheImageManyHundredTimesOver) {
   }
 }
 
-TEST(EdgeRenderer, CountsWhatItUses) {
+TEST(EdgeRenderer, UsesExactlyTheCountedBytes) {
   Bench bench;
   Arena counting;
   EdgeRenderer renderer;
@@ -258,7 +258,7 @@ TEST(EdgeRenderer, MemoryOfALargeSceneWithinTwoAndAHalfMegabytes) {
   EXPECT_LE(counting.used(), 2500000U);
 }
 
-TEST(EdgeRenderer, BadInputIsAStatus) {
+TEST(EdgeRenderer, BadInput_GivesAStatus) {
   Bench bench;
   EdgeRender output = createEdgeRender(200, 150, bench.options, bench.arena);
   EdgeRenderer renderer;

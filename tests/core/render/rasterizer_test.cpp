@@ -13,8 +13,7 @@
 namespace boresight::testing {
 namespace {
 
-/// What a ray from the camera centre meets first (Moller-Trumbore; nothing shared with the
-/// rasterizer).
+/// First hit of a ray from the camera centre (Moller-Trumbore; independent of the rasterizer).
 struct RayHit {
   int face = -1;
   double depth_m = 0.0;

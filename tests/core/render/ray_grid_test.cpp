@@ -67,7 +67,7 @@ TEST(RayGrid, PixelsOutsideTheValidFieldAreMarked) {
   EXPECT_LT(worst.pixel_px, 3e-5);
 }
 
-TEST(RayGrid, RefusesNonsense) {
+TEST(RayGrid, UnpreparedCameraOrSmallArena_IsRefused) {
   Arena arena;
   RayGrid grid;
   EXPECT_EQ(RayGrid::create(Camera(), arena, grid), Status::kInvalidCamera);
@@ -77,7 +77,7 @@ TEST(RayGrid, RefusesNonsense) {
   EXPECT_EQ(RayGrid::create(camera, small, grid), Status::kArenaTooSmall);
 }
 
-TEST(RayGrid, CountsWhatItUses) {
+TEST(RayGrid, UsesExactlyTheCountedBytes) {
   const Camera camera = brownCamera(400, 300, 380.0, -0.1);
   Arena counting;
   RayGrid grid;
@@ -87,7 +87,7 @@ TEST(RayGrid, CountsWhatItUses) {
   EXPECT_EQ(RayGrid::create(camera, arena, grid), Status::kOk);
 }
 
-/// Equidistant, in fact.
+/// Equidistant fisheye.
 Camera equidistantCamera(int size, double focal_px) {
   Camera camera = fisheyeCamera(size, size, focal_px);
   camera.distortion = {};
@@ -174,7 +174,7 @@ TEST(RayGrid, RangesHoldEveryPixelAndNotAllBeyondNinetyDegrees) {
       EXPECT_TRUE(column_held || !(ray.x() >= low && ray.x() <= high)) << low << " " << pixel.x();
     }
   }
-  // Above the middle y/z is negative, whatever lies at the border of the field.
+  // Above the middle y/z is negative, also at the border of the field.
   EXPECT_GT(grid.rowsWithin(0.1, 0.2).first, 200);
   EXPECT_LT(grid.rowsWithin(0.1, 0.2).last, 320);
   EXPECT_GT(grid.columnsWithin(3.0, 5.0).first, 300);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the lines of salient edges lie: thin, unbiased, and with the sub-pixel place recorded.
+// Position of the lines of salient edges: thin, unbiased, with the sub-pixel place recorded.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,7 +28,7 @@ class ProjectedLine {
   std::vector<Eigen::Vector2d> points_;
 };
 
-/// What the edge pixels of a render say about one line.
+/// Statistics of a render's edge pixels along one line.
 struct LineStatistics {
   int pixels = 0;
   double mean_px = 0.0;          ///< signed distance of centres to the line

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is an edge and what is not: thresholds, curved and grazing surfaces, parts, borders.
+// Which places are salient edges: thresholds, curved and grazing surfaces, parts, borders.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -42,7 +42,7 @@ Camera pinholeCamera(int width, int height, double focal_px);
 /// Brown-Conrady with 5 coefficients; k1 = -0.28 is a strong barrel.
 Camera brownCamera(int width, int height, double focal_px, double k1);
 Camera fisheyeCamera(int width, int height, double focal_px);
-/// CAHVOR: image axes not square to each other, y up the image, the optical axis beside z.
+/// CAHVOR: image axes not square to each other, y up the image, the optical axis not along z.
 Camera skewMirroredCamera(int width, int height, double focal_px);
 /// CAHVORE: fisheye with an entrance pupil that moves; `entrance_m` is e0.
 Camera pupilCamera(int width, int height, double focal_px, double entrance_m);

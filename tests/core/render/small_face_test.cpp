@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faces of the size of a pixel are drawn from few bits; every bit of the result must be that of
-// drawing them like all others.
+// Faces of the size of a pixel are drawn from few bits; every bit of the result must equal that of
+// the plain method.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -55,7 +55,7 @@ std::vector<Camera> cameras() {
           fisheyeCamera(160, 120, 90.0), pinholeCamera(1400, 30, 220.0)};
 }
 
-TEST(SmallFaces, BallsOfAllFinenessLikePlain) {
+TEST(SmallFaces, BallsOfAnyTessellation_EqualThePlainRender) {
   Random random(1);
   for (const int n : {12, 40, 90, 200}) {
     SceneMesh mesh;
@@ -97,7 +97,7 @@ TEST(SmallFaces, KnowWhichSideIsSeen) {
   }
 }
 
-TEST(SmallFaces, OfPlanetaryCamerasLikePlain) {
+TEST(SmallFaces, PlanetaryCameras_EqualThePlainRender) {
   for (const Camera& camera :
        {skewMirroredCamera(301, 149, 1600.0), pupilCamera(301, 149, 1600.0, 0.01)}) {
     Random random(5);
@@ -108,7 +108,7 @@ TEST(SmallFaces, OfPlanetaryCamerasLikePlain) {
 }
 
 /// Surfaces that pass through each other everywhere, some turned inside out, some twice the same.
-TEST(SmallFaces, TangledSurfacesLikePlain) {
+TEST(SmallFaces, TangledSurfaces_EqualThePlainRender) {
   Random random(2);
   SceneMesh mesh;
   mesh.parts.resize(3);
@@ -130,7 +130,7 @@ TEST(SmallFaces, TangledSurfacesLikePlain) {
 }
 
 /// Faces outside the image, behind the camera, across the near plane, and very far away.
-TEST(SmallFaces, PartlySeenSurfacesLikePlain) {
+TEST(SmallFaces, PartlySeenSurfaces_EqualThePlainRender) {
   Random random(3);
   SceneMesh mesh;
   addBall(mesh, random, {0, 0, 0}, 0.3, 120, 0.003);
@@ -141,8 +141,8 @@ TEST(SmallFaces, PartlySeenSurfacesLikePlain) {
       expectLikePlain(mesh, camera, poseOf({0.1, 0.2, 0.0}, t), 0);
 }
 
-/// A flat sheet seen nearly edge-on, and exactly so: depths and coverage are decided by a hair.
-TEST(SmallFaces, GrazingSheetsLikePlain) {
+/// A flat sheet seen nearly edge-on, and exactly so: depths and coverage are decided by rounding.
+TEST(SmallFaces, GrazingSheets_EqualThePlainRender) {
   SceneMesh mesh;
   constexpr int kSide = 60;
   for (int layer = 0; layer < 3; ++layer)

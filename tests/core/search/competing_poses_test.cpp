@@ -66,12 +66,12 @@ std::vector<CompetingPose> competingOf(const Case& scene) {
   return {test.poses().begin(), test.poses().end()};
 }
 
-TEST(CompetingPoses, MeshThatAHalfTurnLeavesAsItIs_HasNone) {
+TEST(CompetingPoses, MeshSymmetricUnderAHalfTurn_HasNoCompetingPose) {
   const Shown shown(plateWithTwoBoxes(false), plateWithTwoBoxes(false));
   EXPECT_TRUE(competingOf(shown.scene).empty());
 }
 
-TEST(CompetingPoses, MarkThatTheImageShows_LeavesNoneOfAsMuchEvidence) {
+TEST(CompetingPoses, VisibleAsymmetry_LeavesNoCompetingPoseOfEqualEvidence) {
   const Shown shown(plateWithTwoBoxes(true), plateWithTwoBoxes(true));
   for (const CompetingPose& pose : competingOf(shown.scene)) EXPECT_GT(pose.margin_nats, 5.0);
 }
@@ -89,7 +89,7 @@ TEST(CompetingPoses, PoseTurnedByHalfATurn_CompetesWithTheTruthWhichHasMoreEvide
             2.0);
 }
 
-TEST(CompetingPoses, RailWithoutVisibleEnds_CompetesWithItselfOnePitchOn) {
+TEST(CompetingPoses, RailWithoutVisibleEnds_CompetesWithThePoseOnePitchFurther) {
   const Case scene = railCase(Ends::kOutside, 0.0, 1.7, 3);
   const std::vector<CompetingPose> competing = competingOf(scene);
   ASSERT_FALSE(competing.empty());
@@ -101,7 +101,7 @@ TEST(CompetingPoses, RailWithoutVisibleEnds_CompetesWithItselfOnePitchOn) {
   EXPECT_LT(nearest_pitches, 0.1);
 }
 
-TEST(SurfaceAxes, OfABox_AreItsOwnTheShortestFirst) {
+TEST(SurfaceAxes, Box_HasItsOwnAxesInAscendingOrder) {
   Solid solid;
   solid.addBox(0.01, -0.02, 0.06, 0.03, 0.4, 0.1, 0.12, 0.5);
   const SurfaceAxes surface = surfaceAxesOf(solid.view());

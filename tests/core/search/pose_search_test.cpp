@@ -73,7 +73,7 @@ TEST(PoseSearch, AnywhereInTheUncertainty_FindsTheTruth) {
     }
 }
 
-TEST(PoseSearch, LargerUncertainty_IsTheSameSearchWithMorePoses) {
+TEST(PoseSearch, LargerUncertainty_SearchesMorePosesWithTheSameResult) {
   test::Case scene = test::stationCase(2);
   SearchRun narrow(scene);
   (void)narrow.run();
@@ -87,7 +87,7 @@ TEST(PoseSearch, LargerUncertainty_IsTheSameSearchWithMorePoses) {
 }
 
 /// Turned by almost half a turn about an axis across the view: rotation vectors near pi.
-TEST(PoseSearch, SeedTurnedByAHalfTurnAndSoStated_FindsTheTruth) {
+TEST(PoseSearch, SeedTurnedByAStatedHalfTurn_FindsTheTruth) {
   for (int axis = 0; axis < 3; ++axis)
     for (const double turn_deg : {165.0, 178.0, -172.0}) {
       SCOPED_TRACE(axis);
@@ -137,7 +137,7 @@ TEST(PoseSearch, StationBehindTheCamera_HasNoCandidates) {
   EXPECT_TRUE(run.run().empty());
 }
 
-TEST(PoseEvidence, OfARenderOfTheRealCamera_IsThatOfTheTruth) {
+TEST(PoseEvidence, RenderOfTheRealCamera_HasTheEvidenceOfTheTruth) {
   const test::Case scene = test::stationCase(1, true);
   const SearchRun run(scene);
   const auto evidenceOf = [&](const Pose& pose) {
@@ -158,13 +158,13 @@ TEST(PoseEvidence, OfARenderOfTheRealCamera_IsThatOfTheTruth) {
 }
 
 SearchCandidate at(double x_px, double distance_px) {
-  SearchCandidate made;
-  made.slide_x_px = x_px;
-  made.distance_px = distance_px;
-  return made;
+  SearchCandidate candidate;
+  candidate.slide_x_px = x_px;
+  candidate.distance_px = distance_px;
+  return candidate;
 }
 
-TEST(CandidateList, NearCandidates_AreOneTheBetter) {
+TEST(CandidateList, NearCandidates_KeepTheBetterOne) {
   CandidateList list(40.0, 3.0, Eigen::Vector3d::UnitZ());
   list.insert(at(0.0, 2.0));
   list.insert(at(2.0, 1.0));
@@ -176,14 +176,14 @@ TEST(CandidateList, NearCandidates_AreOneTheBetter) {
   EXPECT_EQ(list.candidates().size(), 2u);
 }
 
-TEST(CandidateList, TurnsByAFullTurnLess_AreNear) {
+TEST(CandidateList, RollsThatDifferByAFullTurn_AreNear) {
   CandidateList list(40.0, 3.0, Eigen::Vector3d::UnitZ());
-  SearchCandidate one = at(0.0, 1.0);
-  one.camera_from_station.rotation = rotationExp({0.0, 0.0, kPi});
-  SearchCandidate other = at(0.0, 2.0);
-  other.camera_from_station.rotation = rotationExp({0.0, 0.0, -kPi});
-  list.insert(one);
-  list.insert(other);
+  SearchCandidate half_turn = at(0.0, 1.0);
+  half_turn.camera_from_station.rotation = rotationExp({0.0, 0.0, kPi});
+  SearchCandidate opposite_half_turn = at(0.0, 2.0);
+  opposite_half_turn.camera_from_station.rotation = rotationExp({0.0, 0.0, -kPi});
+  list.insert(half_turn);
+  list.insert(opposite_half_turn);
   EXPECT_EQ(list.candidates().size(), 1u);
 }
 
@@ -192,14 +192,15 @@ TEST(CandidateList, RandomCandidates_AreKeptInOrderAndApart) {
   CandidateList list(40.0, 3.0, Eigen::Vector3d::UnitZ());
   double least = 1e9;
   for (int i = 0; i < 500; ++i) {
-    const SearchCandidate made = at(random.uniform(-200.0, 200.0), random.uniform(0.0, 5.0));
-    least = std::min(least, made.distance_px);
-    const bool accepted = list.accepts(made.distance_px);
-    list.insert(made);
+    const SearchCandidate candidate = at(random.uniform(-200.0, 200.0), random.uniform(0.0, 5.0));
+    least = std::min(least, candidate.distance_px);
+    const bool accepted = list.accepts(candidate.distance_px);
+    list.insert(candidate);
     const auto kept = list.candidates();
     if (!accepted) {
-      EXPECT_TRUE(std::none_of(kept.begin(), kept.end(),
-                               [&](const auto& one) { return one.slide_x_px == made.slide_x_px; }));
+      EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), [&](const auto& other) {
+        return other.slide_x_px == candidate.slide_x_px;
+      }));
     }
     for (std::size_t a = 0; a + 1 < kept.size(); ++a)
       EXPECT_LE(kept[a].distance_px, kept[a + 1].distance_px);
@@ -255,7 +256,7 @@ TEST(FacingView, TurnedTowardsAPoint_SeesItOnItsAxis) {
   }
 }
 
-TEST(FacingView, OfAScene_HasItInTheMiddleAtTheSpanAsked) {
+TEST(FacingView, Scene_IsCentredAtTheRequestedSpan) {
   for (const bool distorted : {false, true}) {
     const test::Case scene = test::stationCase(1, distorted);
     const SearchProblem problem = searchOf(scene);
@@ -280,7 +281,7 @@ TEST(FacingView, OfAScene_HasItInTheMiddleAtTheSpanAsked) {
   }
 }
 
-TEST(FacingView, SceneBehindTheCameraOrOutOfSight_HasNone) {
+TEST(FacingView, SceneBehindTheCameraOrOutsideTheImage_HasNoView) {
   const test::Case scene = test::stationCase(1);
   FacingView view;
   Pose behind = scene.truth;

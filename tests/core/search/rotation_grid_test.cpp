@@ -25,8 +25,8 @@ std::vector<Eigen::Quaterniond> samplesOf(const RotationGrid::Range& range) {
   return samples;
 }
 
-double angleBetween(const Eigen::Quaterniond& one, const Eigen::Quaterniond& other) {
-  return 2.0 * std::acos(std::min(1.0, std::abs(one.dot(other))));
+double angleBetween(const Eigen::Quaterniond& first, const Eigen::Quaterniond& second) {
+  return 2.0 * std::acos(std::min(1.0, std::abs(first.dot(second))));
 }
 
 Eigen::Vector3d inBox(const Eigen::Vector3d& half, Random& random) {
@@ -87,7 +87,7 @@ TEST(RotationGrid, SmallBoxes_HaveFewSamples) {
 }
 
 /// Every rotation that a small turn brings into the box is near the box; the turns are tried.
-TEST(RotationGrid, RotationsThatASmallTurnBringsIntoTheBox_AreNear) {
+TEST(RotationGrid, RotationsWithinASmallTurnOfTheBox_AreNear) {
   Random random(3);
   const Eigen::Vector3d slack_rad(0.02, 0.01, 0.03);
   for (const Eigen::Vector3d& box_deg : kBoxes_deg) {

@@ -19,8 +19,8 @@ namespace {
 struct Maps {
   Maps(int width, int height, int slide_x, int slide_y, Random& random)
       : direction(static_cast<std::size_t>(width * height), DirectedEdges::kNone), block(1 << 20) {
-    for (std::uint8_t& one : direction)
-      if (random.below(12) == 0) one = static_cast<std::uint8_t>(random.below(kEdgeDirections));
+    for (std::uint8_t& pixel : direction)
+      if (random.below(12) == 0) pixel = static_cast<std::uint8_t>(random.below(kEdgeDirections));
     edges.direction = direction;
     edges.width = width;
     edges.height = height;
@@ -33,9 +33,9 @@ struct Maps {
       steps.resize(direction.size());
       distanceToDirection(edges, i, steps);
       long sum = 0;
-      for (std::uint8_t& one : steps) {
-        one = static_cast<std::uint8_t>(std::floor(one * kDistanceUnit_px / 0.4 + 0.5 + 1e-9));
-        sum += one;
+      for (std::uint8_t& step : steps) {
+        step = static_cast<std::uint8_t>(std::floor(step * kDistanceUnit_px / 0.4 + 0.5 + 1e-9));
+        sum += step;
       }
       mean[i] = static_cast<int>(
           std::floor(static_cast<double>(sum) / static_cast<double>(steps.size()) + 0.5));
@@ -54,7 +54,7 @@ struct Maps {
   int mean[kEdgeDirections] = {};
 };
 
-TEST(SlideSums, OfRandomPlaces_AreThePlainSums) {
+TEST(SlideSums, RandomPlaces_HaveThePlainSums) {
   Random random(1);
   for (int round = 0; round < 20; ++round) {
     const int width = 30 + static_cast<int>(random.below(90));
@@ -109,8 +109,8 @@ TEST(SlideSums, DistanceOfAPlace_IsThatOfItsPixel) {
   }
 }
 
-/// Edges of the render at the truth; the descent starts from renders of poses beside it.
-TEST(CompassSearch, FromPosesOfAGridAroundTheTruth_EndsAtTheTruth) {
+/// Edges of the render at the truth; the descent starts from renders of nearby poses.
+TEST(CompassSearch, GridPosesAroundTheTruth_ConvergeToTheTruth) {
   const test::Solid solid = test::stationMesh();
   Camera camera = test::pinholeCamera();
   camera.width = camera.height = 101;

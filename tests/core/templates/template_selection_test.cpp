@@ -45,13 +45,13 @@ class DrawnRender {
     for (const DrawnPixel& pixel : drawn) {
       if (render.edges.get(pixel.x, pixel.y)) continue;
       render.edges.set(pixel.x, pixel.y);
-      EdgePixel& made = render.pixels[static_cast<std::size_t>(render.pixel_count++)];
-      made = EdgePixel{};
-      made.x = static_cast<std::int16_t>(pixel.x);
-      made.y = static_cast<std::int16_t>(pixel.y);
-      made.depth_m = 1.0F;
-      made.normal_x = static_cast<std::int8_t>(std::lround(127.0 * pixel.nx));
-      made.normal_y = static_cast<std::int8_t>(std::lround(127.0 * pixel.ny));
+      EdgePixel& edge_pixel = render.pixels[static_cast<std::size_t>(render.pixel_count++)];
+      edge_pixel = EdgePixel{};
+      edge_pixel.x = static_cast<std::int16_t>(pixel.x);
+      edge_pixel.y = static_cast<std::int16_t>(pixel.y);
+      edge_pixel.depth_m = 1.0F;
+      edge_pixel.normal_x = static_cast<std::int8_t>(std::lround(127.0 * pixel.nx));
+      edge_pixel.normal_y = static_cast<std::int8_t>(std::lround(127.0 * pixel.ny));
     }
   }
 
@@ -108,7 +108,7 @@ TEST(TemplateSelector, PrefersCornersToStraightEdges) {
   }
 }
 
-TEST(TemplateSelector, StandsOnEdgePixelsAndInsideTheImageAndNeverExceedsTheCount) {
+TEST(TemplateSelector, Templates_AreCentredOnEdgePixelsInsideTheImageAndWithinTheCount) {
   DrawnRender drawn(320, 240);
   Random random(7);
   for (int trial = 0; trial < 20; ++trial) {
@@ -185,7 +185,7 @@ TEST(TemplateSelector, RejectsTemplatesWhoseAreaIsIgnored) {
   }
 }
 
-TEST(TemplateSelector, SaysWhenTooFewFit) {
+TEST(TemplateSelector, TooFewTemplates_AreReported) {
   DrawnRender drawn(512, 512);
   drawn.set({});
   Selector selector(TemplateOptions{});

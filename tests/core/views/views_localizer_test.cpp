@@ -49,16 +49,16 @@ View viewOf(const Case& scene) { return {scene.picture->view(), nullptr, scene.c
 
 Pose secondFromRig() { return {rotationExp({0.02, -0.2, 0.03}), {0.09, 0.005, 0.01}}; }
 
-/// Where a camera beside the first sees the station.
+/// The station's pose in a camera next to the first one.
 View secondView(const Case& scene) {
   static const Picture picture =
       takePicture(stationMesh(), pinholeCamera(), secondFromRig() * truthPose());
   return {picture.view(), nullptr, scene.camera, secondFromRig()};
 }
 
-void expectSamePose(const Pose& one, const Pose& other) {
-  EXPECT_EQ(one.rotation.coeffs(), other.rotation.coeffs());
-  EXPECT_EQ(one.translation_m, other.translation_m);
+void expectSamePose(const Pose& first, const Pose& second) {
+  EXPECT_EQ(first.rotation.coeffs(), second.rotation.coeffs());
+  EXPECT_EQ(first.translation_m, second.translation_m);
 }
 
 std::vector<LocalizerOptions> profiles() {
@@ -92,7 +92,7 @@ void expectBitsOfThePlainLocalizer(const Case& scene, const LocalizerOptions& op
                hexText(plain.localizer.digest()).data());
 }
 
-TEST(ViewsLocalizer, OneViewAloneHasTheBitsOfThePlainLocalizer) {
+TEST(ViewsLocalizer, SingleView_GivesTheBitsOfTheLocalizer) {
   for (int i = 0; i < static_cast<int>(profiles().size()); ++i) {
     const LocalizerOptions options = profiles()[static_cast<std::size_t>(i)];
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
@@ -110,13 +110,13 @@ TEST(ViewsLocalizer, TheSameViewTwiceGivesThePoseWithHalfTheCovariance) {
   const Case scene = stationCase(1);
   ViewsRun alone(scene, {viewOf(scene)}, defaultProfile());
   ViewsRun twice(scene, {viewOf(scene), viewOf(scene)}, defaultProfile());
-  const ViewsResult& one = alone.finish();
+  const ViewsResult& single = alone.finish();
   const ViewsResult& two = twice.finish();
   ASSERT_EQ(two.status, LocalizationStatus::kConverged);
-  const Vector6d difference = perturbationBetween(one.rig_from_station, two.rig_from_station);
+  const Vector6d difference = perturbationBetween(single.rig_from_station, two.rig_from_station);
   for (int i = 0; i < 6; ++i) {
-    EXPECT_LT(std::abs(difference[i]), 0.3 * std::sqrt(one.covariance(i, i)));
-    EXPECT_NEAR(two.covariance(i, i) / one.covariance(i, i), 0.5, 0.02);
+    EXPECT_LT(std::abs(difference[i]), 0.3 * std::sqrt(single.covariance(i, i)));
+    EXPECT_NEAR(two.covariance(i, i) / single.covariance(i, i), 0.5, 0.02);
   }
 }
 
@@ -131,11 +131,11 @@ TEST(ViewsLocalizer, ANoisySecondView_DoesNotMakeTheCovarianceLarger) {
   second.image = noisy.view();
   ViewsRun alone(scene, {viewOf(scene)}, withoutSearch());
   ViewsRun both(scene, {viewOf(scene), second}, withoutSearch());
-  const ViewsResult& one = alone.finish();
+  const ViewsResult& single = alone.finish();
   const ViewsResult& two = both.finish();
   ASSERT_EQ(two.status, LocalizationStatus::kConverged);
   ASSERT_GT(two.views[1].edges_used, 0);
-  for (int i = 0; i < 6; ++i) EXPECT_LT(two.covariance(i, i), 1.02 * one.covariance(i, i));
+  for (int i = 0; i < 6; ++i) EXPECT_LT(two.covariance(i, i), 1.02 * single.covariance(i, i));
 }
 
 TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
@@ -153,7 +153,7 @@ TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
   }
 }
 
-TEST(ViewsLocalizer, ABlackOrWhiteSecondViewLeavesTheBitsOfTheFirstAlone) {
+TEST(ViewsLocalizer, BlackOrWhiteSecondView_GivesTheBitsOfTheFirstView) {
   for (const int gray : {0, 255}) {
     const Case scene = stationCase(3);
     const Picture blank = flatPicture(512, 512, static_cast<std::uint8_t>(gray));
@@ -180,7 +180,7 @@ void expectLeftOut(std::size_t left_out, const Case& scene, const std::vector<Vi
   EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
 }
 
-TEST(ViewsLocalizer, ABlackFirstViewLeavesTheSecondToLead) {
+TEST(ViewsLocalizer, BlackFirstView_LeavesThePoseToTheSecondView) {
   const Case scene = stationCase(2);
   const Picture blank = flatPicture(512, 512, 0);
   View first = viewOf(scene);
@@ -188,7 +188,7 @@ TEST(ViewsLocalizer, ABlackFirstViewLeavesTheSecondToLead) {
   expectLeftOut(0, scene, {first, secondView(scene)});
 }
 
-TEST(ViewsLocalizer, AViewOfSomethingElseIsLeftOut) {
+TEST(ViewsLocalizer, ViewOfAnotherScene_IsLeftOut) {
   const Case scene = stationCase(4);
   const Picture noise = noisePicture(512, 512, 5);
   View second = secondView(scene);
@@ -198,7 +198,7 @@ TEST(ViewsLocalizer, AViewOfSomethingElseIsLeftOut) {
 
 /// What is left of the second view agrees with the first, but supports the pose too little: it is
 /// dropped at the end, and the first refines on alone.
-TEST(ViewsLocalizer, AViewHalfCoveredIsDroppedAtTheGateAndTheOtherConverges) {
+TEST(ViewsLocalizer, HalfCoveredView_IsDroppedByTheAcceptanceTestAndTheOtherConverges) {
   const Case scene = stationCase(3);
   const View whole = secondView(scene);
   LocalizerOptions options = withoutSearch();
@@ -266,7 +266,7 @@ TEST(ViewsLocalizer, TurnedSeedBeforeABlackFirstView_IsFoundInTheSecond) {
   EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
 }
 
-TEST(ViewsLocalizer, AllBlackFails) {
+TEST(ViewsLocalizer, BlackImages_Fail) {
   const Case scene = stationCase(1);
   const Picture blank = flatPicture(512, 512, 0);
   View first = viewOf(scene);
@@ -277,16 +277,17 @@ TEST(ViewsLocalizer, AllBlackFails) {
   expectSamePose(run.localizer->result().rig_from_station, scene.seed);
 }
 
-TEST(ViewsLocalizer, RunsAgainToTheSameDigest) {
+TEST(ViewsLocalizer, RepeatedRun_HasTheSameDigest) {
   const Case scene = stationCase(2);
-  ViewsRun one(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
-  ViewsRun two(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
-  one.finish();
-  two.finish();
-  EXPECT_STREQ(hexText(one.localizer->digest()).data(), hexText(two.localizer->digest()).data());
+  ViewsRun first_run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+  ViewsRun second_run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+  first_run.finish();
+  second_run.finish();
+  EXPECT_STREQ(hexText(first_run.localizer->digest()).data(),
+               hexText(second_run.localizer->digest()).data());
 }
 
-TEST(ViewsLocalizer, RefusesWhatItDoesNotOffer) {
+TEST(ViewsLocalizer, InvalidOptionsViewsAndCameras_AreRefused) {
   const Case scene = stationCase(1);
   LocalizerOptions invalid = defaultProfile();
   invalid.templates.count = -1;
@@ -313,7 +314,7 @@ Pose randomPose(Random& random, double turn_rad, double shift_m) {
   return {rotationExp(randomVector(random, turn_rad)), randomVector(random, shift_m)};
 }
 
-TEST(AdjointOf, CarriesSmallPerturbationsFromOneCameraToTheOther) {
+TEST(AdjointOf, MapsSmallPerturbationsBetweenCameras) {
   Random random(11);
   for (int i = 0; i < 50; ++i) {
     const Pose a_from_b = randomPose(random, 2.0, 0.5);
@@ -334,24 +335,25 @@ struct Seen {
 /// Two cameras that see points about the station exactly from a pose.
 Seen seenFrom(const Camera& camera, const Pose& second_from_first, const Pose& first_from_station,
               Random& random) {
-  Seen made;
-  made.views[0] = {&camera, Pose(), 0};
-  made.views[1] = {&camera, second_from_first, 0};
+  Seen seen;
+  seen.views[0] = {&camera, Pose(), 0};
+  seen.views[1] = {&camera, second_from_first, 0};
   for (std::size_t v = 0; v < 2; ++v) {
     const Pose camera_from_station =
         v == 0 ? first_from_station : second_from_first * first_from_station;
     for (int i = 0; i < 20; ++i) {
-      Correspondence one;
-      one.point_in_station_m = randomVector(random, 0.05);
-      EXPECT_TRUE(project(camera, camera_from_station * one.point_in_station_m, one.pixel));
-      made.correspondences.push_back(one);
+      Correspondence correspondence;
+      correspondence.point_in_station_m = randomVector(random, 0.05);
+      EXPECT_TRUE(project(camera, camera_from_station * correspondence.point_in_station_m,
+                          correspondence.pixel));
+      seen.correspondences.push_back(correspondence);
     }
-    made.views[v].end = static_cast<std::int32_t>(made.correspondences.size());
+    seen.views[v].end = static_cast<std::int32_t>(seen.correspondences.size());
   }
-  return made;
+  return seen;
 }
 
-TEST(RefinePoseOfViews, FindsThePoseThatBothCamerasSee) {
+TEST(RefinePoseOfViews, TwoViews_ConvergeOnTheCommonPose) {
   Random random(12);
   const Camera camera = pinholeCamera();
   for (int i = 0; i < 20; ++i) {
