@@ -29,9 +29,9 @@ struct LocalizationFigure {
   int width = 0, height = 0;
   int runs = 0;
   int converged = 0;
-  sessions::StageSeconds mean_seconds;
+  sessions::StageSeconds mean_seconds = {};
   std::uint64_t arena_bytes = 0;
-  std::string digest;  ///< of the first run
+  std::string digest = {};  ///< of the first run
 
   double perSecond() const { return mean_seconds.total() > 0.0 ? 1.0 / mean_seconds.total() : 0.0; }
 };
