@@ -3,7 +3,7 @@
 
 #include <QtWidgets>
 
-#include "sessions/session/mask_edits.h"
+#include "sessions/session/session.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {

@@ -417,8 +417,8 @@ bool QueuePanel::asksForSignature(Act act, const QString& id) {
   const bool accepts = act == Act::kAccept;
   const QString question = missing == ui_.queueName
                                ? (accepts ? tr("Who accepts %1?") : tr("Who rejects %1?"))
-                           : accepts ? tr("On what input_fingerprint is %1 accepted?")
-                                     : tr("On what input_fingerprint is %1 rejected?");
+                           : accepts ? tr("Why is %1 accepted?")
+                                     : tr("Why is %1 rejected?");
   tell(question.arg(id) + tr(" Type it, then Enter; Escape leaves it."));
   return true;
 }
@@ -443,7 +443,7 @@ void QueuePanel::decide(Act act) {
     return;
   }
   QSettings().setValue(QLatin1String(DecisionForm::kNameKey), name);
-  ui_.queueComment->clear();  // the next decision has input_fingerprint of its own
+  ui_.queueComment->clear();  // the next decision has a comment of its own
   choose(following.isEmpty() ? id : following);
   tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
        (following.isEmpty() ? tr(" Every case that was listed is decided or has to be run.")

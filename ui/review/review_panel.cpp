@@ -104,14 +104,14 @@ sessions::Signature DecisionForm::signature() const {
 void DecisionForm::decide(Act act) {
   if (!controller_.decide(act, signature())) return;
   QSettings().setValue(QLatin1String(kNameKey), ui_.decisionName->text().trimmed());
-  ui_.decisionComment->clear();  // the next decision has input_fingerprint of its own
+  ui_.decisionComment->clear();  // the next decision has a comment of its own
 }
 
 /// What a person most likely wants to do, whose obstacle is told without being asked.
 ReviewController::Act DecisionForm::nextStep() const {
   const sessions::ReviewStatus status = controller_.reviewStatus();
   if (status.awaits_approval) return Act::kApprove;
-  return review_status.holds() ? Act::kTakeBack : Act::kValidate;
+  return status.holds() ? Act::kTakeBack : Act::kValidate;
 }
 
 void DecisionForm::showWhatIsPossible() {

@@ -19,7 +19,7 @@ namespace boresight::ui {
 class EmptyHint;
 class ReviewController;
 
-/// Who decides what about the shown case, on what input_fingerprint, and what was decided before.
+/// Who decides what about the shown case, for what reason, and what was decided before.
 /// What cannot be done now is disabled, and said why in place.
 class DecisionForm : public QWidget {
   Q_OBJECT
