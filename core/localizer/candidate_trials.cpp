@@ -55,9 +55,12 @@ bool CandidateTrials::hasNext(int attempt, const RunContext& run) const {
   return attempt < run.options.loop.max_attempts && !seed_tried_;
 }
 
-/// Whether the next candidate may be better than an uncertain pose.
+/// Whether another attempt may be better than an uncertain pose: from the same candidate without
+/// templates, or from the next candidate.
 bool CandidateTrials::nextIsWorthwhile(int attempt, const RunContext& run) const {
-  if (!hasNext(attempt, run) || next_ >= static_cast<int>(candidates_.size())) return false;
+  if (!hasNext(attempt, run)) return false;
+  if (matched_ >= 0) return true;
+  if (next_ >= static_cast<int>(candidates_.size())) return false;
   return candidates_[static_cast<std::size_t>(next_)].rank_nats() >
          candidates_.front().rank_nats() - kAboutAsMuch_nats;
 }
@@ -65,14 +68,19 @@ bool CandidateTrials::nextIsWorthwhile(int attempt, const RunContext& run) const
 Attempt CandidateTrials::next(int attempt, const RunContext& run) {
   if (!hasPose() && triesSeed(attempt, run)) {
     seed_tried_ = true;
+    matched_ = -1;
     return Attempt(attempt, seed_);
   }
-  const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(next_++)];
+  const bool refines = hasPose() && matched_ >= 0;
+  const int index = refines ? matched_ : next_++;
+  const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(index)];
   // A direction that the image does not determine, such as a turn about an axis of symmetry, may
   // have left the box.
   const Pose camera_from_station = pulledBack(seed_, candidate.camera_from_station);
-  if (isWithinReach(candidate, run))
+  matched_ = -1;
+  if (refines || isWithinReach(candidate, run))
     return Attempt(attempt, seed_, run.options.loop.match_iterations, camera_from_station);
+  if (run.options.refinement.enabled) matched_ = index;
   return Attempt(attempt,
                  {camera_from_station, uncertaintyAbout(camera_from_station, seed_, run.scene)});
 }

@@ -50,6 +50,7 @@ class CandidateTrials {
   std::span<const PoseCandidate> candidates_;
   Seed seed_;
   int next_ = 0;
+  int matched_ = -1;  ///< candidate whose templates were matched, and that was not refined directly
   bool seed_tried_ = false;
   bool returns_ = false;
   double best_probability_ = -1.0;  ///< below 0: no pose has converged yet

@@ -32,11 +32,11 @@ struct CompetingPose {
 /// compete: the mesh is symmetric as far as the image can tell.
 class CompetingPoseTest {
  public:
-  static constexpr int kTurned = 4;      ///< turned poses that are tested
-  static constexpr int kMostSlides = 4;  ///< slid poses that are tested
-  static constexpr int kMostPoses = kTurned + kMostSlides;
-  static constexpr int kLongestView_px = 312;   ///< of views
-  static constexpr int kMaxEdgePixels = 12000;  ///< of renders
+  static constexpr int kTurned = 4;                         ///< turned poses that are tested
+  static constexpr int kMostSlides = 4;                     ///< slid poses that are tested
+  static constexpr int kMostPoses = kTurned + kMostSlides;  ///< poses looked at
+  static constexpr int kLongestView_px = 312;               ///< of views
+  static constexpr int kMaxEdgePixels = 12000;              ///< of renders
 
   /// Takes the memory from `arena`, for images of up to `channels` channels. kArenaTooSmall.
   Status create(int channels, Arena& arena);

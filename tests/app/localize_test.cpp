@@ -329,7 +329,7 @@ TEST_F(WhsProblem, TheDriverRefusesDamageInOneSentence) {
   folder_.write("problem.bin", damaged);
   expectRefused(problem_, "checksum");
   folder_.write("problem.bin", problem.substr(0, 1000));
-  expectRefused(problem_, "cut short");
+  expectRefused(problem_, "truncated");
   folder_.write("problem.bin", image);
   expectRefused(problem_, "not a problem file");
   folder_.write("problem.bin", std::string());
