@@ -134,7 +134,7 @@ bool ObjectSearch::step() {
       return stepRender();
     case Phase::kScore:
       scoreTurn(next_);
-      while (++next_ < RotationGrid::kTurns)
+      while (++next_ < rotations_.count())
         if ((rotations_.turns() >> next_ & 1U) != 0) return false;
       return nextDirection();
     case Phase::kDescend:
@@ -225,8 +225,8 @@ void ObjectSearch::takePoints() {
 
 /// The outline turned, at all depths and slides.
 void ObjectSearch::scoreTurn(int turn) {
-  const double c = cos(turn * RotationGrid::kSpacing_rad);
-  const double s = sin(turn * RotationGrid::kSpacing_rad);
+  const double c = cos(turn * rotations_.spacing_rad());
+  const double s = sin(turn * rotations_.spacing_rad());
   std::array<SlideSums::Place, SlideSums::kMaxPlaces> places;
   const auto used = std::span(places).first(static_cast<std::size_t>(point_count_));
   for (int depth = 0; depth < depths_; ++depth) {
@@ -257,7 +257,7 @@ void ObjectSearch::takePeaks(int turn, double depth_ratio) {
       candidate.distance_px = distance_px;
       candidate.tilt_x_rad = tilt_rad.x();
       candidate.tilt_y_rad = tilt_rad.y();
-      candidate.roll_rad = turn * RotationGrid::kSpacing_rad;
+      candidate.roll_rad = turn * rotations_.spacing_rad();
       if (candidate.roll_rad > kPi) candidate.roll_rad -= 2.0 * kPi;
       candidate.depth_ratio = depth_ratio;
       candidate.slide_x_px = column - slide_x_px_;
@@ -292,7 +292,7 @@ bool ObjectSearch::isWithinSeed(const Pose& camera_from_station) const {
   for (int i = 3; i < 6; ++i)
     if (std::abs(offset[i]) > kBeyond * seed.translation_m[i - 3] + step_m) return false;
   return isNearBox(offset.head<3>(), kBeyond * seed.rotation_rad,
-                   Eigen::Vector3d::Constant(0.5 * RotationGrid::kSpacing_rad));
+                   Eigen::Vector3d::Constant(0.5 * rotations_.spacing_rad()));
 }
 
 }  // namespace boresight

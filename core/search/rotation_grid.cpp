@@ -9,17 +9,11 @@
 namespace boresight {
 namespace {
 
-constexpr int kRings = RotationGrid::kTurns / 2 + 1;
-/// Range of rotations that a sample represents: half a spacing of turns, more than half a spacing
-/// of tilts, as the nearest samples of several rings do not lie along the box's axes.
-constexpr double kTurnReach_rad = 0.5 * RotationGrid::kSpacing_rad;
-constexpr double kTiltReach_rad = 0.6 * RotationGrid::kSpacing_rad;
-
-int placesOn(int ring) {
-  const double circumference = RotationGrid::kTurns * sin(ring * RotationGrid::kSpacing_rad);
-  const int places = -static_cast<int>(std::floor(1e-9 - circumference));
-  return places > 1 ? places : 1;
-}
+/// Range of rotations that a sample represents, in spacings: half a spacing of turns, more than
+/// half a spacing of tilts, as the nearest samples of several rings do not lie along the box's
+/// axes.
+constexpr double kTurnReach = 0.5;
+constexpr double kTiltReach = 0.6;
 
 }  // namespace
 
@@ -41,13 +35,19 @@ bool isNearBox(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& box_r
   return true;
 }
 
+int RotationGrid::placesOn(int ring) const {
+  const double circumference = count_ * sin(ring * spacing_rad());
+  const int places = -static_cast<int>(std::floor(1e-9 - circumference));
+  return places > 1 ? places : 1;
+}
+
 Eigen::Vector3d RotationGrid::tilt_rad() const {
   const double azimuth = 2.0 * kPi * place_ / placesOn(ring_);
-  return ring_ * kSpacing_rad * Eigen::Vector3d(cos(azimuth), sin(azimuth), 0.0);
+  return ring_ * spacing_rad() * Eigen::Vector3d(cos(azimuth), sin(azimuth), 0.0);
 }
 
 bool RotationGrid::next() {
-  while (ring_ < kRings) {
+  while (ring_ <= count_ / 2) {
     if (++place_ >= placesOn(ring_)) {
       place_ = -1;
       ++ring_;
@@ -59,17 +59,18 @@ bool RotationGrid::next() {
   return false;
 }
 
-std::uint32_t RotationGrid::turnsWithinReach() const {
+std::uint64_t RotationGrid::turnsWithinReach() const {
   const Eigen::Quaterniond camera_from_view = range_.view_from_camera.conjugate();
-  const Eigen::Vector3d in_view(range_.aside_rad.x() + kTiltReach_rad,
-                                range_.aside_rad.y() + kTiltReach_rad, kTurnReach_rad);
+  const double tilt_rad = kTiltReach * spacing_rad();
+  const Eigen::Vector3d in_view(range_.aside_rad.x() + tilt_rad, range_.aside_rad.y() + tilt_rad,
+                                kTurnReach * spacing_rad());
   const Eigen::Vector3d slack_rad = camera_from_view.toRotationMatrix().cwiseAbs() * in_view;
-  const Eigen::Quaterniond tilted = rotationExp(tilt_rad());
-  std::uint32_t turns = 0;
-  for (int k = 0; k < kTurns; ++k) {
-    const Eigen::Quaterniond turned = rotationExp({0.0, 0.0, k * kSpacing_rad}) * tilted;
+  const Eigen::Quaterniond tilted = rotationExp(this->tilt_rad());
+  std::uint64_t turns = 0;
+  for (int k = 0; k < count_; ++k) {
+    const Eigen::Quaterniond turned = rotationExp({0.0, 0.0, k * spacing_rad()}) * tilted;
     const Eigen::Vector3d rotation_rad = camera_from_view * rotationLog(turned);
-    if (isNearBox(rotation_rad, range_.box_rad, slack_rad)) turns |= std::uint32_t{1} << k;
+    if (isNearBox(rotation_rad, range_.box_rad, slack_rad)) turns |= std::uint64_t{1} << k;
   }
   return turns;
 }

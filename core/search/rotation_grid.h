@@ -13,12 +13,13 @@ namespace boresight {
 /// Rotations about a seed's that its stated uncertainty reaches, as view directions and turns in
 /// the image: each sample is Rz(turn) * T in the view's frame, where T is the shortest rotation
 /// that brings the view direction to the view's z axis. View directions lie on rings around the
-/// seed's, kSpacing_rad apart along and across the rings; turns are kSpacing_rad apart. The whole
-/// sphere has 188 directions.
+/// seed's, a spacing apart along and across the rings; turns are a spacing apart. The spacing is
+/// 15 deg, and half of that where the box is small: from the nearest of 15 deg not every descent
+/// reaches the truth. The whole sphere has 188 directions.
 class RotationGrid {
  public:
-  static constexpr int kTurns = 24;                           ///< of a full turn
-  static constexpr double kSpacing_rad = 2.0 * kPi / kTurns;  ///< 15 deg
+  static constexpr double kSpacing_rad = 15.0 * kDegree_rad;   ///< of large boxes
+  static constexpr double kSmallBox_rad = 20.0 * kDegree_rad;  ///< largest side of small boxes
 
   /// Range of a grid.
   struct Range {
@@ -30,22 +31,29 @@ class RotationGrid {
 
   RotationGrid() = default;
   /// Starts before the first direction.
-  explicit RotationGrid(const Range& range) : range_(range) {}
+  explicit RotationGrid(const Range& range)
+      : range_(range), count_(range.box_rad.maxCoeff() > kSmallBox_rad ? 24 : 48) {}
 
   /// Goes to the next direction of which at least one turn is within reach. False: none is left.
   [[nodiscard]] bool next();
   /// T as a rotation vector in the view's frame; its z is 0.
   Eigen::Vector3d tilt_rad() const;
-  /// Bit k: the turn k * kSpacing_rad about the view's axis is within reach.
-  std::uint32_t turns() const { return turns_; }
+  /// Number of turns in a full turn.
+  int count() const { return count_; }
+  /// Angle between neighbouring turns, and view directions.
+  double spacing_rad() const { return 2.0 * kPi / count_; }
+  /// Bit k: the turn k * spacing_rad() about the view's axis is within reach.
+  std::uint64_t turns() const { return turns_; }
 
  private:
-  std::uint32_t turnsWithinReach() const;
+  int placesOn(int ring) const;
+  std::uint64_t turnsWithinReach() const;
 
   Range range_;
+  int count_ = 24;
   int ring_ = 0;
   int place_ = -1;  ///< on the ring
-  std::uint32_t turns_ = 0;
+  std::uint64_t turns_ = 0;
 };
 
 /// Whether a rotation vector is in the box, or in it after a further rotation by at most

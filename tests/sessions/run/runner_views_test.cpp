@@ -124,6 +124,7 @@ TEST_F(RunnerViewsTest, RecordsOfTheSameImageAreTheSame) {
 }
 
 TEST_F(RunnerViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
+  options_.search.enabled = false;
   blacken(1);
   const std::vector<LocalizationTrace> views = watched();
   EXPECT_EQ(views[0].camera_from_station, test::exampleRunOfSeed()->camera_from_station);
