@@ -289,7 +289,15 @@ std::string percent(int part, int whole) {
   return std::to_string(static_cast<int>(std::lround(100.0 * part / std::max(whole, 1)))) + " %";
 }
 
-/// The first iteration is the one whose templates the same seed gives both runs.
+/// Whether the first iterations of both runs started at one pose: from the seed. Candidates of a
+/// search are refined on the pixels, and so differ with them.
+bool startAlike(const OnboardRecord& one, const OnboardRecord& other) {
+  return apart(one.iterations.front().trace.camera_from_station_before,
+               other.iterations.front().trace.camera_from_station_before)
+             .xi.norm() == 0.0;
+}
+
+/// The templates of the first iterations are those of one render where both start alike.
 void holdToLimits(const OnboardRecord& one, const OnboardRecord& other,
                   const ComparisonLimits& limits, RecordComparison& made) {
   if (one.end && other.end && one.end->status != other.end->status)
@@ -299,7 +307,7 @@ void holdToLimits(const OnboardRecord& one, const OnboardRecord& other,
   if (made.pose_sigmas && *made.pose_sigmas > limits.pose_sigmas)
     made.beyond.push_back("the final poses are " + std::to_string(*made.pose_sigmas) +
                           " sigmas apart");
-  if (made.iterations.empty()) return;
+  if (made.iterations.empty() || !startAlike(one, other)) return;
   const IterationComparison& first = made.iterations.front();
   if (first.templates >= kLeastCounted && first.found_alike < limits.found_share * first.templates)
     made.beyond.push_back("only " + percent(first.found_alike, first.templates) +

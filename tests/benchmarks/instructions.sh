@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: instructions.sh BUILD DATASET CASE...
+# usage: instructions.sh BUILD DATASET CASE...   (OPTIONS="--set NAME=VALUE" changes options)
 # Counts the instructions of localizations stage by stage, under callgrind: the flight driver as a
 # release build for any x86-64 processor, portable kernels, no SHA instructions. The counts are the
 # same on every machine with the same compiler. BUILD is a build folder with whs; the driver is
@@ -29,17 +29,17 @@ cmake -S "$source_dir" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   exit 1
 }
 
-# inclusive FILE FUNCTION: instructions of a function of Localizer and all it calls.
+# inclusive FILE FUNCTION: instructions of a function and all it calls.
 inclusive() {
-  awk -v name="boresight::Localizer::$2(" \
+  awk -v name="boresight::$2(" \
     'index($0, name) { gsub(",", "", $1); sum = $1; exit } END { printf "%.0f\n", sum }' "$1"
 }
 
-printf '%-14s %14s %14s %14s %14s %14s %14s\n' case initialization rendering matching pose \
-  refinement total
+printf '%-14s %14s %14s %14s %14s %14s %14s %14s\n' case initialization search rendering matching \
+  pose refinement total
 for name in "$@"; do
   "$build/app/whs" problem --dataset "$dataset" --case "$name" --out "$folder/problem.bin" \
-    --image-out "$folder/image.pgm" >/dev/null
+    --image-out "$folder/image.pgm" ${OPTIONS:-} >/dev/null
   valgrind --tool=callgrind --callgrind-out-file="$folder/callgrind.out" \
     "$folder/app/flight/flight_driver" "$folder/problem.bin" "$folder/image.pgm" \
     >"$folder/$name.txt" 2>"$folder/valgrind.log" || {
@@ -47,19 +47,22 @@ for name in "$@"; do
     exit 1
   }
   callgrind_annotate --inclusive=yes --threshold=100 "$folder/callgrind.out" >"$folder/list" 2>&1
-  step=$(inclusive "$folder/list" step)
-  begin=$(inclusive "$folder/list" begin)
-  render=$(inclusive "$folder/list" stepRender)
-  match=$(($(inclusive "$folder/list" stepMatch) + $(inclusive "$folder/list" stepTemplates)))
-  pose=$(inclusive "$folder/list" stepPose)
-  refine=$(($(inclusive "$folder/list" stepRefine) + $(inclusive "$folder/list" stepSupport)))
+  step=$(inclusive "$folder/list" Localizer::step)
+  begin=$(inclusive "$folder/list" Localizer::begin)
+  search=$(inclusive "$folder/list" PoseSearch::step)
+  render=$(inclusive "$folder/list" Pass::stepRender)
+  match=$(($(inclusive "$folder/list" Pass::stepMatch) + $(inclusive "$folder/list" Pass::stepTemplates)))
+  pose=$(inclusive "$folder/list" PnpRansac::step)
+  # The acceptance of the pose is part of the refinement.
+  refine=$(($(inclusive "$folder/list" Pass::stepRefine) + $(inclusive "$folder/list" Pass::stepSupport) +
+    $(inclusive "$folder/list" CompetingPoseTest::step)))
   # What a step does besides the other stages is the edges of the image.
-  first=$((begin + step - render - match - pose - refine))
-  echo "$name $first $render $match $pose $refine $((begin + step))"
+  first=$((begin + step - search - render - match - pose - refine))
+  echo "$name $first $search $render $match $pose $refine $((begin + step))"
 done | awk '
-  { printf "%-14s", $1; for (i = 2; i <= 7; ++i) { printf " %14.0f", $i; sum[i] += $i } printf "\n" }
+  { printf "%-14s", $1; for (i = 2; i <= 8; ++i) { printf " %14.0f", $i; sum[i] += $i } printf "\n" }
   END {
-    printf "%-14s", "sum"; for (i = 2; i <= 7; ++i) printf " %14.0f", sum[i]; printf "\n"
-    printf "%-14s", "minutes"; for (i = 2; i <= 7; ++i) printf " %14.3f", sum[i] / 200e6 / 60
+    printf "%-14s", "sum"; for (i = 2; i <= 8; ++i) printf " %14.0f", sum[i]; printf "\n"
+    printf "%-14s", "minutes"; for (i = 2; i <= 8; ++i) printf " %14.3f", sum[i] / 200e6 / 60
     printf "\n"
   }'
