@@ -197,7 +197,7 @@ void OptionArguments::addTo(CLI::App& command) {
   command
       .add_option(
           "--profile", profile,
-          "Set of parameters: default (whatever is best), paper (as published), or flight "
+          "Set of parameters: default (recommended settings), paper (as published), or flight "
           "(the default's on gray images, within 10,000,000 bytes of memory, image and mesh "
           "included)")
       ->check(CLI::IsMember({"default", "paper", "flight"}));

@@ -96,7 +96,7 @@ void addDecide(CLI::App& app, int& exit_code) {
   what->add_flag("--reopen", arguments->reopen, "Take the last decision back");
   what->require_option(1);
   command->add_option("--by", arguments->by, "Who decides")->required()->type_name("NAME");
-  command->add_option("--comment", arguments->comment, "On what input_fingerprint")
+  command->add_option("--comment", arguments->comment, "Reason of the decision")
       ->required()
       ->type_name("TEXT");
   command

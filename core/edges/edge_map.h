@@ -35,10 +35,10 @@ struct EdgeMap {
   std::int32_t edge_count = 0;                 ///< set pixels at full resolution
 };
 
-/// Equalization, Gaussian, Canny, ignore mask and pooling in bounded slices. Needs, besides the
-/// output, scratch from the arena that is rewound when done. The equalized and smoothed images are
-/// never held whole: rows pass through a small ring, twice when the thresholds are quantiles (once
-/// to count the gradients, once to use them).
+/// Equalization, Gaussian, Canny, ignore mask and pooling in bounded slices. Needs, in addition to
+/// the output, scratch from the arena that is rewound when done. The equalized and smoothed images
+/// are never held whole: rows pass through a small ring, twice when the thresholds are quantiles
+/// (once to count the gradients, once to use them).
 ///
 /// Ignored pixels count neither in the histogram of the equalization nor in that of the gradient,
 /// and pixels within kIgnoreMargin_px of them (Chebyshev distance) are removed before hysteresis:

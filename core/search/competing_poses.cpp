@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/edges/direction_distance.h"
-#include "core/search/compass_search.h"
+#include "core/geometry/surface_axes.h"
 #include "core/search/pose_evidence.h"
 
 namespace boresight {
@@ -34,22 +34,13 @@ constexpr int kSamePlace = 30;
 constexpr double kVisible = 0.1;
 constexpr double kAlong = 8.0;  ///< edge pixels that go together
 
-/// Slides shorter than this, of the view's pixels, are refined to the pose found.
-constexpr int kShortestSlide_px = 4;
 /// A pose counts as slid when the object's centre is farther from that of the pose found, as a
 /// share of the object's size.
 constexpr double kSlid = 0.05;
-/// Slides whose mean distance of the outline from the render's edges is larger are left out.
-constexpr double kAlike_px = 2.0;
-/// Slides of a view, px to either side.
-constexpr int kLongestSlide_px = 36;
-
 /// Largest motion of a pose by the refinement, as shares of the object's size.
 constexpr double kLateral = 0.1;
 constexpr double kDepth = 0.2;
 constexpr double kRotation_rad = 0.3;
-
-constexpr int kSweeps = 12;  ///< of Jacobi's rotations: convergence is quadratic
 
 Eigen::Matrix3d halfTurn(const Eigen::Vector3d& axis) {
   return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
@@ -63,72 +54,7 @@ Pose turnedAbout(const Eigen::Vector3d& point_m, const Eigen::Matrix3d& turn, co
   return turned;
 }
 
-/// Makes the element (p, q) of a symmetric matrix 0 (Jacobi 1846).
-void rotateToDiagonal(int p, int q, Eigen::Matrix3d& matrix, Eigen::Matrix3d& axes) {
-  if (matrix(p, q) == 0.0) return;
-  const double theta = (matrix(q, q) - matrix(p, p)) / (2.0 * matrix(p, q));
-  const double sign = theta < 0.0 ? -1.0 : 1.0;
-  const double tangent = sign / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
-  const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn(p, p) = turn(q, q) = cosine;
-  turn(p, q) = tangent * cosine;
-  turn(q, p) = -tangent * cosine;
-  matrix = (turn.transpose() * matrix * turn).eval();
-  matrix(p, q) = matrix(q, p) = 0.0;
-  axes = (axes * turn).eval();
-}
-
 }  // namespace
-
-SurfaceAxes surfaceAxesOf(const MeshView& mesh) {
-  const auto vertexOf = [&](const Face& face, std::size_t corner) {
-    const auto index = static_cast<std::size_t>(face.vertex[corner]);
-    return Eigen::Vector3d(mesh.vertices_in_station_m[index].cast<double>());
-  };
-  const auto forMatched = [&](auto&& take) {
-    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-      if (!mesh.parts[mesh.part_of_face[i]].match) continue;
-      const Face& face = mesh.faces[i];
-      const std::array<Eigen::Vector3d, 3> corners = {vertexOf(face, 0), vertexOf(face, 1),
-                                                      vertexOf(face, 2)};
-      take(corners, (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm());
-    }
-  };
-  using Corners = std::array<Eigen::Vector3d, 3>;
-  SurfaceAxes surface_axes;
-  double area = 0.0;
-  forMatched([&](const Corners& corners, double weight) {
-    surface_axes.middle_m += weight / 3.0 * (corners[0] + corners[1] + corners[2]);
-    area += weight;
-  });
-  if (!(area > 0.0)) return surface_axes;
-  surface_axes.middle_m /= area;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  // The second moment of a triangle about a point is area / 12 times this.
-  forMatched([&](const Corners& corners, double weight) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& corner : corners) {
-      const Eigen::Vector3d from = corner - surface_axes.middle_m;
-      spread += weight / area * from * from.transpose();
-      sum += from;
-    }
-    spread += weight / area * sum * sum.transpose();
-  });
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    rotateToDiagonal(0, 1, spread, surface_axes.axes);
-    rotateToDiagonal(0, 2, spread, surface_axes.axes);
-    rotateToDiagonal(1, 2, spread, surface_axes.axes);
-  }
-  std::array<int, 3> order = {0, 1, 2};
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return spread(a, a) < spread(b, b) || (spread(a, a) == spread(b, b) && a < b);
-  });
-  const Eigen::Matrix3d axes = surface_axes.axes;
-  for (int i = 0; i < 3; ++i)
-    surface_axes.axes.col(i) = axes.col(order[static_cast<std::size_t>(i)]);
-  return surface_axes;
-}
 
 Status CompetingPoseTest::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
@@ -142,7 +68,7 @@ Status CompetingPoseTest::create(int channels, Arena& arena) {
   meter_.create(kPixels, arena);
   const std::size_t measured = arena.mark();
   arena.rewind(start);
-  sums_.create(arena);  // used before
+  slides_.create(arena);  // used before
   const std::size_t end = std::max(measured, arena.mark());
   arena.rewind(start);
   distance_ = arena.allocate<std::uint8_t>(kPixels);
@@ -156,7 +82,9 @@ bool CompetingPoseTest::begin(const SearchProblem& problem, const Pose& camera_f
   problem_ = problem;
   renderer_ = &renderer;
   found_ = camera_from_station;
-  count_ = promising_.count = competitor_ = 0;
+  competing_.clear();
+  promising_.clear();
+  competitor_ = 0;
   scale_ = 0;
   beginView(kScales[0].span_px, Purpose::kFound);
   return phase_ != Phase::kDone;
@@ -167,13 +95,12 @@ bool CompetingPoseTest::step() {
     case Phase::kView:
       if (view_edges_.step()) {
         const bool finds = purpose_ == Purpose::kFound || purpose_ == Purpose::kFoundAgain;
-        if (!finds)
-          current_ = view_edges_.inView(promising_.poses[static_cast<std::size_t>(competitor_)]);
+        if (!finds) current_ = view_edges_.inView(promising_[competitor_]);
         beginRender(finds ? view_edges_.inView(found_) : current_, purpose_);
       }
       break;
-    case Phase::kMaps:
-      stepMaps();
+    case Phase::kSlides:
+      stepSlides();
       break;
     case Phase::kRender:
       stepRender();
@@ -192,7 +119,7 @@ void CompetingPoseTest::beginView(double span_px, Purpose purpose) {
   ViewSize size;
   size.span_px = span_px;
   const bool slides = purpose == Purpose::kFound;
-  size.margin_px = kMargin * span_px + (slides ? kLongestSlide_px : 0);
+  size.margin_px = kMargin * span_px + (slides ? SelfSlides::kLongest_px : 0);
   size.most_px = slides ? SlideSums::kMaxView_px : kLongestView_px;
   purpose_ = purpose;
   phase_ = view_edges_.begin(problem_, found_, size) ? Phase::kView : Phase::kDone;
@@ -254,78 +181,34 @@ void CompetingPoseTest::takeRender() {
   }
 }
 
-/// Lists the turned hypotheses; the maps for the slid ones follow.
+/// Lists the turned hypotheses; the slid ones follow.
 void CompetingPoseTest::takeFound() {
   found_rank_nats_ = rankOfRender();
   markRender(own_.marks);
   const SurfaceAxes surface = surfaceAxesOf(problem_.mesh);
   const Eigen::Vector3d middle_m = current_ * surface.middle_m;
   const Eigen::Matrix3d axes = current_.matrix() * surface.axes;
-  poses_.count = 0;
+  poses_.clear();
   for (int i = 0; i < 3; ++i) poses_.add(turnedAbout(middle_m, halfTurn(axes.col(i)), current_));
   const Eigen::Matrix3d about_sight = halfTurn(middle_m.normalized());
   const Eigen::Vector3d normal = about_sight * axes.col(0);
   poses_.add(turnedAbout(middle_m, halfTurn(normal) * about_sight, current_));
-  const Camera& camera = view_edges_.view().camera;
-  sums_.begin(camera.width, camera.height, kLongestSlide_px, kLongestSlide_px);
-  direction_ = 0;
-  phase_ = Phase::kMaps;
+  slides_.begin(render_, own_.marks);
+  phase_ = Phase::kSlides;
 }
 
-void CompetingPoseTest::stepMaps() {
-  sums_.takeMap(own_.marks, direction_);
-  if (++direction_ < kEdgeDirections) return;
-  takeSlides();
-  hypothesis_ = -1;
-  nextHypothesis();
-}
-
-/// Slides the outline of the pose found over its own render, and takes the slides with the least
-/// distance that are apart from each other.
-void CompetingPoseTest::takeSlides() {
-  const Camera& camera = view_edges_.view().camera;
-  std::array<SlideSums::Place, SlideSums::kMaxPlaces> places;
-  std::size_t count = 0;
-  takeEvenly(render_, [&](const EdgePixel& pixel) {
-    places[count++] = {static_cast<std::int16_t>(pixel.x - camera.width / 2),
-                       static_cast<std::int16_t>(pixel.y - camera.height / 2),
-                       static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y))};
-  });
-  sums_.add(std::span(places).first(count));
-  const int middle_x = sums_.columns() / 2;
-  const int middle_y = sums_.rows() / 2;
-  const double most = kAlike_px / SlideSums::kStep_px * static_cast<double>(count);
-  std::array<Eigen::Vector2i, kMostSlides + 1> taken = {Eigen::Vector2i(middle_x, middle_y)};
+/// Lists the slid hypotheses.
+void CompetingPoseTest::stepSlides() {
+  if (!slides_.step()) return;
   const double depth_m = (current_ * problem_.scene.centre()).z();
-  for (int slides = 1; slides <= kMostSlides; ++slides) {
-    Eigen::Vector2i& best = taken[static_cast<std::size_t>(slides)];
-    if (!bestSlide(std::span(taken).first(static_cast<std::size_t>(slides)), most, best)) break;
+  for (const Eigen::Vector2i& slide_px : slides_.slides_px()) {
     Pose slid = current_;
-    slid.translation_m.x() += (best.x() - middle_x) * depth_m / camera.fx;
-    slid.translation_m.y() += (best.y() - middle_y) * depth_m / camera.fy;
+    slid.translation_m.head<2>() +=
+        slide_px.cast<double>() * (depth_m / view_edges_.view().camera.fx);
     poses_.add(slid);
   }
-}
-
-/// The peak with the least sum that is apart from those taken; false where none is within `most`.
-bool CompetingPoseTest::bestSlide(std::span<const Eigen::Vector2i> taken, double most,
-                                  Eigen::Vector2i& best) const {
-  double least = most;
-  bool found = false;
-  for (int row = 0; row < sums_.rows(); ++row) {
-    for (int column = 0; column < sums_.columns(); ++column) {
-      if (sums_.sum(column, row) > least || !sums_.isPeak(column, row)) continue;
-      const Eigen::Vector2i slide(column, row);
-      const bool is_apart = std::all_of(taken.begin(), taken.end(), [&](const auto& other) {
-        return (slide - other).squaredNorm() >= kShortestSlide_px * kShortestSlide_px;
-      });
-      if (!is_apart || (found && sums_.sum(column, row) >= least)) continue;
-      best = slide;
-      least = sums_.sum(column, row);
-      found = true;
-    }
-  }
-  return found;
+  hypothesis_ = -1;
+  nextHypothesis();
 }
 
 /// Moves the hypothesis towards the image's edges, from its render.
@@ -342,7 +225,7 @@ void CompetingPoseTest::refine() {
     refined_ = true;
     return beginRender(current_, Purpose::kScreen);
   }
-  promising_.poses[static_cast<std::size_t>(competitor_)] = view_edges_.inCamera(current_);
+  promising_[competitor_] = view_edges_.inCamera(current_);
   if (scale_ == kLastScale) return beginRender(current_, Purpose::kCompeting);
   pass_ = 0;
   ++scale_;
@@ -350,9 +233,9 @@ void CompetingPoseTest::refine() {
 }
 
 void CompetingPoseTest::nextHypothesis() {
-  if (++hypothesis_ < poses_.count) {
+  if (++hypothesis_ < poses_.size()) {
     refined_ = false;
-    return beginRender(poses_.poses[static_cast<std::size_t>(hypothesis_)], Purpose::kScreen);
+    return beginRender(poses_[hypothesis_], Purpose::kScreen);
   }
   competitor_ = -1;
   nextPromising();
@@ -360,7 +243,7 @@ void CompetingPoseTest::nextHypothesis() {
 
 void CompetingPoseTest::nextPromising() {
   phase_ = Phase::kDone;
-  if (++competitor_ >= promising_.count) return;
+  if (++competitor_ >= promising_.size()) return;
   scale_ = 1;
   pass_ = 0;
   beginView(kScales[1].span_px, Purpose::kRefine);
@@ -415,17 +298,15 @@ void CompetingPoseTest::conclude() {
   const double least = std::min(own_.share(), other_.share());
   // A slid pose competes even when it shows the same edges: the object's ends are out of view.
   if (least >= kVisible || slid_px() >= kSlid * view_edges_.view().span_px) {
-    CompetingPose& pose = competing_[static_cast<std::size_t>(count_++)];
-    pose.camera_from_station = promising_.poses[static_cast<std::size_t>(competitor_)];
-    pose.similarity = 1.0 - 0.5 * (own_.share() + other_.share());
-    pose.margin_nats = (own_.nats - other_.nats) / kAlong;
+    competing_.add({promising_[competitor_], 1.0 - 0.5 * (own_.share() + other_.share()),
+                    (own_.nats - other_.nats) / kAlong});
   }
   nextPromising();
 }
 
 /// Distance of the object's centre from that of the pose found, px of the view.
 double CompetingPoseTest::slid_px() const {
-  const Pose& camera_from_station = promising_.poses[static_cast<std::size_t>(competitor_)];
+  const Pose& camera_from_station = promising_[competitor_];
   const Eigen::Vector3d found_m = view_edges_.inView(found_) * problem_.scene.centre();
   const Eigen::Vector3d other_m = view_edges_.inView(camera_from_station) * problem_.scene.centre();
   return view_edges_.view().camera.fx *

@@ -7,9 +7,10 @@
 
 #include "core/accept/contour_evidence.h"
 #include "core/base/arena.h"
+#include "core/base/fixed_list.h"
 #include "core/refine/outline_refinement.h"
 #include "core/render/edge_render.h"
-#include "core/search/slide_sums.h"
+#include "core/search/self_slides.h"
 #include "core/search/view_edges.h"
 
 namespace boresight {
@@ -32,11 +33,10 @@ struct CompetingPose {
 /// compete: the mesh is symmetric as far as the image can tell.
 class CompetingPoseTest {
  public:
-  static constexpr int kTurned = 4;                         ///< turned poses that are tested
-  static constexpr int kMostSlides = 4;                     ///< slid poses that are tested
-  static constexpr int kMostPoses = kTurned + kMostSlides;  ///< poses looked at
-  static constexpr int kLongestView_px = 312;               ///< of views
-  static constexpr int kMaxEdgePixels = 12000;              ///< of renders
+  static constexpr int kTurned = 4;                               ///< turned poses that are tested
+  static constexpr int kMostPoses = kTurned + SelfSlides::kMost;  ///< poses that are tested
+  static constexpr int kLongestView_px = 312;                     ///< of views
+  static constexpr int kMaxEdgePixels = 12000;                    ///< of renders
 
   /// Takes the memory from `arena`, for images of up to `channels` channels. kArenaTooSmall.
   Status create(int channels, Arena& arena);
@@ -48,12 +48,10 @@ class CompetingPoseTest {
   [[nodiscard]] bool step();
 
   /// The competing poses whose renders differ visibly.
-  std::span<const CompetingPose> poses() const {
-    return std::span(competing_).first(static_cast<std::size_t>(count_));
-  }
+  std::span<const CompetingPose> poses() const { return competing_.items(); }
 
  private:
-  enum class Phase : std::uint8_t { kView = 0, kMaps, kRender, kCompare, kDone };
+  enum class Phase : std::uint8_t { kView = 0, kSlides, kRender, kCompare, kDone };
   /// Processing of a completed render.
   enum class Purpose : std::uint8_t { kFound = 0, kScreen, kRefine, kCompeting, kFoundAgain };
 
@@ -67,20 +65,14 @@ class CompetingPoseTest {
     double share() const { return all > 0 ? static_cast<double>(alone) / all : 0.0; }
   };
 
-  struct PoseList {
-    std::array<Pose, kMostPoses> poses;
-    int count = 0;
-    void add(const Pose& pose) { poses[static_cast<std::size_t>(count++)] = pose; }
-  };
+  using PoseList = FixedList<Pose, kMostPoses>;
 
   void beginView(double span_px, Purpose purpose);
   void beginRender(const Pose& view_from_station, Purpose purpose);
   void stepRender();
   void takeRender();
   void takeFound();
-  void stepMaps();
-  void takeSlides();
-  bool bestSlide(std::span<const Eigen::Vector2i> taken, double most, Eigen::Vector2i& best) const;
+  void stepSlides();
   void nextHypothesis();
   void nextPromising();
   void refine();
@@ -99,7 +91,7 @@ class CompetingPoseTest {
   EdgeRender render_;
   OutlineRefinement refinement_;
   ContourEvidenceMeter meter_;
-  SlideSums sums_;
+  SelfSlides slides_;
   Prediction own_, other_;            ///< of the pose found, of the competing one
   std::span<std::uint8_t> distance_;  ///< to the image's edges
   std::span<std::uint8_t> apart_;     ///< to the other pose's places
@@ -118,16 +110,7 @@ class CompetingPoseTest {
   PoseList promising_;
   int competitor_ = 0;  ///< of the promising ones
 
-  std::array<CompetingPose, kMostPoses> competing_;
-  int count_ = 0;
+  FixedList<CompetingPose, kMostPoses> competing_;
 };
-
-/// Principal axes of the matched parts' surface, as columns, the one of least extent first, and the
-/// middle of that surface; station frame.
-struct SurfaceAxes {
-  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  ///< of the surface
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< unit length
-};
-SurfaceAxes surfaceAxesOf(const MeshView& mesh);
 
 }  // namespace boresight

@@ -42,7 +42,7 @@ Status ViewsLocalizer::validate(const ViewsProblem& problem, const LocalizerOpti
   return Status::kOk;
 }
 
-/// Memory besides the views' own blocks; only counts without `to`.
+/// Memory in addition to the views' own blocks; only counts without `to`.
 void ViewsLocalizer::layOut(const ViewsProblem& problem, const LocalizerOptions& options,
                             Arena& arena, ViewsLocalizer* to) {
   const std::size_t most = problem.views.size() * static_cast<std::size_t>(options.templates.count);

@@ -72,8 +72,8 @@ class QueuePanel : public QWidget {
   explicit QueuePanel(Document& document, QWidget* parent = nullptr);
 
   QueueController& controller() { return controller_; }
-  /// Whether the operator can see it: behind another panel's tab nobody does, though Qt calls it
-  /// visible. Nothing is checked out of sight.
+  /// Whether the operator can see it: Qt also calls a panel behind another one's tab visible.
+  /// Nothing is checked out of sight.
   void setInSight(bool in_sight);
   /// Of the chosen row of the list that is shown, or empty.
   QString chosenCase() const;

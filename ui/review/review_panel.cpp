@@ -122,7 +122,7 @@ void DecisionForm::showWhatIsPossible() {
     each->setToolTip(reason.isEmpty() ? tips_[act]
                                       : tr("%1. Not now: %2").arg(tips_[act], sentence(reason)));
   }
-  // Nobody is asked for a second person's yes where one person is enough.
+  // A second approval is offered only where the session requires it.
   buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
   const bool told = nextStep() != Act::kTakeBack;
   obstacle_ = told ? sentence(controller_.obstacle(nextStep(), who)) : QString();
@@ -138,7 +138,7 @@ void DecisionForm::showReading() {
         "○ The basin test has not been run: a second answer to this image is not excluded.");
   if (!note_.isEmpty()) parts << note_;
   for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
-  if (controller_.history().empty()) parts << tr("<i>Nobody has decided on this case yet.</i>");
+  if (controller_.history().empty()) parts << tr("<i>No decision on this case yet.</i>");
   const QString html = parts.join(QStringLiteral("<hr>"));
   if (std::exchange(read_, html) != html) ui_.reading->setHtml(html);
 }

@@ -192,8 +192,8 @@ QImage halved(const QImage& fine, Combine&& combine) {
   return coarse;
 }
 
-/// The coarsest picture whose pixels cover at most so many of the finest one's, made when it is not
-/// there yet.
+/// The coarsest picture whose pixels cover at most `fine_per_pixel` of the finest one's; halves the
+/// last picture until there is one.
 template <class Halve>
 const QImage& pictureFor(double fine_per_pixel, std::vector<QImage>& pictures, int& step,
                          Halve&& halve) {

@@ -101,16 +101,5 @@ TEST(CompetingPoses, RailWithoutVisibleEnds_CompetesWithThePoseOnePitchFurther) 
   EXPECT_LT(nearest_pitches, 0.1);
 }
 
-TEST(SurfaceAxes, Box_HasItsOwnAxesInAscendingOrder) {
-  Solid solid;
-  solid.addBox(0.01, -0.02, 0.06, 0.03, 0.4, 0.1, 0.12, 0.5);
-  const SurfaceAxes surface = surfaceAxesOf(solid.view());
-  EXPECT_LT((surface.middle_m - Eigen::Vector3d(0.01, -0.02, 0.11)).norm(), 1e-6);
-  const Eigen::Vector3d longest(cos(0.4), sin(0.4), 0.0);
-  EXPECT_NEAR(std::abs(surface.axes.col(0).z()), 1.0, 1e-5);
-  EXPECT_NEAR(std::abs(surface.axes.col(2).dot(longest)), 1.0, 1e-5);
-  EXPECT_LT((surface.axes.transpose() * surface.axes - Eigen::Matrix3d::Identity()).norm(), 1e-12);
-}
-
 }  // namespace
 }  // namespace boresight::test

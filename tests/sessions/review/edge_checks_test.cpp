@@ -45,7 +45,7 @@ class EdgeChecks : public testing::Test {
   PredictedEdges edges() const {
     return predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
   }
-  /// The box's pose moved across the view so that the image moves by so many pixels.
+  /// The box's pose moved across the view so that the image moves by (x_px, y_px).
   Pose movedBy(double x_px, double y_px) const {
     Pose moved = box.camera_from_station_;
     moved.translation_m += 0.5 / 1000.0 * Eigen::Vector3d(x_px, y_px, 0.0);

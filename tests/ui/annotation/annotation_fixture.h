@@ -125,7 +125,7 @@ class ImagePointer {
     return 1.0 / (view().transform().scale() * view().devicePixelRatioF());
   }
 
-  /// So many coordinates of the widget to an image pixel, with this pixel in the middle.
+  /// Sets the scale, widget coordinates per image pixel, and centres the view on a pixel.
   void zoom(const Eigen::Vector2d& pixel, double scale) {
     ViewTransform transform = view().transform();
     transform.zoomAt(QPointF(0.0, 0.0), scale);

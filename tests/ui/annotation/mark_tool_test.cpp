@@ -384,7 +384,7 @@ TEST_F(ImageAnnotationLayersTest, TheStationIsPickedOnTheEdgesThatShow) {
 
 TEST_F(ImageAnnotationLayersTest, TheBandIsThatOfTheMarksAsTheyAreNow) {
   markAndSolve();
-  EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "nobody asked for it";
+  EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "it is not switched on";
   show(LayerId::kAnnotationBand, true);
   ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationBand).marks.empty(); }));
   const auto before = layer(LayerId::kAnnotationBand).marks;

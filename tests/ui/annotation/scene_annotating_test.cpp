@@ -276,7 +276,7 @@ TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned)
   EXPECT_EQ(view_.navigation().orbit().distance_m(), all_m);
   QTest::keyClick(view_.canvas(), Qt::Key_Left);
   controller_.setMode(PlaceMode::kPoint);
-  EXPECT_EQ(view_.navigation().orbit().distance_m(), all_m) << "somebody has put it there";
+  EXPECT_EQ(view_.navigation().orbit().distance_m(), all_m) << "the operator chose this distance";
   hover(pixelOf(kCorner_m));
   const QString figures = view_.findChild<QLabel*>(QStringLiteral("sceneReadout"))->text();
   EXPECT_TRUE(figures.contains(QStringLiteral("x 100.00, y -100.00, z 0.00 mm")))
