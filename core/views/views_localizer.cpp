@@ -123,16 +123,23 @@ ViewsLocalizer::ViewsLocalizer(const ViewsProblem& problem, const LocalizerOptio
 
 bool ViewsLocalizer::takesPart(std::size_t index) const {
   const Linked& view = views_[index];
-  if (leading().kind == IterationKind::kRefine) return view.refines;
+  if (phase_ == Phase::kCompare || leading().kind == IterationKind::kRefine) return view.refines;
   return view.dropped_in_attempt != attempt_.index();
+}
+
+/// Whether the view runs the pass of the current plan. The first view leads: its record also holds
+/// iterations without its part.
+bool ViewsLocalizer::hasPass(std::size_t index) const {
+  return (index == 0 && phase_ != Phase::kCompare) || takesPart(index);
 }
 
 /// The first view's plan in another view: the same hypothesis, within a box that holds the first
 /// view's box.
 PassPlan ViewsLocalizer::planOf(std::size_t index) const {
   const Linked& view = views_[index];
-  if (index == 0 || accepts_) return plan_;
-  PassPlan plan = attempt_.plan(view.pass.context());
+  if (index == 0 || phase_ == Phase::kAccept) return plan_;
+  PassPlan plan = plan_;
+  if (phase_ == Phase::kIterate) plan = attempt_.plan(view.pass.context());
   plan.camera_from_station = view.camera_from_first * plan_.camera_from_station;
   plan.uncertainty = turnedInto(view.camera_from_first, plan_.uncertainty);
   return plan;
@@ -141,9 +148,10 @@ PassPlan ViewsLocalizer::planOf(std::size_t index) const {
 /// Starts the pass that the attempt plans next.
 void ViewsLocalizer::startPlan() {
   plan_ = PassPlan();
-  plan_.kind = PassKind::kSupport;
+  plan_.kind = phase_ == Phase::kAccept ? PassKind::kSupport : PassKind::kCompare;
   plan_.record = attempt_.record();
-  if (!accepts_) plan_ = attempt_.plan(first().context());
+  plan_.camera_from_station = attempt_.camera_from_station();
+  if (phase_ == Phase::kIterate) plan_ = attempt_.plan(first().context());
   for (Linked& view : views_) view.has_begun = false;
 }
 
@@ -155,14 +163,15 @@ StepReport ViewsLocalizer::step() {
   for (std::size_t v = 0; v < views_.size(); ++v)
     if (!views_[v].is_prepared) return prepareView(v);
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    if (v > 0 && !takesPart(v)) continue;
-    if (stepView(v, report)) return report;
+    if (hasPass(v) && stepView(v, report)) return report;
   }
   switch (plan_.kind) {
     case PassKind::kMatch:
       return stepPose();
     case PassKind::kRefine:
       return stepRound();
+    case PassKind::kCompare:
+      return stepCompare();
     default:
       return stepSupport();
   }
@@ -174,7 +183,7 @@ std::optional<std::size_t> ViewsLocalizer::workingView() const {
   if (finished_ || status_ != Status::kOk) return std::nullopt;
   if (!views_.back().is_prepared) return std::nullopt;  // edges and searches have no tasks
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    if (v > 0 && !takesPart(v)) continue;
+    if (!hasPass(v)) continue;
     const Linked& view = views_[v];
     if (!view.has_begun) return std::nullopt;
     if (view.pass.running() && view.pass.needs() == PassNeed::kNothing) return v;
@@ -230,7 +239,7 @@ void ViewsLocalizer::startAttempts() {
 /// Goes on with the first iteration of an attempt, in all views.
 void ViewsLocalizer::start(const Attempt& attempt) {
   attempt_ = attempt;
-  accepts_ = false;
+  phase_ = Phase::kIterate;
   first().workspace().attempts = attempt_.index() + 1;
   latest_ = Shares();
   for (Linked& view : views_) view.refines = true;
@@ -278,10 +287,10 @@ StepReport ViewsLocalizer::decide(const Ruling& ruling) {
   report.iteration_complete = ruling.iteration_complete;
   if (ruling.failed()) {
     report = retry(ruling.status, report);
-  } else if (ruling.found() && accepts_) {
+  } else if (ruling.found() && phase_ == Phase::kAccept) {
     report = takePose(report);
   } else {
-    accepts_ = ruling.found();
+    phase_ = ruling.found() ? Phase::kAccept : Phase::kIterate;
     startPlan();
   }
   result_.iterations = first().workspace().iterations;
@@ -298,21 +307,26 @@ StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& re
   if (attempt_.index() + 1 >= options_.loop.max_attempts) return finish(status, report);
   attempt_.restart();
   first().workspace().attempts = attempt_.index() + 1;
-  accepts_ = false;
+  phase_ = Phase::kIterate;
   startPlan();
   return report;
 }
 
-/// A pose that views support: as sure as the view that supports it best.
+/// A pose that views support, compared with those of other candidates by the mean probability over
+/// all views: a pose that a view contradicts yields to one that all support.
 StepReport ViewsLocalizer::takePose(const StepReport& report) {
   const LocalizationStatus status = LocalizationStatus::kConverged;
   if (!first().searches()) return finish(status, report);
-  double probability = 0.0;
-  for (const ViewReport& view : result_.views)
-    probability = std::max(probability, view.probability);
-  return follow(trials_.takePose(attempt_, leading().camera_from_station_before, probability,
-                                 first().context()),
-                status, report);
+  double sum = 0.0;
+  for (std::size_t v = 0; v < views_.size(); ++v) sum += result_.views[v].probability;
+  const CandidateTrials::Next next =
+      trials_.takePose(attempt_, leading().camera_from_station_before,
+                       sum / static_cast<double>(views_.size()), first().context());
+  if (next != CandidateTrials::Next::kConclude || !options_.support.gate)
+    return follow(next, status, report);
+  phase_ = Phase::kCompare;
+  startPlan();
+  return report;
 }
 
 StepReport ViewsLocalizer::follow(CandidateTrials::Next next, LocalizationStatus status,
@@ -392,6 +406,7 @@ StepReport ViewsLocalizer::stepSupport() {
   int refused = 0;
   LocalizationStatus refusal = LocalizationStatus::kNotSupported;
   for (std::size_t v = 0; v < views_.size(); ++v) {
+    result_.views[v].probability = 0.0;
     if (!views_[v].refines) continue;
     const Pass& pass = views_[v].pass;
     const Workspace& seen = pass.workspace();
@@ -411,6 +426,25 @@ StepReport ViewsLocalizer::stepSupport() {
   if (supported > 0 && refused > 0) return decide(attempt_.goOn(first().context()));
   return decide({supported > 0 ? Ruling::Next::kPose : Ruling::Next::kFailed, refusal,
                  Stage::kSupport, false, attempt_.record()});
+}
+
+/// The run is ambiguous when a pose competes in all views that took part.
+StepReport ViewsLocalizer::stepCompare() {
+  std::array<CompetingPosesOfView, kMaxViews> of_views;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    const Pass& pass = views_[v].pass;
+    if (views_[v].refines)
+      of_views[count++] = {pass.workspace().competing_poses, views_[v].camera_from_first,
+                           &problem_.views[v].camera};
+  }
+  result_.competing_poses = jointCompetingPoses(
+      std::span(of_views).first(count), attempt_.camera_from_station(), first().context().scene);
+  const LocalizationStatus status =
+      judgeCompetingPoses(result_.competing_poses.items(), seedOf(first().problem()), options_);
+  const StepReport report = finish(status, StepReport::of(Stage::kSupport, true));
+  finishResult();
+  return report;
 }
 
 const Iteration* ViewsLocalizer::iterationOf(int index) const {
@@ -452,6 +486,11 @@ void ViewsLocalizer::finishResult() {
         same ? leader.camera_from_station : rig_from_camera * leader.camera_from_station;
     result_.covariance = same ? leader.covariance : movedBy(rig_from_camera, leader.covariance);
   }
+  // The core judges in the first view's camera.
+  for (int i = 0; i < result_.competing_poses.size(); ++i) {
+    Pose& pose = result_.competing_poses[i].camera_from_station;
+    pose = problem_.views[0].camera_from_rig.inverse() * pose;
+  }
   for (std::size_t v = 0; v < views_.size(); ++v) {
     ViewReport& report = result_.views[v];
     if (report.status == LocalizationStatus::kRunning) report.status = leader.status;
@@ -471,6 +510,7 @@ std::array<std::uint8_t, 32> ViewsLocalizer::digest() const {
   }
   writer.tag(localizationStatusText(result_.status));
   digestPose(result_.rig_from_station, writer);
+  digestCompetingPoses(result_.competing_poses.items(), writer);
   return writer.digest();
 }
 

@@ -34,8 +34,10 @@ namespace boresight {
 /// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
 /// The result is the pose for which all remaining views have support.
 ///
-/// A run that searches does so in every view; attempts start from the candidates of all views.
-/// Not offered: matches from outside, competing poses.
+/// A run that searches does so in every view; attempts start from the candidates of all views, and
+/// the pose with the largest mean probability over all views is the result. It is ambiguous when
+/// another pose competes with it in every view (jointCompetingPoses).
+/// Not offered: matches from outside.
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten
@@ -93,6 +95,9 @@ class ViewsLocalizer {
   };
   using Shares = std::array<Share, kMaxViews>;
 
+  /// Part of the run that the passes of the views belong to.
+  enum class Phase : std::uint8_t { kIterate = 0, kAccept, kCompare };
+
   static Status validate(const ViewsProblem& problem, const LocalizerOptions& options);
   static void layOut(const ViewsProblem& problem, const LocalizerOptions& options, Arena& arena,
                      ViewsLocalizer* to);
@@ -102,6 +107,7 @@ class ViewsLocalizer {
   Shares& shares() { return shares_[static_cast<std::size_t>(plan_.record)]; }
 
   bool takesPart(std::size_t view) const;
+  bool hasPass(std::size_t view) const;
   std::optional<std::size_t> workingView() const;
   PassPlan planOf(std::size_t view) const;
   StepReport prepareView(std::size_t view);
@@ -132,6 +138,7 @@ class ViewsLocalizer {
   StepReport stepRound();
   Status advance(bool& settled);
   StepReport stepSupport();
+  StepReport stepCompare();
   void noteViews();
 
   ViewsProblem problem_;
@@ -141,8 +148,8 @@ class ViewsLocalizer {
   std::span<Linked> views_;  ///< those of the problem
   bool finished_ = false;
   Attempt attempt_;
-  PassPlan plan_;         ///< of the first view
-  bool accepts_ = false;  ///< the attempt has converged: support is measured
+  PassPlan plan_;  ///< of the first view
+  Phase phase_ = Phase::kIterate;
   /// Of all views, in the first one's frame; the most evidence first.
   std::array<PoseCandidate, kMaxViews * PoseSearch::kMaxCandidates> candidates_;
   CandidateTrials trials_;

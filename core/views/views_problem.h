@@ -12,6 +12,7 @@
 #include "core/geometry/pose.h"
 #include "core/localizer/workspace.h"
 #include "core/pnp/pnp_view.h"
+#include "core/views/joint_competing_poses.h"
 
 namespace boresight {
 
@@ -64,6 +65,9 @@ struct ViewsResult {
   std::int32_t iterations = 0;              ///< of all attempts
   std::int32_t attempts = 1;                ///< begun so far
   std::array<ViewReport, kMaxViews> views;  ///< one per view
+  /// Poses that compete with the pose found in every view that took part: rig_from_station, with
+  /// margins summed over the views.
+  JointCompetingPoses competing_poses;
 };
 
 }  // namespace boresight

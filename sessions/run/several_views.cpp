@@ -204,6 +204,11 @@ void SeveralViews::finish(std::size_t view) {
   one.edge_width = seen.edge_width;
   one.focal = seen.focal;
   one.arena_bytes = of_view.memory().highWaterBytes();
+  one.competing_poses.clear();
+  for (CompetingPose pose : result.competing_poses.items()) {
+    pose.camera_from_station = problem_.views[view].camera_from_rig * pose.camera_from_station;
+    one.competing_poses.push_back(pose);
+  }
   for (std::size_t v = 0; v < one.views.size(); ++v)
     one.views[v].status = localizationStatusText(result.views[v].status);
   if (!report.tookPart()) return;

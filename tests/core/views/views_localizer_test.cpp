@@ -17,6 +17,7 @@
 #include "core/pnp/pnp_ransac.h"
 #include "core/pnp/refine_pose.h"
 #include "core/views/views_localizer.h"
+#include "tests/core/localizer/rail_scene.h"
 #include "tests/core/localizer/scene.h"
 
 namespace boresight::test {
@@ -264,6 +265,35 @@ TEST(ViewsLocalizer, TurnedSeedBeforeABlackFirstView_IsFoundInTheSecond) {
   ASSERT_EQ(result.status, LocalizationStatus::kConverged);
   EXPECT_FALSE(result.views[0].tookPart());
   EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
+}
+
+/// A second picture of a rail.
+View secondRailView(const Case& scene, const Picture& picture) {
+  return {picture.view(), nullptr, scene.camera, secondFromRig()};
+}
+
+TEST(ViewsLocalizer, RepeatedFeaturesWithoutEndsInBothViews_EndAsAmbiguous) {
+  const Case scene = railCase(Ends::kOutside, 0.0, 1.7, 3);
+  const Picture picture = takePicture(scene.solid, scene.camera, secondFromRig() * scene.truth);
+  ViewsRun run(scene, {viewOf(scene), secondRailView(scene, picture)}, defaultProfile());
+  const ViewsResult& result = run.finish();
+  ASSERT_EQ(result.status, LocalizationStatus::kAmbiguous);
+  ASSERT_GT(result.competing_poses.size(), 0);
+  double nearest_pitches = 1e9;
+  for (const CompetingPose& pose : result.competing_poses.items()) {
+    const double pitches = std::abs(pitchError(scene, pose.camera_from_station).pitches);
+    nearest_pitches = std::min(nearest_pitches, std::abs(pitches - std::round(pitches)));
+  }
+  EXPECT_LT(nearest_pitches, 0.1);
+}
+
+TEST(ViewsLocalizer, RepeatedFeaturesWithEndsHiddenInTheFirstViewOnly_ConvergeOnTheTruth) {
+  const Case scene = railCase(Ends::kHidden, 1.0, 1.7, 3);
+  const Picture picture = takePicture(scene.solid, scene.camera, secondFromRig() * scene.truth);
+  ViewsRun run(scene, {viewOf(scene), secondRailView(scene, picture)}, defaultProfile());
+  const ViewsResult& result = run.finish();
+  ASSERT_EQ(result.status, LocalizationStatus::kConverged);
+  EXPECT_NEAR(pitchError(scene, result.rig_from_station).pitches, 0.0, 0.1);
 }
 
 TEST(ViewsLocalizer, BlackImages_Fail) {
