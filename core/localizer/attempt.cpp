@@ -34,15 +34,18 @@ Attempt::Attempt(int index, const Seed& seed, int iteration)
   anchor_ = {seed.camera_from_station, scaled(seed.uncertainty, kUniformSigma)};
 }
 
-Attempt::Attempt(int index, const Seed& seed, int iteration, const Pose& camera_from_station)
-    : Attempt(index, seed, iteration) {
+Attempt::Attempt(int index, const Seed& seed, const Pose& camera_from_station, bool coarse_first,
+                 const LoopOptions& loop)
+    : Attempt(index, seed, loop.match_iterations) {
   camera_from_station_ = camera_from_station;
+  coarse_first_ = coarse_first;
 }
 
 void Attempt::restart() {
   ++index_;
   size_index_ = index_;
   iteration_ = 0;
+  coarse_first_ = false;
   small_corrections_ = 0;
   camera_from_station_ = seed_.camera_from_station;
   startIteration();
@@ -61,7 +64,8 @@ PassPlan Attempt::plan(const RunContext& run) const {
   plan.kind = refines ? PassKind::kRefine : PassKind::kMatch;
   plan.record = record_;
   plan.attempt = index_;
-  plan.level = !refines && iteration_ == 0 ? run.levels.coarse : run.levels.fine;
+  const bool coarse = coarse_first_ || (!refines && iteration_ == 0);
+  plan.level = coarse ? run.levels.coarse : run.levels.fine;
   plan.camera_from_station = camera_from_station_;
   plan.roll_rad = rollOf(hypothesis_);
   plan.uncertainty = uncertaintyAt(seed_, loop, iteration_, camera_from_station_);
@@ -140,7 +144,9 @@ Ruling Attempt::finishIteration(Stage stage, const Pose& camera_from_station,
     matched_.camera_from_station = camera_from_station_;
     if (!invert(covariance * kMatchInflation, matched_.information)) matched_.information.setZero();
   }
-  ++iteration_;
+  // The first refinement of the fine level follows.
+  if (!coarse_first_) ++iteration_;
+  coarse_first_ = false;
   Ruling ruling{Ruling::Next::kPass, LocalizationStatus::kRunning, stage, true, record_};
   if (leftUncertainty(seed_, camera_from_station_, loop.leave_factor))
     return failed(stage, LocalizationStatus::kLeftUncertainty, record_);

@@ -21,8 +21,10 @@ class Attempt {
   Attempt() = default;
   /// `index` counts the attempts of a run, `iteration` the first one to do.
   Attempt(int index, const Seed& seed, int iteration = 0);
-  /// Starts from another pose than the seed's, within the seed's uncertainty.
-  Attempt(int index, const Seed& seed, int iteration, const Pose& camera_from_station);
+  /// Refines a pose on edges, without templates; within the seed's uncertainty. With `coarse_first`
+  /// the first refinement is at the coarse level, where its search reaches farther.
+  Attempt(int index, const Seed& seed, const Pose& camera_from_station, bool coarse_first,
+          const LoopOptions& loop);
 
   /// Plan of the next pass.
   PassPlan plan(const RunContext& run) const;
@@ -66,7 +68,8 @@ class Attempt {
   int iteration_ = 0;
   int hypothesis_ = 0;  ///< of the iteration
   int record_ = 0;
-  bool has_best_ = false;  ///< the other record holds the best hypothesis so far
+  bool coarse_first_ = false;  ///< the next refinement is at the coarse level
+  bool has_best_ = false;      ///< the other record holds the best hypothesis so far
   int small_corrections_ = 0;
   Seed seed_;
   PosePrior anchor_;      ///< the seed with its uncertainty as a Gaussian

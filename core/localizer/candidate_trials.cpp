@@ -23,11 +23,9 @@ constexpr double kAboutAsMuch_nats = 0.2;
 /// Share of its search radius over which a refinement converges reliably.
 constexpr double kOfRadius = 0.67;
 
-/// Whether a refinement on edges converges from the candidate's pose.
-bool isWithinReach(const PoseCandidate& candidate, const RunContext& run) {
-  return run.options.refinement.enabled &&
-         candidate.error_px <=
-             kOfRadius * kFirstRadius_px * static_cast<double>(1 << run.levels.fine);
+/// Whether a refinement on edges at the level converges from the candidate's pose.
+bool isWithinReach(const PoseCandidate& candidate, int level) {
+  return candidate.error_px <= kOfRadius * kFirstRadius_px * static_cast<double>(1 << level);
 }
 
 }  // namespace
@@ -45,42 +43,42 @@ SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& se
   return uncertainty;
 }
 
-/// The last of several attempts starts from the seed.
-bool CandidateTrials::triesSeed(int attempt, const RunContext& run) const {
+/// The last of several starts is the seed.
+bool CandidateTrials::triesSeed(const RunContext& run) const {
   return next_ >= static_cast<int>(candidates_.size()) ||
-         (attempt > 0 && attempt + 1 >= run.options.loop.max_attempts);
+         (next_ > 0 && next_ + 1 >= run.options.loop.max_attempts);
 }
 
-bool CandidateTrials::hasNext(int attempt, const RunContext& run) const {
-  return attempt < run.options.loop.max_attempts && !seed_tried_;
+bool CandidateTrials::hasNext(const RunContext& run) const {
+  return matched_ >= 0 || (!seed_tried_ && next_ < run.options.loop.max_attempts);
 }
 
 /// Whether another attempt may be better than an uncertain pose: from the same candidate without
 /// templates, or from the next candidate.
-bool CandidateTrials::nextIsWorthwhile(int attempt, const RunContext& run) const {
-  if (!hasNext(attempt, run)) return false;
+bool CandidateTrials::nextIsWorthwhile(const RunContext& run) const {
   if (matched_ >= 0) return true;
-  if (next_ >= static_cast<int>(candidates_.size())) return false;
+  if (!hasNext(run) || next_ >= static_cast<int>(candidates_.size())) return false;
   return candidates_[static_cast<std::size_t>(next_)].rank_nats() >
          candidates_.front().rank_nats() - kAboutAsMuch_nats;
 }
 
 Attempt CandidateTrials::next(int attempt, const RunContext& run) {
-  if (!hasPose() && triesSeed(attempt, run)) {
+  const bool refines = matched_ >= 0;
+  if (!refines && !hasPose() && triesSeed(run)) {
     seed_tried_ = true;
-    matched_ = -1;
     return Attempt(attempt, seed_);
   }
-  const bool refines = hasPose() && matched_ >= 0;
   const int index = refines ? matched_ : next_++;
   const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(index)];
   // A direction that the image does not determine, such as a turn about an axis of symmetry, may
   // have left the box.
   const Pose camera_from_station = pulledBack(seed_, candidate.camera_from_station);
+  const bool is_fine = isWithinReach(candidate, run.levels.fine);
+  const bool may_refine = run.options.refinement.enabled;
   matched_ = -1;
-  if (refines || isWithinReach(candidate, run))
-    return Attempt(attempt, seed_, run.options.loop.match_iterations, camera_from_station);
-  if (run.options.refinement.enabled) matched_ = index;
+  if (refines || (may_refine && is_fine))
+    return Attempt(attempt, seed_, camera_from_station, !is_fine, run.options.loop);
+  if (may_refine) matched_ = index;
   return Attempt(attempt,
                  {camera_from_station, uncertaintyAbout(camera_from_station, seed_, run.scene)});
 }
@@ -95,14 +93,14 @@ CandidateTrials::Next CandidateTrials::takePose(const Attempt& attempt,
     best_ = attempt;
     best_before_ = camera_from_station_before;
   }
-  if (best_probability_ < kSure && nextIsWorthwhile(attempt.index() + 1, run)) return Next::kTry;
+  if (best_probability_ < kSure && nextIsWorthwhile(run)) return Next::kTry;
   return leads ? Next::kConclude : Next::kReturn;
 }
 
-CandidateTrials::Next CandidateTrials::takeFailure(int attempt, const RunContext& run) {
+CandidateTrials::Next CandidateTrials::takeFailure(const RunContext& run) {
   if (returns_) return Next::kConclude;
-  if (hasPose()) return nextIsWorthwhile(attempt + 1, run) ? Next::kTry : Next::kReturn;
-  return hasNext(attempt + 1, run) ? Next::kTry : Next::kConclude;
+  if (hasPose()) return nextIsWorthwhile(run) ? Next::kTry : Next::kReturn;
+  return hasNext(run) ? Next::kTry : Next::kConclude;
 }
 
 Attempt CandidateTrials::best(int attempt, const LocalizerOptions& options) {

@@ -12,10 +12,12 @@
 namespace boresight {
 
 /// Search policy: attempts start from the candidates of the whole-object search in descending order
-/// of evidence; the last attempt starts from the seed. A candidate resolved to within the first
-/// search radius is refined on edges directly; for a larger object, templates are matched around
-/// the candidate first. The most probable pose that converges is the result. When the first pose is
-/// uncertain, candidates of about equal evidence are tried, too.
+/// of evidence, and at last from the seed: loop.max_attempts starts. A candidate resolved to within
+/// the first search radius is refined on edges directly; for a larger object, templates are matched
+/// around the candidate first. When that fails or its pose is uncertain, the candidate is refined
+/// directly, too: templates of repeated print or of straight edges may move a good pose away. The
+/// most probable pose that converges is the result. When the first pose is uncertain, candidates of
+/// about equal evidence are tried, too.
 class CandidateTrials {
  public:
   /// Next action after an attempt.
@@ -38,14 +40,14 @@ class CandidateTrials {
   /// Whether an attempt has converged on a supported pose.
   bool hasPose() const { return best_probability_ >= 0.0; }
   /// An attempt has failed, or its pose is not supported.
-  Next takeFailure(int attempt, const RunContext& run);
+  Next takeFailure(const RunContext& run);
   /// The attempt that repeats the last iteration of the best pose.
   Attempt best(int attempt, const LocalizerOptions& options);
 
  private:
-  bool hasNext(int attempt, const RunContext& run) const;
-  bool triesSeed(int attempt, const RunContext& run) const;
-  bool nextIsWorthwhile(int attempt, const RunContext& run) const;
+  bool hasNext(const RunContext& run) const;
+  bool triesSeed(const RunContext& run) const;
+  bool nextIsWorthwhile(const RunContext& run) const;
 
   std::span<const PoseCandidate> candidates_;
   Seed seed_;

@@ -101,8 +101,7 @@ StepReport Localizer::fail(const Ruling& ruling) {
       ruling.status == LocalizationStatus::kFault ||
       (ruling.status == LocalizationStatus::kCameraMismatch && !trials_.hasPose());
   if (concludes) return finish(ruling.status, report);
-  if (searches())
-    return follow(trials_.takeFailure(attempt_.index(), pass_.context()), ruling.status, report);
+  if (searches()) return follow(trials_.takeFailure(pass_.context()), ruling.status, report);
   if (attempt_.index() + 1 >= options().loop.max_attempts) return finish(ruling.status, report);
   attempt_.restart();
   iterate(attempt_);

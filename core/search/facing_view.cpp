@@ -11,6 +11,10 @@ namespace boresight {
 namespace {
 
 constexpr int kWeightBits = 8;
+/// Objects smaller than this are magnified, at most by the factor. Edges some pixels around a place
+/// are otherwise those of the object itself, and explain its evidence away.
+constexpr double kLeastSpan_px = 130.0;
+constexpr double kMostMagnification = 2.0;
 /// Rays farther off the view's axis than this (87 deg) are outside the view.
 constexpr double kLeastZ = 0.05;
 
@@ -159,7 +163,9 @@ bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, co
   const Eigen::Vector2d half = seen.most.cwiseMax(-seen.least).cwiseMax(size.least_half) +
                                Eigen::Vector2d(size.slide_x, size.slide_y);
   const double real_focal_px = std::abs(problem.camera.fx);
-  const double focal_px = std::min({size.span_px / span, real_focal_px,
+  const double finest_px =
+      std::clamp(kLeastSpan_px / span, real_focal_px, kMostMagnification * real_focal_px);
+  const double focal_px = std::min({size.span_px / span, finest_px,
                                     (0.5 * size.most_px - size.margin_px - 2.0) / half.maxCoeff()});
   if (!(focal_px > 0.0)) return false;
   view.span_px = focal_px * span;

@@ -17,7 +17,7 @@ namespace boresight {
 struct FacingView {
   Camera camera;               ///< pinhole, prepared
   Pose view_from_camera;       ///< a rotation
-  double pixels_per_px = 1.0;  ///< view pixels per pixel of the real image, at most 1
+  double pixels_per_px = 1.0;  ///< view pixels per pixel of the real image, at most 2
   double span_px = 0.0;        ///< longer side of the visible object, px of the view
 };
 

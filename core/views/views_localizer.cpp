@@ -303,7 +303,7 @@ StepReport ViewsLocalizer::decide(const Ruling& ruling) {
 /// After a failure: the next candidate, another attempt, or the end.
 StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& report) {
   const RunContext run = first().context();
-  if (first().searches()) return follow(trials_.takeFailure(attempt_.index(), run), status, report);
+  if (first().searches()) return follow(trials_.takeFailure(run), status, report);
   if (attempt_.index() + 1 >= options_.loop.max_attempts) return finish(status, report);
   attempt_.restart();
   first().workspace().attempts = attempt_.index() + 1;

@@ -194,7 +194,7 @@ TEST_F(CandidateTrialsTest, CoarselyResolvedCandidate_IsMatchedInANarrowerBox) {
 TEST_F(CandidateTrialsTest, NoCandidates_StartFromTheSeed) {
   offer(0, 0.0, 0.0);
   EXPECT_EQ(trials.next(0, pass.context()).camera_from_station(), seed.camera_from_station);
-  EXPECT_EQ(trials.takeFailure(0, pass.context()), TrialNext::kConclude);
+  EXPECT_EQ(trials.takeFailure(pass.context()), TrialNext::kConclude);
 }
 
 TEST_F(CandidateTrialsTest, SurePose_EndsTheRun) {
@@ -215,6 +215,25 @@ TEST_F(CandidateTrialsTest, UnsurePose_IsComparedAndTheMostProbableReturns) {
   EXPECT_EQ(trials.takePose(back, Pose(), 0.8, pass.context()), TrialNext::kConclude);
 }
 
+TEST_F(CandidateTrialsTest, CandidateWhoseTemplatesFail_IsRefinedFromTheCoarseLevelOn) {
+  offer(2, 0.01, 20.0);
+  EXPECT_EQ(kindOf(trials.next(0, pass.context())), PassKind::kMatch);
+  EXPECT_EQ(trials.takeFailure(pass.context()), TrialNext::kTry);
+  Attempt direct = trials.next(1, pass.context());
+  EXPECT_EQ(direct.camera_from_station(), candidates[0].camera_from_station);
+  const PassPlan coarse = direct.plan(pass.context());
+  EXPECT_EQ(coarse.kind, PassKind::kRefine);
+  EXPECT_EQ(coarse.level, pass.context().levels.coarse);
+  pass.refine(coarse, coarse.camera_from_station);
+  (void)direct.take(pass.outcome, {}, pass.context(), pass.records);
+  const PassPlan fine = direct.plan(pass.context());
+  EXPECT_EQ(fine.kind, PassKind::kRefine);
+  EXPECT_EQ(fine.level, pass.context().levels.fine);
+  EXPECT_EQ(coarse.threshold_px, fine.threshold_px * (1 << (coarse.level - fine.level)));
+  EXPECT_EQ(trials.takeFailure(pass.context()), TrialNext::kTry);
+  EXPECT_EQ(kindOf(trials.next(2, pass.context())), PassKind::kMatch);
+}
+
 TEST_F(CandidateTrialsTest, CandidateOfMuchLessEvidence_IsNotCompared) {
   offer(2, 0.5, 1.0);
   const Attempt attempt = trials.next(0, pass.context());
@@ -230,7 +249,7 @@ TEST_F(CandidateTrialsTest, Failures_GoThroughCandidatesThenTheSeed) {
                                ? candidates[static_cast<std::size_t>(i)].camera_from_station
                                : seed.camera_from_station;
     EXPECT_EQ(attempt.camera_from_station(), expected) << i;
-    EXPECT_EQ(trials.takeFailure(i, pass.context()),
+    EXPECT_EQ(trials.takeFailure(pass.context()),
               i + 1 < most ? TrialNext::kTry : TrialNext::kConclude);
   }
 }

@@ -281,6 +281,21 @@ TEST(FacingView, Scene_IsCentredAtTheRequestedSpan) {
   }
 }
 
+TEST(FacingView, SmallScene_IsMagnifiedTo130PixelsOrTwice) {
+  const test::Case scene = test::stationCase(1);
+  const SearchProblem problem = searchOf(scene);
+  for (const double distance : {1.5, 2.5, 3.5, 5.0, 8.0}) {
+    Pose far = scene.truth;
+    far.translation_m *= distance;
+    FacingView view;
+    ASSERT_TRUE(faceScene(problem, far, sizeOf(250.0), view));
+    const double real_span_px = view.span_px / view.pixels_per_px;
+    EXPECT_NEAR(view.span_px,
+                std::min(250.0, std::max(real_span_px, std::min(130.0, 2.0 * real_span_px))), 1e-6)
+        << distance;
+  }
+}
+
 TEST(FacingView, SceneBehindTheCameraOrOutsideTheImage_HasNoView) {
   const test::Case scene = test::stationCase(1);
   FacingView view;
