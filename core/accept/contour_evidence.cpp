@@ -19,27 +19,34 @@ constexpr Shares kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
 constexpr double kTrusted = 0.6;  ///< share of a right pose's edges that the image shows
 constexpr int kSamples = 12;      ///< of the window, along each side
 
-std::size_t intervalOf(int distance) {
-  std::size_t interval = 0;
-  while (interval + 1 < kIntervals && distance > kUpTo[interval]) ++interval;
-  return interval;
-}
+/// Interval of each distance.
+constexpr std::array<std::uint8_t, 256> kIntervalOf = [] {
+  std::array<std::uint8_t, 256> intervals{};
+  for (int distance = 0; distance < 256; ++distance)
+    for (const int up_to : kUpTo)
+      if (distance > up_to) ++intervals[static_cast<std::size_t>(distance)];
+  return intervals;
+}();
 
 /// Shares of the intervals around a place; one count more in each, so that none is 0.
 Shares sharesAround(const EvidencePlace& place, const DirectedEdges& edges,
                     std::span<const std::uint8_t> distance, double window_px) {
+  std::array<int, kSamples> offset{};
+  for (int i = 0; i < kSamples; ++i)
+    offset[static_cast<std::size_t>(i)] =
+        static_cast<int>(std::floor(window_px * ((i + 0.5) / kSamples - 0.5)));
   std::array<int, kIntervals> count{};
   int all = 0;
-  const auto offsetOf = [&](int i) {
-    return static_cast<int>(std::floor(window_px * ((i + 0.5) / kSamples - 0.5)));
-  };
-  for (int i = 0; i < kSamples; ++i) {
-    const int y = place.y + offsetOf(i);
+  for (const int down : offset) {
+    const int y = place.y + down;
     if (y < 0 || y >= edges.height) continue;
-    for (int j = 0; j < kSamples; ++j) {
-      const int x = place.x + offsetOf(j);
-      if (x < 0 || x >= edges.width || edges.at(x, y) == DirectedEdges::kUnseen) continue;
-      ++count[intervalOf(distance[static_cast<std::size_t>(y * edges.width + x)])];
+    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(edges.width);
+    for (const int right : offset) {
+      const int x = place.x + right;
+      if (x < 0 || x >= edges.width) continue;
+      const std::size_t at = row + static_cast<std::size_t>(x);
+      if (edges.direction[at] == DirectedEdges::kUnseen) continue;
+      ++count[kIntervalOf[distance[at]]];
       ++all;
     }
   }
@@ -57,7 +64,7 @@ double evidenceOfPlace_nats(const EvidencePlace& place, const DirectedEdges& edg
                             std::span<const std::uint8_t> distance, double window_px) {
   const Shares around = sharesAround(place, edges, distance, window_px);
   const std::size_t k =
-      intervalOf(distance[static_cast<std::size_t>(place.y * edges.width + place.x)]);
+      kIntervalOf[distance[static_cast<std::size_t>(place.y * edges.width + place.x)]];
   return log((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
 }
 

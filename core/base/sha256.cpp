@@ -36,6 +36,15 @@ std::uint32_t majority(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return (x & y) | (z & (x | y));
 }
 
+/// A round whose new values replace d and h; `term` is the round's constant plus its word.
+inline void mix(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t& d,
+                std::uint32_t e, std::uint32_t f, std::uint32_t g, std::uint32_t& h,
+                std::uint32_t term) {
+  h += bigSigma1(e) + choose(e, f, g) + term;
+  d += h;
+  h += bigSigma0(a) + majority(a, b, c);
+}
+
 }  // namespace
 
 void sha256Plain(Sha256State& state, const std::uint8_t* blocks, std::size_t count) {
@@ -46,20 +55,21 @@ void sha256Plain(Sha256State& state, const std::uint8_t* blocks, std::size_t cou
     for (std::size_t i = 16; i < 64; ++i) {
       w[i] = w[i - 16] + smallSigma0(w[i - 15]) + w[i - 7] + smallSigma1(w[i - 2]);
     }
-    auto [a, b, c, d, e, f, g, h] = state;
-    for (std::size_t i = 0; i < 64; ++i) {
-      const std::uint32_t t1 = h + bigSigma1(e) + choose(e, f, g) + kSha256Constants[i] + w[i];
-      const std::uint32_t t2 = bigSigma0(a) + majority(a, b, c);
-      h = g;
-      g = f;
-      f = e;
-      e = d + t1;
-      d = c;
-      c = b;
-      b = a;
-      a = t1 + t2;
+    // Eight rounds at a time: the names rotate instead of the values.
+    Sha256State change = state;
+    auto& [a, b, c, d, e, f, g, h] = change;
+    for (std::size_t i = 0; i < 64; i += 8) {
+      const std::uint32_t* k = &kSha256Constants[i];
+      const std::uint32_t* word = &w[i];
+      mix(a, b, c, d, e, f, g, h, k[0] + word[0]);
+      mix(h, a, b, c, d, e, f, g, k[1] + word[1]);
+      mix(g, h, a, b, c, d, e, f, k[2] + word[2]);
+      mix(f, g, h, a, b, c, d, e, k[3] + word[3]);
+      mix(e, f, g, h, a, b, c, d, k[4] + word[4]);
+      mix(d, e, f, g, h, a, b, c, k[5] + word[5]);
+      mix(c, d, e, f, g, h, a, b, k[6] + word[6]);
+      mix(b, c, d, e, f, g, h, a, k[7] + word[7]);
     }
-    const Sha256State change = {a, b, c, d, e, f, g, h};
     for (std::size_t i = 0; i < 8; ++i) state[i] += change[i];
   }
 }

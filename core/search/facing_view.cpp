@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace boresight {
 namespace {
@@ -75,6 +76,27 @@ struct Channels {
   }
 };
 
+/// Sum of bytes, eight at a time.
+std::int32_t sumOf(const std::uint8_t* bytes, int count) {
+  constexpr std::uint64_t kEven = 0x00ff00ff00ff00ffU;
+  constexpr int kWord = sizeof(std::uint64_t);
+  constexpr int kMostBytes = 128 * kWord;  // that four lanes of 16 bits hold
+  std::int32_t sum = 0;
+  while (count >= kWord) {
+    const int words = std::min(count, kMostBytes) / kWord;
+    count -= words * kWord;
+    std::uint64_t lanes = 0;
+    for (int i = 0; i < words; ++i, bytes += kWord) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes, kWord);
+      lanes += (word & kEven) + ((word >> 8) & kEven);
+    }
+    for (; lanes != 0; lanes >>= 16) sum += static_cast<std::int32_t>(lanes & 0xffff);
+  }
+  for (int i = 0; i < count; ++i) sum += bytes[i];
+  return sum;
+}
+
 template <int kCount>
 using Sums = std::array<std::int64_t, static_cast<std::size_t>(kCount)>;
 
@@ -91,8 +113,13 @@ Sums<kCount> blockSums(const Channels& image, double x_px, double y_px, int bloc
   for (int row = 0; row <= block; ++row) {
     const std::uint8_t* pixel = image.at<kCount>(x, y + row);
     std::array<std::int32_t, static_cast<std::size_t>(kCount)> inner{};
-    for (int i = 1; i < block; ++i)
-      for (int k = 0; k < kCount; ++k) inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
+    if constexpr (kCount == 1) {
+      inner[0] = sumOf(pixel + 1, block - 1);
+    } else {
+      for (int i = 1; i < block; ++i)
+        for (int k = 0; k < kCount; ++k)
+          inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
+    }
     const std::int32_t weight = row == 0 ? up : row == block ? down : (1 << kWeightBits);
     for (int k = 0; k < kCount; ++k) {
       const auto at = static_cast<std::size_t>(k);
