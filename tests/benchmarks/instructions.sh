@@ -49,7 +49,7 @@ count_flight_driver() { # CASE
 }
 
 count_method() { # METHOD CASE
-  rm -f "$folder/run.sqlite"
+  rm -f "$folder"/run.sqlite*
   OPENCV_CPU_DISABLE=SSSE3,SSE4.1,SSE4.2,AVX,FP16,FMA3,AVX2,AVX512F \
     valgrind --tool=callgrind --callgrind-out-file="$folder/callgrind.out" \
     "$build/app/whs" evaluate --dataset "$dataset" --case "$2" --method "$1" --threads 1 \
@@ -107,5 +107,5 @@ awk '
   { station = $2; sub(/-.*/, "", station)
     printf "%s\n  {\"method\": \"%s%s\", \"station\": \"%s\", \"case\": \"%s\", \"initialization\": %s, \
 \"search\": %s, \"rendering\": %s, \"matching\": %s, \"pose\": %s, \"refinement\": %s}",
-      NR > 1 ? "," : "", $1, suffix, station, $2, $3, $4, $5, $6, $7, $8 }
+      (NR > 1 ? "," : ""), $1, suffix, station, $2, $3, $4, $5, $6, $7, $8 }
   END { print "\n]}" }' "$folder/counts" >"$JSON"
