@@ -3,10 +3,11 @@
 # usage: ablation.sh WHS DATASET FOLDER [OPTION OF whs evaluate ...]
 # From profile `paper` to profile `default`: every row adds one departure to those above it, on the
 # same cases and seeds. Results go to FOLDER/NN_NAME.sqlite; an interrupted run continues. A table
-# follows of all rows. SINGLE=1: each departure alone, added to profile `paper`.
+# follows of all rows; FOLDER/cpu_seconds.txt has each row's processor time. SINGLE=1: each
+# departure alone, added to profile `paper`.
 set -euo pipefail
 [ $# -ge 3 ] || {
-  sed -n '3,6s/^# //p' "${BASH_SOURCE[0]}"
+  sed -n '3,7s/^# //p' "${BASH_SOURCE[0]}"
   exit 2
 }
 whs="$1" dataset="$2" folder="$3"
@@ -32,7 +33,11 @@ departures=(
 evaluate() { # NAME SETTING...
   local name="$1"
   shift
-  "$whs" evaluate --dataset "$dataset" --out "$folder/$name.sqlite" "${options[@]}" "$@" >"$folder/$name.txt"
+  local TIMEFORMAT="$name %U"
+  {
+    time "$whs" evaluate --dataset "$dataset" --out "$folder/$name.sqlite" "${options[@]}" "$@" \
+      >"$folder/$name.txt" 2>&1
+  } 2>>"$folder/cpu_seconds.txt"
 }
 
 options=("$@")
