@@ -249,8 +249,8 @@ void printSummary(const std::vector<sessions::RunResult>& results) {
   std::vector<sessions::Table> tables = {sessions::summaryTable(results)};
   if (std::any_of(results.begin(), results.end(),
                   [](const sessions::RunResult& run) { return run.success.has_value(); }))
-    tables.push_back(sessions::toleranceTable(results, false));
-  tables.push_back(sessions::timeTable(results, false));
+    tables.push_back(sessions::toleranceTable(results));
+  tables.push_back(sessions::timeTable(results));
   for (const sessions::Table& table : tables)
     std::cout << sessions::tableText(table, sessions::TableFormat::kText) << "\n";
   std::cout << sessions::failureList(results, kListedFailures) << std::flush;

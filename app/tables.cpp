@@ -5,9 +5,12 @@
 
 #include "app/commands.h"
 #include "sessions/io/atomic_file.h"
+#include "sessions/tables/error_strips.h"
+#include "sessions/tables/flight_table.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/tables/result_figures.h"
 #include "sessions/tables/results_set.h"
+#include "sessions/tables/strata_table.h"
 #include "sessions/text/plain_text.h"
 
 namespace boresight::app {
@@ -26,6 +29,8 @@ struct TablesArguments {
   std::string out;
   std::string figures;
   std::string failures;
+  std::string instructions;
+  double demonstrate_percent = 0.0;  ///< 0: no such table
   std::vector<std::string> figure_formats = {"pdf"};
   bool paper = false;
   bool all = false;
@@ -38,13 +43,23 @@ void TablesArguments::addTo(CLI::App& command) {
   addFile(command, "--against", against,
           "Compares RESULTS (before) with these (after), run by run, instead");
   command.add_flag("--all", all, "With --against: lists also what did not change");
-  command.add_option("--table", tables, "Only these: errors, success, tolerance, times (all four)")
-      ->check(CLI::IsMember({"errors", "success", "tolerance", "times"}));
+  command
+      .add_option("--table", tables,
+                  "Only these: errors, success, strata, tolerance, times (all five)")
+      ->check(CLI::IsMember({"errors", "success", "strata", "tolerance", "times"}));
   command.add_option("--station", filter.stations, "Only runs of these stations")->type_name("S");
   command.add_option("--tag", filter.tags, "Only runs with one of these tags")->type_name("T");
   command.add_option("--method", filter.methods, "Only runs of these methods")->type_name("M");
   command.add_flag("--paper", paper,
                    "Shows what Pham et al. 2025 report beside ours, with what to mind");
+  addFile(command, "--instructions", instructions,
+          "Adds a table of minutes at 200 MHz from counts of tests/benchmarks/instructions.sh");
+  command
+      .add_option("--demonstrate", demonstrate_percent,
+                  "Adds a table: runs that demonstrate this success rate, percent, at 95 % "
+                  "confidence")
+      ->check(CLI::Range(1.0, 99.9999))
+      ->type_name("P");
   command.add_option("--format", format, "text, csv or latex")
       ->check(CLI::IsMember({"text", "csv", "latex"}))
       ->capture_default_str()
@@ -52,8 +67,8 @@ void TablesArguments::addTo(CLI::App& command) {
   addFile(command, "--out", out, "The tables into this file instead of onto the terminal");
   command
       .add_option("--figures", figures,
-                  "Draws the figures into this folder: error_distribution, success_tolerance, "
-                  "success_seed_error, time_accuracy")
+                  "Draws the figures into this folder: error_strips, error_distribution, "
+                  "success_tolerance, success_seed_error, time_accuracy")
       ->type_name("FOLDER");
   command
       .add_option("--failures", failures,
@@ -110,19 +125,31 @@ std::vector<std::filesystem::path> paths(const std::vector<std::string>& files) 
   return {files.begin(), files.end()};
 }
 
+std::vector<Table> tablesOf(const TablesArguments& arguments, const sessions::ResultsSet& set) {
+  std::vector<Table> made;
+  const auto add = [&](const char* name, auto make) {
+    if (arguments.tables.empty() ||
+        std::find(arguments.tables.begin(), arguments.tables.end(), name) != arguments.tables.end())
+      made.push_back(make());
+  };
+  const std::span<const sessions::RunResult> runs = set.runs;
+  add("errors", [&] { return sessions::errorTable(runs, arguments.paper); });
+  add("success", [&] { return sessions::successTable(runs, arguments.paper); });
+  add("strata", [&] { return sessions::strataTable(runs); });
+  add("tolerance", [&] { return sessions::toleranceTable(runs); });
+  add("times", [&] { return sessions::timeTable(runs); });
+  if (!arguments.instructions.empty())
+    made.push_back(sessions::flightTable(sessions::readInstructionCounts(arguments.instructions),
+                                         arguments.paper));
+  if (arguments.demonstrate_percent > 0.0)
+    made.push_back(sessions::demonstrationTable(runs, 0.01 * arguments.demonstrate_percent));
+  return made;
+}
+
 std::string tablesText(const TablesArguments& arguments, const sessions::ResultsSet& set) {
   std::string text;
-  const auto add = [&](const char* name, auto make) {
-    if (!arguments.tables.empty() &&
-        std::find(arguments.tables.begin(), arguments.tables.end(), name) == arguments.tables.end())
-      return;
-    text += (text.empty() ? "" : "\n") +
-            sessions::tableText(make(set.runs, arguments.paper), tableFormat(arguments));
-  };
-  add("errors", sessions::errorTable);
-  add("success", sessions::successTable);
-  add("tolerance", sessions::toleranceTable);
-  add("times", sessions::timeTable);
+  for (const Table& table : tablesOf(arguments, set))
+    text += (text.empty() ? "" : "\n") + sessions::tableText(table, tableFormat(arguments));
   if (tableFormat(arguments) == TableFormat::kText) text += "\n" + provenanceText(set);
   return text;
 }
@@ -136,9 +163,11 @@ void writeFigures(const std::filesystem::path& folder, CanvasFormat format,
 }
 
 void drawFigures(const TablesArguments& arguments, const sessions::ResultsSet& set) {
-  for (const std::string& name : arguments.figure_formats)
-    writeFigures(arguments.figures, canvasFormat(name),
-                 sessions::resultFigures(set.runs, canvasFormat(name)));
+  for (const std::string& name : arguments.figure_formats) {
+    std::vector<sessions::Figure> figures = sessions::resultFigures(set.runs, canvasFormat(name));
+    figures.push_back(sessions::errorStripsFigure(set.runs, canvasFormat(name)));
+    writeFigures(arguments.figures, canvasFormat(name), figures);
+  }
 }
 
 void drawFailures(const TablesArguments& arguments) {

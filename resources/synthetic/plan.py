@@ -8,7 +8,7 @@ smaller one. Poses are 4x4 lists, metres, camera as OpenCV has it (x right, y do
 import math
 import random
 
-from scene.lattice import canister_sleeves
+from scene.lattice import canister_sleeves, is_at_rim
 
 SIDE_px = 2048
 CAMERAS = {
@@ -318,6 +318,10 @@ def _target(draw, station):
     return list(draw.choice(sorted(canister_sleeves()))) if station == "os" else None
 
 
+def _sleeve_tags(sleeve):
+    return [] if sleeve is None else ["sleeve_rim" if is_at_rim(sleeve) else "sleeve_inner"]
+
+
 def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px):
     """Plans of all shots of a station: one picture each, or two of the pair taken at once."""
     made, number = [], 0
@@ -330,6 +334,7 @@ def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px):
         tags = tags + (["far"] if is_far else []) + (["hard", kind] if kind else [])
         tags += ["transparent"] if station == "vial" else []
         plan["target_sleeve"], plan["lying"] = _target(draw, station), station in LYING
+        tags += _sleeve_tags(plan["target_sleeve"])
         plan["occluder_reach_mm"] = 20.0 if plan["lying"] else 62.0
         left, seed_left = _poses(draw, station, plan["target_sleeve"], is_pair, is_far, kind)
         lens = draw.choices([n for n, _ in LENSES], [w for _, w in LENSES])[0]

@@ -7,6 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "sessions/tables/binomial_bounds.h"
+#include "sessions/tables/paper_figures.h"
 #include "sessions/tables/results_set.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
@@ -14,113 +16,18 @@
 namespace boresight::sessions {
 namespace {
 
-// What Pham 2025 (IEEE RA-L, DOI 10.1109/LRA.2025.3614045) reports, to be shown with our own.
-constexpr const char* kPaperSource = "Pham et al., IEEE RA-L 2025, 10.1109/LRA.2025.3614045";
-/// Shown wherever its success is listed with ours.
-constexpr const char* kPaperCaution =
-    "Rows marked (paper): 2000 synthetic images a station. The paper requires 0.4 mm and 0.25 deg "
-    "(Sec. I), but its successful runs exceed both (Table I): compare errors, not success.";
-
-/// mean, standard deviation, maximum
-using PaperStatistics = std::array<double, 3>;
-
-/// Synthetic images, near. Errors are all 0 where nothing completed.
-struct PaperErrors {
-  const char* station;
-  const char* method;
-  double completed_percent;
-  double success_percent;
-  PaperStatistics normal_mm;
-  PaperStatistics lateral_mm;
-  PaperStatistics rotation_mrad;
-};
-
-/// Minutes on a flight processor of 200 MHz, BC and OS added up.
-struct PaperTimes {
-  const char* method;
-  double initialization_min;
-  double rendering_min;
-  double matching_min;
-  double pose_min;
-  double total_min;
-};
-
-/// Real images; percent by kSuccessMethods.
-constexpr std::array<const char*, 6> kSuccessMethods = {"orb",     "ssd",     "ncc",
-                                                        "loftr-r", "loftr-s", "whs"};
-struct PaperSuccess {
-  const char* set;
-  int runs;
-  std::array<double, 6> completed_percent;
-  std::array<double, 6> success_percent;
-};
-
-constexpr PaperErrors kErrors[] = {
-    {"bc", "seed", 100, 0, {-0.095, 12.73, 19.92}, {16.94, 8.853, 29.99}, {48.86, 26.32, 86.92}},
-    {"bc", "orb", 0, 0, {}, {}, {}},
-    {"bc", "ssd", 2.1, 0.9, {8.179, 23.76, 93.76}, {21.97, 38.31, 142.2}, {193.3, 196.8, 593.4}},
-    {"bc", "ncc", 94.3, 94.0, {-0.062, 1.153, 23.60}, {0.177, 1.511, 57.30}, {2.512, 15.78, 330.9}},
-    {"bc",
-     "loftr-r",
-     100,
-     98.0,
-     {-0.174, 0.324, 2.009},
-     {0.156, 0.153, 1.332},
-     {3.936, 3.782, 37.95}},
-    {"bc",
-     "loftr-s",
-     99.5,
-     91.0,
-     {-0.205, 1.421, 5.842},
-     {0.318, 1.792, 74.83},
-     {7.232, 12.24, 351.3}},
-    {"bc", "whs", 100, 100, {0.005, 0.082, 0.446}, {0.083, 0.036, 0.232}, {1.143, 0.708, 6.477}},
-    {"os", "seed", 100, 1.1, {-0.054, 7.321, 11.45}, {7.906, 4.131, 14.00}, {17.13, 9.225, 30.47}},
-    {"os", "orb", 45.6, 21.1, {0.107, 2.060, 14.63}, {0.846, 0.916, 7.278}, {25.12, 25.33, 148.9}},
-    {"os", "ssd", 43.6, 43.6, {0.159, 0.185, 0.865}, {0.163, 0.072, 0.494}, {2.707, 1.673, 11.52}},
-    {"os", "ncc", 98.7, 98.7, {0.146, 0.150, 1.053}, {0.162, 0.064, 0.494}, {2.206, 1.367, 9.351}},
-    {"os",
-     "loftr-r",
-     95.0,
-     22.3,
-     {0.059, 1.699, 7.662},
-     {0.917, 0.907, 31.99},
-     {27.21, 15.11, 109.3}},
-    {"os",
-     "loftr-s",
-     51.1,
-     6.6,
-     {-1.103, 7.535, 54.16},
-     {5.085, 11.69, 71.67},
-     {31.81, 22.02, 157.4}},
-    {"os", "whs", 100, 100, {0.012, 0.208, 1.213}, {0.167, 0.075, 0.590}, {2.725, 1.737, 13.20}},
-};
-
-constexpr PaperTimes kTimes[] = {
-    {"orb", 1.13, 7.40, 0.60, 2.66, 11.79},          {"ssd", 1.11, 7.49, 3.73, 1.67, 14.00},
-    {"ncc", 1.12, 7.11, 3.61, 0.38, 12.22},          {"loftr-r", 1.35, 8.08, 671.26, 0.69, 681.38},
-    {"loftr-s", 1.23, 7.70, 2146.98, 4.65, 2160.56}, {"whs", 1.22, 6.91, 13.17, 0.02, 21.33},
-};
-
-constexpr PaperSuccess kSuccess[] = {
-    {"testbed OS", 20, {0, 100, 100, 70, 10, 100}, {0, 45, 45, 5, 0, 100}},
-    {"testbed BC", 20, {0, 40, 65, 100, 100, 100}, {0, 0, 0, 95, 95, 100}},
-    {"Mars BC near 0.49 m", 3, {0, 0, 33.3, 100, 66.7, 100}, {0, 0, 0, 100, 0, 100}},
-    {"Mars BC far 1.23 m", 3, {0, 0, 0, 100, 33.3, 100}, {0, 0, 0, 0, 0, 0}},
-};
-
 constexpr const char* kSeed = "seed";
 
-using Members = std::vector<const RunResult*>;
+using RunSpan = std::span<const RunResult* const>;
 
-std::optional<double> percent(std::int64_t part, std::int64_t whole) {
+std::optional<double> percentOf(std::int64_t part, std::int64_t whole) {
   if (whole == 0) return std::nullopt;
   return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
 /// Percent of completed runs within the requirement of one figure, of runs whose requirement names
 /// it.
-std::optional<double> percentWithinFigure(const Members& members, const JudgedFigure& figure) {
+std::optional<double> percentWithinFigure(RunSpan members, const JudgedFigure& figure) {
   std::int64_t asked = 0;
   std::int64_t met = 0;
   for (const RunResult* run : members) {
@@ -131,10 +38,10 @@ std::optional<double> percentWithinFigure(const Members& members, const JudgedFi
     ++asked;
     met += run->completed && value && std::abs(*value) <= *limit ? 1 : 0;
   }
-  return percent(met, asked);
+  return percentOf(met, asked);
 }
 
-Statistics errorStatistics(const Members& members, const ErrorColumn& column) {
+Statistics errorStatistics(RunSpan members, const ErrorColumn& column) {
   std::vector<double> values;
   for (const RunResult* run : members)
     if (const auto value = run->completed && run->error ? column.of(*run->error) : std::nullopt)
@@ -142,26 +49,27 @@ Statistics errorStatistics(const Members& members, const ErrorColumn& column) {
   return statistics(values);
 }
 
-MethodFigures figuresOf(const Members& members) {
-  MethodFigures figures;
-  std::int64_t completed = 0;
-  std::int64_t judged = 0;
-  std::int64_t successful = 0;
-  for (const RunResult* run : members) {
-    ++figures.runs;
-    completed += run->completed ? 1 : 0;
-    judged += run->success.has_value() ? 1 : 0;
-    successful += run->success.value_or(false) ? 1 : 0;
-    figures.false_positives += run->false_positive ? 1 : 0;
-    figures.gross_false_positives += run->gross_false_positive ? 1 : 0;
-  }
-  figures.completed_percent = percent(completed, figures.runs);
-  figures.success_percent = percent(successful, judged);
-  for (std::size_t i = 0; i < kJudgedFigures.size(); ++i)
-    figures.within_percent[i] = percentWithinFigure(members, kJudgedFigures[i]);
-  for (std::size_t i = 0; i < kErrorColumns.size(); ++i)
-    figures.error[i] = errorStatistics(members, kErrorColumns[i]);
-  return figures;
+bool endedAtLimit(const RunResult& run) {
+  return run.status == localizationStatusText(LocalizationStatus::kIterationLimit);
+}
+
+/// The last pose of a run that ended at the limit of iterations, judged as if it had completed.
+bool succeedsAtLimit(const RunResult& run) {
+  return endedAtLimit(run) && run.requirement && !run.steps.empty() && run.steps.back().error &&
+         meetsRequirement(*run.steps.back().error, *run.requirement);
+}
+
+void count(const RunResult& run, MethodFigures& figures) {
+  const bool at_limit = endedAtLimit(run);
+  ++figures.runs;
+  figures.completed.count += run.completed ? 1 : 0;
+  figures.at_limit += at_limit ? 1 : 0;
+  figures.gross_false_positives += run.gross_false_positive ? 1 : 0;
+  if (!run.success) return;
+  ++figures.success.runs;
+  figures.success.count += *run.success ? 1 : 0;
+  figures.false_positives.count += run.false_positive ? 1 : 0;
+  figures.success_with_limit.count += *run.success || succeedsAtLimit(run) ? 1 : 0;
 }
 
 /// The seeds of runs, each once, as if each were what a run had ended with.
@@ -198,8 +106,6 @@ Parts statisticsCell(const PaperStatistics& figures, bool any) {
   return any ? Parts{figures[0], figures[1], figures[2]} : kNoParts;
 }
 
-std::string rangeText(bool far) { return far ? "far" : "near"; }
-
 struct GroupKey {
   std::string station;
   bool far = false;
@@ -212,27 +118,64 @@ struct GroupKey {
   }
 };
 
-/// By station, near before far, and method. Runs whose input was refused are left out.
-std::map<GroupKey, Members> membersByGroup(std::span<const RunResult> runs) {
-  std::map<GroupKey, Members> groups;
-  for (const RunResult& run : runs)
-    if (!run.inputFailed()) groups[{run.station, run.hasTag(kFarTag), run.method}].push_back(&run);
-  return groups;
+const Parts kNoShare(2);
+
+/// What the paper's percent of its runs was a count of.
+CountedShare paperShare(double percent, int runs) {
+  return {std::llround(0.01 * percent * runs), runs};
 }
 
 std::string paperName(const std::string& method) { return method + " (paper)"; }
 
 std::vector<std::vector<TableCell>> paperErrorRows(const std::string& station) {
+  constexpr int kRuns = 2000;
   std::vector<std::vector<TableCell>> rows;
-  for (const PaperErrors& row : kErrors) {
+  for (const PaperErrors& row : kPaperErrors) {
     if (row.station != station) continue;
     const bool any = row.completed_percent > 0.0;
-    rows.push_back({row.station, "near", paperName(row.method), "2000", row.completed_percent,
-                    row.success_percent, std::nullopt, std::nullopt,
+    const bool is_seed = std::string(row.method) == kSeed;
+    const CountedShare wrong = paperShare(row.completed_percent - row.success_percent, kRuns);
+    rows.push_back({row.station, "near", paperName(row.method), std::int64_t{kRuns},
+                    std::int64_t{kRuns}, leastCell(paperShare(row.completed_percent, kRuns)),
+                    leastCell(paperShare(row.success_percent, kRuns)),
+                    is_seed ? kNoShare : mostCell(wrong), std::nullopt, kNoShare,
                     statisticsCell(row.normal_mm, any), statisticsCell(row.lateral_mm, any),
                     statisticsCell(row.rotation_mrad, any), kNoParts});
   }
   return rows;
+}
+
+std::vector<TableCell> errorRow(const MethodFigures& row) {
+  const bool is_seed = row.method == kSeed;
+  const bool judged = !is_seed && row.success.runs > 0;
+  std::vector<TableCell> cells = {
+      row.station,
+      rangeText(row.far),
+      row.method,
+      row.images,
+      row.runs,
+      leastCell(row.completed),
+      leastCell(row.success),
+      judged ? mostCell(row.false_positives) : kNoShare,
+      judged ? TableCell(row.gross_false_positives) : TableCell(std::nullopt),
+      is_seed || row.iterations.count == 0 ? kNoShare
+                                           : Parts{row.iterations.mean, row.iterations.maximum}};
+  for (const Statistics& figures : row.error) cells.emplace_back(statisticsCell(figures));
+  return cells;
+}
+
+/// A paper's row for each method of a set of real images.
+void addPaperSuccess(const PaperSuccess& set, Table& table) {
+  for (std::size_t i = 0; i < kPaperMethods.size(); ++i) {
+    table.rows.push_back({set.set, "", paperName(kPaperMethods[i]), std::int64_t{set.runs},
+                          leastCell(paperShare(set.completed_percent[i], set.runs)),
+                          leastCell(paperShare(set.success_percent[i], set.runs)), std::nullopt,
+                          std::nullopt, std::nullopt});
+    for (std::size_t figure = 0; figure < 3; ++figure)
+      table.rows.back().emplace_back(
+          set.within_percent ? std::optional((*set.within_percent)[i][figure]) : std::nullopt);
+    table.rows.back().emplace_back(std::nullopt);  // the projection
+  }
 }
 
 }  // namespace
@@ -251,16 +194,68 @@ const std::array<ErrorColumn, 4> kErrorColumns = {{
     {"projection px", 2, [](const PoseError& e) { return e.projection_px; }},
 }};
 
+std::vector<std::optional<double>> leastCell(const CountedShare& share) {
+  return {share.percent(), share.leastPercent()};
+}
+
+std::vector<std::optional<double>> mostCell(const CountedShare& share) {
+  return {share.percent(), share.mostPercent()};
+}
+
+std::optional<double> CountedShare::percent() const { return percentOf(count, runs); }
+
+std::optional<double> CountedShare::leastPercent() const {
+  if (runs == 0) return std::nullopt;
+  return 100.0 * lowerBound(count, runs);
+}
+
+std::optional<double> CountedShare::mostPercent() const {
+  if (runs == 0) return std::nullopt;
+  return 100.0 * upperBound(count, runs);
+}
+
+const char* rangeText(bool far) { return far ? "far" : "near"; }
+
+std::vector<RunGroup> runGroups(std::span<const RunResult> runs) {
+  std::map<GroupKey, std::vector<const RunResult*>> groups;
+  for (const RunResult& run : runs)
+    if (!run.inputFailed()) groups[{run.station, run.hasTag(kFarTag), run.method}].push_back(&run);
+  std::vector<RunGroup> listed;
+  for (auto& [key, members] : groups)
+    listed.push_back({key.station, key.far, key.method, std::move(members)});
+  return listed;
+}
+
+MethodFigures figuresOf(std::span<const RunResult* const> runs) {
+  MethodFigures figures;
+  std::set<std::string> images;
+  std::vector<double> iterations;
+  for (const RunResult* run : runs) {
+    images.insert(run->case_id);
+    count(*run, figures);
+    if (run->completed) iterations.push_back(run->iterations);
+  }
+  figures.images = static_cast<std::int64_t>(images.size());
+  figures.completed.runs = figures.completed_with_limit.runs = figures.runs;
+  figures.completed_with_limit.count = figures.completed.count + figures.at_limit;
+  figures.false_positives.runs = figures.success_with_limit.runs = figures.success.runs;
+  figures.iterations = statistics(iterations);
+  for (std::size_t i = 0; i < kJudgedFigures.size(); ++i)
+    figures.within_percent[i] = percentWithinFigure(runs, kJudgedFigures[i]);
+  for (std::size_t i = 0; i < kErrorColumns.size(); ++i)
+    figures.error[i] = errorStatistics(runs, kErrorColumns[i]);
+  return figures;
+}
+
 std::vector<MethodFigures> methodFigures(std::span<const RunResult> runs) {
-  const std::vector<RunResult> seeds = seedsOf(runs);
-  std::map<GroupKey, Members> groups = membersByGroup(runs);
-  groups.merge(membersByGroup(seeds));
+  std::vector<RunResult> all = seedsOf(runs);
+  all.insert(all.end(), runs.begin(), runs.end());
   std::vector<MethodFigures> rows;
-  for (const auto& [key, members] : groups) {
-    rows.push_back(figuresOf(members));
-    rows.back().station = key.station;
-    rows.back().far = key.far;
-    rows.back().method = key.method;
+  for (const RunGroup& group : runGroups(all)) {
+    rows.push_back(figuresOf(group.runs));
+    rows.back().station = group.station;
+    rows.back().far = group.far;
+    rows.back().method = group.method;
   }
   return rows;
 }
@@ -273,11 +268,12 @@ std::optional<double> percentWithin(std::span<const RunResult* const> runs, doub
     ++judged;
     within += run->completed && meetsRequirement(*run->error, *run->requirement, factor) ? 1 : 0;
   }
-  return percent(within, judged);
+  return percentOf(within, judged);
 }
 
 std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs) {
-  std::map<std::string, Members, decltype(&methodBefore)> groups(&methodBefore);
+  std::map<std::string, std::vector<const RunResult*>, decltype(&methodBefore)> groups(
+      &methodBefore);
   for (const RunResult& run : runs)
     if (!run.inputFailed() && run.status != "bad_seed") groups[run.method].push_back(&run);
   std::vector<MethodTimes> rows;
@@ -305,14 +301,16 @@ Table errorTable(std::span<const RunResult> runs, bool with_paper) {
               {{"station"},
                {"range"},
                {"method"},
+               {"images"},
                {"runs"},
-               {"completed %", {}, 1},
-               {"success %", {}, 1},
-               {"false positives"},
-               {"gross"}},
+               {"completed %", kLeast, 1},
+               {"success %", kLeast, 1},
+               {"false positives %", kMost, 1},
+               {"gross"},
+               {"iterations", {"mean", "max"}, 1}},
               {},
               {"Errors are those of the end effector, or of the camera where a case has none.",
-               "The maximum of the normal error is that of its absolute value."}};
+               "The maximum of the normal error is that of its absolute value.", kBoundsNote}};
   for (const ErrorColumn& column : kErrorColumns)
     table.columns.push_back({column.name, {"mean", "std", "max"}, column.decimals});
   std::string station;
@@ -321,13 +319,7 @@ Table errorTable(std::span<const RunResult> runs, bool with_paper) {
       for (auto& paper_row : paperErrorRows(row.station))
         table.rows.push_back(std::move(paper_row));
     station = row.station;
-    const bool judged = row.method != kSeed && row.success_percent;
-    table.rows.push_back({row.station, rangeText(row.far), row.method, row.runs,
-                          row.completed_percent, row.success_percent,
-                          judged ? TableCell(row.false_positives) : TableCell(std::nullopt),
-                          judged ? TableCell(row.gross_false_positives) : TableCell(std::nullopt)});
-    for (const Statistics& figures : row.error)
-      table.rows.back().emplace_back(statisticsCell(figures));
+    table.rows.push_back(errorRow(row));
   }
   const auto refused = std::count_if(runs.begin(), runs.end(),
                                      [](const RunResult& run) { return run.inputFailed(); });
@@ -356,33 +348,39 @@ Table summaryTable(std::span<const RunResult> runs) {
 }
 
 Table successTable(std::span<const RunResult> runs, bool with_paper) {
-  Table table{
-      "success",
-      "Completed and successful runs, percent",
-      {{"station"}, {"range"}, {"method"}, {"runs"}, {"completed %", {}, 1}, {"success %", {}, 1}},
-      {},
-      {"Within: completed and within what the requirement says of that error alone."}};
+  Table table{"success",
+              "Completed and successful runs, percent",
+              {{"station"},
+               {"range"},
+               {"method"},
+               {"runs"},
+               {"completed %", kLeast, 1},
+               {"success %", kLeast, 1},
+               {"at limit"},
+               {"completed % with limit", {}, 1},
+               {"success % with limit", {}, 1}},
+              {},
+              {"Within: completed and within what the requirement says of that error alone.",
+               "With limit: runs that ended at the limit of iterations count with their last pose.",
+               kBoundsNote}};
   for (const char* name : {"normal", "lateral", "rotation", "projection"})
     table.columns.push_back({std::string("within ") + name + " %", {}, 1});
   for (const MethodFigures& row : methodFigures(runs)) {
     if (row.method == kSeed) continue;
     table.rows.push_back({row.station, rangeText(row.far), row.method, row.runs,
-                          row.completed_percent, row.success_percent});
+                          leastCell(row.completed), leastCell(row.success), row.at_limit,
+                          row.completed_with_limit.percent(), row.success_with_limit.percent()});
     for (const auto& within : row.within_percent) table.rows.back().emplace_back(within);
   }
   if (!with_paper) return table;
-  for (const PaperSuccess& row : kSuccess)
-    for (std::size_t i = 0; i < kSuccessMethods.size(); ++i)
-      table.rows.push_back({row.set, "", paperName(kSuccessMethods[i]), std::int64_t{row.runs},
-                            row.completed_percent[i], row.success_percent[i], std::nullopt,
-                            std::nullopt, std::nullopt, std::nullopt});
+  for (const PaperSuccess& set : kPaperSuccess) addPaperSuccess(set, table);
   table.notes.push_back(std::string("Rows marked (paper) are of other images, cameras and "
                                     "requirements: they cannot be compared with ours. Source: ") +
                         kPaperSource + ".");
   return table;
 }
 
-Table toleranceTable(std::span<const RunResult> runs, bool) {
+Table toleranceTable(std::span<const RunResult> runs) {
   constexpr std::array<double, 6> kFactors = {0.1, 0.25, 0.5, 1.0, 2.0, 3.0};
   Table table{"tolerance",
               "Success, percent, against multiples of the requirement",
@@ -391,15 +389,15 @@ Table toleranceTable(std::span<const RunResult> runs, bool) {
               {}};
   for (const double factor : kFactors)
     table.columns.push_back({fixedText(factor, 2) + " x", {}, 1});
-  for (const auto& [key, members] : membersByGroup(runs)) {
-    table.rows.push_back({key.station, rangeText(key.far), key.method});
+  for (const RunGroup& group : runGroups(runs)) {
+    table.rows.push_back({group.station, rangeText(group.far), group.method});
     for (const double factor : kFactors)
-      table.rows.back().emplace_back(percentWithin(members, factor));
+      table.rows.back().emplace_back(percentWithin(group.runs, factor));
   }
   return table;
 }
 
-Table timeTable(std::span<const RunResult> runs, bool with_paper) {
+Table timeTable(std::span<const RunResult> runs) {
   Table table{"times",
               "Time per run and step, seconds",
               {{"method"}, {"runs"}},
@@ -413,15 +411,6 @@ Table timeTable(std::span<const RunResult> runs, bool with_paper) {
     for (const double seconds : {row.mean.total(), row.median_total, row.maximum_total})
       table.rows.back().emplace_back(seconds);
   }
-  if (!with_paper) return table;
-  for (const PaperTimes& row : kTimes)
-    table.rows.push_back({paperName(row.method), "2", 60.0 * row.initialization_min,
-                          60.0 * row.rendering_min, 60.0 * row.matching_min, 60.0 * row.pose_min,
-                          std::nullopt, 60.0 * row.total_min, std::nullopt, std::nullopt});
-  table.notes.push_back(
-      std::string("Rows marked (paper) are of one core at 200 MHz, a BC and an OS "
-                  "case added up. Source: ") +
-      kPaperSource + ".");
   return table;
 }
 

@@ -14,20 +14,47 @@
 
 namespace boresight::sessions {
 
+/// A count of runs with its percent and the one-sided 95 % bounds of Clopper and Pearson, which
+/// treat runs as independent. Nothing without runs.
+struct CountedShare {
+  std::int64_t count = 0;
+  std::int64_t runs = 0;
+
+  std::optional<double> percent() const;
+  std::optional<double> leastPercent() const;
+  std::optional<double> mostPercent() const;
+};
+
+/// Columns of a share and their cells: percent and lower bound; percent and upper bound.
+inline const std::vector<std::string> kLeast = {"measured", "at least"};
+inline const std::vector<std::string> kMost = {"measured", "at most"};
+std::vector<std::optional<double>> leastCell(const CountedShare& share);
+std::vector<std::optional<double>> mostCell(const CountedShare& share);
+inline constexpr const char* kBoundsNote =
+    "At least, at most: one-sided 95 % bounds (Clopper-Pearson), as if runs were independent; runs "
+    "from several seeds of one image are not.";
+
 /// Figures of one method on the near or the far cases of a station. Runs whose input was refused
 /// are not counted.
 struct MethodFigures {
   std::string station;
   bool far = false;
-  std::string method;  ///< "seed": the errors that the runs began with
+  std::string method;       ///< "seed": the errors that the runs began with
+  std::int64_t images = 0;  ///< different cases; several seeds may start from each
   std::int64_t runs = 0;
-  std::int64_t false_positives = 0;
+  CountedShare completed;
+  CountedShare success;          ///< of runs with truth and requirement
+  CountedShare false_positives;  ///< of the same
   std::int64_t gross_false_positives = 0;
-  std::optional<double> completed_percent;
-  std::optional<double> success_percent;  ///< of runs with truth and requirement
+  /// Runs that ended at the limit of iterations count as completed, with their last pose: the other
+  /// reading of the paper's "converges to a pose at all" (Sec. V-A).
+  std::int64_t at_limit = 0;
+  CountedShare completed_with_limit;
+  CountedShare success_with_limit;
   /// By kJudgedFigures (normal, lateral, rotation, projection): percent of completed runs within
   /// the requirement, of runs whose requirement names the figure.
   std::array<std::optional<double>, 4> within_percent;
+  Statistics iterations;            ///< over completed runs
   std::array<Statistics, 4> error;  ///< over completed runs, by kErrorColumns
 };
 
@@ -57,13 +84,27 @@ struct MethodTimes {
 };
 std::vector<MethodTimes> methodTimes(std::span<const RunResult> runs);
 
+/// Runs of one station, near or far, and method.
+struct RunGroup {
+  std::string station;
+  bool far = false;
+  std::string method;
+  std::vector<const RunResult*> runs;
+};
+
+/// By station, near before far, and method. Runs whose input was refused are left out.
+std::vector<RunGroup> runGroups(std::span<const RunResult> runs);
+MethodFigures figuresOf(std::span<const RunResult* const> runs);
+/// "near", "far".
+const char* rangeText(bool far);
+
 /// "errors": mean / std / max per station and method; "success": completed, success, and within the
 /// requirement axis by axis; "tolerance": success against multiples of the requirement; "times":
 /// mean seconds per step. With the paper's rows where asked for and known.
 Table errorTable(std::span<const RunResult> runs, bool with_paper);
 Table successTable(std::span<const RunResult> runs, bool with_paper);
-Table toleranceTable(std::span<const RunResult> runs, bool with_paper);
-Table timeTable(std::span<const RunResult> runs, bool with_paper);
+Table toleranceTable(std::span<const RunResult> runs);
+Table timeTable(std::span<const RunResult> runs);
 
 /// The error table of the runs, with a row per method over all stations where there are several.
 Table summaryTable(std::span<const RunResult> runs);

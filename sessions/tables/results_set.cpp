@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "sessions/evaluation/pose_error.h"
@@ -47,6 +48,13 @@ std::string shownName(const std::vector<ResultsFacts>& files, const ResultsFacts
     }
   if (!others) return method.method;
   return method.method + " " + (others_of_profile ? file.file.stem().string() : method.profile);
+}
+
+/// The iterations of runs that ended at the limit of iterations: tables judge their last pose.
+void readStepsAtLimit(const std::filesystem::path& file, std::span<RunResult> runs) {
+  for (RunResult& run : runs)
+    if (run.status == localizationStatusText(LocalizationStatus::kIterationLimit))
+      run.steps = readSteps(file, run);
 }
 
 /// Which file holds a run, so that none counts twice.
@@ -152,13 +160,16 @@ ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
       shown[method.method] = shownName(set.files, file, method);
       set.methods[shown[method.method]] = method;
     }
+    const std::size_t first = set.runs.size();
     forEachRun(file.file, [&](const RunResult& run) {
-      if (!filter.takes(run)) return;
-      set.runs.push_back(run);
-      if (const auto name = shown.find(run.method); name != shown.end())
-        set.runs.back().method = name->second;
-      seen.note(file, set.runs.back());
+      if (filter.takes(run)) set.runs.push_back(run);
     });
+    const std::span<RunResult> added = std::span(set.runs).subspan(first);
+    readStepsAtLimit(file.file, added);
+    for (RunResult& run : added) {
+      if (const auto name = shown.find(run.method); name != shown.end()) run.method = name->second;
+      seen.note(file, run);
+    }
   }
   return set;
 }

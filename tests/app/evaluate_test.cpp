@@ -242,14 +242,27 @@ TEST_F(WhsTables, MakesTablesAndFigures) {
   std::size_t figures = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "figures"))
     figures += std::filesystem::file_size(entry.path()) > 2000 ? 1 : 0;
-  EXPECT_EQ(figures, 12u) << "four figures in three formats";
+  EXPECT_EQ(figures, 15u) << "five figures in three formats";
   const ProgramRun csv = runWhs({"tables", file("r.sqlite"), "--table", "errors", "--station", "os",
                                  "--format", "csv", "--out", file("t.csv")},
                                 0);
   EXPECT_EQ(csv.out, "");
   EXPECT_THAT(folder_.read("t.csv"),
-              AllOf(HasSubstr("normal mm mean,normal mm std"),
-                    HasSubstr("os,near,whs,1,100,100,0,"), Not(HasSubstr("bc"))));
+              AllOf(HasSubstr("normal mm mean,normal mm std"), HasSubstr("os,near,whs,1,1,100,"),
+                    HasSubstr("iterations mean,"), Not(HasSubstr("bc"))));
+  EXPECT_THAT(
+      runWhs({"tables", file("r.sqlite"), "--table", "errors", "--demonstrate", "95"}, 0).out,
+      AllOf(HasSubstr("at least"), HasSubstr("Success rate that the runs demonstrate"),
+            HasSubstr("runs missing")));
+  folder_.write("counts.json",
+                R"({"format": "boresight-instructions", "version": 1, "runs": [{"method": "whs",
+                "station": "bc", "case": "bc-1", "initialization": 0, "search": 0, "rendering": 0,
+                "matching": 12e9, "pose": 0, "refinement": 0}]})");
+  EXPECT_THAT(runWhs({"tables", file("r.sqlite"), "--table", "errors", "--paper", "--instructions",
+                      file("counts.json")},
+                     0)
+                  .out,
+              AllOf(HasSubstr("Minutes at 200 MHz"), HasSubstr("1.000"), HasSubstr("21.330")));
   EXPECT_THAT(runWhs({"tables", file("r.sqlite"), "--format", "latex"}).out,
               HasSubstr("\\begin{tabular}"));
 }

@@ -154,6 +154,13 @@ class Plan(unittest.TestCase):
             self.assertLess(abs(at[2] - 0.37), 0.045)
         self.assertEqual(seen, set(canister_sleeves()))
 
+    def test_tags_tell_sleeves_at_the_rim(self):
+        for shot in plan.shots(1, "os", 60):
+            x, y = canister_sleeves()[tuple(shot["target_sleeve"])]
+            expected = "sleeve_rim" if math.hypot(x, y) > 80.0 else "sleeve_inner"
+            self.assertIn(expected, shot["tags"])
+        self.assertFalse(any("sleeve" in t for s in plan.shots(1, "bc", 20) for t in s["tags"]))
+
     def test_sleeves_are_a_pitch_of_33_mm_apart(self):
         places = list(canister_sleeves().values())
         for a in places:

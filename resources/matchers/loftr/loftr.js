@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coarse LoFTR (Sun 2021) as an external matcher: see ../README.md for the protocol.
+// LoFTR (Sun 2021) as an external matcher: see ../README.md for the protocol.
 //
-//   node loftr.js --model MODEL.onnx [--threshold 0.0002] [--threads 1]
+//   node loftr.js --model MODEL.onnx [--size 640x480] [--threshold 0.0002] [--threads 1]
 //
-// The model: inputs img0, img1 (float32 [1, 1, H, W] in 0..1), and an output [1, N, N] of confidences over the N cells of
-// the two images' grids (dual softmax, so that rows and columns sum up to at most 1). Of several such outputs the one
-// whose values all lie in 0..1 is taken.
+// Models have two inputs, the render first: float32 [1, 1, H, W] in 0..1. Their outputs are one of:
+// - matches of the whole model with its fine stage: two float32 [M, 2], key points x, y of the first and of the second
+//   input (px of the input, the centre of the top-left pixel is 0, 0), and a float32 [M] of confidences;
+// - confidences of the coarse stage: float32 [1, N, N] over the N cells of the two inputs' grids (dual softmax, so that
+//   rows and columns sum up to at most 1). Of several such outputs the one whose values all lie in 0..1 is taken.
 'use strict';
 
 function argumentsOf(argv) {
-  const options = {model: '', threshold: 0.0002, threads: 1};
+  const options = {model: '', size: '640x480', threshold: 0.0002, threads: 1};
   for (let i = 2; i < argv.length; i += 2) {
     const name = argv[i].replace(/^--/, '');
     if (!(name in options) || i + 1 >= argv.length) throw new Error(`what is "${argv[i]}"?`);
-    options[name] = name === 'model' ? argv[i + 1] : Number(argv[i + 1]);
+    options[name] = name === 'model' || name === 'size' ? argv[i + 1] : Number(argv[i + 1]);
   }
   if (options.model === '') throw new Error('--model MODEL.onnx is missing');
+  const size = /^([0-9]{2,5})x([0-9]{2,5})$/.exec(options.size);
+  if (size === null) throw new Error('--size is WIDTHxHEIGHT, px, e.g. 1024x1024');
+  [options.width, options.height] = [Number(size[1]), Number(size[2])];
   if (!(options.threshold >= 0) || !(options.threads >= 1)) throw new Error('a number is wrong');
   return options;
 }
@@ -105,9 +110,9 @@ class Matcher {
     matcher.threshold = options.threshold;
     matcher.session = await ort.InferenceSession.create(
       options.model, {intraOpNumThreads: options.threads, interOpNumThreads: 1, logSeverityLevel: 3});
-    // The size is not in the session's metadata; this is what the published models were traced with.
-    matcher.width = 640;
-    matcher.height = 480;
+    // The session's metadata do not have the size.
+    matcher.width = options.width;
+    matcher.height = options.height;
     return matcher;
   }
 
@@ -119,14 +124,36 @@ class Matcher {
       feeds[names[i]] = new this.ort.Tensor('float32', resized(image.gray, image, this.width, this.height), shape);
     });
     const outputs = await this.session.run(feeds);
+    const matches = this.keyPointsOf(outputs) ?? this.cellMatchesOf(outputs);
+    const place = (at, image, axis) => Math.min(image[axis] - 1, Math.max(0, (at + 0.5) * image[axis] / this[axis] - 0.5));
+    return matches.slice(0, most).map(m => [
+      place(m.x0, images[0], 'width'), place(m.y0, images[0], 'height'),
+      place(m.x1, images[1], 'width'), place(m.y1, images[1], 'height'), m.score]);
+  }
+
+  /** Matches of the fine stage, px of the inputs, the best first; null where the model gives none. */
+  keyPointsOf(outputs) {
+    const reals = this.session.outputNames.map(name => outputs[name]).filter(o => o.type === 'float32');
+    const points = reals.filter(o => o.dims.length === 2 && o.dims[1] === 2);
+    const scores = reals.filter(o => o.dims.length === 1);
+    if (points.length !== 2 || scores.length !== 1) return null;
+    const [first, second] = points.map(o => o.data);
+    const matches = [];
+    scores[0].data.forEach((score, i) => {
+      if (score > this.threshold)
+        matches.push({x0: first[2 * i], y0: first[2 * i + 1], x1: second[2 * i], y1: second[2 * i + 1],
+                      score: Math.min(1, score)});
+    });
+    return matches.sort((a, b) => b.score - a.score);
+  }
+
+  /** Matches of the coarse stage's cells, px of the inputs: cell i covers pixels from i times its side on. */
+  cellMatchesOf(outputs) {
     const confidence = this.confidenceOf(outputs);
     const cell = Math.sqrt(this.width * this.height / confidence.cells);
     const columns = Math.round(this.width / cell);
-    const place = (at, image, axis) =>
-      Math.min(image[axis] - 1, Math.max(0, (at * cell + 0.5) * image[axis] / this[axis] - 0.5));
-    return matchesOf(confidence.data, columns, confidence.cells / columns, this.threshold).slice(0, most).map(m => [
-      place(m.x0, images[0], 'width'), place(m.y0, images[0], 'height'),
-      place(m.x1, images[1], 'width'), place(m.y1, images[1], 'height'), m.score]);
+    return matchesOf(confidence.data, columns, confidence.cells / columns, this.threshold)
+      .map(m => ({x0: m.x0 * cell, y0: m.y0 * cell, x1: m.x1 * cell, y1: m.y1 * cell, score: m.score}));
   }
 
   confidenceOf(outputs) {
@@ -135,7 +162,7 @@ class Matcher {
       if (dims.length === 3 && dims[1] === dims[2] && data.every(value => value >= 0 && value <= 1.0001))
         return {data, cells: dims[1]};
     }
-    throw new Error('the model has no output of confidences');
+    throw new Error('the model has neither key points nor confidences of cells among its outputs');
   }
 }
 

@@ -23,3 +23,11 @@ def canister_lattice():
 def canister_sleeves():
     """The lattice without the places that hold no sleeve."""
     return {k: p for k, p in canister_lattice().items() if k not in OS_KEYED | OS_BARE}
+
+
+def is_at_rim(index):
+    """Whether a lattice place has fewer than six neighbours."""
+    i, j = index
+    places = canister_lattice()
+    steps = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, -1), (-1, 1))
+    return not all((i + di, j + dj) in places for di, dj in steps)

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "sessions/tables/flight_table.h"
+#include "sessions/tables/strata_table.h"
 #include "tests/sessions/tables/made_runs.h"
 
 namespace boresight::sessions {
@@ -28,17 +30,19 @@ TEST(MethodFigures, AreThoseOfTheRuns) {
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].method, "seed");
   EXPECT_EQ(rows[0].runs, 4) << "each seed once, though two methods began from the first";
-  EXPECT_DOUBLE_EQ(*rows[0].completed_percent, 100.0);
-  EXPECT_DOUBLE_EQ(*rows[0].success_percent, 0.0);
+  EXPECT_DOUBLE_EQ(*rows[0].completed.percent(), 100.0);
+  EXPECT_DOUBLE_EQ(*rows[0].success.percent(), 0.0);
   EXPECT_DOUBLE_EQ(rows[0].error[1].mean, 4.0);
-  EXPECT_EQ(rows[0].false_positives, 0);
+  EXPECT_EQ(rows[0].false_positives.count, 0);
 
   const MethodFigures& ncc = rows[1];
   EXPECT_EQ(ncc.method, "ncc");
   EXPECT_EQ(ncc.runs, 4);
-  EXPECT_DOUBLE_EQ(*ncc.completed_percent, 75.0);
-  EXPECT_DOUBLE_EQ(*ncc.success_percent, 25.0);
-  EXPECT_EQ(ncc.false_positives, 2);
+  EXPECT_EQ(ncc.images, 4);
+  EXPECT_DOUBLE_EQ(*ncc.completed.percent(), 75.0);
+  EXPECT_DOUBLE_EQ(*ncc.success.percent(), 25.0);
+  EXPECT_EQ(ncc.false_positives.count, 2);
+  EXPECT_DOUBLE_EQ(*ncc.false_positives.percent(), 50.0);
   EXPECT_EQ(ncc.gross_false_positives, 0);
   const Statistics& normal_mm = ncc.error[0];
   EXPECT_EQ(normal_mm.count, 3);
@@ -64,6 +68,37 @@ TEST(MethodFigures, KeepStationsAndRangesApartAndLeaveOutRefusedInputs) {
   for (const MethodFigures& row : methodFigures(runs))
     order += row.station + (row.far ? "-far " : " ") + row.method + std::to_string(row.runs) + ", ";
   EXPECT_EQ(order, "bc seed1, bc whs1, bc-far seed1, bc-far whs1, os seed1, os whs1, ");
+}
+
+TEST(MethodFigures, StateBoundsOfClopperAndPearson) {
+  std::vector<RunResult> runs;
+  for (int i = 0; i < 59; ++i) runs.push_back(madeRun("bc-" + std::to_string(i % 7), "whs"));
+  const MethodFigures figures = methodFigures(runs).back();
+  EXPECT_EQ(figures.images, 7);
+  // 59 runs without a failure demonstrate 95 %: 0.05^(1 / 59) = 0.9505.
+  EXPECT_NEAR(*figures.completed.leastPercent(), 95.05, 0.01);
+  EXPECT_NEAR(*figures.success.leastPercent(), 95.05, 0.01);
+  EXPECT_NEAR(*figures.false_positives.mostPercent(), 4.95, 0.01);
+  EXPECT_DOUBLE_EQ(*figures.completed.mostPercent(), 100.0);
+}
+
+TEST(MethodFigures, CountRunsAtTheLimitOfIterationsBothWays) {
+  std::vector<RunResult> runs(4, madeRun("bc-1", "whs", true, 0.1));
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    runs[i] = madeRun("bc-" + std::to_string(i + 1), "whs", false);
+    runs[i].status = i < 3 ? "iteration_limit" : "pnp_failed";
+    runs[i].steps.resize(2);
+    for (RunStep& step : runs[i].steps) step.error = PoseError{};
+  }
+  runs[0].iterations = 5;
+  runs[2].steps.back().error->lateral_mm = 0.5;  // beyond 0.4 mm
+  const MethodFigures figures = methodFigures(runs).back();
+  EXPECT_DOUBLE_EQ(*figures.completed.percent(), 25.0);
+  EXPECT_DOUBLE_EQ(*figures.success.percent(), 25.0);
+  EXPECT_EQ(figures.at_limit, 2);
+  EXPECT_DOUBLE_EQ(*figures.completed_with_limit.percent(), 75.0);
+  EXPECT_DOUBLE_EQ(*figures.success_with_limit.percent(), 50.0);
+  EXPECT_DOUBLE_EQ(figures.iterations.mean, 5.0) << "of completed runs";
 }
 
 TEST(MethodTimes, AreMeansOverRuns) {
@@ -98,6 +133,19 @@ TEST(ErrorTable, ShowsThePapersRowsWithACautionWhenAsked) {
   EXPECT_EQ(with.find("0.167 / 0.075"), std::string::npos) << "no OS among ours, none of theirs";
 }
 
+TEST(SuccessTable, ShowsThePapersFarRunsAxisByAxis) {
+  const std::string csv = tableText(successTable(sample(), true), TableFormat::kCsv);
+  EXPECT_THAT(csv, HasSubstr("Mars BC far 1.23 m,,loftr-r (paper),3,100,"));
+  EXPECT_THAT(csv, HasSubstr(",66.7,100,0,\r\n"));
+  EXPECT_THAT(csv, HasSubstr(",100,100,0,\r\n"));
+}
+
+TEST(ErrorTable, GivesThePapersSharesTheBoundsOf2000Runs) {
+  const std::string csv = tableText(errorTable(sample(), true), TableFormat::kCsv);
+  // Without failure: 0.05^(1 / 2000) = 0.998503.
+  EXPECT_THAT(csv, testing::ContainsRegex("whs \\(paper\\),2000,2000,100,99\\.850[0-9]*,100,"));
+}
+
 std::string textOf(const Table& table) { return tableText(table, TableFormat::kText); }
 
 TEST(SummaryTable, AddsUpTheStationsOfAMethod) {
@@ -118,7 +166,7 @@ TEST(SummaryTable, CountsGrossFalsePositivesAndRefusedInputs) {
   runs[2].status = "input_error";
   const MethodFigures figures = methodFigures(runs).back();
   EXPECT_EQ(figures.runs, 2);
-  EXPECT_EQ(figures.false_positives, 2);
+  EXPECT_EQ(figures.false_positives.count, 2);
   EXPECT_EQ(figures.gross_false_positives, 1);
   EXPECT_THAT(textOf(summaryTable(runs)), HasSubstr("1 runs could not start"));
 }
@@ -137,7 +185,7 @@ TEST(ToleranceTable, GrowsWithTheTolerance) {
       madeRun("bc-1", "whs", true, 0.03), madeRun("bc-2", "whs", true, 0.3),
       madeRun("bc-3", "whs", true, 0.7), madeRun("bc-4", "whs", false)};
   // 0.4 mm times 0.1, 0.25, 0.5, 1, 2, 3
-  EXPECT_THAT(tableText(toleranceTable(runs, false), TableFormat::kCsv),
+  EXPECT_THAT(tableText(toleranceTable(runs), TableFormat::kCsv),
               HasSubstr("bc,near,whs,25,25,25,50,75,75"));
 }
 
@@ -153,7 +201,8 @@ TEST(FailureList, NamesRunsThatWereNotSuccessful) {
 TEST(Tables, HaveAsManyCellsAsColumns) {
   for (const bool paper : {false, true})
     for (const Table& table : {errorTable(sample(), paper), successTable(sample(), paper),
-                               toleranceTable(sample(), paper), timeTable(sample(), paper)})
+                               toleranceTable(sample()), timeTable(sample()), strataTable(sample()),
+                               demonstrationTable(sample(), 0.9), flightTable({}, paper)})
       for (const auto& row : table.rows) {
         ASSERT_EQ(row.size(), table.columns.size()) << table.name;
         for (std::size_t i = 0; i < row.size(); ++i) {
