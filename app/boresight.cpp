@@ -85,8 +85,7 @@ void Arguments::check() {
   screenshot.mark = QString::fromStdString(mark);
   if (!out.empty() && files.size() > 1)
     throw CLI::ValidationError("--screenshot",
-                               "takes one session (whs new makes one of files), or none for an "
-                               "empty window");
+                               "takes one session (whs new makes one from files), or none for an empty window");
 }
 
 /// Whether the command line asks for something that needs no display, so that it runs anywhere.

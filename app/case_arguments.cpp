@@ -21,18 +21,17 @@ void CaseArguments::addTo(CLI::App& command) {
       ->check(numberIn(0.0, 100.0))
       ->type_name("M");
   addFile(command, "--ignore", ignore,
-          "Mask image of the same size: nonzero pixels are not trusted");
+          "Mask image of the same size: nonzero pixels are ignored");
   command
       .add_option("--bit-depth", bit_depth,
-                  "Bits that the image's samples use, e.g. 12 in a 16-bit file")
+                  "Bit depth of the image's samples, e.g. 12 in a 16-bit file")
       ->check(CLI::Range(1, 16))
       ->type_name("N");
 }
 
 void CaseArguments::addUncertaintyTo(CLI::App& command) {
   addUncertainty(command, uncertainty,
-                 "How far the seed may be off along and about x, y, z of the camera: three "
-                 "lengths in m, three angles in deg (instead of those in the seed's file)");
+                 "Largest error of the seed along and about x, y, z of the camera: three lengths in m, three angles in deg (default: those in the seed's file)");
   command
       .add_option("--pivot", pivot,
                   "Centre of the seed's rotation uncertainty: camera (an arm camera) or station")

@@ -111,30 +111,28 @@ std::vector<std::string> presetNames() {
 void addCheck(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "check",
-      "Checks the poses of a session before somebody vouches for them, also by running from other "
-      "seeds. Exit status 0 when all checks pass, 4 when some fail, 3 where there is no pose "
-      "to check",
+      "Checks the poses of a session, with --convergence-test also from further seeds. Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check",
       checkSession);
   addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
-  command->add_option("--source", arguments->source, "Which pose: of the last run, or of the marks")
+  command->add_option("--source", arguments->source, "Pose to check: that of the last run, or that of the annotations")
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command
       ->add_option("--basin", arguments->basin,
-                   "Run so many further seeds and see where they lead; 0: none, which is quick")
+                   "Number of further seeds of the convergence test; 0: no such test")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str()
       ->type_name("N");
   command
       ->add_option("--preset", arguments->preset,
-                   "Limits and requirement instead of the session's own")
+                   "Preset of limits and requirement that replaces the session's own")
       ->check(CLI::IsMember(presetNames()))
       ->type_name("NAME");
   addFile(*command, "--json", arguments->json, "Write the checks to this file");
   command->add_flag("--sentences", arguments->sentences,
-                    "Say what was found of checks that passed, too");
+                    "Print the findings of passed checks, too");
 }
 
 }  // namespace boresight::app

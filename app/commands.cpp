@@ -28,8 +28,8 @@ sessions::PoseFrames FrameArguments::of(const sessions::CameraFile& camera) cons
 void MethodArguments::addTo(CLI::App& command, bool several) {
   CLI::Option* option =
       command.add_option("--method", methods,
-                         std::string(several ? "How to localize, one after the other; there are: "
-                                             : "How to localize; there are: ") +
+                         std::string(several ? "Methods to run, one after the other: "
+                                             : "Method to run: ") +
                              sessions::methodNames());
   option->type_name("M")->default_str(sessions::kWhs)->check([](const std::string& name) {
     return sessions::isMethod(name)
@@ -39,8 +39,7 @@ void MethodArguments::addTo(CLI::App& command, bool several) {
   if (!several) option->expected(1);
   command
       .add_option("--matcher", matcher,
-                  "Command of the external matcher of the methods external, loftr-r and loftr-s, "
-                  "e.g. \"node resources/matchers/loftr/loftr.js --model M.onnx\"")
+                  "Command of the external matcher (methods external, loftr-r, loftr-s), e.g. \"node resources/matchers/loftr/loftr.js --model M.onnx\"")
       ->type_name("COMMAND");
 }
 
@@ -179,7 +178,7 @@ void addKernels(CLI::App& command, Kernels& kernels) {
               throw CLI::ValidationError("--kernels", "this machine has " + names);
             kernels = found->second;
           },
-          "What to use of the processor; the result is the same")
+          "Instruction set that is used; the result is the same")
       ->group("");
 }
 
@@ -197,14 +196,12 @@ void OptionArguments::addTo(CLI::App& command) {
   command
       .add_option(
           "--profile", profile,
-          "Set of parameters: default (recommended settings), paper (as published), or flight "
-          "(the default's on gray images, within 10,000,000 bytes of memory, image and mesh "
-          "included)")
+          "Set of options: default (recommended settings), paper (as published), or flight (default for gray images, within 10,000,000 bytes including image and mesh)")
       ->check(CLI::IsMember({"default", "paper", "flight"}));
-  addFile(command, "--config", config, "config.json: a profile and the options that differ");
+  addFile(command, "--config", config, "config.json: a profile and options that differ from it");
   command
       .add_option("--set", assignments,
-                  "Option that differs, e.g. pnp.seed=7; `whs options` lists them all")
+                  "Sets an option, e.g. pnp.seed=7; `whs options` lists all")
       ->type_name("NAME=VALUE");
 }
 
@@ -238,7 +235,7 @@ std::size_t OptionArguments::memoryLimit() const {
 void DatasetArguments::addTo(CLI::App& command) {
   const char* group = "Of a BOP folder";
   command
-      .add_option("--split", selection.split, "Its split, e.g. val (else test, or the only one)")
+      .add_option("--split", selection.split, "Split of a BOP folder, e.g. val (default: test, or the only one)")
       ->type_name("NAME")
       ->group(group);
   command.add_option("--scene", selection.scenes, "Only these scenes")
@@ -247,20 +244,19 @@ void DatasetArguments::addTo(CLI::App& command) {
   command.add_option("--obj", selection.objects, "Only these objects")
       ->type_name("N")
       ->group(group);
-  command.add_option("--sensor", selection.sensor, "Which of several: scene_camera_NAME.json")
+  command.add_option("--sensor", selection.sensor, "Sensor of a BOP folder with several: scene_camera_NAME.json")
       ->type_name("NAME")
       ->group(group);
   command
       .add_flag("--every-instance", selection.every_instance,
-                "Also instances that the challenge does not ask for, or that are hardly visible")
+                "Includes instances that the challenge leaves out or that are hardly visible")
       ->group(group);
   addUncertainty(command, uncertainty,
-                 "Seeds are drawn about the truth within this along and about x, y, z of the "
-                 "camera: three lengths in m, three angles in deg (else 0.03 m and 10 deg)")
+                 "Largest error of the drawn seeds along and about x, y, z of the camera: three lengths in m, three angles in deg (default: 0.03 m, 10 deg)")
       ->group(group);
   command
       .add_option("--pivot", pivot,
-                  "What the seed's rotation is uncertain about (else the station)")
+                  "Centre of the seed's rotation uncertainty (default: station)")
       ->check(CLI::IsMember({"camera", "station"}))
       ->group(group);
 }
@@ -306,8 +302,7 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover) {
   sayNotices(document);
   if (document.recovery() && !recover)
     failForEdits(document,
-                 "were never saved; take them with --recover, or open the session in the desktop "
-                 "program");
+                 "were never saved; recover them with --recover or in the desktop program");
   document.acceptRecovery();
   return document;
 }

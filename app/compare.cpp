@@ -54,8 +54,7 @@ class GroundSide {
     const auto& file = one().onboard_record;
     if (!file)
       throw InputError(document_.file(), "case " + one().id,
-                       "no onboard record is attached: name one, or attach it in the desktop "
-                       "program");
+                       "no onboard record is attached; give one, or attach it in the desktop program");
     return sessions::readRecord(file->file);
   }
 
@@ -81,7 +80,7 @@ class GroundSide {
     const sessions::RunRecord* last = document_.session().lastRunOf(one().id);
     if (last == nullptr)
       throw InputError(document_.file(), "case " + one().id,
-                       "it has no run: run it, or run it by the record's options with --rerun");
+                       "it has no run; run it, or use --rerun to run it with the record's options");
     return *last;
   }
 
@@ -93,8 +92,7 @@ class GroundSide {
     if (run.inputs_sha256 != sessions::inputsDigest(one()))
       throw InputError(document_.file(), "run " + run.digest,
                        "the inputs of case " + one().id +
-                           " are no longer its own: run it anew, or by the record's options with "
-                           "--rerun");
+                           " have changed since the run; run it again, or use --rerun to run it with the record's options");
     return sessions::loadRun(run);
   }
 
@@ -132,20 +130,20 @@ int compare(const CompareArguments& arguments) {
 void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
   command
       .add_option("--found-px", limits.found_px,
-                  "Templates found this near each other count as found alike, px at their level")
+                  "Largest distance of two template positions that count as equal, px at their level")
       ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
-  command.add_option("--found-share", limits.found_share, "Least share of these, 0 to 1")
+  command.add_option("--found-share", limits.found_share, "Required share of equal template positions, 0 to 1")
       ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
   command
       .add_option("--inlier-share", limits.inlier_share,
-                  "Least share of the inliers of either that both have, 0 to 1")
+                  "Required share of the inliers of either run that both have, 0 to 1")
       ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
   command
       .add_option("--sigmas", limits.pose_sigmas,
-                  "Most that the final poses may be apart, in sigmas of A's covariance")
+                  "Largest distance of the final poses, in sigmas of A's covariance")
       ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
 }
@@ -155,22 +153,18 @@ void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
 void addCompare(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "compare",
-      "Compares two runs: equal to the bit (exit 0), within limits where the pixels differ or a "
-      "record was cut (5), or different (6), and where they differ first. Each is an onboard "
-      "record (run.whsr), a trace, or a run of a case of a session (with --case)",
+      "Compares two runs and prints their first difference. Exit status: 0 equal to the bit, 5 within the limits for other pixels or a cut record, 6 different. A run is an onboard record (run.whsr), a trace, or a run of a session's case (--case)",
       compare);
   addFile(*command, "A", arguments->one, "Record, trace or session")->required();
   addFile(*command, "B", arguments->other,
-          "The same; without it, A is a session, whose case's onboard record is compared "
-          "with the case's run");
+          "Record, trace or session; without it, the onboard record of A's case is compared with the case's run");
   command->add_option("--case", arguments->case_id, "Case of the session")->type_name("ID");
   auto* run = command->add_option("--run", arguments->digest,
-                                  "Run of the case whose digest begins like this; without it the "
-                                  "last one");
+                                  "First digits of the digest of the case's run (default: the last run)");
   run->type_name("DIGEST");
   command
       ->add_flag("--rerun", arguments->rerun,
-                 "Run the case now by the options of the onboard record, without storing the run")
+                 "Run the case with the options of the onboard record, without storing the run")
       ->excludes(run);
   addLimits(*command, arguments->limits);
 }

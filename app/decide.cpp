@@ -83,40 +83,38 @@ int decide(const DecideArguments& arguments) {
 void addDecide(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "decide",
-      "Validates, rejects or approves the pose of a case, by name and with a comment. Exit status "
-      "4 when the pose cannot be validated: a check failed that is not passed over",
+      "Validates, rejects or approves the pose of a case, with name and comment. Exit status 4: the pose cannot be validated, as a failed check is not waived",
       decide);
   addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->case_id, "The case")->required()->type_name("ID");
+  command->add_option("--case", arguments->case_id, "Case")->required()->type_name("ID");
   CLI::Option_group* what = command->add_option_group("What");
-  what->add_flag("--validate", arguments->validate, "Vouch for its pose");
-  what->add_flag("--reject", arguments->reject, "Refuse its result");
+  what->add_flag("--validate", arguments->validate, "Validate the pose");
+  what->add_flag("--reject", arguments->reject, "Reject the result");
   what->add_flag("--approve", arguments->approve,
-                 "Approve, as a second person, what was validated");
-  what->add_flag("--reopen", arguments->reopen, "Take the last decision back");
+                 "Approve a validation as the second person");
+  what->add_flag("--reopen", arguments->reopen, "Withdraw the last decision");
   what->require_option(1);
-  command->add_option("--by", arguments->by, "Who decides")->required()->type_name("NAME");
+  command->add_option("--by", arguments->by, "Name of the person who decides")->required()->type_name("NAME");
   command->add_option("--comment", arguments->comment, "Reason of the decision")
       ->required()
       ->type_name("TEXT");
   command
       ->add_option("--pass-over", arguments->overrides,
-                   "A failed check that does not stand in the way, and why; may be repeated. `whs "
-                   "check --json` names the checks")
+                   "Waives a failed check for this reason; may be repeated. `whs check --json` lists the names of the checks")
       ->type_name("CHECK=REASON");
   command
       ->add_option("--source", arguments->source,
-                   "Which pose is validated: of the last run, or of the marks")
+                   "Pose to decide on: that of the last run, or that of the annotations")
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command
       ->add_option("--basin", arguments->basin,
-                   "To validate, run so many further seeds and see where they lead; 0: none")
+                   "Number of further seeds of the convergence test before a validation; 0: no such test")
       ->check(CLI::Range(0, 1000))
       ->type_name("N")
       ->capture_default_str();
   command->add_flag("--recover", arguments->recover,
-                    "Take edits that a killed program left in the session's journal");
+                    "Recover edits that a killed program left in the session's journal");
 }
 
 }  // namespace boresight::app

@@ -125,7 +125,7 @@ void describeMarks(const sessions::Marks& marks) {
     return std::count_if(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.used(); });
   };
   line(std::to_string(marks.points.size()) + " points, " + std::to_string(used(marks.points)) +
-       " of them whole and on; " + std::to_string(marks.lines.size()) + " lines, " +
+       " of them complete and enabled; " + std::to_string(marks.lines.size()) + " lines, " +
        std::to_string(used(marks.lines)));
   if (used(marks.points) < 4) flag("without a seed a pose needs at least 4 points");
 }
@@ -142,7 +142,7 @@ std::string rerunText(const sessions::RunRecord& run) {
   if (run.rerun->changes.empty()) return ", with options of its own";
   const int from_iteration = run.rerun->changes.back().iteration + 1;
   return ", with other options from its iteration " + std::to_string(from_iteration) + " on" +
-         (run.rerun->from.empty() ? "" : ", going on from run " + run.rerun->from);
+         (run.rerun->from.empty() ? "" : ", continued from run " + run.rerun->from);
 }
 
 /// Of a session's cases: the files that a case shares with the one before are not read again.
@@ -189,7 +189,7 @@ void describeSession(const path& file) {
   for (const std::string& text : document.notices()) flag(text);
   if (document.recovery())
     flag(std::to_string(document.recovery()->edits.size()) +
-         " edits are in its journal and not in the file, the last of " + document.recovery()->time);
+         " unsaved edits are in its journal, the last of " + document.recovery()->time);
   CaseSources sources{session, file};
   for (const sessions::RunRecord& run : session.runs) sources.runs.emplace(run.case_id, &run);
   const std::size_t described = std::min(session.cases.size(), kDescribedCases);
@@ -323,8 +323,8 @@ void describeMesh(const path& file, const std::string& unit) {
          vectorText(info.maximum_m, 4) + " m");
   } else {
     line("extent " + vectorText(extent, 4) +
-         " in the file's unit, which it does not state: with m " + fixedText(extent.norm(), 3) +
-         " m across, with mm " + fixedText(extent.norm() * 1e-3, 6) + " m");
+         " in the file's unit, which is not stated: in m " + fixedText(extent.norm(), 3) +
+         " m across, in mm " + fixedText(extent.norm() * 1e-3, 6) + " m");
     if (extent.norm() > 20.0) flag("over 20 m across if in m: probably in mm");
   }
   for (const std::string& text : info.notes()) flag(text);
@@ -433,12 +433,12 @@ int describeAll(const InfoArguments& arguments) {
 void addInfo(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "info",
-      "Says what files are: sizes, units, camera model, field of view, red flags", describeAll);
+      "Describes files: size, unit, camera model, field of view, warnings", describeAll);
   addFile(*command, "files", arguments->files,
           "Images, cameras, meshes, poses (validated ones, too), transforms, datasets, sessions, "
           "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")
       ->required();
-  addMeshUnit(*command, arguments->mesh_unit, "Unit of meshes that state none");
+  addMeshUnit(*command, arguments->mesh_unit, "Unit of meshes without one");
   arguments->choice.addTo(*command);
 }
 

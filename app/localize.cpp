@@ -101,8 +101,7 @@ void printResult(const sessions::LocalizationTrace& trace, const sessions::Sessi
               << fixedText(trace.seconds.total(), 2) << " s\n"
               << sessions::acceptanceText(trace) << "\n\n"
               << sessions::poseText(trace.camera_from_station, trace.covariance)
-              << "(by the picture alone: errors of the mesh's scale and of the calibration are not "
-                 "in it)\n";
+              << "(from the image only; errors of the mesh's scale and of the calibration are not included)\n";
     printNamedPoses(one, trace.camera_from_station);
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)
@@ -136,13 +135,13 @@ constexpr std::size_t kRecordRoomBytes = 64000;
 
 void writeRecord(const std::string& file, const RecordWriter& record) {
   if (!record.complete())
-    note("the onboard record has no room for some of the run; it says what is missing");
+    note("the onboard record is too small for the whole run; it lists the missing parts");
   sessions::writeFileAtomically(file, record.bytes());
 }
 
 int localizeImage(const LocalizeArguments& arguments) {
   if (!arguments.record.empty() && arguments.method.needsSetup())
-    throw CLI::ValidationError("--record", "the onboard record is of runs with --method whs alone");
+    throw CLI::ValidationError("--record", "onboard records exist only for --method whs");
   const ReadCase input = readCase(arguments);
   const sessions::LoadedCase& loaded = *input.loaded;
   const LocalizerOptions options = arguments.optionsOf(loaded.source);

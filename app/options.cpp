@@ -79,7 +79,7 @@ void printList(const std::vector<OptionDescription>& options) {
 
 int printOptions(const std::string& profile) {
   printList(sessions::listOptions(profileOptions(profile)));
-  std::cout << "\nOf the methods beside whs (" << sessions::methodNames() << "):\n";
+  std::cout << "\nOptions of the other methods (" << sessions::methodNames() << "):\n";
   printList(sessions::listOptions(methodProfile(profile)));
   return kDone;
 }
@@ -98,15 +98,12 @@ std::string optionsPage() {
                   {"paper", sessions::listOptions(profileOptions("paper"))}},
                  "###");
   text +=
-      "\n## Options of the methods beside WHS\n\nFor `--method`; see "
-      "[Methods beside WHS](methods.md).\n";
+      "\n## Options of the other methods\n\nFor `--method`; see [Other methods](methods.md).\n";
   text += tables({{"default", sessions::listOptions(methodProfile("default"))},
                   {"paper", sessions::listOptions(methodProfile("paper"))}},
                  "###");
   text +=
-      "\n## Limits of the checks\n\nBy what poses are judged: *Limits* under *Review*, or `whs "
-      "check "
-      "--preset`. What each check asks: [What each check means](checks.md).\n";
+      "\n## Limits of the checks\n\nSet by *Limits* under *Review*, or by `whs check --preset`; see [What each check means](checks.md).\n";
   std::vector<Column> presets;
   for (const sessions::CheckPreset& preset : sessions::checkPresets())
     presets.push_back({preset.name, sessions::listOptions(preset.limits)});
@@ -128,7 +125,7 @@ std::string commandsPage(const CLI::App& app) {
 void addOptions(CLI::App& app, int& exit_code) {
   const auto [command, profile] = addCommand(
       app, exit_code, "options",
-      "Lists every parameter of a run: value in a profile, range, meaning", printOptions);
+      "Lists every option of a run: value in a profile, range, meaning", printOptions);
   *profile = "default";
   command->add_option("--profile", *profile, "default or paper")
       ->check(CLI::IsMember({"default", "paper"}))
@@ -140,7 +137,7 @@ void addDocuments(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("documents", "Writes pages of the manual");
   command->group("");
   auto folder = std::make_shared<std::string>();
-  command->add_option("folder", *folder, "Where to")->required()->type_name("DIR");
+  command->add_option("folder", *folder, "Folder of the pages")->required()->type_name("DIR");
   command->callback([folder, &app, &exit_code] {
     exit_code = writePages(*folder, {{"options.md", optionsPage()}, {"whs.md", commandsPage(app)}});
   });

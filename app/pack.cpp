@@ -28,12 +28,10 @@ int writePack(const PackArguments& arguments) {
 void addPack(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "pack",
-      "Makes one archive of a session, its inputs and its runs, which opens elsewhere. Lists each "
-      "file first; a file that is not what the session says it is, or lies outside the folders of "
-      "session and inputs, is refused",
+      "Packs a session, its inputs and its runs into one archive for another machine. Prints each file first. Refuses a file whose hash differs from the session's, or that lies outside the folders of session and inputs",
       writePack);
   addFile(*command, "session", arguments->session, "Session file")->required();
-  addFile(*command, "--out", arguments->out, "The zip archive that is made")->required();
+  addFile(*command, "--out", arguments->out, "Zip archive to create")->required();
 }
 
 }  // namespace boresight::app

@@ -19,7 +19,7 @@ int report(const ReportArguments& arguments) {
   const sessions::Session& session = document.session();
   std::string id = arguments.case_id;
   if (id.empty() && session.cases.size() == 1) id = session.cases.front()->id;
-  if (id.empty()) throw CLI::ValidationError("--case", "the session has several: name one");
+  if (id.empty()) throw CLI::ValidationError("--case", "the session has several cases; give one");
   (void)requireCase(document, id);
   const sessions::PoseReport made = sessions::poseReport(session, id);
   sessions::writePoseReport(arguments.out, made);
@@ -32,11 +32,10 @@ int report(const ReportArguments& arguments) {
 void addReport(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "report",
-      "Writes a report of a case's pose as PDF: overlay, pose, inputs, decision, checks, residuals "
-      "and the run's course, on two pages",
+      "Writes a two-page PDF report of a case's pose: overlay, pose, inputs, decision, checks, residuals, iterations",
       report);
   addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->case_id, "The case; needed where there are several")
+  command->add_option("--case", arguments->case_id, "Case; required if the session has several")
       ->type_name("ID");
   addFile(*command, "--out", arguments->out, "PDF file")->required();
 }

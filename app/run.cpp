@@ -116,17 +116,15 @@ void addRun(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--again", arguments->again,
-          "Instead: run a recorded run once more, with the options that it had and took up "
-          "on its way, and compare; the beginning of its digest")
+          "Repeat the recorded run whose digest begins with these digits, with its options, and compare the digests")
       ->type_name("DIGEST")
       ->excludes("--case");
   command
       ->add_flag("--views", arguments->views,
-                 "Each case together with the other views of its rig, as one pose; the case of a "
-                 "rig that comes first leads: seed and uncertainty are its")
+                 "Run each case together with the other views of its rig as one pose; the first case of a rig gives seed and uncertainty")
       ->excludes("--again");
   command->add_flag("--recover", arguments->recover,
-                    "Take edits that a killed program left in the session's journal");
+                    "Recover edits that a killed program left in the session's journal");
 }
 
 }  // namespace boresight::app

@@ -99,17 +99,15 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
       command.add_option("--points", arguments.points, "points.json or points.csv");
   CLI::Option* camera = command.add_option("--camera", arguments.camera, kCameraHelp);
   CLI::Option* rig = command.add_option("--rig", arguments.rig,
-                                        "rig.json: cameras that moved as one, with their points; "
-                                        "the pose is the rig's");
+                                        "rig.json: rigidly joined cameras with their points; the pose is that of the rig");
   CLI::Option* session = command.add_option(
       "--session", arguments.session,
-      "Session whose case is solved, as the desktop program does: together with the marks of its "
-      "rig's other cases, from its working pose or seed");
-  CLI::Option* one = command.add_option("--case", arguments.case_id, "The case");
+      "Session with the case; solved as in the desktop program: with the annotations of its rig's other cases, from its working pose or seed");
+  CLI::Option* one = command.add_option("--case", arguments.case_id, "Case");
   CLI::Option* alone =
-      command.add_flag("--alone", arguments.alone, "Without the other cases of its rig");
+      command.add_flag("--alone", arguments.alone, "Leave out the other cases of its rig");
   CLI::Option* seed = command.add_option("--seed", arguments.seed,
-                                         "pose.json to start from, where no image has four points");
+                                         "pose.json to start from, needed if no image has four points");
   for (CLI::Option* file : {points, camera, rig, session, seed}) file->type_name("FILE");
   one->type_name("ID");
   arguments.frames.addTo(command);
@@ -127,13 +125,12 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
 void addSolve(CLI::App& app, int& exit_code) {
   const auto [command, arguments] =
       addCommand(app, exit_code, "solve",
-                 "Finds the pose from points and lines annotated in the image", solve);
+                 "Solves for the pose from points and lines annotated in the image", solve);
   addSources(*command, *arguments);
-  command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
+  command->add_flag("--robust", arguments->robust, "Give annotations far from their projection less weight");
   addFile(*command, "--out", arguments->out, "Writes the pose as pose.json");
   addFile(*command, "--json", arguments->json,
-          "Writes everything that came out: poses, covariances, residuals, what each mark "
-          "moves, warnings (sessions/annotation/solution_file.h)");
+          "Writes the solution: poses, covariances, residuals, influence of each annotation, warnings (sessions/annotation/solution_file.h)");
 }
 
 }  // namespace boresight::app

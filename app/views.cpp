@@ -87,7 +87,7 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
 }
 
 std::string errorText(const sessions::PoseError& error, const sessions::Case& one) {
-  return std::string("; off the truth at the ") +
+  return std::string("; error at the ") +
          sessions::judgedPlace(one.camera_from_end_effector) + ": normal " +
          fixedText(error.normal_mm, 3) + " mm, lateral " + fixedText(error.lateral_mm, 3) +
          " mm, rotation " + fixedText(error.rotation_mrad, 3) + " mrad";
@@ -105,7 +105,7 @@ void printRig(const RigRun& run) {
     print("  " + run.cases[v]->id + " (" + run.cases[v]->camera +
           "): " + localizationStatusText(view.status) + ", " + std::to_string(view.inliers) +
           " of " + std::to_string(view.correspondences) + " matches agree, " +
-          std::to_string(view.edges_used) + " edge places, edge support " +
+          std::to_string(view.edges_used) + " edge points, edge support " +
           fixedText(100.0 * view.support.share(), 1) + " %" +
           (error ? errorText(*error, *run.cases[v]) : ""));
   }
@@ -168,12 +168,11 @@ int localizeRigs(const ViewsArguments& arguments) {
 void addViews(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "views",
-      "Finds one pose from several images: the cases of a dataset that share a rig, i.e. cameras "
-      "of a rigid rig, or one camera at known places of its arm",
+      "Solves for one pose from several images: cases of a dataset that share a rig (joined cameras, or one camera on an arm)",
       localizeRigs);
-  addFile(*command, "--dataset", arguments->dataset, "dataset.json whose cases name rigs")
+  addFile(*command, "--dataset", arguments->dataset, "dataset.json with cases that have rigs")
       ->required();
-  command->add_option("--rig", arguments->rigs, "Which of its rigs; without it all")
+  command->add_option("--rig", arguments->rigs, "Rig to localize; may be repeated (default: all)")
       ->type_name("ID");
   arguments->options.addTo(*command);
   addThreads(*command, arguments->threads);

@@ -68,7 +68,7 @@ AnnotationRounds keepingMarks(AnnotationRounds rounds, const Marks& marks,
                   [](const LinePair& line) { return line.line.has_value(); });
   const bool kept = std::any_of(rounds.begin(), rounds.end(),
                                 [&](const AnnotationRound& round) { return round.marks == marks; });
-  if (on_image && !kept) rounds.push_back({"marks at work", time, marks});
+  if (on_image && !kept) rounds.push_back({"current annotations", time, marks});
   return rounds;
 }
 

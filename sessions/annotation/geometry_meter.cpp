@@ -60,15 +60,15 @@ void warnOfCounts(const Counts& counts, bool guessed, std::vector<GeometryWarnin
   const int missing = (kUnknowns - counts.measurements + 1) / 2;
   if (missing > 0) {
     warnings.push_back({GeometryWeakness::kTooFew, true,
-                        "too few marks: a pose needs " + std::to_string(missing) +
+                        "too few annotations: add " + std::to_string(missing) +
                             (missing == 1 ? " more pair" : " more pairs")});
   } else if (!guessed && counts.most_points < kFewestPoints) {
     warnings.push_back({GeometryWeakness::kTooFew, true,
-                        "too few points: without a first guess of the pose one image needs " +
+                        "too few points: without an initial pose one image needs at least " +
                             std::to_string(kFewestPoints)});
   } else if (counts.measurements == kUnknowns) {
     warnings.push_back(
-        {GeometryWeakness::kFew, false, "nothing is left over to check the pose: add a pair"});
+        {GeometryWeakness::kFew, false, "no redundancy: add an annotation to check the pose"});
   }
 }
 
@@ -86,8 +86,7 @@ void warnOfDepth(std::span<const MarkedView> views, const Pose& rig_from_station
   }
   if (farthest_m - nearest_m > kFewestOfDepth * 0.5 * (farthest_m + nearest_m)) return;
   warnings.push_back({GeometryWeakness::kOneDepth, false,
-                      "all marks are equally far from the camera, which leaves its tilt open: add "
-                      "one that is nearer or farther"});
+                      "all annotations have the same depth, so that the tilt is weak: add one nearer or farther"});
 }
 
 }  // namespace
@@ -120,12 +119,12 @@ std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views,
   const MarkedSpread spread = markedSpread(views);
   if (spread.collinear()) {
     warnings.push_back(
-        {GeometryWeakness::kCollinear, true, "all marks lie on one line: add one beside it"});
+        {GeometryWeakness::kCollinear, true, "all annotations lie on one line: add one off the line"});
     return warnings;
   }
   if (spread.coplanar()) {
     warnings.push_back({GeometryWeakness::kCoplanar, false,
-                        "all marks lie in one plane: two poses may explain them; add one off it"});
+                        "all annotations lie in one plane: two poses may fit; add one off the plane"});
   }
   if (guess == nullptr) return warnings;
   const std::vector<Eigen::Vector3d> places = markedPlaces(views);
@@ -139,14 +138,14 @@ std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views,
   }
   if (!covered) {
     warnings.push_back({GeometryWeakness::kClustered, false,
-                        "the marks cover little of the station: add some far from the others"});
+                        "the annotations cover little of the station: add some far from the others"});
   }
   return warnings;
 }
 
 GeometryWarning imprecisionWarning(const std::string& excess) {
   return {GeometryWeakness::kImprecise, false,
-          "one sigma is " + excess + ": mark more exactly, and far from each other"};
+          "one sigma is " + excess + "; place annotations more precisely and farther apart"};
 }
 
 }  // namespace boresight::sessions

@@ -68,7 +68,7 @@ class CsvReader {
       more = at_ < text_.size() && text_[at_] == ',';
     }
     if (at_ < text_.size() && text_[at_] == '\r') ++at_;
-    if (at_ < text_.size() && text_[at_] != '\n') fail(line_, "text after a closing quote");
+    if (at_ < text_.size() && text_[at_] != '\n') fail(line_, "text follows a closing quote");
     ++at_;
     ++line_;
     return true;
@@ -88,7 +88,7 @@ class CsvReader {
     const int begun = line_;
     std::string field;
     for (++at_;; ++at_) {
-      if (at_ >= text_.size()) fail(begun, "a quote is not closed");
+      if (at_ >= text_.size()) fail(begun, "closing quote is missing");
       if (text_[at_] == '\n') ++line_;
       if (text_[at_] == '"' && !text_.substr(++at_).starts_with('"')) return field;
       field += text_[at_];
@@ -164,7 +164,7 @@ PointPair readPoint(const RowReader& row) {
   point.point_in_station_m = row.vector<3>(kFirstPlace);
   for (const std::size_t column :
        {kFirstPixel + 2, kFirstPixel + 3, kFirstPlace + 3, kFirstPlace + 4, kFirstPlace + 5})
-    if (!row.text(column).empty()) row.fail(column, "a point has one place only");
+    if (!row.text(column).empty()) row.fail(column, "a point has only one pixel");
   return point;
 }
 
@@ -174,12 +174,12 @@ LinePair readLine(const RowReader& row) {
   const auto start = row.vector<2>(kFirstPixel);
   const auto end = row.vector<2>(kFirstPixel + 2);
   if (start.has_value() != end.has_value() || (start && *start == *end))
-    row.fail(kFirstPixel, "a line needs two places in the image, or none");
+    row.fail(kFirstPixel, "a line needs two pixels, or none");
   if (start) line.line = ImageLine{*start, *end};
   const auto from = row.vector<3>(kFirstPlace);
   const auto to = row.vector<3>(kFirstPlace + 3);
   if (from.has_value() != to.has_value() || (from && *from == *to))
-    row.fail(kFirstPlace, "an edge needs two places of the station, or none");
+    row.fail(kFirstPlace, "an edge needs two points of the station, or none");
   if (from) line.edge = ModelEdge{*from, *to};
   return line;
 }
@@ -216,7 +216,7 @@ Marks parseMarksCsv(const std::filesystem::path& file, std::string_view text) {
   Record record;
   if (!reader.next(record) ||
       record.fields != std::vector<std::string>(kColumns.begin(), kColumns.end()))
-    throw InputError(file, "line 1", "is not the header of a table of marks (kind,id,x1_px,...)");
+    throw InputError(file, "line 1", "is not the header of an annotation table (kind,id,x1_px,...)");
   Marks marks;
   std::set<std::string> ids;
   while (reader.next(record)) {

@@ -36,7 +36,7 @@ constexpr auto endsOf(End end) {
                  const auto ends = json.elements(2);
                  const Segment segment{end.read(ends[0]), end.read(ends[1])};
                  const auto& [start, stop] = segment;
-                 if (start == stop) json.fail("both ends are the same place");
+                 if (start == stop) json.fail("both ends coincide");
                  return segment;
                }};
 }

@@ -98,7 +98,7 @@ TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solu
 std::string summaryLine(const MarksSolution& solution) {
   std::string text = std::to_string(solution.marks.size()) + " marks, rms " +
                      fixedText(solution.rms_px, 3) + " px, ";
-  if (solution.degrees_of_freedom == 0) return text + "none left over to check the pose";
+  if (solution.degrees_of_freedom == 0) return text + "no redundancy to check the pose";
   return text + "noise " + fixedText(solution.noise_factor, 2) + " times the stated sigma (" +
          std::to_string(solution.degrees_of_freedom) + " degrees of freedom)";
 }
@@ -142,13 +142,12 @@ std::string solutionText(std::span<const MarkedView> views, const MarksSolution&
                          std::span<const GeometryWarning> warnings) {
   std::string text = markTable(views, solution, left_out).text();
   text +=
-      "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out;\n"
-      "without: how far the middle of the marked places moves, and the pose turns)\n\n";
+      "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: outlier;\nwithout: change of the annotations' centre, and of the rotation, without this annotation)\n\n";
   text += summaryLine(solution) + "\n";
   for (const GeometryWarning& warning : warnings) text += plainLine("weak: " + warning.text);
   text += "\n" + posesText(views, solution);
   if (!solution.ambiguous) return text;
-  text += "\nanother pose explains these marks with rms " +
+  text += "\na second pose fits these annotations with rms " +
           fixedText(solution.ambiguous->rms_px, 3) + " px:\n";
   const Pose ambiguous = views.size() == 1
                              ? views[0].camera_from_rig * solution.ambiguous->rig_from_station

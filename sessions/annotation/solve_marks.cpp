@@ -303,8 +303,7 @@ MarksResult solveMarks(std::span<const MarkedView> views, const SolveMarksOption
   const std::optional<Fit> fit = bestFit(views, marks, options);
   if (!fit)
     return {{},
-            "no pose agrees with the marks: look for mixed-up pairs, or add a pair far from the "
-            "others"};
+            "no pose fits the annotations: check for swapped pairs, or add one far from the others"};
   return {describe(views, marks, *fit, options.robust), ""};
 }
 

@@ -84,11 +84,11 @@ DatasetFacts datasetFacts(const Dataset& dataset) {
 
 std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given) {
   if (held.dataset_sha256 != given.dataset_sha256)
-    return "its runs are of another dataset: " + held.dataset + " (SHA-256 " +
+    return "its runs belong to another dataset: " + held.dataset + " (SHA-256 " +
            held.dataset_sha256.substr(0, 12) + "), not " + given.dataset + " (" +
            given.dataset_sha256.substr(0, 12) + ")";
   if (held.version != given.version)
-    return "its runs were made by version " + heldNotGiven(held.version, given.version);
+    return "its runs are from version " + heldNotGiven(held.version, given.version);
   return std::nullopt;
 }
 
@@ -106,7 +106,7 @@ std::optional<std::string> contradiction(const MethodFacts& held, const MethodFa
   if (held.mirror != given.mirror)
     return runs + "a mirrored mesh: " + heldNotGiven(held.mirror, given.mirror);
   if (held.note != given.note)
-    return runs + "been made with " + heldNotGiven(held.note, given.note);
+    return runs + "been run with " + heldNotGiven(held.note, given.note);
   return std::nullopt;
 }
 

@@ -254,7 +254,7 @@ Dataset Reader::read() {
     if (!scenes.contains(scene)) throw InputError(split, "", "has no scene " + bopNumber(scene));
   for (const auto& [id, folder] : scenes)
     if (wants(selection_.scenes, id)) readScene(id, folder);
-  if (dataset_.cases.empty()) throw InputError(split, "", "nothing in it is chosen");
+  if (dataset_.cases.empty()) throw InputError(split, "", "the selection is empty");
   for (const auto& [id, camera] : cameras_) dataset_.cameras.emplace(id, camera);
   dataset_.sha256 = digestOf(dataset_);
   return std::move(dataset_);
@@ -271,7 +271,7 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
   const fs::path truth = bopSceneFile(folder, "scene_gt", sensor);
   if (!fs::exists(truth))
     throw InputError(truth, "",
-                     "is not there: without true poses there is nothing to draw seeds about");
+                     "is missing: seeds are drawn about true poses");
   const auto objects = readBopScene(bopSceneFile(folder, "scene_camera", sensor), truth);
   const auto visible = readVisibility(bopSceneFile(folder, "scene_gt_info", sensor));
   const auto images = bopImages(folder, sensor);
@@ -370,7 +370,7 @@ Dataset openDataset(const fs::path& path, const BopSelection& selection) {
 
 std::vector<BopResult> bopResults(const Dataset& dataset, std::span<const RunResult> runs) {
   for (const Case& one : dataset.cases)
-    if (!one.bop) throw InputError(dataset.file, "cases." + one.id, "is not of a BOP dataset");
+    if (!one.bop) throw InputError(dataset.file, "cases." + one.id, "is not part of a BOP dataset");
   std::map<std::pair<int, int>, double> seconds;
   std::vector<BopResult> results;
   for (const RunResult& run : runs) {

@@ -104,7 +104,7 @@ void requireWritable(const fs::path& file, const BopResult& result,
     throw OutputError(file, image + " has a pose or score that is not finite");
   const auto [known, is_new] = times.insert({{result.scene_id, result.image_id}, result.seconds});
   if (!is_new && std::abs(known->second - result.seconds) >= kSameTime_s)
-    throw OutputError(file, image + " has lines of different times, which is one for the image");
+    throw OutputError(file, image + " has lines with different times; the time is one per image");
 }
 
 std::string lineOf(const BopResult& result) {

@@ -58,7 +58,7 @@ void requireOwnObjects(SqlDatabase& database) {
   const std::string remedy = "; it was changed by another program: evaluate again into a new file";
   if (extra != found.end())
     database.fail("its " + textOf((*extra)[0]) + " \"" + textOf((*extra)[1]) +
-                  "\" is not one that whs evaluate makes" + remedy);
+                  "\" is not from whs evaluate" + remedy);
   if (lost != wanted.end())
     database.fail("it lacks the " + textOf((*lost)[0]) + " \"" + textOf((*lost)[1]) + "\"" +
                   remedy);
@@ -134,7 +134,7 @@ bool isEmptyDatabase(SqlDatabase& database) {
 void requireResultsFile(SqlDatabase& database) {
   if (integerOf(database.value("PRAGMA application_id")) != kResultsApplication) {
     if (!database.columns("run").empty() && !database.columns("fact").empty())
-      database.fail("an older version made it, of another form: evaluate again into a new file");
+      database.fail("it has the format of an older version; evaluate again into a new file");
     database.fail("it is not a results file of whs evaluate");
   }
   const std::int64_t version = integerOf(database.value("PRAGMA user_version"));

@@ -98,9 +98,9 @@ class Merge {
     if (!statement.step()) return;
     throw InputError(file, "run of " + textOf(statement.cell(0)),
                      "seed " + std::to_string(integerOf(statement.cell(1))) + ", method " +
-                         textOf(statement.cell(2)) + " ended otherwise in another of the files (" +
+                         textOf(statement.cell(2)) + " has another result in another file (" +
                          textOf(statement.cell(3)) + ", here " + textOf(statement.cell(4)) +
-                         "): only equal runs can be merged");
+                         "); only equal runs can be merged");
   }
 
   /// Runs whose input was refused, where the other file has the run done.

@@ -33,7 +33,7 @@ const Marks& requireMarks(const Session& session, const std::string& case_id) {
   (void)knownCase(session, case_id);
   const auto found = session.annotations.find(case_id);
   if (found == session.annotations.end())
-    throw InputError("session", "annotations", "case '" + case_id + "' has no marks");
+    throw InputError("session", "annotations", "case '" + case_id + "' has no annotations");
   return *found->second;
 }
 
@@ -56,8 +56,8 @@ void requireHonestName(const std::filesystem::path& file, const HandedPoses& han
   for (const HandedPose& pose : handed.poses)
     if (!pose.validated)
       throw InputError(file, "case '" + pose.case_id + "' is " + pose.review_status +
-                                 "; the format has no room to say so, so its name has to: put " +
-                                 kNotValidatedName + " into it, or name the validated cases alone");
+                                 "; the format cannot state this, so the file name must: put " +
+                                 kNotValidatedName + " into the name, or export only the validated cases");
 }
 
 ExportReport reportOf(const CasePoses& made) {
@@ -74,8 +74,7 @@ void requireOneStation(const Session& session, const CasePoses& made) {
     if (stations[placeOf(session, pose.case_id)] != first)
       throw InputError("session", "cases",
                        "'" + made.poses[0].case_id + "' and '" + pose.case_id +
-                           "' are of different stations, and a COLMAP model has one world: choose "
-                           "the cases of one station");
+                           "' have different stations, but a COLMAP model has one world; choose cases of one station");
 }
 
 /// Who validated this very pose, or that it is not validated.
@@ -84,7 +83,7 @@ std::string remarkOf(const Session& session, const CasePose& pose) {
   const bool judged = status.holds() && status.decision->pose &&
                       status.decision->pose->camera_from_station == pose.camera_from_station;
   if (status.state == ReviewState::kValidated && !judged)
-    return "NOT VALIDATED: another pose of the case was";
+    return "NOT VALIDATED: the validation is of another pose of the case";
   return reviewStatusText(status);
 }
 
@@ -138,7 +137,7 @@ void setTruth(ImportReport& report, const std::string& case_id, const Pose& trut
   if (known && !(*known == truth) && !replace)
     throw InputError("session", "cases",
                      "case '" + case_id +
-                         "' has another truth already; ask for it to be replaced (whs: --replace)");
+                         "' already has another truth; request its replacement (whs: --replace)");
   if (!known || !(*known == truth)) boresight::sessions::setTruth(changed, truth);
   report.session = withCase(report.session, std::move(changed));
   report.case_ids.push_back(case_id);
@@ -202,7 +201,7 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
   }
   if (made.poses.empty())
     throw InputError("session", "annotations",
-                     made.notes.empty() ? "no case has marks to make a pose of"
+                     made.notes.empty() ? "no case has annotations to solve for a pose"
                                         : "no case has a pose to export: " + made.notes.front());
   return made;
 }
@@ -287,7 +286,7 @@ void exportLandmarks(const Session& session, const std::string& case_id, const f
   landmarks = withMarks(std::move(landmarks), marks);
   if (landmarks.empty())
     throw InputError("session", "annotations",
-                     "case '" + case_id + "' has no point with a place on the station");
+                     "case '" + case_id + "' has no point with station coordinates");
   writeLandmarks(file, landmarks);
 }
 
@@ -300,13 +299,13 @@ ImportReport importMarks(const Session& session, const std::string& case_id, con
       throw InputError(file, point.id,
                        "lies outside of the image of case '" + case_id + "', which has " +
                            std::to_string(one.camera.width) + " x " +
-                           std::to_string(one.camera.height) + " pixels; are these its marks?");
+                           std::to_string(one.camera.height) + " pixels; do the annotations belong to this case?");
   const auto known = session.annotations.find(case_id);
-  if (marks.empty()) throw InputError(file, "has no marks");
+  if (marks.empty()) throw InputError(file, "has no annotations");
   if (known != session.annotations.end() && !(*known->second == marks) && !replace)
     throw InputError("session", "annotations",
                      "case '" + case_id +
-                         "' has other marks already; ask for them to be replaced (whs: --replace)");
+                         "' already has other annotations; request their replacement (whs: --replace)");
   return {withAnnotation(session, case_id, marks), {case_id}, {}};
 }
 

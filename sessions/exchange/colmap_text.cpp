@@ -124,7 +124,7 @@ class Line {
 
   void end() {
     std::string more;
-    if (words_ >> more) fail("has more than it should: '" + more + "'");
+    if (words_ >> more) fail("has extra values: '" + more + "'");
   }
 
  private:
@@ -152,7 +152,7 @@ Camera readCameraLine(Line& line) {
   const ColmapModel* model = nullptr;
   for (const ColmapModel& one : colmapModels())
     if (name == one.name) model = &one;
-  if (model == nullptr) line.fail("no camera here can be a " + name + kWhatToDo);
+  if (model == nullptr) line.fail("no camera model matches " + name + kWhatToDo);
   Camera camera;
   camera.model = model->model;
   camera.width = line.integer("the width", 1, kMaxImageSide_px);
@@ -164,12 +164,12 @@ Camera readCameraLine(Line& line) {
   for (const std::size_t i : model->distortion) {
     const double value = line.number("a coefficient");
     if (i == kNone && value != 0.0)
-      line.fail("no camera here can be a " + name + " with tangential or thin-prism terms" +
+      line.fail("no camera model matches " + name + " with tangential or thin-prism terms" +
                 kWhatToDo);
     if (i != kNone) camera.distortion[i] = value;
   }
   line.end();
-  if (prepareCamera(camera) != Status::kOk) line.fail("the numbers cannot be a camera's");
+  if (prepareCamera(camera) != Status::kOk) line.fail("the parameters are not those of a camera");
   return camera;
 }
 

@@ -115,7 +115,7 @@ CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
   for (const char* key : {"fx", "fy", "cx", "cy", "dist"})
     if (json.has(key))
       json.failMember(key, std::string("a ") + cameraModelName(model) +
-                               " camera is given by its vectors alone (C, A, H, V ...)");
+                               " camera is given by its vectors only (C, A, H, V ...)");
   const CahvModel cahv = readVectors(model, json);
   const auto width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
   const auto height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
@@ -265,8 +265,7 @@ CameraFile readChosenCamera(const std::filesystem::path& camera_file,
   if (!camera_file.empty()) return readCameraFile(camera_file);
   if (!hasImageLabel(image))
     throw InputError(image, "camera",
-                     "none is given, and the image has no label that could tell it: give a "
-                     "camera.json");
+                     "none is given, and the image has no label with a camera model: give a camera.json");
   const ImageLabel label = readImageLabel(image);
   if (!label.camera)
     throw InputError(image, "camera",

@@ -82,7 +82,7 @@ std::vector<PartSource> readParts(const JsonReader& json, Dataset& dataset) {
     if (!only.part.match) json.failMember("match", "the station's only part must be matched");
     return {only};
   }
-  if (json.has("mesh")) json.failMember("mesh", "given together with 'parts'");
+  if (json.has("mesh")) json.failMember("mesh", "cannot be combined with 'parts'");
   std::vector<PartSource> all;
   for (const JsonReader& part : parts->elements()) all.push_back(readPart(part, dataset));
   const auto matched = [](const PartSource& source) { return source.part.match; };

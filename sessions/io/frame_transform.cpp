@@ -23,8 +23,7 @@ std::string noWayText(const FrameName& a, const FrameName& b,
       "the pose is given in " + frameText(b) + ", but the camera model in " + frameText(a);
   if (a.name.empty())
     return needed +
-           "; if these are one frame leave reference_frame out of the pose, else name the "
-           "camera's frame in a camera.json and give the transform between the two";
+           "; if both are one frame, leave reference_frame out of the pose; else state the camera's frame in a camera.json and give their transform";
   if (given.empty()) return needed + "; give the transform between the two (transform.json)";
   std::string others;
   for (const FrameTransform& one : given)
@@ -85,7 +84,7 @@ JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
     if (joined && !nearlySame(joined->a_from_b, *a_from_b))
       at.fail("of the given transforms " + joined->by->file.string() + " and " +
               one.file.filename().string() + " lead from " + frameText(b) + " to " + frameText(a) +
-              " by different numbers; give the one that holds");
+              " with different values; give only the valid one");
     if (joined) continue;
     joined = JoinedFrames{*a_from_b, one};
     joined->by->file = one.file.filename();

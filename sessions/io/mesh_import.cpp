@@ -203,7 +203,7 @@ Eigen::Vector3f placedVertex(const std::filesystem::path& file, const aiVector3D
     throw InputError(file, "vertex " + std::to_string(index), "not a finite number");
   if (placed_m.cwiseAbs().maxCoeff() > kMaxCoordinate_m)
     throw InputError(file, "vertex " + std::to_string(index),
-                     "is more than 1000 km from the origin: is the unit right?");
+                     "is more than 1000 km from the origin: check the unit");
   return placed_m.cast<float>();
 }
 

@@ -119,7 +119,7 @@ void withOption(Options& options, const std::string& name, Convert&& convert) {
     const OptionDescription option = describeOption(info, field);
     assignOption(option, convert(option), field);
   });
-  if (!found) throw OptionError(name, "there is no such option");
+  if (!found) throw OptionError(name, "unknown option");
 }
 
 /// Sets one option; OptionError leaves it as it was.

@@ -117,7 +117,7 @@ void walkEdges(const OnboardRecord& one, const OnboardRecord& other, Walk& walk)
   walk.compare(RunPart::kEdges, "the lower edge thresholds", a.low_threshold, b.low_threshold);
   walk.compare(RunPart::kEdges, "the upper edge thresholds", a.high_threshold, b.high_threshold);
   walk.compare(RunPart::kEdges, "the image's edge pixels", a.edge_count, b.edge_count);
-  walk.compare(RunPart::kEdges, "the places of the image's edges", a.sha256, b.sha256);
+  walk.compare(RunPart::kEdges, "the positions of the image's edges", a.sha256, b.sha256);
 }
 
 void walkTemplates(const RecordedIteration& one, const RecordedIteration& other, Walk& walk) {
@@ -136,7 +136,7 @@ void walkTemplates(const RecordedIteration& one, const RecordedIteration& other,
   using Item = RecordedTemplate;
   each(
       RunPart::kTemplates, [](const Item& item) { return std::pair(item.x, item.y); },
-      [](const Item&, const Item&) { return " was taken at different places"; });
+      [](const Item&, const Item&) { return " was cut at different positions"; });
   each(
       RunPart::kMatches,
       [](const Item& item) {
@@ -144,7 +144,7 @@ void walkTemplates(const RecordedIteration& one, const RecordedIteration& other,
                           item.second_score);
       },
       [](const Item& a, const Item& b) {
-        return " was found differently, with scores " + versus(a.score, b.score);
+        return " has different matches, with scores " + versus(a.score, b.score);
       });
   each(
       RunPart::kInliers, [](const Item& item) { return item.inlier; },
@@ -167,7 +167,7 @@ void walkIteration(const RecordedIteration& one, const RecordedIteration& other,
   walk.compare(RunPart::kMatches, "the searched templates", a.searched_count, b.searched_count);
   walk.compare(RunPart::kMatches, "the matches", a.correspondence_count, b.correspondence_count);
   walk.compare(RunPart::kInliers, "the inliers", a.pnp.inlier_count, b.pnp.inlier_count);
-  walk.compare(RunPart::kInliers, "the edge places used", a.refinement.used_count,
+  walk.compare(RunPart::kInliers, "the edge points used", a.refinement.used_count,
                b.refinement.used_count);
   walk.compare(RunPart::kPose, "the poses after", a.camera_from_station, b.camera_from_station);
   walk.compare(RunPart::kPose, "the states after", std::pair(a.status, a.reached),
@@ -198,8 +198,7 @@ void walkEnd(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
   walk.compare(RunPart::kEnd, "the final covariances", a.covariance, b.covariance);
   if (a.digest != b.digest)
     walk.differ(RunPart::kDigest,
-                "the digests differ although the records do not: a value that records do not hold "
-                "differs");
+                "the digests differ but the records agree: a value outside the records differs");
 }
 
 std::optional<FirstDifference> firstDifference(const OnboardRecord& one,
@@ -311,7 +310,7 @@ void holdToLimits(const OnboardRecord& one, const OnboardRecord& other,
   const IterationComparison& first = made.iterations.front();
   if (first.templates >= kLeastCounted && first.found_alike < limits.found_share * first.templates)
     made.beyond.push_back("only " + percent(first.found_alike, first.templates) +
-                          " of the first iteration's templates were found alike");
+                          " of the first iteration's templates have equal positions");
   if (first.inliers_either >= kLeastCounted &&
       first.inliers_both < limits.inlier_share * first.inliers_either)
     made.beyond.push_back("only " + percent(first.inliers_both, first.inliers_either) +
@@ -327,7 +326,7 @@ void holdToSameInputs(const OnboardRecord& one, const OnboardRecord& other,
   if (one.inputs && other.inputs &&
       (one.inputs->width != other.inputs->width || one.inputs->height != other.inputs->height))
     made.beyond.push_back("the images are of different sizes");
-  made.beyond.push_back("not the pixels alone differ: " + walk.first()->text);
+  made.beyond.push_back("inputs other than the pixels differ: " + walk.first()->text);
 }
 
 /// A digest is over everything that a run was given and all that it came upon.
@@ -373,8 +372,8 @@ std::string comparisonText(const RecordComparison& comparison) {
   else if (comparison.verdict == RunVerdict::kDifferent)
     text << "different\n";
   else
-    text << (comparison.first ? "not the same, but within the limits\n"
-                              : "equal to the bit as far as the records go\n");
+    text << (comparison.first ? "different, but within the limits\n"
+                              : "equal to the bit as far as the records reach\n");
   if (comparison.first)
     text << plainLine("first difference: " + std::string(runPartText(comparison.first->part)) +
                       ": " + comparison.first->text);

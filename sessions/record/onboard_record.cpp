@@ -231,11 +231,11 @@ class BlockReader {
     if (sum.u32() != crc32(rest.first(checked)) || number < next_) return damaged("damaged");
     if (number > next_)
       miss("blocks " + std::to_string(next_) + " to " + std::to_string(number - 1) +
-           " found no room on board");
+           " did not fit on board");
     try {
       readBlock(type, rest.subspan(kBlockHeadBytes, length), record_);
     } catch (const InputError&) {
-      return damaged("not one that this program knows");
+      return damaged("unknown to this program");
     }
     next_ = number + 1;
     at_ += checked + 4;

@@ -121,7 +121,7 @@ RecordedEnd endOf(const LocalizationTrace& run, std::size_t iterations) {
 
 void noteWhatTheRunLacks(OnboardRecord& record) {
   if (!record.inputs)
-    record.missing.push_back("the hashes of the inputs, which only the digest covers");
+    record.missing.push_back("the hashes of the inputs (only in the digest)");
   if (!record.edges) record.missing.push_back("the edges of the image");
   for (const RecordedIteration& one : record.iterations) {
     const std::string of = " of iteration " + std::to_string(one.trace.index + 1);
@@ -161,18 +161,18 @@ LocalizerOptions optionsOf(const RecordedOptions& recorded, std::vector<std::str
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
     const auto found = left.find(info.name);
     if (found == left.end()) {
-      remarks.push_back("The record has no option " + std::string(info.name) +
-                        ": it has its default here.");
+      remarks.push_back("The record lacks the option " + std::string(info.name) +
+                        "; its default is used.");
       return;
     }
     if (!assign(info, *found->second, field))
       remarks.push_back("The option " + found->first + " was " + valueOf(*found->second) +
-                        " on board, which this program does not take: it has its default here.");
+                        " on board, which this program does not accept; its default is used.");
     left.erase(found);
   });
   for (const auto& [name, option] : left)
     remarks.push_back("The option " + name + " (" + valueOf(*option) +
-                      " on board) is none of this program: it is left out.");
+                      " on board) is unknown to this program and left out.");
   return options;
 }
 
@@ -210,10 +210,10 @@ RecordedPlan planOf(const OnboardRecord& record) {
     }
   }
   if (!made.has_options)
-    made.remarks.push_back("The record has no options: all have their default here.");
+    made.remarks.push_back("The record has no options; the defaults are used.");
   const std::string problem = planProblem(made.plan);
   if (!problem.empty()) {
-    made.remarks.push_back("The options that were taken up on the way are left out: " + problem +
+    made.remarks.push_back("Options changed during the run are left out: " + problem +
                            ".");
     made.plan.changes.clear();
   }

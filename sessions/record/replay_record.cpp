@@ -168,7 +168,7 @@ class Replayer {
 
 void Replayer::noteInputs() {
   for (const std::string& text : record_.missing)
-    remark("The record lacks something: " + text + ".");
+    remark("The record is incomplete: " + text + ".");
   for (const std::string& text : recorded_plan_.remarks) remark(text);
   if (!record_.inputs) return;
   const RecordedInputs& onboard = *record_.inputs;
@@ -181,37 +181,35 @@ void Replayer::noteInputs() {
   }
   same_size_ = onboard.width == given_.camera.width && onboard.height == given_.camera.height;
   if (!same_size_)
-    remark("The run saw an image of " + std::to_string(onboard.width) + " x " +
-           std::to_string(onboard.height) + " px, the camera here has " +
+    remark("The run's image has " + std::to_string(onboard.width) + " x " +
+           std::to_string(onboard.height) + " px, this case's camera " +
            std::to_string(given_.camera.width) + " x " + std::to_string(given_.camera.height) +
-           ": this may be the record of another case; only its poses are shown.");
+           "; the record may belong to another case; only its poses are shown.");
   else if (onboard.sha256.pixels != here.pixels)
     remark(
-        "The run saw other pixels than the image here has (its downlink was compressed, or it is "
-        "another image): edges, score maps and agreement are those of the image here.");
+        "The run's pixels differ from this case's image (compressed downlink, or another image); edges, score maps and agreement are computed from this case's image.");
   if (onboard.sha256.ignore != here.ignore)
-    remark("The run ignored other pixels than the mask here has.");
+    remark("The run's ignore mask differs from this case's mask.");
   if (onboard.sha256.scene != here.scene)
     remark(
-        "The run had another mesh than this case: renders and points are those of the mesh here.");
+        "The run's mesh differs from this case's mesh; renders and points are computed from this case's mesh.");
   if (onboard.sha256.camera != here.camera)
     remark(
-        "The run had another camera than this case: renders and points are those of the camera "
-        "here.");
+        "The run's camera differs from this case's camera; renders and points are computed with this case's camera.");
 }
 
 void Replayer::detect() {
   auto edges = std::make_shared<EdgeMapTrace>();
   const Status status = detectEdges(given_.image, given_.ignore, run_.options.edges, *edges);
   if (status != Status::kOk) {
-    remark(std::string("The image's edges cannot be found here: ") + statusText(status) + ".");
+    remark(std::string("The image's edges cannot be computed: ") + statusText(status) + ".");
     if (record_.edges) edges->edge_count = record_.edges->edge_count;
   } else if (record_.edges && record_.inputs && same_size_) {
     EdgeMap map;
     for (std::size_t i = 0; i < map.level.size(); ++i) map.level[i] = edges->level[i].view();
     if (edgeMapHash(map) != record_.edges->sha256)
-      remark("The image's edges here are not those that the run found on board: " +
-             std::to_string(edges->edge_count) + " edge pixels here, " +
+      remark("This case's image edges differ from those of the run on board: " +
+             std::to_string(edges->edge_count) + " edge pixels on the ground, " +
              std::to_string(record_.edges->edge_count) + " on board.");
   }
   run_.edges = std::move(edges);
@@ -263,9 +261,9 @@ void Replayer::renderAgain(const RecordedIteration& one, IterationTrace& made) {
   const bool same =
       rendered && (!one.render_sha256 || renderHash(made.render.view()) == *one.render_sha256);
   if (same || std::exchange(noted_render_, true)) return;
-  remark((rendered ? "The station is not rendered here as it was on board"
-                   : "The station cannot be rendered here") +
-         inIteration(made) + ", perhaps in others: points of templates may be missing or others.");
+  remark((rendered ? "The station's render differs from that on board"
+                   : "The station cannot be rendered") +
+         inIteration(made) + ", possibly in others; points of templates may be missing or differ.");
 }
 
 Match Replayer::matchOf(const RecordedTemplate& recorded, const Template& item,
@@ -312,8 +310,8 @@ void Replayer::fillTemplates(const RecordedIteration& one, IterationTrace& made)
   if (made.searched_count > 0) made.mean_score = sum / made.searched_count;
   if (unknown > 0)
     remark(std::to_string(unknown) + " of " + std::to_string(one.templates->size()) +
-           " templates lie on no rendered edge here" + inIteration(made) +
-           ": their points are not known.");
+           " templates lie on no rendered edge" + inIteration(made) +
+           "; their points are unknown.");
 }
 
 /// Pairs of points and places, in the order of the templates; residuals are the recorded pose's.
@@ -352,8 +350,7 @@ IterationTrace Replayer::iterationOf(const RecordedIteration& one) {
     fillPairs(one, made);
   } else if (!std::exchange(noted_refinement_, true)) {
     remark(
-        "A record does not have the edge places of refinements: run it again on the ground to "
-        "see them.");
+        "Records do not hold the edge points of refinements; run the case again on the ground to show them.");
   }
   return made;
 }

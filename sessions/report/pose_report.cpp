@@ -68,7 +68,7 @@ void drawHead(PdfCanvas& canvas, const PoseReport& report) {
 void drawFoot(PdfCanvas& canvas, const PoseReport& report) {
   canvas.line(kLeft, kFoot, kRight, kFoot, kPaperGrid);
   const std::string what = report.pose.run_digest.empty()
-                               ? "pose of the marks"
+                               ? "pose of the annotations"
                                : "run " + report.pose.run_digest.substr(0, 16);
   canvas.text(kLeft, kFoot + 4.0, kTextWidth - 90.0,
               report.pose.review_status + ".  " + what + ", pixels " +
@@ -95,8 +95,7 @@ double drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport
   return below +
          canvas.text(
              box.x, below, box.width,
-             formatted("Edges of the seed (red) and, over them, of the pose (green) on the image; "
-                       "%d x %d px from (%d, %d).",
+             formatted("Edges of the seed (red) and of the pose (green) over the image; %d x %d px from (%d, %d).",
                        picture.image.width, picture.image.height, picture.left_px, picture.top_px),
              kFaint);
 }
@@ -168,7 +167,7 @@ double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) 
     rows.addSigma("1 sigma", *sigma);
     rows.add("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
     if (const auto picture = poseSigma(report.pose.covariance.picture, end_effector))
-      rows.addSigma("picture alone", *picture);
+      rows.addSigma("image only", *picture);
   } else {
     rows.add("1 sigma", "not known");
   }
@@ -198,7 +197,7 @@ void drawEndEffector(PdfCanvas& canvas, const PdfBox& box, const PoseReport& rep
       endEffectorPose(one.camera_from_station_seed, report.pose.camera_from_station,
                       *one.camera_from_end_effector, report.pose.covariance.total());
   const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
-  Rows rows(canvas, box, "Correction to what was commanded");
+  Rows rows(canvas, box, "Correction of the commanded pose");
   rows.addText("end_effector_seed_from_end_effector_estimated");
   rows.add("translation", vectorText(1e3 * correction.translation_m, "mm", "%.4f"));
   rows.addRotation(correction);
@@ -292,7 +291,7 @@ double drawCheck(PdfCanvas& canvas, double y, const JudgedCheck& judged) {
   const Check& check = judged.check;
   const PdfColor& ink = check.state == CheckState::kNotApplicable ? kFaintInk : kInk;
   std::string sentence = check.sentence;
-  if (!judged.override_reason.empty()) sentence += " Passed over: " + judged.override_reason;
+  if (!judged.override_reason.empty()) sentence += " Waived: " + judged.override_reason;
   canvas.text(kLeft, y, 14.0, look.sign, {kSize, true, false, look.color, 1});
   const double title =
       canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink, 2});
@@ -309,9 +308,9 @@ double drawChecks(PdfCanvas& canvas, double y, const PoseReport& report) {
   for (const JudgedCheck& judged : report.pose.checks) plain.push_back(judged.check);
   const bool judged = decisionOf(report) != nullptr;
   const std::string text =
-      plain.empty() ? "Checks: none were made"
+      plain.empty() ? "Checks: none"
                     : "Checks: " + checkCountsText(plain) +
-                          (judged ? ", as they were when it was decided" : ", as they are now");
+                          (judged ? ", at the time of the decision" : ", current");
   y = drawHeading(canvas, kLeft, y, kTextWidth, text);
   for (const JudgedCheck& one : report.pose.checks) y = drawCheck(canvas, y, one);
   return y;
@@ -353,8 +352,7 @@ void drawResidualPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport&
                                        [](const ReportResidual& one) { return !one.used; });
   canvas.text(
       box.x, taken.bottom() + 2.0, box.width,
-      formatted("Residuals of %zu %s (one in %zu is drawn), %.3g times as long; rms %.3f px. "
-                "Dots: used; crosses: set aside (%td).",
+      formatted("Residuals of %zu %s (one in %zu is drawn), magnified %.3g times; rms %.3f px. Dots: used; crosses: not used (%td).",
                 residuals.all.size(), residuals.of, step, factor, residuals.rms_px(), set_aside),
       kFaint);
 }
@@ -374,7 +372,7 @@ PdfPlot correctionPlot(const LocalizationTrace& trace) {
 
 PdfPlot supportPlot(const LocalizationTrace& trace) {
   PdfPlot plot{
-      "Matches and edge places of each iteration", "iteration", "count", {}, true, true, true};
+      "Matches and edge points of each iteration", "iteration", "count", {}, true, true, true};
   plot.series = {{"looked for", {}, kFaintInk, false}, {"agree", {}, kPdfBlue, false}};
   for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
     const IterationTrace& one = *trace.iterations[i];
@@ -393,7 +391,7 @@ void drawResidualHistogram(PdfCanvas& canvas, const PdfBox& box, const ReportRes
     if (one.used) lengths.push_back(one.residual_px.norm());
   if (lengths.empty()) return;
   const double high = std::max(0.1, *std::max_element(lengths.begin(), lengths.end()));
-  drawHistogram(canvas, box, "Lengths of the residuals that are used", "px", lengths, 0.0, high,
+  drawHistogram(canvas, box, "Lengths of the used residuals", "px", lengths, 0.0, high,
                 24);
 }
 
@@ -403,7 +401,7 @@ void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
   const double room = kFoot - y - kGap;
   const double right = kLeft + column + 2.0 * kGap;
   if (residuals.all.empty()) {
-    canvas.text(kLeft, y, kTextWidth, "No residuals: nothing was matched.", kFaint);
+    canvas.text(kLeft, y, kTextWidth, "No residuals: no matches.", kFaint);
     return;
   }
   drawResidualPicture(canvas, {kLeft, y, column, 0.62 * room}, report, residuals);

@@ -54,7 +54,7 @@ const IterationTrace* lastOf(const LocalizationTrace& trace, IterationKind kind)
 
 ReportResiduals ofEdges(const PoseReport& report, const Camera& camera,
                         const IterationTrace& iteration) {
-  ReportResiduals made{"edge places of the refinement", {}};
+  ReportResiduals made{"edge points of the refinement", {}};
   for (const EdgeSample& sample : iteration.refinement.samples) {
     const auto place =
         predictPlace(camera, report.pose.camera_from_station, sample.point_in_station_m);

@@ -56,16 +56,16 @@ void tryMirrorImage(const ReviewSubject& subject, const RunPlan& plan, int axis,
   if (trace.converged()) addRival(*image, trace.camera_from_station, true, result);
 }
 
-constexpr CheckName kReturned{"basin_returned", "Other seeds lead back"};
+constexpr CheckName kReturned{"basin_returned", "Convergence from other seeds"};
 /// Of coverage over none at all.
 constexpr double kNothingSeen = 10.0;
-constexpr CheckName kRival{"basin_rival", "The best of other answers"};
+constexpr CheckName kRival{"basin_rival", "Best competing pose"};
 
 std::string foundText(const BasinResult& basin) {
   const auto elsewhere = std::count_if(basin.rivals.begin(), basin.rivals.end(),
                                        [](const RivalPose& one) { return !one.mirrored; });
   return "Of " + std::to_string(basin.seeds) + " other seeds " + std::to_string(basin.returned) +
-         " led back to this pose and " + std::to_string(elsewhere) + " to another one.";
+         " returned to this pose and " + std::to_string(elsewhere) + " converged elsewhere.";
 }
 
 /// A worse one elsewhere does not speak against the pose: a nearly symmetric station has many.
@@ -75,17 +75,17 @@ Check rivalCheck(const BasinResult& basin, const CheckLimits& limits) {
       [](const RivalPose& a, const RivalPose& b) { return a.coverage < b.coverage; });
   if (best == basin.rivals.end() && basin.returned == 0)
     return notAskedCheck(kRival,
-                         "No other seed came to a pose that this one could be set against.");
+                         "No other seed converged to a pose for comparison.");
   if (best == basin.rivals.end())
     return statedCheck(kRival, true, "No other pose and no mirror image of the station fits.", "");
   const std::string what = best->mirrored ? "a mirror image of the station" : "another pose";
   const double ratio = basin.coverage > 0.0 ? best->coverage / basin.coverage : kNothingSeen;
   return measuredCheck(
       kRival, "%", 100.0 * ratio, limits.rival_percent, LimitSide::kAtMost,
-      "This pose shows " + percentText(basin.coverage) + " of its predicted edges, " + what + " " +
+      "The image shows " + percentText(basin.coverage) + " of the edges that this pose predicts, and " + what + " " +
           percentText(best->coverage) + ".",
-      best->mirrored ? "The mesh is mirrored, or another thing's."
-                     : "The other one fits better: run from there, and compare overlays.");
+      best->mirrored ? "The mesh is mirrored or of another object."
+                     : "The competing pose fits better: run from it and compare the overlays.");
 }
 
 }  // namespace
@@ -135,15 +135,14 @@ bool isBasinCheck(const std::string& check_id) {
 void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
                     std::vector<Check>& checks) {
   if (!basin || basin->seeds == 0) {
-    const char* why = "No other seeds were run: a second answer to this image is not excluded.";
+    const char* why = "No convergence test: a competing pose is not excluded.";
     checks.push_back(notAskedCheck(kReturned, why));
     checks.push_back(notAskedCheck(kRival, why));
     return;
   }
   checks.push_back(measuredCheck(kReturned, "%", 100.0 * basin->returned / basin->seeds,
                                  limits.basin_percent, LimitSide::kAtLeast, foundText(*basin),
-                                 "The pose is hard to find: the seed may have been luck. Compare "
-                                 "with marks, or with another image."));
+                                 "Convergence depends on the seed: compare with annotations or with another image."));
   checks.push_back(rivalCheck(*basin, limits));
 }
 

@@ -19,19 +19,17 @@ namespace {
 
 constexpr CheckName kCoverage{"edge_coverage", "Predicted edges that are seen"};
 constexpr CheckName kClutter{"edge_clutter", "Edges on the station that are not predicted"};
-constexpr CheckName kExplained{"edge_explained", "Edges that explain each other"};
-constexpr CheckName kFallOff{"edge_fall_off", "Fall-off when the pose is displaced"};
+constexpr CheckName kExplained{"edge_explained", "Larger of seen and predicted share of edges"};
+constexpr CheckName kFallOff{"edge_fall_off", "Edge-coverage sensitivity to displacement"};
 constexpr CheckName kWidth{"edge_width", "Sharpness of the image"};
-constexpr CheckName kFocal{"camera_focal", "Focal length that the edges ask for"};
-constexpr CheckName kCentre{"camera_centre", "Principal point that the edges ask for"};
+constexpr CheckName kFocal{"camera_focal", "Focal length estimated from the edges"};
+constexpr CheckName kCentre{"camera_centre", "Principal point estimated from the edges"};
 
 constexpr const char* kCameraRemedy =
-    "Camera, mesh and image do not fit together: make sure that the calibration is this camera's, "
-    "of this focus setting and image size, and that the mesh is this station's.";
+    "Camera, mesh and image contradict each other: check that the calibration is for this camera, focus and image size, and that the mesh is of this station.";
 
 constexpr const char* kUndecidedRemedy =
-    "The image cannot confirm the camera: state how well it is calibrated (calibration_sigma), or "
-    "use a nearer image.";
+    "The image cannot confirm the camera: state its calibration_sigma, or use a nearer image.";
 
 Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   const double seen = evidence.coverage.value();
@@ -39,7 +37,7 @@ Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       kCoverage, "%", 100.0 * seen, limits.coverage_percent, LimitSide::kAtLeast,
       "The image shows " + percentText(seen) +
           " of the edges that this pose predicts, in place and direction.",
-      "Look at the overlay: the pose or the mesh is wrong, or much is in the dark or hidden.");
+      "Check the overlay: pose or mesh is wrong, or much of the station is dark or hidden.");
 }
 
 Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
@@ -48,9 +46,8 @@ Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   const double share = evidence.clutter.value();
   return measuredCheck(
       kClutter, "%", 100.0 * share, limits.clutter_percent, LimitSide::kAtMost,
-      percentText(share) + " of the image's edges on the station are none that the pose predicts.",
-      "Look what they belong to: shadows and labels are harmless, another station "
-      "or a part that the mesh lacks is not.");
+      percentText(share) + " of the image's edges on the station are not predicted by the pose.",
+      "Check these edges: shadows and labels are harmless; another station or a part missing in the mesh is not.");
 }
 
 /// A label or a screw that the mesh lacks leaves much unpredicted, a shadow or an obstacle leaves
@@ -63,7 +60,7 @@ Check explainedCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
                        percentText(seen) + " of the predicted edges are seen, and " +
                            percentText(predicted) +
                            " of the edges seen on the station are predicted.",
-                       "Neither explains the other: look at the overlay.");
+                       "Rendered and image edges disagree: check the overlay.");
 }
 
 Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
@@ -72,13 +69,13 @@ Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       std::max_element(evidence.fall_off.begin(), evidence.fall_off.end(),
                        [](const FallOff& a, const FallOff& b) { return a.coverage < b.coverage; });
   if (least == evidence.fall_off.end() || seen <= 0.0)
-    return notAskedCheck(kFallOff, "None of the predicted edges is seen.");
+    return notAskedCheck(kFallOff, "No predicted edge is seen.");
   const double fall = 1.0 - least->coverage / seen;
   return measuredCheck(
       kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
-      "Displaced by " + sentenceNumber(kDisplaced_px) + " px in the image, the pose loses least, " +
-          percentText(fall) + " of the edges seen, when " + least->direction + ".",
-      "The image hardly tells this pose from others that way: use marks or a second camera.");
+      "Displaced by " + sentenceNumber(kDisplaced_px) + " px in the image, the pose loses at least " +
+          percentText(fall) + " of the edges seen, least when " + least->direction + ".",
+      "The image hardly constrains the pose in this direction: use annotations or a second camera.");
 }
 
 /// Motion and defocus, measured where the pose has its edges.
@@ -91,8 +88,8 @@ Check widthCheck(const LoadedCase& loaded, std::span<const EdgePlace> places,
     return notAskedCheck(kWidth, "Too few of the predicted edges are seen.");
   return measuredCheck(kWidth, "px", width.widest_px(), limits.edge_width_px, LimitSide::kAtMost,
                        "The image's edges are " + sentenceNumber(width.widest_px()) +
-                           " px wide in the direction that is least sharp.",
-                       "The image is blurred by motion or focus: use a sharper one.");
+                           " px wide in the least sharp direction.",
+                       "The image is blurred by motion or focus: use a sharper image.");
 }
 
 /// One of the camera's parameters as the edges would have it.
@@ -117,7 +114,7 @@ Check cameraCheck(const CheckName& name, const std::string& what, const AskedCha
   const double figure = unexplained(asked, sigmas);
   const bool undecided = !asked.stated && std::abs(asked.change) <= limit + sigmas * asked.sigma;
   return measuredCheck(name, asked.unit, figure, limit, LimitSide::kAtMost,
-                       "Left free, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
+                       "Estimated freely, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
                            " (one sigma " + sentenceNumber(asked.sigma) + " " + asked.unit + ").",
                        undecided ? kUndecidedRemedy : kCameraRemedy);
 }
@@ -158,7 +155,7 @@ bool canBeMeasured(const ReviewSubject& subject) {
 
 void addAll(const CheckName& name, bool failed, const std::string& why,
             std::vector<Check>& checks) {
-  checks.push_back(failed ? statedCheck(name, false, why, "Look at the overlay, and at the seed.")
+  checks.push_back(failed ? statedCheck(name, false, why, "Check the overlay and the seed.")
                           : notAskedCheck(name, why));
 }
 
@@ -271,7 +268,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   const bool measurable = canBeMeasured(subject);
   if (!measurable || edges.places.empty()) {
     const std::string why = measurable ? "The pose shows no edge of the station in the image."
-                                       : "There is no image of the camera's size.";
+                                       : "No image has the camera's size.";
     addAll(kCoverage, measurable, why, checks);
     for (const CheckName& name : {kClutter, kExplained, kFallOff, kWidth, kFocal, kCentre})
       addAll(name, false, why, checks);
@@ -298,7 +295,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   }
   for (const CheckName& name : {kFocal, kCentre})
     checks.push_back(notAskedCheck(
-        name, "The requirement is one in the image, where a wrong camera hardly shows."));
+        name, "The requirement is in pixels, where a wrong camera has little effect."));
 }
 
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,

@@ -68,9 +68,9 @@ LocalizationTrace runAgain(const RunRecord& run, const Session& session,
   const std::string place = "run " + run.digest;
   if (again.digest != run.digest)
     throw InputError(session_file, place,
-                     "gives another digest when it is run again: " + again.digest +
+                     "has another digest when repeated: " + again.digest +
                          (run.version == kVersion ? ""
-                                                  : "; it was made by version " + run.version +
+                                                  : "; it is from version " + run.version +
                                                         ", this is " + kVersion));
   if (localizationStatusText(again.status) != run.status)
     throw InputError(session_file, place,
@@ -100,7 +100,7 @@ std::string differenceText(const Check& stated, const Check& measured) {
   const std::string before = shortText(stated);
   const std::string now = shortText(measured);
   return "'" + measured.title + "' is stated as " + before + " and measured as " + now +
-         (before == now ? ", with another sentence" : "");
+         (before == now ? ", with another text" : "");
 }
 
 /// A run that had other options than the session has now names them, so that it can be repeated.
@@ -128,7 +128,7 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
       decision != nullptr ? decision->pose->source == PoseSource::kRun : converged(run);
   if (of_run && !converged(run))
     throw InputError("session", "decisions",
-                     "the decision on case '" + case_id + "' is of a run that did not converge");
+                     "the decision on case '" + case_id + "' belongs to a run that did not converge");
   if (of_run)
     takeRun(one, *run, pose);
   else
@@ -216,8 +216,8 @@ std::string poseDifference(const HandedPose& stated, const Pose& measured) {
   const double rotation_rad = apart.head<3>().norm();
   const double translation_m = apart.tail<3>().norm();
   if (rotation_rad <= limit && translation_m <= limit) return "";
-  return "another pose comes out: " + numberText(translation_m * 1e3) + " mm and " +
-         numberText(rotation_rad * 1e3) + " mrad from the one stated";
+  return "the pose differs: " + numberText(translation_m * 1e3) + " mm and " +
+         numberText(rotation_rad * 1e3) + " mrad from the stated pose";
 }
 
 std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured) {
@@ -234,16 +234,16 @@ std::string covarianceDifference(const HandedPose& stated, const PoseCovariance&
   const auto translation_mm = [](const Matrix6d& covariance) {
     return numberText(1e3 * std::sqrt(std::max(0.0, covariance.bottomRightCorner<3, 3>().trace())));
   };
-  return "another covariance comes out: a sigma of the translation of " +
-         translation_mm(measured.total()) + " mm, where " +
-         translation_mm(stated.covariance.total()) + " mm is stated";
+  return "the covariance differs: the translation has a sigma of " +
+         translation_mm(measured.total()) + " mm, stated are " +
+         translation_mm(stated.covariance.total()) + " mm";
 }
 
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
                              bool with_basin) {
   if (stated.checks.size() != measured.size())
     return std::to_string(stated.checks.size()) + " checks are stated, but " +
-           std::to_string(measured.size()) + " are made";
+           std::to_string(measured.size()) + " are measured";
   std::string text;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const Check& one = stated.checks[i].check;
@@ -257,7 +257,7 @@ std::string checksDifference(const HandedPose& stated, const std::vector<Check>&
 void requireAsMeasured(const std::string& case_id, const std::string& difference) {
   if (!difference.empty())
     throw InputError("session", "case " + case_id,
-                     difference + "; run and decide again, or bring back the session as it was");
+                     difference + "; run and decide again, or restore the session");
 }
 
 }  // namespace boresight::sessions

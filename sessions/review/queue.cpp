@@ -84,7 +84,7 @@ void takeListedResult(const SessionCase& one, QueueRow& row) {
   const std::optional<ListedResult> listed = listedResult(one);
   if (!listed) return;
   if (!listed->completed) {
-    row.trouble = "not run here; in the results: " + listed->status;
+    row.trouble = "not run in this session; in the results: " + listed->status;
   } else if (listed->error_share) {
     row.margin = 1.0 - *listed->error_share;
     row.margin_of = "Requirement, in the results";
@@ -205,12 +205,12 @@ bool moreTrouble(const QueueRow& a, const QueueRow& b) {
 }
 
 std::string troubleText(const QueueRow& row) {
-  if (row.group == QueueGroup::kAwaits) return "a second person has to approve";
+  if (row.group == QueueGroup::kAwaits) return "a second person must approve";
   if (row.group == QueueGroup::kDecided) return row.review_status_text;
   if (!row.trouble.empty()) return row.trouble;
   if (row.group == QueueGroup::kNotRun && row.margin)
-    return "not run here; in the results " + fixedText(100.0 * (1.0 - *row.margin), 0) +
-           " % of the requirement off";
+    return "not run in this session; in the results: error " + fixedText(100.0 * (1.0 - *row.margin), 0) +
+           " % of the requirement";
   if (row.group == QueueGroup::kNotRun) return "not run yet";
   if (row.failed > 0)
     return std::to_string(row.failed) + (row.failed == 1 ? " check failed: " : " checks failed: ") +

@@ -33,10 +33,10 @@ ReviewState undecided(const Session& session, const std::string& case_id) {
 std::string droppedText(const Session& session, const Decision& decision) {
   if (decision.input_fingerprint.empty() ||
       (decision.verdict == Verdict::kValidated && !decision.pose))
-    return "it does not say what it is of";
+    return "it does not state its inputs";
   const bool of_run = !decision.digest.empty();
   const RunRecord* last = session.lastRunOf(decision.case_id);
-  if (of_run && last == nullptr) return "its run is no longer there";
+  if (of_run && last == nullptr) return "its run is missing";
   if (of_run && last->digest != decision.digest) return "there is a later run";
   return changedInputsText(decision.input_fingerprint,
                            inputFingerprint(session, decision.case_id, decision.digest));
@@ -128,10 +128,9 @@ std::string comparableName(const std::string& name) {
 
 Signature requireSigned(const Signature& who, const char* what) {
   const Signature plain{std::string(trimmed(who.by)), std::string(trimmed(who.comment))};
-  if (plain.by.empty()) throw DecisionError(std::string("give a name: who ") + what + "?");
+  if (plain.by.empty()) throw DecisionError("give your name");
   if (plain.comment.empty())
-    throw DecisionError(std::string("give a comment: on what grounds does ") + plain.by + " " +
-                        what + "?");
+    throw DecisionError(std::string("give a comment: why do you ") + what + "?");
   return plain;
 }
 
@@ -158,13 +157,13 @@ void requireAnswered(const std::vector<JudgedCheck>& checks) {
   if (std::none_of(checks.begin(), checks.end(), [](const JudgedCheck& one) {
         return one.check.state != CheckState::kNotApplicable;
       }))
-    throw DecisionError("no check has been made of this pose");
+    throw DecisionError("this pose has not been checked");
   std::string open;
   for (const JudgedCheck& one : checks)
     if (one.check.state == CheckState::kFailed && one.override_reason.empty())
       open += (open.empty() ? "" : ", ") + one.check.title;
   if (!open.empty())
-    throw DecisionError("these checks failed and have no reason to pass over them: " + open);
+    throw DecisionError("failed checks are not waived: " + open);
 }
 
 /// A check without overrides may be given for what is not there any more: it is told.
@@ -174,9 +173,9 @@ void requireKnownOverrides(const std::vector<Check>& checks, const CheckOverride
                                     [&id = id](const Check& check) { return check.id == id; });
     if (found == checks.end()) throw DecisionError("there is no check '" + id + "'");
     if (found->state != CheckState::kFailed)
-      throw DecisionError("the check '" + found->title + "' has not failed: it needs no reason");
+      throw DecisionError("the check '" + found->title + "' has not failed and needs no waiver");
     if (trimmed(reason).empty())
-      throw DecisionError("give a reason for passing over '" + found->title + "'");
+      throw DecisionError("give a reason to waive '" + found->title + "'");
   }
 }
 
@@ -228,7 +227,7 @@ std::string reviewStatusText(const ReviewStatus& status) {
     return "NOT VALIDATED: rejected" + byText(*status.decision);
   const std::string text = std::string("NOT VALIDATED: ") + reviewStateText(status.state);
   if (status.awaits_approval)
-    return text + "; validated" + byText(*status.decision) + ", a second person has to approve";
+    return text + "; validated" + byText(*status.decision) + ", a second person must approve";
   if (status.decision == nullptr) return text;
   const char* what = status.decision->verdict == Verdict::kValidated ? "validation" : "rejection";
   return text + "; the " + what + byText(*status.decision) + " no longer holds: " + status.dropped;
@@ -290,20 +289,19 @@ std::string validationConcern(const Session& session, const ReviewSubject& subje
   if (subject.source == PoseSource::kAnnotation) return "";
   if (!subject.run || subject.run->digest.empty()) return "there is no finished run";
   if (!subject.run->converged())
-    return "the run did not converge: there is no pose to vouch for; annotate the image, or run "
-           "with other options";
+    return "the run did not converge, so that no pose can be validated; annotate the image, or run with other options";
   const RunRecord* last = session.lastRunOf(id);
   if (last == nullptr || last->digest != subject.run->digest)
-    return "this is not the last run of the case: look at the last one, or run again";
+    return "this is not the last run of the case; review the last run, or run again";
   if (last->inputs_sha256 != inputsDigest(*one))
-    return "the run is of other inputs than the case has now: run again";
+    return "the inputs have changed since the run: run again";
   return "";
 }
 
 Session validated(const Session& session, const ReviewSubject& subject,
                   const std::vector<Check>& checks, const CheckOverrides& overrides,
                   const Signature& who, int basin_seeds) {
-  const Signature signature = requireSigned(who, "validates");
+  const Signature signature = requireSigned(who, "validate this pose");
   const std::string concern = validationConcern(session, subject);
   if (!concern.empty()) throw DecisionError(concern);
   requireKnownOverrides(checks, overrides);
@@ -320,15 +318,15 @@ Session validated(const Session& session, const ReviewSubject& subject,
 
 Session approved(const Session& session, const std::string& case_id, const Signature& who) {
   requireCase(session, case_id);
-  const Signature signature = requireSigned(who, "approves");
+  const Signature signature = requireSigned(who, "approve this validation");
   const ReviewStatus status = reviewStatusOf(session, case_id);
   if (status.decision == nullptr || status.decision->verdict != Verdict::kValidated)
     throw DecisionError("there is no validation of '" + case_id + "' to approve");
   if (!status.holds()) throw DecisionError("the validation no longer holds: " + status.dropped);
   if (status.decision->approval)
-    throw DecisionError("it has been approved already, by " + status.decision->approval->by);
+    throw DecisionError("it is already approved by " + status.decision->approval->by);
   if (samePerson(status.decision->by, signature.by))
-    throw DecisionError(signature.by + " validated it: somebody else has to approve");
+    throw DecisionError(signature.by + " validated it; another person must approve");
   Decision decision = *status.decision;
   decision.approval = Approval{signature.by, signature.comment, utcNowText()};
   return withDecision(session, std::move(decision));
@@ -337,7 +335,7 @@ Session approved(const Session& session, const std::string& case_id, const Signa
 Session rejected(const Session& session, const std::string& case_id,
                  const std::vector<Check>& checks, const Signature& who) {
   requireCase(session, case_id);
-  Decision decision = newDecision(case_id, Verdict::kRejected, requireSigned(who, "rejects"));
+  Decision decision = newDecision(case_id, Verdict::kRejected, requireSigned(who, "reject this result"));
   decision.checks = judgedChecks(checks, {});
   if (const RunRecord* run = session.lastRunOf(case_id)) decision.digest = run->digest;
   decision.input_fingerprint = inputFingerprint(session, case_id, decision.digest);
@@ -350,7 +348,7 @@ Session reopened(const Session& session, const std::string& case_id, const Signa
   if (last == nullptr || last->verdict == Verdict::kReopened)
     throw DecisionError("there is no decision on '" + case_id + "' to take back");
   return withDecision(session, newDecision(case_id, Verdict::kReopened,
-                                           requireSigned(who, "takes the decision back")));
+                                           requireSigned(who, "withdraw this decision")));
 }
 
 }  // namespace boresight::sessions

@@ -22,14 +22,14 @@ const RunRecord& runToReview(const Session& session, const std::string& case_id,
                              const std::string& digest) {
   if (const RunRecord* run = findRun(session, case_id, digest)) return *run;
   throw InputError("case " + case_id, "runs",
-                   digest.empty() ? "it was not run yet: run it first"
-                                  : "there is no run of the digest " + digest);
+                   digest.empty() ? "it has no run: run it first"
+                                  : "there is no run with digest " + digest);
 }
 
 std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& loaded,
                                      std::string& reason) {
   const std::string& id = loaded.source.id;
-  reason = "it has no marks";
+  reason = "it has no annotations";
   if (!session.annotations.contains(id)) return {};
   const CaseMarksSolution solved =
       solveCaseMarks(caseMarks(session, id), marksGuess(loaded.source),
@@ -84,8 +84,7 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
   const std::vector<std::uint8_t> bytes = readFileBytes(known->file, 64 * kMegabyte);
   if (sha256Text(bytes) != known->sha256)
     throw InputError(known->file,
-                     "its bytes are not those that the session knows: accept the file as it is "
-                     "now, or relink it");
+                     "it differs from the session's file: accept it as it is now, or relink it");
   const LocalizationProblem given = loaded.problem();
   return compareRecords(parseRecord(known->file, bytes), recordOf(run, &given));
 }

@@ -32,7 +32,7 @@ ReadRun readRun(const Session& session, const std::string& digest,
   ReadRun made;
   made.record = findRun(session, loaded->source.id, digest);
   if (made.record == nullptr)
-    throw std::invalid_argument("case " + loaded->source.id + " has no run of the digest " +
+    throw std::invalid_argument("case " + loaded->source.id + " has no run with digest " +
                                 digest);
   made.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
   made.checks = checkPose(made.subject, checkLimits(session.review.preset, session.review.limits));
@@ -103,7 +103,7 @@ int rankByTruth(const RunSide& side) {
 
 std::string truthText(const RunSide& side) {
   if (!side.converged) return "failed";
-  return fixedText(100.0 * side.error_share.value_or(0.0), 0) + " % of the requirement off";
+  return "error " + fixedText(100.0 * side.error_share.value_or(0.0), 0) + " % of the requirement";
 }
 
 std::string checksText(const RunSide& side) {
@@ -199,12 +199,12 @@ RunDifference compareRuns(const Session& session, const std::string& before_dige
 
 std::vector<DifferenceLine> differenceLines(const RunDifference& made) {
   std::vector<DifferenceLine> lines = {
-      {"How it ended", endText(made.before), endText(made.after)},
+      {"Status", endText(made.before), endText(made.after)},
       {"Inliers", std::to_string(made.before.inliers), std::to_string(made.after.inliers)},
       {"Checks", checkText(made.before), checkText(made.after)}};
   if (made.before.error || made.after.error)
     lines.push_back(
-        {"Off the truth: along, across, turned", errorText(made.before), errorText(made.after)});
+        {"Error: along, across, rotation", errorText(made.before), errorText(made.after)});
   for (const CheckChange& check : made.checks)
     lines.push_back({check.title, checkStateText(check.before), checkStateText(check.after)});
   for (const OptionChangeText& option : made.options)
@@ -214,9 +214,9 @@ std::vector<DifferenceLine> differenceLines(const RunDifference& made) {
 
 std::string changeText(const RunDifference& made) {
   std::string text = sentence(std::string(runChangeText(made.change)) + ": " + made.why);
-  if (made.inputs_differ) text += " The runs were given other inputs.";
+  if (made.inputs_differ) text += " The inputs of the runs differ.";
   if (made.comparison.first)
-    text += " They differ first in the " + std::string(runPartText(made.comparison.first->part)) +
+    text += " First difference: " + std::string(runPartText(made.comparison.first->part)) +
             ": " + made.comparison.first->text + ".";
   return text;
 }

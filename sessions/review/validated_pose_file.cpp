@@ -133,7 +133,7 @@ void addFrames(const SessionCase& one, ordered_json& chain) {
 ordered_json chainJson(const HandedPose& pose, const SessionCase& one, const Session& session) {
   ordered_json chain = ordered_json::array();
   chain.push_back(linkJson("camera_from_station_seed", one.camera_from_station_seed,
-                           "the case's seed, as it was given"));
+                           "the case's seed, as given"));
   for (const MeshInput& part : one.parts)
     chain.push_back(
         linkJson("station_from_mesh", part.source.station_from_mesh,
@@ -146,10 +146,10 @@ ordered_json chainJson(const HandedPose& pose, const SessionCase& one, const Ses
   addFrames(one, chain);
   if (one.camera_from_end_effector)
     chain.push_back(linkJson("camera_from_end_effector", *one.camera_from_end_effector,
-                             "the case's, as it was given"));
+                             "that of the case, as given"));
   chain.push_back(
       linkJson("camera_from_station", pose.camera_from_station,
-               pose.source == PoseSource::kRun ? runText(pose, session) : "the marks of the case"));
+               pose.source == PoseSource::kRun ? runText(pose, session) : "the annotations of the case"));
   return chain;
 }
 

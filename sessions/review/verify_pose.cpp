@@ -65,7 +65,7 @@ Document readDocument(const fs::path& file) {
   document.session = readSession(root.at("session"));
   document.pose = readHandedPose(root);
   if (document.session.findCase(document.pose.case_id) == nullptr)
-    root.failMember("case", "the session inside does not have it");
+    root.failMember("case", "the embedded session does not have it");
   return document;
 }
 
@@ -76,8 +76,8 @@ void verifySignature(const Document& document, Findings& findings) {
   const bool good = stated != document.json.end() && *stated == signatureOf(document.json);
   findings.push_back(
       {good, "signature",
-       good ? "the document is as it was signed"
-            : "the document has been changed since it was signed, or was never signed"});
+       good ? "the document is unchanged since it was signed"
+            : "the document was changed since it was signed, or was never signed"});
 }
 
 /// True when all files are what they were.
@@ -89,14 +89,14 @@ bool verifyInputs(const Document& document, Findings& findings) {
     all = false;
   }
   if (all)
-    findings.push_back({true, "inputs", "every file that it names has the hash that it names"});
+    findings.push_back({true, "inputs", "every named file has the stated hash"});
   return all;
 }
 
 /// Whether the decision inside is one that this program would have let pass.
 void verifyDecision(const ReviewStatus& status, Findings& findings) {
   if (status.decision == nullptr) {
-    findings.push_back({true, "decision", "nobody has decided on it"});
+    findings.push_back({true, "decision", "there is no decision"});
     return;
   }
   const Decision& decision = *status.decision;
@@ -104,13 +104,13 @@ void verifyDecision(const ReviewStatus& status, Findings& findings) {
   for (const JudgedCheck& judged : decision.checks)
     if (decision.verdict == Verdict::kValidated && judged.check.state == CheckState::kFailed &&
         judged.override_reason.empty())
-      wrong = "the check '" + judged.check.title + "' failed and was not passed over";
+      wrong = "the check '" + judged.check.title + "' failed and was not waived";
   if (decision.verdict == Verdict::kValidated && decision.checks.empty())
-    wrong = "no check was made of it";
+    wrong = "it has no checks";
   if (decision.approval && samePerson(decision.approval->by, decision.by))
-    wrong = decision.by + " approved what the same person had validated";
+    wrong = decision.by + " both validated and approved";
   findings.push_back(
-      {wrong.empty(), "decision", wrong.empty() ? "it rests on what the document holds" : wrong});
+      {wrong.empty(), "decision", wrong.empty() ? "it follows from the document" : wrong});
 }
 
 void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_basin,
@@ -123,14 +123,14 @@ void verifyMeasured(const Document& document, const MeasuredPose& measured, bool
     const auto& together = document.session.lastRunOf(document.pose.case_id)->together;
     add("run", validationConcern(document.session, measured.subject),
         "the run" + (together ? " " + togetherText(together->views, document.pose.case_id) : "") +
-            " gives the same digest again");
+            " gives the same digest");
   }
   add("pose", poseDifference(document.pose, measured.subject.camera_from_station),
-      "it is the pose that comes out again");
+      "the measured pose is the same");
   add("covariance", covarianceDifference(document.pose, measured.subject.covariance),
-      "it is the covariance that comes out again");
+      "the measured covariance is the same");
   add("checks", checksDifference(document.pose, measured.checks, with_basin),
-      "made again they are as stated");
+      "measured again, they are the same");
 }
 
 /// Nothing when it cannot be measured, which is then found wrong.
@@ -139,7 +139,7 @@ std::optional<MeasuredPose> measureAgain(const Document& document, int basin_see
   try {
     return measurePose(document.session, document.pose, basin_seeds, document.file);
   } catch (const InputError& error) {
-    findings.push_back({false, "run", std::string("it cannot be measured again: ") + error.what()});
+    findings.push_back({false, "run", std::string("it cannot be measured: ") + error.what()});
     return {};
   }
 }
@@ -160,8 +160,8 @@ void verifyMembers(const Document& document, const std::optional<MeasuredPose>& 
     if (!anew.contains(name) && (measured || name != "run"))
       wrong += (wrong.empty() ? "" : ", ") + name;
   findings.push_back({wrong.empty(), "contents",
-                      wrong.empty() ? "the members follow from each other"
-                                    : "these members do not follow from the rest: " + wrong});
+                      wrong.empty() ? "the members are consistent"
+                                    : "inconsistent members: " + wrong});
 }
 
 /// The run of a pose that has one, and what the document says of it.
@@ -169,7 +169,7 @@ void verifyRunStated(const Document& document, Findings& findings) {
   if (document.pose.source != PoseSource::kRun) return;
   if (document.session.lastRunOf(document.pose.case_id) == nullptr)
     findings.push_back(
-        {false, "run", "the session inside does not have the run that the pose is of"});
+        {false, "run", "the embedded session does not have the run of the pose"});
   if (!document.json.contains("run"))
     findings.push_back({false, "run", "the member run, with options and matches, is missing"});
 }
@@ -194,20 +194,20 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
 void listNotProved(const Decision* decision, bool measured, bool with_basin,
                    std::vector<std::string>& list) {
   if (!measured)
-    list.emplace_back("run, pose, covariance and checks: they were not measured again");
+    list.emplace_back("run, pose, covariance and checks: not measured");
   if (decision == nullptr) return;
   const std::string approved = decision->approval ? " and " + decision->approval->by : "";
   list.push_back("who: " + decision->by + approved +
-                 " (a name is text, and the signature is a checksum that anybody can write)");
+                 " (a name is text; the signature is a checksum without a key)");
   list.push_back("when: " + decision->time +
                  (decision->approval ? " and " + decision->approval->time : ""));
   for (const JudgedCheck& judged : decision->checks)
     if (!judged.override_reason.empty())
       list.push_back("reason: why the failed check '" + judged.check.title +
-                     "' was passed over: " + judged.override_reason);
+                     "' was waived: " + judged.override_reason);
   if (measured && decision->basin_seeds > 0 && !with_basin)
     list.push_back("convergence test: its " + std::to_string(decision->basin_seeds) +
-                   " further seeds were not run again (--full runs them)");
+                   " further seeds were not run again (use --full)");
 }
 
 }  // namespace

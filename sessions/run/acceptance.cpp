@@ -34,8 +34,8 @@ std::string competingText(const LocalizationTrace& trace) {
   if (closest == nullptr) return "";
   const std::size_t count = trace.competing_poses.size();
   return (count == 1
-              ? std::string(" One competing pose looks alike; it has ")
-              : " " + std::to_string(count) + " competing poses look alike; the closest has ") +
+              ? std::string(" One competing pose is similar; it has ")
+              : " " + std::to_string(count) + " competing poses are similar; the closest has ") +
          nats(std::abs(closest->margin_nats), 1) +
          (closest->margin_nats < 0.0 ? " more evidence." : " less evidence.");
 }

@@ -82,7 +82,7 @@ std::string leftOutText(const std::string& status) {
     return "too few of its edges are rendered or found";
   if (isStatus(status, LocalizationStatus::kTooFewTemplates)) return "too few templates";
   if (isStatus(status, LocalizationStatus::kTooFewMatches))
-    return "too few of its templates meet edges of the image";
+    return "too few of its templates match edges of the image";
   if (isStatus(status, LocalizationStatus::kPnpFailed))
     return "too few of its matches or edges agree with the pose of the others";
   if (isStatus(status, LocalizationStatus::kNotSupported))

@@ -13,7 +13,7 @@ namespace {
 CheckPreset sampleTransfer() {
   CheckPreset preset;
   preset.name = kDefaultCheckPreset;
-  preset.help = "Putting a tube into its place: 0.4 mm and 0.25 deg.";
+  preset.help = "Insertion of a sample tube: 0.4 mm and 0.25 deg.";
   preset.requirement.normal_mm = 0.4;
   preset.requirement.lateral_mm = 0.4;
   preset.requirement.rotation_deg = 0.25;
@@ -23,7 +23,7 @@ CheckPreset sampleTransfer() {
 CheckPreset photographs() {
   CheckPreset preset;
   preset.name = "photographs";
-  preset.help = "Photographs whose truth and calibration are good to some pixels only.";
+  preset.help = "Photographs with truth and calibration good to a few pixels.";
   preset.requirement.projection_px = 5.0;
   // Meshes of toys and castings, glossy or printed surfaces: less is seen, more is not predicted.
   preset.limits.inlier_ratio_percent = 14.0;

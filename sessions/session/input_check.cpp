@@ -88,7 +88,7 @@ std::optional<Finding> findingOf(const std::string& case_id, const Dependency& d
     finding.text += dependency.file.string() + ": " + (lost.empty() ? state.error : lost);
   } else if (changed) {
     finding.text +=
-        namesOf(dependency) + " is not the file that the session was made with (its SHA-256 is " +
+        namesOf(dependency) + " differs from the session's file (its SHA-256 is " +
         state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) + "...)";
   } else {
     return {};
@@ -249,8 +249,7 @@ void requireKnown(const fs::path& file, const std::string& what, const std::stri
                   const std::string& known_sha256) {
   if (found_sha256 != known_sha256)
     throw InputError(file, what +
-                               " are not those that the session was made with: relink the file, "
-                               "or accept it as it is now");
+                               " differ from those of the session: relink the file, or accept it as it is now");
 }
 
 std::string otherFileText(const fs::path& image) {
@@ -275,8 +274,8 @@ std::string lostLabelText(const ImageInput& image) {
   } catch (const InputError&) {
   }
   const std::string stem = file.stem().string();
-  return "the label that it had when the session was made is no longer there: put " + stem +
-         ".lbl (or " + stem + ".xml) back beside it";
+  return "its former label is missing: put " + stem +
+         ".lbl (or " + stem + ".xml) back next to it";
 }
 
 ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit) {

@@ -43,8 +43,7 @@ void flagCamera(const Camera& camera, CameraSheet& sheet) {
     sheet.flags.push_back(
         {"camera_off_centre",
          "the principal point is " + fixedText(100.0 * off_centre, 0) +
-             " % of the image off its middle: is this camera of a sub-frame, or of another image "
-             "size?"});
+             " % of the image off its middle: check whether the camera is for a sub-frame or another image size"});
   const double aspect = camera.fx / std::abs(camera.fy);
   if (aspect > 1.02 || 1.0 / aspect > 1.02)
     sheet.flags.push_back(
@@ -82,7 +81,7 @@ void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet)
   const BoundingBox bounds = matchedBounds(scene.view());
   const Pose& seed = one.camera_from_station_seed;
   const std::string scale = scaleConcern(bounds, seed);
-  if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": is the mesh's unit right?"});
+  if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": check the mesh's unit"});
   const std::string concern = seedConcern(one.camera, scene.view(), seed);
   if (!concern.empty()) {
     const bool behind = concern.find("behind") != std::string::npos;
@@ -91,13 +90,11 @@ void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet)
   const Eigen::Vector3d camera_in_station_m = seed.inverse().translation_m;
   if (contains(bounds, camera_in_station_m) && isInside(scene.view(), camera_in_station_m))
     sheet.flags.push_back({"camera_in_station",
-                           "the seed puts the camera inside the station: is the mesh's unit "
-                           "right, and the seed camera_from_station?"});
+                           "the seed places the camera inside the station: check the mesh's unit, and that the seed is camera_from_station"});
   const double size_px = bounds.diagonal() / (seed * bounds.centre()).norm() * one.camera.fx;
   if (size_px < kSmallestStation_px)
     sheet.flags.push_back({"station_small", "the station would be only " + fixedText(size_px, 1) +
-                                                " px large in the image at the seed: is the mesh's "
-                                                "unit right?"});
+                                                " px large in the image at the seed: check the mesh's unit"});
 }
 
 /// Beyond these figures a pose is hardly ever found (resources/evidence/trust.md).
@@ -105,7 +102,7 @@ void flagQuality(const std::optional<ImageQuality>& quality, InputSheet& sheet) 
   if (!quality) return;  // seedConcern says why
   const CheckLimits limits;
   const auto flag = [&sheet](const char* code, const std::string& found, const char* remedy) {
-    sheet.flags.push_back({code, "where the seed shows the station " + found + ": " + remedy});
+    sheet.flags.push_back({code, "at the seed's position of the station " + found + ": " + remedy});
   };
   if (quality->edge_width_px > limits.edge_width_px)
     flag("image_blurred", "edges are " + fixedText(quality->edge_width_px, 1) + " px wide",
@@ -195,7 +192,7 @@ CameraSheet cameraSheet(const Camera& camera) {
                  "field of view " + fixedText(sheet.field_of_view_x_deg, 2) + " x " +
                      fixedText(sheet.field_of_view_y_deg, 2) + " deg, diagonal " +
                      (std::isfinite(diagonal_deg) ? fixedText(diagonal_deg, 2) + " deg"
-                                                  : "not to be told, as a corner sees nothing") +
+                                                  : "unknown, as a corner sees nothing") +
                      "; 1 px is " + fixedText(1000.0 / camera.fx, 3) + " mm at 1 m"};
   flagCamera(camera, sheet);
   return sheet;
@@ -245,16 +242,14 @@ ImageSheet imageSheet(const GrayImage& image) {
                                 "those pixels, or expose less"});
   if (*high - *low < 64)
     sheet.flags.push_back(
-        {"image_few_grays", "the image uses few gray levels: is its bit depth stated right?"});
+        {"image_few_grays", "the image uses few gray levels: check its bit depth"});
   for (const std::string& note : image.notes) sheet.flags.push_back({"image_note", note});
   if (image.sample_bits > 8 && !image.bit_depth_stated && !image.bit_depth_of_label)
     sheet.flags.push_back({"image_bit_depth",
-                           "the samples have 16 bits and nothing says how many of them are used: "
-                           "state the bit depth"});
+                           "the samples have 16 bits, but the used bits are not stated: state the bit depth"});
   if (looksLikeMosaic(image.view()))
     sheet.flags.push_back({"image_mosaic",
-                           "the pixels alternate like a Bayer mosaic: turn it into gray or colour "
-                           "before matching"});
+                           "the pixels look like a Bayer mosaic: convert to gray or colour before matching"});
   return sheet;
 }
 

@@ -40,7 +40,7 @@ std::string cameraConcern(const SessionCase& one, const CameraFile& label) {
     return "the camera is not that of the image's label: " +
            (difference_px ? "at the seed's distance the two differ by up to " +
                                 fixedText(*difference_px, 1) + " px"
-                          : "the two see nothing in common");
+                          : "they have no common field of view");
   if (!one.camera_reference || !label.reference || label.reference->frame.name.empty() ||
       !(one.camera_reference->frame == label.reference->frame))
     return "";

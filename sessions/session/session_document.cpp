@@ -34,7 +34,7 @@ Session ordered(Session session) {
 /// Proves that the text of a session can be opened again and is then the same.
 void requireReadable(const Session& session, const fs::path& file, const std::string& text) {
   if (!(readSession(JsonDocument(file, text).root()) == session))
-    throw std::logic_error("a session does not read back as it was written");
+    throw std::logic_error("a written session differs when read back");
 }
 
 fs::path asideName(const fs::path& journal) {
@@ -112,7 +112,7 @@ SessionDocument SessionDocument::create(const fs::path& file, const Session& ses
   SessionDocument document(file);
   std::error_code error;
   if (fs::exists(fs::symlink_status(document.file_, error)))
-    throw OutputError(file, "there is a file of this name already");
+    throw OutputError(file, "the file exists");
   requireWritable(document.file_);
   document.takeLock();
   document.requireEditable();
@@ -129,7 +129,7 @@ void SessionDocument::takeLock() {
   try {
     lock_ = std::make_unique<FileLock>(lockFileOf(file_));
   } catch (const OutputError& error) {
-    read_only_reason_ = "nothing can be written beside it (" + error.reason() + ")";
+    read_only_reason_ = "nothing can be written next to it (" + error.reason() + ")";
     return;
   }
   if (!lock_->held())
@@ -137,7 +137,7 @@ void SessionDocument::takeLock() {
         "it is open already: " +
         (lock_->other() ? lock_->other()->text() : std::string("by another program"));
   else if (lock_->stale())
-    notices_.push_back("the last program that had it open did not close it: " +
+    notices_.push_back("the last program did not close it: " +
                        lock_->stale()->text());
 }
 
@@ -163,7 +163,7 @@ void SessionDocument::readJournalBeside() {
       setJournalAside("it belongs to another state of the file");
     }
   } catch (const InputError& wrong) {
-    setJournalAside("it is damaged, or of another version than this program's (" + wrong.reason() +
+    setJournalAside("it is damaged, or from another version of the program (" + wrong.reason() +
                     ")");
   }
 }
@@ -185,7 +185,7 @@ void SessionDocument::requireEditable() const {
   if (readOnly()) throw OutputError(file_, read_only_reason_);
   if (recovery_)
     throw OutputError(file_,
-                      "unsaved edits of an earlier program wait to be recovered or declined");
+                      "unsaved edits of an earlier program must be recovered or declined");
 }
 
 void SessionDocument::acceptRecovery() {

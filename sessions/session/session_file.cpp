@@ -94,7 +94,7 @@ template <class Archive, ConstOr<TogetherRecord> Self>
 void fields(Archive& archive, Self& record) {
   archive.list("views", record.views);
   if constexpr (Archive::kReads)
-    if (record.views.size() < 2) archive.json().failMember("views", "names less than two");
+    if (record.views.size() < 2) archive.json().failMember("views", "has fewer than two");
   archive.field("inputs_sha256", record.inputs_sha256, kSha256);
 }
 
@@ -185,7 +185,7 @@ SavedSession readSessionFile(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kSession);
   if (asText(bytes).starts_with("PK\x03\x04"))
     throw InputError(file,
-                     "an archive, as whs pack makes it: unpack it, and open the session in it");
+                     "an archive of whs pack: unpack it, then open its session");
   const JsonDocument document(file, asText(bytes));
   return {readSession(document.root()), sha256Text(bytes)};
 }

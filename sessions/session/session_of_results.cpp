@@ -28,18 +28,18 @@ const MethodFacts& whsOf(const ResultsFacts& facts) {
   const auto found = std::find_if(facts.methods.begin(), facts.methods.end(),
                                   [](const MethodFacts& one) { return one.method == "whs"; });
   if (found == facts.methods.end())
-    throw InputError(facts.file, "it holds no runs of the method whs, which alone can be repeated");
+    throw InputError(facts.file, "it has no runs of the method whs; only these can be repeated");
   if (!found->mesh_of.empty() || !found->mirror.empty())
     throw InputError(
         facts.file,
-        "its runs were made with deliberately wrong meshes: there is nothing to look at");
+        "its runs used deliberately wrong meshes, which sessions do not support");
   return *found;
 }
 
 void requireSameDataset(const ResultsFacts& facts) {
   if (std::filesystem::is_directory(facts.dataset.dataset))
     throw InputError(facts.file, "its runs are of the BOP folder " + facts.dataset.dataset +
-                                     ", and sessions are made of a dataset.json only");
+                                     ", but sessions need a dataset.json");
   const std::string now = sha256Text(readFileBytes(facts.dataset.dataset, kMaxJsonBytes));
   if (now != facts.dataset.dataset_sha256)
     throw InputError(facts.file, "its dataset " + facts.dataset.dataset +
@@ -111,7 +111,7 @@ Session sessionOfResults(const std::filesystem::path& results_file) {
   const std::vector<RunResult> runs = troubledFirst(results_file);
   std::vector<std::string> ids;
   for (const RunResult& run : runs) ids.push_back(run.case_id);
-  if (ids.empty()) throw InputError(results_file, "none of its runs could begin");
+  if (ids.empty()) throw InputError(results_file, "none of its runs could start");
   Session session = makeSession(facts.dataset.dataset, ids);
   std::map<std::string, SharedValue<SessionCase>> by_id;
   for (const auto& one : session.cases) by_id.emplace(one->id, one);

@@ -124,8 +124,7 @@ constexpr std::size_t kMostPadding = 3;  ///< of a glTF buffer, to a multiple of
 void requireSame(const fs::path& file, const std::string& found, const std::string& known) {
   if (found != known)
     throw InputError(file,
-                     "it is not the file that the session was made with: accept it as it is now, "
-                     "or bring back the other one");
+                     "it differs from the session's file: accept it as it is now, or restore the former file");
 }
 
 /// Folders below which a session may take files along.
@@ -148,8 +147,7 @@ class Folders {
       if (folders_.contains(above)) return real;
     }
     throw InputError(file, (real == file ? "it lies" : "it leads to " + real.string() + ",") +
-                               " outside the session's folder and those of its inputs: copy it "
-                               "there, and name the copy");
+                               " outside the session's folder and those of its inputs: copy it there, and use the copy");
   }
 
  private:
@@ -334,7 +332,7 @@ void writePack(const SessionPack& pack, const fs::path& archive) {
   for (const PackedFile& one : pack.files) {
     const std::vector<std::uint8_t> bytes = readFileBytes(one.file, kMaxPackedBytes);
     if (sha256Text(bytes) != one.sha256)
-      throw InputError(one.file, "it has changed while it was packed: pack again");
+      throw InputError(one.file, "it changed during packing: pack again");
     zip.add(one.name, bytes);
   }
   const auto* text = reinterpret_cast<const std::uint8_t*>(pack.session_text.data());

@@ -54,8 +54,7 @@ std::string whyAlone(const Session& session, const std::string& case_id) {
   const SessionCase* one = session.findCase(case_id);
   if (one == nullptr) return "There is no such case.";
   if (!one->rig)
-    return "The case is of no rig: link it to the other views (Annotation, Rig), or name a rig in "
-           "dataset.json.";
+    return "The case has no rig: link it to the other views (Annotation, Rig), or state a rig in dataset.json.";
   const std::vector<std::string> others = casesOfRig(session, case_id);
   if (others.empty()) return "The session has no other view of rig " + one->rig->id + ".";
   if (others.size() + 1 > kMaxViews)
@@ -142,7 +141,7 @@ LocalizationTrace repeatRun(const RunRecord& run, const Session& session,
     if (one.views[one.own_view].case_id != run.case_id) continue;
     if (one.views != run.together->views)
       throw InputError(session_file, "run " + run.digest,
-                       "its views do not end as its member together states");
+                       "its views contradict its member together");
     return one;
   }
   throw InputError(session_file, "run " + run.digest, "its own case is not among its views");

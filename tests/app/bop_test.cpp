@@ -113,7 +113,7 @@ TEST_F(WhsBop, RefusesWhatItCannotMean) {
               HasSubstr("choose of a BOP folder"));
   const ProgramRun csv =
       runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out}, 3);
-  EXPECT_THAT(csv.err, HasSubstr("is not of a BOP dataset"));
+  EXPECT_THAT(csv.err, HasSubstr("is not part of a BOP dataset"));
   const ProgramRun scene = runWhs({"info", set_, "--scene", "9"}, 3);
   EXPECT_THAT(scene.err, HasSubstr("has no scene 000009"));
 }

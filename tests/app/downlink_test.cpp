@@ -294,7 +294,7 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   EXPECT_THAT(runWhs({"camera", other_ending, "--out", folder_ / "left.json"}, 0).err,
               HasSubstr("the covariance of left.cahvore stays behind"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
-              HasSubstr("the vectors are those of a cahvor model"));
+              HasSubstr("the vectors belong to a cahvor model"));
   runWhs({"camera", image_.string()}, 2);
   runWhs({"camera", text, "--as", "pinhole", "--out", text}, 2);
 }

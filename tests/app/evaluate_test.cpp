@@ -154,7 +154,7 @@ TEST_F(WhsEvaluate, RefusesToGoOnWithOtherOptions) {
   EXPECT_THAT(other.err, HasSubstr("loop.max_iterations 1, not 2; name another file"));
   EXPECT_EQ(folder_.read("r.sqlite"), before);
   EXPECT_THAT(runWhs(evaluateArguments(dataset_, quick), 0).err,
-              HasSubstr("2 of 2 runs are there already"));
+              HasSubstr("2 of 2 runs are done"));
 }
 
 TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
@@ -272,7 +272,7 @@ TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {
       HasSubstr("2 cases"));
   EXPECT_THAT(folder_.read("q.boresight.json"), HasSubstr("loop.max_iterations"));
   EXPECT_THAT(runWhs({"queue", file("q.boresight.json")}).out,
-              HasSubstr("not run here; in the results: iteration_limit"));
+              HasSubstr("not run in this session; in the results: iteration_limit"));
 }
 
 TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {

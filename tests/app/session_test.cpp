@@ -53,7 +53,7 @@ TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
   const TemporaryFolder folder;
   const std::string file = folder.write("s.json", "mine");
   const ProgramRun there = runWhs({"new", "--dataset", kDataset, "--out", file}, 3);
-  EXPECT_THAT(there.err, HasSubstr("there is a file of this name already"));
+  EXPECT_THAT(there.err, HasSubstr("the file exists"));
   EXPECT_EQ(folder.read("s.json"), "mine");
   const std::string out = folder / "t.json";
   runWhs({"new", "--out", out}, 2);
@@ -82,7 +82,7 @@ TEST(WhsNew, SaysAtOnceWhatARunWouldRefuse) {
   seed["camera_from_station"][2][3] = -0.4;
   const ProgramRun behind = make(os / "camera.json", folder.write("seed.json", seed.dump()));
   EXPECT_EQ(behind.exit_code, 0) << "a person can move it";
-  EXPECT_THAT(behind.err, HasSubstr("no run begins like this: case image: seed: "));
+  EXPECT_THAT(behind.err, HasSubstr("a run cannot start from this seed: case image: seed: "));
 }
 
 TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
@@ -139,7 +139,7 @@ TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {
   runWhs({"run", file, "--again", "xyz"}, 3);
   EXPECT_THAT(runWhs({"run", file, "--again", ""}).out, HasSubstr("converged"));
   EXPECT_THAT(runWhs({"info", file}).out,
-              HasSubstr("other options from its iteration 3 on, going on from run " + plain));
+              HasSubstr("other options from its iteration 3 on, continued from run " + plain));
 }
 
 TEST(WhsRun, RefusesWhatItMustNotTouch) {

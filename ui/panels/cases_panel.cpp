@@ -50,12 +50,10 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
        },
        [](Row row) { return static_cast<int>(row.state); }},
       {tr("Normal,\nmm"),
-       tr("Error of the result along the view axis at the end effector (at the camera where that "
-          "is not known), in mm, where the truth is known."),
+       tr("Error of the result along the view axis at the end effector (at the camera where that is not known), in mm, where the truth is known."),
        3, error(&CaseRow::normal_mm)},
       {tr("Lateral,\nmm"),
-       tr("Error of the result across the view axis at the end effector (at the camera where that "
-          "is not known), in mm, where the truth is known."),
+       tr("Error of the result across the view axis at the end effector (at the camera where that is not known), in mm, where the truth is known."),
        3, error(&CaseRow::lateral_mm)},
       {tr("Turned,\ndeg"),
        tr("Angle between the view axes of the result and the truth, in degrees, where that is "

@@ -79,7 +79,7 @@ void MatchInspectorPanel::showIteration() {
   } else if (model_.rowCount() > 0) {
     ui_.pages->setCurrentWidget(ui_.matches);
   } else {
-    ui_.hint->setText(!view_.snapshot() ? tr("Nothing has run yet.")
+    ui_.hint->setText(!view_.snapshot() ? tr("No run yet.")
                       : !iteration_     ? tr("The seed has no matches; choose an iteration.")
                                         : tr("This iteration has no templates yet."));
     ui_.pages->setCurrentWidget(ui_.nothing);

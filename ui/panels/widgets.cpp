@@ -123,7 +123,7 @@ QString Banner::text() const { return text_->text(); }
 
 void Banner::showRun(const sessions::LocalizationTrace* run) {
   if (run == nullptr) {
-    setMessage(QStringLiteral("○"), tr("Nothing has run yet."), Tone::kPlain);
+    setMessage(QStringLiteral("○"), tr("No run yet."), Tone::kPlain);
     return;
   }
   const QString text = fromText(sessions::runStatusText(*run));

@@ -212,7 +212,7 @@ void requirePicture(const LabelFiles& files, const LabelRaster& raster,
                                      "the wanted band into a file of its own");
   if (bands == 3 && !reading.derived_type.empty())
     throw InputError(
-        files.file, "the label calls this a " + reading.derived_type + ", not a picture in colour");
+        files.file, "the label calls this a " + reading.derived_type + ", not a colour image");
 }
 
 std::string ruleOf(const LabelSamples& samples, const Range& range, const SampleType& type) {
@@ -253,8 +253,7 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
   Range range = rangeOf(raster, valid);
   if (!(range.lowest <= range.highest))
     throw InputError(files.file,
-                     "no sample of the image has a value: all are missing, invalid or "
-                     "no numbers");
+                     "no sample of the image has a value: all are missing, invalid or not a number");
   LabelSamples samples;
   samples.container = labelFormatName(files.format);
   samples.width = raster.picture.width;
@@ -268,7 +267,7 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
     range = withoutOutliers(raster, valid, whole);
     if (range.clipped_count > 0)
       label.flags.push_back(
-          std::to_string(range.clipped_count) + " samples lie far off all others (all go from " +
+          std::to_string(range.clipped_count) + " samples are far outliers (the full range is " +
           numberText(whole.lowest) + " to " + numberText(whole.highest) + ") and are clipped to " +
           numberText(range.lowest) + " .. " + numberText(range.highest));
   }

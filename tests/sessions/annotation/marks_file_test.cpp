@@ -59,7 +59,7 @@ TEST(MarksFile, NamesWhatIsWrong) {
   EXPECT_EQ(error(R"([{"id": "a", "sigma_px": 0, )" + good + "}]"),
             "points.json: points[0].sigma_px: 0 is outside 1e-06 .. 10000");
   EXPECT_EQ(error("[]", R"([{"id": "l", "line_px": [[1, 1], [1, 1]]}])"),
-            "points.json: lines[0].line_px: both ends are the same place");
+            "points.json: lines[0].line_px: both ends coincide");
 }
 
 TEST(MarksCsv, RoundTripIsExact) {
@@ -112,9 +112,9 @@ TEST(MarksCsv, NamesLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(error("point,a,1,2,,,3,4,5,,,,1,1,0,\npoint,a,1,2,,,3,4,5,,,,1,1,0,\n"),
             "marks.csv: line 3, id: 'a' is given twice");
   EXPECT_EQ(error("point,a,1,2,,,3,4,5,,,,1,1,0,\"open\n"),
-            "marks.csv: line 2: a quote is not closed");
+            "marks.csv: line 2: closing quote is missing");
   EXPECT_EQ(error("line,a,1,2,1,2,3,4,5,6,7,8,1,1,0,\n"),
-            "marks.csv: line 2, x1_px: a line needs two places in the image, or none");
+            "marks.csv: line 2, x1_px: a line needs two pixels, or none");
   EXPECT_THROW((void)parseMarksCsv("marks.csv", ""), std::exception);
 }
 

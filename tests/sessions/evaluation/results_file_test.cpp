@@ -227,8 +227,7 @@ TEST_F(ResultsFile, WithATriggerIsRefusedByReadersAndWriters) {
   write({sampleRun("bc-1", 0, 0)});
   query(file_, "CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END");
   const std::string reason =
-      "r.sqlite: its trigger \"stop\" is not one that whs evaluate makes; it was changed by "
-      "another program: evaluate again into a new file";
+      "r.sqlite: its trigger \"stop\" is not from whs evaluate; it was changed by another program: evaluate again into a new file";
   EXPECT_EQ(folder_.message([&] { (void)readResults(file_); }), reason);
   EXPECT_EQ(refusal(sampleDataset(), sampleMethod("whs")), "cannot write " + reason);
 }

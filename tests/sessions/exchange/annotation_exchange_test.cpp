@@ -121,7 +121,7 @@ TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   EXPECT_THAT(colmap(none, {}), HasSubstr("no case has marks"));
   EXPECT_THAT(colmap(none, {bc_}), HasSubstr("case '" + bc_ + "' has no pose: "));
   EXPECT_THAT(message([&] { sessions::exportMarks(none, bc_, folder_ / "p.json"); }),
-              HasSubstr("has no marks"));
+              HasSubstr("has no annotations"));
   sessions::SessionCase moved = *session_.findCase(os_);
   moved.image.source.file = folder_ / "gone.png";
   EXPECT_THAT(message([&] {

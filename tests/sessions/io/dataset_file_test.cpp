@@ -236,7 +236,7 @@ TEST_F(ReadDataset, NamesWhatIsWrongInAStation) {
             "dataset.json: stations.bc.mesh: unknown mesh format '.step' (ply, obj, stl, gltf, "
             "glb)");
   EXPECT_EQ(error([](json& d) { d["stations"]["bc"]["parts"] = json::array(); }),
-            "dataset.json: stations.bc.mesh: given together with 'parts'");
+            "dataset.json: stations.bc.mesh: cannot be combined with 'parts'");
   EXPECT_EQ(error([](json& d) { d["stations"]["os"]["parts"] = json::array(); }),
             "dataset.json: stations.os.parts: is empty");
   EXPECT_EQ(error([](json& d) { d["stations"]["os"]["parts"][0]["match"] = false; }),

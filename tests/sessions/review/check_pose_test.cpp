@@ -295,12 +295,11 @@ TEST(ChecksText, FailedOnesSayWhy) {
 
 TEST(ChecksText, OnesThatAreNotApplicableSayWhyNot) {
   Check check;
-  check.title = "Other seeds lead back";
+  check.title = "Convergence from other seeds";
   check.state = CheckState::kNotApplicable;
   check.sentence = "No other seeds were run.";
   EXPECT_EQ(checksText(std::vector{check}),
-            "  -   Other seeds lead back\n      No other seeds were run.\n"
-            "0 passed, 0 failed, 1 not applicable\n");
+            "  -   Convergence from other seeds\n      No other seeds were run.\n0 passed, 0 failed, 1 not applicable\n");
   check.state = CheckState::kPassed;
   EXPECT_EQ(checksText(std::vector{check}).find("No other seeds were run."), std::string::npos);
 }

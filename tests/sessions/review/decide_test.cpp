@@ -37,7 +37,7 @@ TEST(Decide, AValidationNeedsANameACommentAndAnswersToAllChecks) {
         [&] { validated(judged.session, judged.subject, judged.checks, overrides, who); });
   };
   EXPECT_EQ(refused({}, {"Ada", "right"}), "");
-  EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give a name"));
+  EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give your name"));
   EXPECT_THAT(refused({}, {"Ada", " \n"}), HasSubstr("give a comment"));
   EXPECT_THAT(refused({{"converged", "so"}}, {"Ada", "right"}), HasSubstr("has not failed"));
   EXPECT_THAT(refused({{"nothing", "so"}}, {"Ada", "right"}), HasSubstr("no check 'nothing'"));
@@ -130,7 +130,7 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
          run.digest = randomSha256(random);
          session.runs.push_back(run);
        }},
-      {"its run is no longer there", [](Session& session, auto&) { session.runs.clear(); }},
+      {"its run is missing", [](Session& session, auto&) { session.runs.clear(); }},
       {"the marks have", [&](Session& session, auto& one) {
          sessions::Marks marks;
          while (marks == sessions::Marks()) marks = randomAnnotation(random);

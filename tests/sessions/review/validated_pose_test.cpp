@@ -369,7 +369,7 @@ TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
   EXPECT_THAT(report.not_proved,
               AllOf(Contains(HasSubstr("who: Flight Director")),
                     Contains(HasSubstr("when: 2020-01-01T00:00:00Z")),
-                    Contains(HasSubstr("'Inliers' was passed over: the shadow of the arm"))));
+                    Contains(HasSubstr("'Inliers' was waived: the shadow of the arm"))));
 }
 
 TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
@@ -390,11 +390,11 @@ TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
   report = verified(file);
   EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, true)),
-              HasSubstr("'The best of other answers' is stated as"));
+              HasSubstr("'Best competing pose' is stated as"));
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
                 checkOf(decision, "basin_rival").check.sentence = "None.";
               }),
-              HasSubstr("'The best of other answers' is stated as"));
+              HasSubstr("'Best competing pose' is stated as"));
 }
 
 TEST_F(ValidatedPose, ASessionEditedByHandIsNotSigned) {

@@ -178,7 +178,7 @@ TEST(RunStatusText, SaysWhatSpeaksForAPose) {
 
 TEST(RunStatusText, SaysHowFarARunIs) {
   LocalizationTrace trace;
-  EXPECT_EQ(runStatusText(trace), "Nothing has run yet.");
+  EXPECT_EQ(runStatusText(trace), "No run yet.");
   trace = endedWith(LocalizationStatus::kRunning);
   EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
   trace.last_under_way = true;
@@ -189,8 +189,7 @@ TEST(RunStatusText, NamesTheOtherViews) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
   EXPECT_THAT(runStatusText(trace),
-              testing::StartsWith("Together with b (left out: too few of its templates meet edges "
-                                  "of the image) and c. Converged in"));
+              testing::StartsWith("Together with b (left out: too few of its templates match edges of the image) and c. Converged in"));
   trace = endedWith(LocalizationStatus::kTooFewMatches);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}};
   trace.own_view = 1;

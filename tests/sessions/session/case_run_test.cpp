@@ -49,7 +49,7 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
   Session options = session;
   options.options.emplace_back("pnp.nonsense", 1.0);
   EXPECT_THAT(folder.message([&] { (void)sessions::runCase(options, os.id); }),
-              HasSubstr("options.pnp.nonsense: there is no such option"));
+              HasSubstr("options.pnp.nonsense: unknown option"));
 }
 
 /// Parsing what somebody put in the mesh's place is a risk without a use.
@@ -59,8 +59,7 @@ TEST(CaseRun, AMeshWithAnotherHashIsNotParsed) {
   SessionCase one = *session.cases[0];
   one.parts[0].source.mesh = folder.write("m.ply", "this is no mesh");
   const std::string expected =
-      "m.ply: its bytes are not those that the session was made with: relink the file, or accept "
-      "it as it is now";
+      "m.ply: its bytes differ from those of the session: relink the file, or accept it as it is now";
   EXPECT_EQ(folder.message([&] { (void)sessions::loadCase(one); }), expected);
   session = withCase(session, one);
   EXPECT_EQ(sessions::checkInputs(session).front().kind, sessions::FindingKind::kChanged);

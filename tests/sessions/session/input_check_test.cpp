@@ -159,7 +159,7 @@ TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
 TEST_F(LabelledImage, SaysThatItIsTheLabelThatIsGone) {
   one_.image.source.file = folder_ / "in/sol12.img";
   std::filesystem::remove(label_);
-  const std::string wanted = "no longer there: put sol12.lbl (or sol12.xml) back beside it";
+  const std::string wanted = "no longer there: put sol12.lbl (or sol12.xml) back next to it";
   EXPECT_THAT(folder_.message([this] { (void)sessions::loadCase(one_); }), HasSubstr(wanted));
   const auto findings = sessions::checkInputs(session());
   ASSERT_THAT(findings, SizeIs(1));

@@ -92,7 +92,7 @@ TEST(SessionDocument, CreateTouchesNoFileThatIsThere) {
   const TemporaryFolder folder;
   folder.write("s.json", "mine");
   EXPECT_THAT(folder.message([&] { SessionDocument::create(folder / "s.json", {}); }),
-              HasSubstr("there is a file of this name already"));
+              HasSubstr("the file exists"));
   EXPECT_EQ(folder.read("s.json"), "mine");
   EXPECT_EQ(folder.fileCount(), 1u);
 }
@@ -263,7 +263,7 @@ TEST(SessionDocument, OpensInAReadOnlyFolderToBeRead) {
     return text + folder.message([&] { document.save(); });
   });
   ::chmod(folder.path().c_str(), 0755);
-  const std::string reason = "nothing can be written beside it (Permission denied)";
+  const std::string reason = "nothing can be written next to it (Permission denied)";
   EXPECT_EQ(said, reason + "; cannot write s.json: " + reason + "; cannot write s.json: " + reason);
   EXPECT_EQ(folder.fileCount(), 1u);
 }

@@ -34,7 +34,7 @@ TEST(SessionFile, AnArchiveIsToBeUnpackedFirst) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("s.zip", "PK\x03\x04 and so on");
   EXPECT_EQ(folder.message([&] { (void)sessions::readSessionFile(file); }),
-            "s.zip: an archive, as whs pack makes it: unpack it, and open the session in it");
+            "s.zip: an archive of whs pack: unpack it, then open its session");
 }
 
 TEST(SessionFile, EveryMemberMakesADifference) {
@@ -113,7 +113,7 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
       {[](json& s) { s["zoom"] = 1; }, "zoom: is not known to this version"},
       {[](json& s) { s["profile"] = "best"; }, "profile: there is no profile \"best\""},
       {[](json& s) { s["options"]["pnp.speed"] = 1; },
-       "options.pnp.speed: there is no such option"},
+       "options.pnp.speed: unknown option"},
       {[](json& s) { s["options"]["loop.max_iterations"] = 0; }, "options.loop.max_iterations: "},
       {[](json& s) { s.erase("cases"); }, "cases: missing"},
       {[](json& s) { s["cases"].push_back(s["cases"][0]); }, "cases[1].id: 'bc' is given twice"},

@@ -67,8 +67,8 @@ TEST_F(SessionOfResults, ListsTheMostTroubledFirstAndSoDoesTheQueue) {
   const std::vector<QueueRow> rows = queueRows(session);
   for (const QueueRow& row : rows) queued.push_back(row.case_id);
   EXPECT_EQ(queued, expected);
-  EXPECT_EQ(troubleText(rows[0]), "not run here; in the results: pnp_failed");
-  EXPECT_EQ(troubleText(rows[1]), "not run here; in the results 75 % of the requirement off");
+  EXPECT_EQ(troubleText(rows[0]), "not run in this session; in the results: pnp_failed");
+  EXPECT_EQ(troubleText(rows[1]), "not run in this session; in the results: error 75 % of the requirement");
 }
 
 TEST_F(SessionOfResults, RepeatsARunByItsOwnSeedAndOptions) {

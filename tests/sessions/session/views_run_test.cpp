@@ -167,7 +167,7 @@ TEST_F(ViewsRunTest, OldFilesHaveNoneOfIt) {
       sessions::TogetherRecord{{{first(), "converged"}}, std::string(64, 'a')};
   sessions::writeSessionFile(file(), session_);
   EXPECT_THAT(folder_.message([&] { (void)sessions::readSessionFile(file()); }),
-              HasSubstr("views: names less than two"));
+              HasSubstr("views: has fewer than two"));
 }
 
 TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
@@ -211,7 +211,7 @@ TEST_F(ViewsRunTest, AHandedPoseOfItIsVerifiedByRunningAllViewsAgain) {
   bool said = false;
   for (const auto& finding : report.findings)
     said = said ||
-           finding.text == "the run together with " + second() + " gives the same digest again";
+           finding.text == "the run together with " + second() + " gives the same digest";
   EXPECT_TRUE(said);
 }
 

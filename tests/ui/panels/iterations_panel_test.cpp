@@ -114,7 +114,7 @@ TEST_F(IterationsPanelTest, ShowsNothingOfACaseThatHasNotRun) {
   view_.setCase(nullptr);
   EXPECT_EQ(panel_.model().rowCount(), 0);
   EXPECT_FALSE(child<QSlider>("iterations")->isEnabled());
-  EXPECT_EQ(child<Banner>("runStatus")->text(), QStringLiteral("Nothing has run yet."));
+  EXPECT_EQ(child<Banner>("runStatus")->text(), QStringLiteral("No run yet."));
   for (int i = 0; i < RunScrubber::kStepCount; ++i)
     EXPECT_FALSE(panel_.scrubber().action(static_cast<RunScrubber::Step>(i))->isEnabled());
 }

@@ -124,7 +124,7 @@ TEST_F(MatchInspectorPanelTest, SaysWhyThereIsNothing) {
   EXPECT_FALSE(table_->isVisible());
   bool said = false;
   for (const QLabel* label : panel_.findChildren<QLabel*>())
-    said |= label->isVisible() && label->text() == QStringLiteral("Nothing has run yet.");
+    said |= label->isVisible() && label->text() == QStringLiteral("No run yet.");
   EXPECT_TRUE(said);
 }
 

@@ -49,7 +49,7 @@ TEST(LabelRefusal, WhatIsNoPictureIsRefusedInOneSentence) {
     return message(altered(textOf(vicar.bytes(gray)), from, to));
   };
   EXPECT_THAT(refusal("  NL=8  ", "  NL=0  "),
-              HasSubstr("NL: 0 is no whole number from 1 to 16384"));
+              HasSubstr("NL: 0 is not a whole number from 1 to 16384"));
   EXPECT_THAT(refusal("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is no whole"));
   EXPECT_THAT(refusal("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is no whole"));
   EXPECT_THAT(refusal("  NS=8  ", "  NS=9999  "), HasSubstr("x.vic"));
@@ -85,7 +85,7 @@ TEST(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
     const auto equals = item.find('=');
     EXPECT_THAT(message(altered(whole, std::string(from) + " ", item + " ")),
                 HasSubstr("x.vic: " + item.substr(0, equals) + ": " + item.substr(equals + 1) +
-                          " is no whole number from 1 to"));
+                          " is not a whole number from 1 to"));
   }
   const auto label_size = std::stoi(whole.substr(8, 8));
   EXPECT_EQ(message(altered(whole, "LBLSIZE=" + std::to_string(label_size),
@@ -98,7 +98,7 @@ TEST(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
   EXPECT_EQ(message(at_end), "(nothing)");
   at_end.pop_back();
   EXPECT_EQ(message(at_end),
-            "x.vic: EOL: the part of the label at the file's end is not there in full");
+            "x.vic: EOL: the part of the label at the file's end is incomplete");
 }
 
 TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
@@ -110,7 +110,7 @@ TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
     const auto file = folder.write("x.img", altered(whole, from, to));
     return folder.message([&] { readImage(file); });
   };
-  const std::string reason = " is no whole number from 0 to 999999999";
+  const std::string reason = " is not a whole number from 0 to 999999999";
   EXPECT_EQ(message(" LINE_SAMPLES = 8", " LINE_SAMPLES = 4294967304"),
             "x.img: LINE_SAMPLES: 4294967304" + reason);
   EXPECT_EQ(message(" LINES = 8", " LINES = 8e0"), "x.img: LINES: 8e0" + reason);
