@@ -16,7 +16,7 @@ using sessions::LinePair;
 using sessions::Marks;
 using sessions::PointPair;
 
-const QString kSolving = QStringLiteral("solve marks");
+const QString kSolving = QStringLiteral("solve annotations");
 
 bool sameViews(const sessions::CaseMarks& a, const sessions::CaseMarks& b) {
   if (a.case_ids != b.case_ids || a.views.size() != b.views.size()) return false;

@@ -54,7 +54,7 @@ std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
   const ViewState::CasePtr& one = state_.currentCase();
   if (case_id_.empty() || !one) return {};
   if (!sessions::isInImage(one->source.camera, pixel)) {
-    Q_EMIT told(tr("This place lies outside the image; click on the image itself."));
+    Q_EMIT told(tr("This position is outside the image; click on the image."));
     return {};
   }
   return place(selectedPoint(), &PointPair::pixel, pixel, tr("Place %1 on the image"));
@@ -71,7 +71,7 @@ std::string AnnotationController::placeLineInImage(const sessions::ImageLine& li
   finishMove();
   if (case_id_.empty()) return {};
   if ((line.end - line.start).norm() < 1.0) {
-    Q_EMIT told(tr("A line needs two places at least a pixel apart."));
+    Q_EMIT told(tr("A line needs two points at least a pixel apart."));
     return {};
   }
   return place(selectedLine(), &LinePair::line, line, tr("Place %1 on the image"));
@@ -126,11 +126,11 @@ bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
 /// Whether an edit of the table may give a mark this id.
 bool AnnotationController::mayReplace(const std::string& replaced, const std::string& id) {
   if (id.empty()) {
-    Q_EMIT told(tr("A mark needs a name."));
+    Q_EMIT told(tr("An annotation needs a name."));
     return false;
   }
   if (id != replaced && (sessions::findPoint(marks_, id) || sessions::findLine(marks_, id))) {
-    Q_EMIT told(tr("There is a mark \"%1\" already; take another name.").arg(fromText(id)));
+    Q_EMIT told(tr("The annotation \"%1\" exists; use another name.").arg(fromText(id)));
     return false;
   }
   return true;
@@ -209,8 +209,7 @@ void AnnotationController::confirmSeen() {
     confirmed = sessions::withPoint(std::move(confirmed), point.id, point);
   }
   if (found > 0) commit(confirmed, tr("Confirm %1 landmarks").arg(found));
-  Q_EMIT told(tr("%1 of %2 landmarks show as a corner or an ellipse where they should be; place "
-                 "the others by hand.")
+  Q_EMIT told(tr("%1 of %2 landmarks match a corner or an ellipse of the image; place the others by hand.")
                   .arg(found)
                   .arg(seen));
 }
@@ -244,7 +243,7 @@ void AnnotationController::putAside(const QString& by) {
   sessions::AnnotationRounds rounds = roundsOfCase();
   rounds.push_back({name, sessions::utcNowText(), marks_});
   setRounds(std::move(rounds), sessions::blindMarks(marks_),
-            tr("Put the marks of %1 aside").arg(by.trimmed()));
+            tr("Set the annotations of %1 aside").arg(by.trimmed()));
 }
 
 void AnnotationController::takeUp(int round) {
@@ -253,7 +252,7 @@ void AnnotationController::takeUp(int round) {
   if (round < 0 || round >= static_cast<int>(rounds.size())) return;
   const sessions::AnnotationRound& taken = rounds[static_cast<std::size_t>(round)];
   setRounds(sessions::keepingMarks(rounds, marks_, sessions::utcNowText()), taken.marks,
-            tr("Take up the marks of %1").arg(fromText(taken.by)));
+            tr("Continue the annotations of %1").arg(fromText(taken.by)));
 }
 
 void AnnotationController::removeRound(int round) {
@@ -262,7 +261,7 @@ void AnnotationController::removeRound(int round) {
   if (round < 0 || round >= static_cast<int>(rounds.size())) return;
   const QString by = fromText(rounds[static_cast<std::size_t>(round)].by);
   rounds.erase(rounds.begin() + round);
-  setRounds(std::move(rounds), marks_, tr("Remove the marks of %1").arg(by));
+  setRounds(std::move(rounds), marks_, tr("Remove the annotations of %1").arg(by));
 }
 
 void AnnotationController::useAsTruth() {
@@ -279,14 +278,13 @@ void AnnotationController::useAsTruth() {
   sessions::SessionCase changed = *one;
   sessions::setTruth(changed, *solved, answer_.covariance);
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
-                 tr("Take the annotated pose of %1 as its truth").arg(fromText(case_id_)));
+                 tr("Use the annotated pose of %1 as its truth").arg(fromText(case_id_)));
   QString text =
-      (replaces ? tr("The annotated pose has replaced the truth that %1 had; Undo brings it "
-                     "back.")
-                : tr("The annotated pose is the truth of %1 now."))
+      (replaces ? tr("The annotated pose has replaced the truth of %1; Undo restores it.")
+                : tr("The annotated pose is now the truth of %1."))
           .arg(fromText(case_id_));
   if (!excess.empty())
-    text += tr(" Its one sigma is %1: it can hardly judge a result.").arg(fromText(excess));
+    text += tr(" Its one sigma is %1, too large to judge a result.").arg(fromText(excess));
   Q_EMIT told(text);
 }
 

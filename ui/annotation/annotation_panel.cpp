@@ -29,8 +29,8 @@ constexpr double kMradPerDegree = 1e3 * kDegree_rad;
 QString solutionText(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
 
 /// In the order of `GeometryWeakness`.
-constexpr std::array<const char*, 7> kWeaknesses = {"too few marks",
-                                                    "no mark to spare",
+constexpr std::array<const char*, 7> kWeaknesses = {"too few annotations",
+                                                    "no redundancy",
                                                     "all on one line",
                                                     "all in one plane",
                                                     "all in one corner of the station",
@@ -61,8 +61,7 @@ QString sigmaHtml(const AnnotationAnswer& answer) {
                          : std::nullopt;
   if (!sigma) return {};
   const QString title = solutionText(
-                            "One sigma at the %1, by the marks alone (noise %2 times what their "
-                            "sigmas say)")
+                            "One sigma at the %1, from the annotations (noise %2 times their stated sigmas)")
                             .arg(placeText(marks))
                             .arg(QString::number(solution.noise_factor, 'f', 2));
   QVector<QStringList> rows = sigmaRows(*sigma, marks.requirement);
@@ -97,7 +96,7 @@ QString ambiguityHtml(const sessions::CaseMarksSolution& solved) {
   for (int i = 0; i < names.size(); ++i) rows.append({names[i], ours[i], other[i]});
   rows.append({solutionText("rms, px"), QString::number(solution.rms_px, 'f', 3),
                QString::number(solution.ambiguous->rms_px, 'f', 3)});
-  return titledTable(solutionText("Two poses explain marks in a plane"), rows);
+  return titledTable(solutionText("Coplanar annotations fit two poses"), rows);
 }
 
 QString viewsHtml(const sessions::CaseMarksSolution& solved) {
@@ -113,7 +112,7 @@ QString viewsHtml(const sessions::CaseMarksSolution& solved) {
       ++count;
     }
     const double rms_px = count > 0 ? std::sqrt(squares_px2 / (2.0 * count)) : 0.0;
-    rows.append({fromText(views[i].name).toHtmlEscaped(), solutionText("%1 marks").arg(count),
+    rows.append({fromText(views[i].name).toHtmlEscaped(), solutionText("%1 annotations").arg(count),
                  solutionText("%1 px rms").arg(QString::number(rms_px, 'f', 3))});
   }
   return titledTable(solutionText("Cameras solved together"), rows);
@@ -137,10 +136,10 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
   for (const RoundAnswer& round : answer.rounds) {
     const int shared = static_cast<int>(round.repeatability.marks.size());
     const QString repeated = shared > 0
-                                 ? solutionText("%1 marks, %2 px per mark and axis")
+                                 ? solutionText("%1 annotations, %2 px per annotation and axis")
                                        .arg(shared)
                                        .arg(QString::number(round.repeatability.sigma_px, 'f', 3))
-                                 : solutionText("no mark in common");
+                                 : solutionText("no annotation in common");
     const QString name = solutionText("round of %1").arg(fromText(round.by));
     if (round.camera_from_station)
       rows << differenceRow(name, *round.camera_from_station, annotated, marks, repeated);
@@ -150,7 +149,7 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
   if (rows.isEmpty()) return {};
   rows.prepend({QString(), solutionText("normal, mm"), solutionText("lateral, mm"),
                 solutionText("angle, deg"), QString()});
-  return titledTable(solutionText("The annotated pose is from, at the %1").arg(placeText(marks)),
+  return titledTable(solutionText("Distance of the annotated pose at the %1").arg(placeText(marks)),
                      rows);
 }
 
@@ -158,15 +157,15 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
 
 QString solutionHeadline(const AnnotationAnswer& answer, bool stale) {
   if (!answer.solution)
-    return stale ? solutionText("Solving ...") : solutionText("Nothing is marked yet.");
+    return stale ? solutionText("Solving ...") : solutionText("No annotations yet.");
   const sessions::MarksResult& result = answer.solution->result;
   QString text = fromText(result.reason);
   if (result.solution)
-    text = solutionText("Solved from %1 marks, %2 px rms.")
+    text = solutionText("Solved from %1 annotations, %2 px rms.")
                .arg(result.solution->marks.size())
                .arg(QString::number(result.solution->rms_px, 'f', 3));
   else if (text.isEmpty())
-    text = solutionText("Nothing is marked yet.");
+    text = solutionText("No annotations yet.");
   return stale ? solutionText("Stale, solving again: %1").arg(text) : text;
 }
 
@@ -180,7 +179,7 @@ QString geometryMeterText(const AnnotationAnswer& answer) {
   const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
   return solutionText("Geometry: %1 %2")
       .arg(sign)
-      .arg(weak.isEmpty() ? solutionText("nothing weak") : weak.join(QStringLiteral(", ")));
+      .arg(weak.isEmpty() ? solutionText("no weakness") : weak.join(QStringLiteral(", ")));
 }
 
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others) {
@@ -204,10 +203,10 @@ LandmarksMenu::LandmarksMenu(AnnotationController& controller, QWidget* parent)
 void LandmarksMenu::fill() {
   clear();
   addAction(tr("Open ..."), this, &LandmarksMenu::openRequested);
-  addAction(tr("Save the marks as landmarks ..."), this, &LandmarksMenu::saveRequested);
+  addAction(tr("Save as landmarks ..."), this, &LandmarksMenu::saveRequested);
   addSeparator();
   QAction* confirm =
-      addAction(tr("Mark all that the image shows (%1)").arg(controller_.seenProposals()),
+      addAction(tr("Annotate all visible landmarks (%1)").arg(controller_.seenProposals()),
                 &controller_, &AnnotationController::confirmSeen);
   confirm->setEnabled(controller_.seenProposals() > 0);
   addSeparator();
@@ -223,7 +222,7 @@ void LandmarksMenu::fill() {
   }
   if (!any)
     addAction(controller_.landmarks().empty() ? tr("No landmarks are open")
-                                              : tr("Every landmark has a mark here"))
+                                              : tr("Every landmark is annotated in this image"))
         ->setEnabled(false);
 }
 
@@ -422,7 +421,7 @@ void AnnotationPanel::showSolution() {
 void AnnotationPanel::showRounds() {
   QMenu& menu = *ui_.rounds->menu();
   menu.clear();
-  QAction* aside = menu.addAction(tr("Put these marks aside, begin a blind round ..."), this,
+  QAction* aside = menu.addAction(tr("Set annotations aside, begin a blind round ..."), this,
                                   &AnnotationPanel::askForName);
   aside->setEnabled(!controller_.marks().empty());
   menu.addSeparator();
@@ -430,7 +429,7 @@ void AnnotationPanel::showRounds() {
     const auto& round = controller_.answer().rounds[static_cast<std::size_t>(i)];
     QMenu* one =
         menu.addMenu(QStringLiteral("%1, %2").arg(fromText(round.by), fromText(round.time)));
-    one->addAction(tr("Take up"), this, [this, i] { controller_.takeUp(i); });
+    one->addAction(tr("Continue"), this, [this, i] { controller_.takeUp(i); });
     one->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
   }
 }
@@ -438,7 +437,7 @@ void AnnotationPanel::showRounds() {
 void AnnotationPanel::askForName() {
   bool accepted = false;
   const QString name =
-      QInputDialog::getText(this, tr("Put these marks aside"), tr("Who placed them?"),
+      QInputDialog::getText(this, tr("Set annotations aside"), tr("Name of the annotator"),
                             QLineEdit::Normal, qEnvironmentVariable("USER"), &accepted);
   if (accepted) controller_.putAside(name);
 }

@@ -183,15 +183,15 @@ QString ImageAnnotation::nextStep() const {
   const QString id = QString::fromStdString(controller_.selected());
   if (controller_.mode() == PlaceMode::kLine) {
     const sessions::LinePair* line = controller_.selectedLine();
-    if (line && !line->line) return tr("%1: click two places of the line in the image").arg(id);
+    if (line && !line->line) return tr("%1: click two points of the line in the image").arg(id);
     if (line && !line->edge) return tr("%1: Ctrl+click its edge of the station").arg(id);
-    return tr("Lines: click two places of an edge in the image, or Ctrl+click one of the station");
+    return tr("Lines: click two points of an edge in the image, or Ctrl+click an edge of the station");
   }
   const sessions::PointPair* point = controller_.selectedPoint();
-  if (point && !point->pixel) return tr("%1: click its place in the image").arg(id);
+  if (point && !point->pixel) return tr("%1: click its position in the image").arg(id);
   if (point && !point->point_in_station_m)
-    return tr("%1: Ctrl+click its place on the station, or pick it in the scene").arg(id);
-  return tr("Points: click a place in the image, or Ctrl+click one of the station");
+    return tr("%1: Ctrl+click its position on the station, or pick it in the scene").arg(id);
+  return tr("Points: click a point in the image, or Ctrl+click a point of the station");
 }
 
 void ImageAnnotation::paint(QPainter& painter) const {

@@ -103,7 +103,7 @@ void MarkTool::updateAim() {
     aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
   } else if (const auto* proposal = proposalUnder(place)) {
     aim_ = aimAtImage(*one, pixel, rules());
-    aim_.text = tr("%1, %2: click marks it here, right click to place it later")
+    aim_.text = tr("%1, %2: click places it, right click to place it later")
                     .arg(QString::fromStdString(proposal->landmark.name), aim_.text);
   } else {
     aim_ = aimAtImage(*one, pixel, rules());
@@ -313,17 +313,15 @@ void MarkTool::place() {
     controller_.placeOnStation(*aim_.point_in_station_m);
   } else if ((modifiers_ & Qt::ControlModifier) != 0) {
     Q_EMIT controller_.told(
-        marksLines() ? tr("There is no edge of the station within reach of the pointer; point at "
-                          "one of the drawn edges with Ctrl held.")
-                     : tr("There is no station under the pointer in the shown pose; point at its "
-                          "drawn edges with Ctrl held, or pick the place in the scene."));
+        marksLines() ? tr("No edge of the station is near the pointer; point at a drawn edge with Ctrl held.")
+                     : tr("The station is not under the pointer; point at its drawn edges with Ctrl held, or pick in the scene."));
   }
   updateAim();
 }
 
 void MarkTool::placeImage() {
   if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) {
-    Q_EMIT controller_.told(tr("That place is outside of the image."));
+    Q_EMIT controller_.told(tr("This position is outside the image."));
     return;
   }
   if (!marksLines()) {
@@ -333,7 +331,7 @@ void MarkTool::placeImage() {
     line_start_ = aim_.pixel;
   } else if ((aim_.pixel - *line_start_).norm() * view_.transform().scale() < kShortestLine) {
     Q_EMIT controller_.told(
-        tr("The two places of a line must lie apart; click farther along the edge."));
+        tr("The two points of a line coincide; click farther along the edge."));
   } else {
     controller_.placeLineInImage({*std::exchange(line_start_, std::nullopt), aim_.pixel});
   }

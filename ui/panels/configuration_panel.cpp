@@ -35,7 +35,7 @@ ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
   connect(ui_.resetAll, &QPushButton::clicked, this, [this] { setProfile(profile_); });
   connect(&ui_.options->options(), &OptionsModel::edited, this, &ConfigurationPanel::change);
   connect(ui_.options, &OptionsTable::helpChanged, this, [this](const QString& help) {
-    ui_.help->setText(help.isEmpty() ? tr("Choose an option to read what it does.") : help);
+    ui_.help->setText(help.isEmpty() ? tr("Select an option to read its description.") : help);
   });
   connect(ui_.stale, &Banner::actionRequested, this, &ConfigurationPanel::runAgainRequested);
   view_.onChange(ViewChange::kSnapshot, this, &ConfigurationPanel::showStale);

@@ -62,7 +62,7 @@ struct StageText {
 };
 constexpr StageText kStageTexts[] = {
     {Stage::kRender, QT_TR_NOOP("Render"),
-     QT_TR_NOOP("Show the edges rendered from the iteration's first pose.")},
+     QT_TR_NOOP("Show the edges rendered from the iteration's initial pose.")},
     {Stage::kTemplates, QT_TR_NOOP("Templates"),
      QT_TR_NOOP("Show the templates cut from the render.")},
     {Stage::kMatch, QT_TR_NOOP("Match"),
@@ -70,7 +70,7 @@ constexpr StageText kStageTexts[] = {
     {Stage::kPose, QT_TR_NOOP("Pose"),
      QT_TR_NOOP("Show the pose solved from the matches, its inliers and residuals.")},
     {Stage::kRefine, QT_TR_NOOP("Refine"),
-     QT_TR_NOOP("Show the pose moved until rendered edges meet the image's own.")},
+     QT_TR_NOOP("Show the pose refined until rendered and image edges meet.")},
 };
 
 const StageText& textOf(Stage stage) {
@@ -254,47 +254,41 @@ std::vector<TableColumn<IterationRow>> iterationColumns() {
   constexpr auto tr = [](const char* text) { return IterationsModel::tr(text); };
   return {
       {tr("Iteration"),
-       tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. An attempt "
-          "that fails is followed by one from the seed."),
+       tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. After a failed attempt the next starts from the seed."),
        -1, [](Line row) { return row.name; }},
       {tr("Kind"),
-       tr("match: templates are searched and a pose is solved from them; refine: the pose moves "
-          "until rendered edges meet the image's own."),
+       tr("match: templates are searched and a pose is solved from them; refine: the pose is adjusted until rendered and image edges meet."),
        -1, text(kindText)},
       {tr("Hypothesis"),
-       tr("Which render the iteration went on with: its turn in degrees, and how many there were. "
-          "Point at a cell for all of them."),
+       tr("Roll of the render that the iteration used, in degrees, and number of renders. Hover over a cell to list all."),
        -1, text(hypothesisText)},
       {tr("Level"),
        tr("Level of the image pyramid: 0 is the full image, each further one has half its size."),
        0, number([](Trace one) -> double { return one.level; })},
-      {tr("Moved, mm"), tr("How far this iteration moved the pose, in mm."), 3,
+      {tr("Moved, mm"), tr("Translation by this iteration, in mm."), 3,
        number([](Trace one) { return ofPose(one, 1e3 * one.correction_translation_m); })},
-      {tr("Turned, deg"), tr("How far this iteration turned the pose, in degrees."), 3,
+      {tr("Turned, deg"), tr("Rotation by this iteration, in degrees."), 3,
        number([](Trace one) { return ofPose(one, one.correction_rotation_rad / kDegree_rad); })},
       {tr("In image, px"),
-       tr("How far the correction moves the scene in the image: mean over the corners of its box, "
-          "in pixels of the full image."),
+       tr("Shift of the scene in the image by the correction: mean over the corners of its box, in pixels of the full image."),
        2, number([](Trace one) { return ofPose(one, one.correction_image_px); })},
       {tr("Templates"),
-       tr("Templates cut from the render; of a refinement: places along the rendered edges."), 0,
+       tr("Templates cut from the render; of a refinement: points along the rendered edges."), 0,
        number([](Trace one) {
          return countOf(one, Stage::kTemplates, one.template_count, one.refinement.sample_count);
        })},
       {tr("Matches"),
-       tr("Templates that could be searched in the image; of a refinement: places where an image "
-          "edge was found."),
+       tr("Templates searched in the image; of a refinement: points with an image edge."),
        0, number([](Trace one) {
          return countOf(one, Stage::kMatch, one.searched_count, one.refinement.found_count);
        })},
       {tr("Inliers"),
-       tr("Matches that agree with the pose; of a refinement: places that were used."), 0,
+       tr("Matches that agree with the pose; of a refinement: points used."), 0,
        number([](Trace one) {
          return countOf(one, Stage::kPose, one.support(), one.refinement.used_count);
        })},
       {tr("Threshold, px"),
-       tr("Residual up to which a match is an inlier, in pixels of the full image; of a "
-          "refinement: how far an edge is looked for."),
+       tr("Largest residual of an inlier, in pixels of the full image; of a refinement: search radius for an edge."),
        1, number([](Trace one) { return one.threshold_px; })},
       {tr("Best score"), tr("Highest similarity S of a match; 2 is perfect."), 3,
        number([](Trace one) { return ofMatch(one, Stage::kMatch, one.best_score); })},
@@ -311,7 +305,7 @@ std::vector<TableColumn<IterationRow>> iterationColumns() {
        number([](Trace one) {
          return ofStage(one, Stage::kPose, 1e3 * (one.seconds.pose + one.seconds.refinement));
        })},
-      {tr("Status"), tr("How the iteration ended, or the last stage of it that is complete."), -1,
+      {tr("Status"), tr("Status of the iteration, or its last complete stage."), -1,
        [](Line row) { return row.status; }},
   };
 }
@@ -325,7 +319,7 @@ QString statusText(const sessions::LocalizationTrace& run, std::size_t index) {
   const LocalizationStatus status =
       last && one.status == LocalizationStatus::kRunning ? run.status : one.status;
   if (status == LocalizationStatus::kRunning)
-    return last ? IterationsModel::tr("halted") : IterationsModel::tr("went on");
+    return last ? IterationsModel::tr("halted") : IterationsModel::tr("continued");
   return QString::fromLatin1(localizationStatusText(status))
       .replace(QLatin1Char('_'), QLatin1Char(' '));
 }
@@ -390,8 +384,7 @@ void IterationsPanel::buildTable() {
           &IterationsPanel::chooseRow);
   auto* hint = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));
   hint->setText(
-      tr("Run the case to its end (F5), an iteration (F6) or a stage (F7) at a time: each "
-         "iteration becomes a row here, and every view shows the chosen one."));
+      tr("Run the case to its end (F5), by an iteration (F6) or a stage (F7). Each iteration is a row; every view shows the selected one."));
 }
 
 void IterationsPanel::buildPlots() {

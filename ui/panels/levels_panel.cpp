@@ -86,7 +86,7 @@ void LevelsPanel::setCase(const sessions::SessionCase* one, const sessions::Gray
   bits_of_label_ = image && image->bit_depth_of_label;
   cases_of_camera_ = cases_of_camera;
   ui_.conversionRule->setText(one && image ? tr("Now: %1").arg(QString::fromStdString(image->rule))
-                                           : tr("No case that can be edited is open."));
+                                           : tr("No editable case is open."));
   if (!keeps) showConversion();
   updateConversion();
 }

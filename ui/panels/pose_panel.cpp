@@ -72,7 +72,7 @@ void PastePoseDialog::parse() {
           .arg(mm.y(), 0, 'f', 2)
           .arg(mm.z(), 0, 'f', 2)
           .arg(rotationLog(parsed_.camera_from_station.rotation).norm() / kDegree_rad, 0, 'f', 2);
-  if (mm.z() <= 0.0) text += tr(" That is behind the camera.");
+  if (mm.z() <= 0.0) text += tr(" It is behind the camera.");
   if (parsed_.rotation_deviation > 1e-6)
     text += tr(" The matrix was %1 off a rotation and was projected to the nearest one.")
                 .arg(parsed_.rotation_deviation, 0, 'g', 2);

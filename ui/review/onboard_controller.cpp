@@ -110,12 +110,11 @@ bool OnboardController::groundIsOfTheCase() const {
 
 QString OnboardController::whyNotCompared() const {
   if (!review_ || comparison_) return {};
-  if (!ground_) return tr("Nothing to compare with: the case has no run on the ground yet.");
+  if (!ground_) return tr("No comparison: the case has no run on the ground.");
   if (!ground_->finished) return tr("The run on the ground has not ended.");
   if (!groundIsOfTheCase())
     return tr(
-        "The run on the ground was made with other inputs than the case has now: run it "
-        "again.");
+        "The inputs have changed since the run on the ground: run the case again.");
   return tr("Comparing ...");
 }
 
@@ -158,7 +157,7 @@ void OnboardController::attach(const std::filesystem::path& file) {
   }
 }
 
-void OnboardController::detach() { attachAs(std::nullopt, tr("Take the onboard record from %1")); }
+void OnboardController::detach() { attachAs(std::nullopt, tr("Remove the onboard record from %1")); }
 
 void OnboardController::showOnboard() {
   if (!review_) return;
@@ -175,7 +174,7 @@ void OnboardController::showGround() {
 void OnboardController::rerun() {
   if (!review_) return;
   if (!review_->plan.has_options) {
-    Q_EMIT failed(tr("The record has no options: it cannot be run again as it was."));
+    Q_EMIT failed(tr("The record has no options, so that its run cannot be repeated."));
     return;
   }
   Q_EMIT rerunRequested(review_->plan.plan);

@@ -55,28 +55,26 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
       {tr("Case"), tr("The case."), -1,
        [](const DifferenceEntry& entry) { return fromText(entry.case_id); }},
       {tr("Change"),
-       tr("Whether the last run is better than the one before: by the truth where it is known, "
-          "else by the checks."),
+       tr("Whether the last run is better than the previous run: by the truth if known, else by the checks."),
        -1, ofDifference([](Difference made) { return signOf(made.change); }),
        ofDifference([](Difference made) {
          return made.change == RunChange::kWorse ? 0 : made.change == RunChange::kBetter ? 1 : 2;
        })},
-      {tr("Failed checks"), tr("How many failed: before, and now."), 0,
+      {tr("Failed checks"), tr("Number of failed checks: before and after."), 0,
        ofDifference([](Difference made) {
          return beforeAndNow(made.before.checks_failed, made.after.checks_failed);
        }),
        ofDifference(
            [](Difference made) { return made.after.checks_failed - made.before.checks_failed; })},
-      {tr("Inliers"), tr("Inliers of the last matching iteration: before, and now."), 0,
+      {tr("Inliers"), tr("Inliers of the last matching iteration: before and after."), 0,
        ofDifference(
            [](Difference made) { return beforeAndNow(made.before.inliers, made.after.inliers); }),
        ofDifference([](Difference made) { return made.after.inliers - made.before.inliers; })},
-      {tr("Poses apart"), tr("How far the two results are apart at the camera, in mm and mrad."), 0,
+      {tr("Poses apart"), tr("Distance of the two results at the camera, in mm and mrad."), 0,
        ofDifference(apartText),
        ofDifference([](Difference made) { return made.comparison.translation_mm; })},
-      {tr("Why, and where they differ first"),
-       tr("What the change is judged by, and the first thing in which the runs are not the same to "
-          "the bit."),
+      {tr("Reason and first difference"),
+       tr("Basis of the verdict, and the first value in which the runs differ."),
        -1, ofDifference([](Difference made) { return fromText(sessions::changeText(made)); })},
   };
 }
@@ -148,22 +146,18 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
   constexpr auto tr = [](const char* text) { return QueueModel::tr(text); };
   return {
       {tr("Case"),
-       tr("The case, with the edges of its result over the image; red: those of the seed, as "
-          "there is no result."),
+       tr("The case, with the edges of its result over the image; red: edges of the seed, without a result."),
        -1, [](Entry entry) { return fromText(entry.row.case_id); }},
-      {tr("State"), tr("Where the case stands."), -1,
+      {tr("State"), tr("State of the case."), -1,
        [](Entry entry) { return QueueModel::reviewStatusText(entry.row); }},
       {tr("Trouble"),
-       tr("What to look at. Sorted by it: failed runs, then failed checks, then the margin, then "
-          "the distance from the seed; what is decided comes last."),
+       tr("Reason for review; sort order: failed runs, failed checks, smallest margin, largest distance from the seed. Decided cases come last."),
        -1, troubleOf},
       {tr("Margin,\n%"),
-       tr("How far the worst check's figure is on the good side of its limit, in percent of the "
-          "limit; negative: beyond it."),
+       tr("Margin of the worst check to its limit, in percent of the limit; negative: limit exceeded."),
        0, [](Entry entry) { return kToPercent * entry.row.margin.value_or(kNaN); }},
       {tr("From\nseed"),
-       tr("How far the result is from the seed, in mm and mrad, and as a part of the seed's stated "
-          "uncertainty (100 %: on its border)."),
+       tr("Distance of the result from the seed, in mm and mrad, and relative to the seed's uncertainty (100 %: on its border)."),
        0, [](Entry entry) { return fromSeedText(entry.row); },
        [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kNaN; }},
       {tr("Inliers"), tr("Inliers of the last matching iteration."), 0,
@@ -223,11 +217,11 @@ QueuePanel::QueuePanel(Document& document, QWidget* parent)
       controller_(document, kQueueThumbnail_px * devicePixelRatioF()),
       filter_(model_) {
   ui_.setupUi(this);
-  ui_.queueTabs->addTab(tr("By trouble"));
+  ui_.queueTabs->addTab(tr("Worst first"));
   ui_.queueTabs->addTab(tr("Last two runs"));
-  ui_.queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the most troubled first"));
+  ui_.queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the worst first"));
   ui_.queueTabs->setTabToolTip(
-      kDifferencesTab, tr("Each case's last run against the one before it (D in the list)"));
+      kDifferencesTab, tr("Last run of each case against the previous run (D in the list)"));
   buildTables();
   buildForm();
   connect(ui_.queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
@@ -328,7 +322,7 @@ void QueuePanel::showEntries() {
   differences_hint_->setText(
       differences_.rowCount() > 0
           ? tr("No matching cases.")
-          : tr("No case has two runs yet: change an option and run again (Ctrl+F5)."));
+          : tr("No case has two runs: change an option and run again (Ctrl+F5)."));
   if (chosenCase() != chosen) choose(chosen);
   if (!table()->currentIndex().isValid()) step(0);
   fitColumns();
@@ -358,7 +352,7 @@ void QueuePanel::showProgress() {
   const int all = controller_.count();
   ui_.queueProgress->setText(done < all ? tr("%1 of %2 checked").arg(done).arg(all)
                                         : tr("%1 checked").arg(all));
-  ui_.queueHalt->setText(controller_.isHalted() ? tr("Go on") : tr("Stop"));
+  ui_.queueHalt->setText(controller_.isHalted() ? tr("Continue") : tr("Stop"));
   ui_.queueHalt->setEnabled(done < all);
 }
 
@@ -416,10 +410,10 @@ bool QueuePanel::asksForSignature(Act act, const QString& id) {
   missing->setFocus();
   const bool accepts = act == Act::kAccept;
   const QString question = missing == ui_.queueName
-                               ? (accepts ? tr("Who accepts %1?") : tr("Who rejects %1?"))
-                           : accepts ? tr("Why is %1 accepted?")
-                                     : tr("Why is %1 rejected?");
-  tell(question.arg(id) + tr(" Type it, then Enter; Escape leaves it."));
+                               ? (accepts ? tr("Your name, to accept %1") : tr("Your name, to reject %1"))
+                           : accepts ? tr("Reason to accept %1")
+                                     : tr("Reason to reject %1");
+  tell(question.arg(id) + tr(": type, then Enter; Escape cancels."));
   return true;
 }
 
@@ -446,7 +440,7 @@ void QueuePanel::decide(Act act) {
   ui_.queueComment->clear();  // the next decision has a comment of its own
   choose(following.isEmpty() ? id : following);
   tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
-       (following.isEmpty() ? tr(" Every case that was listed is decided or has to be run.")
+       (following.isEmpty() ? tr(" All listed cases are decided or not run.")
                             : QString()));
 }
 
@@ -463,7 +457,7 @@ void QueuePanel::signedNow() {
     return;
   }
   dropQuestion();
-  tell(tr("%1 is not listed any more: clear the filter. Nothing was decided.").arg(pending_case_));
+  tell(tr("%1 is not listed any more: clear the filter. No decision was stored.").arg(pending_case_));
 }
 
 void QueuePanel::dropQuestion() {

@@ -75,9 +75,9 @@ void ReviewController::chooseSource() {
 QString ReviewController::missing() const {
   if (!document_.isOpen()) return tr("No session is open.");
   const std::string id = caseId();
-  if (id.empty()) return tr("No case is shown: choose one in the list of cases.");
+  if (id.empty()) return tr("No case is shown: select one in the list of cases.");
   if (!hasRun() && !hasMarks())
-    return tr("%1 has no pose yet: run it (F5), or mark it (F2). Then it is checked here.")
+    return tr("%1 has no pose: run it (F5) or annotate it (F2) first.")
         .arg(fromText(id));
   return {};
 }
@@ -219,12 +219,12 @@ QString ReviewController::settled(Act act) const {
 QString ReviewController::obstacle(Act act, const sessions::Signature& who) const {
   if (!document_.isOpen()) return tr("no session is open");
   if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
-  if (caseId().empty()) return tr("no case is shown: choose one in the list of cases");
+  if (caseId().empty()) return tr("no case is shown: select one in the list of cases");
   if (const QString said = settled(act); !said.isEmpty()) return said;
   if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
-  if (act == Act::kValidate && !current_) return tr("the checks are being made");
+  if (act == Act::kValidate && !current_) return tr("the checks are running");
   try {
-    (void)after(act, {"somebody else than anybody", "?"});  // what a signature does not mend
+    (void)after(act, {"a second person", "?"});  // what a signature does not mend
     (void)after(act, who);
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());
@@ -238,7 +238,7 @@ bool ReviewController::decide(Act act, const sessions::Signature& who) {
   const QString text = act == Act::kValidate  ? tr("Validate %1").arg(id)
                        : act == Act::kApprove ? tr("Approve %1").arg(id)
                        : act == Act::kReject  ? tr("Reject %1").arg(id)
-                                              : tr("Take back the decision on %1").arg(id);
+                                              : tr("Withdraw the decision on %1").arg(id);
   return document_.edit(after(act, who), text);
 }
 

@@ -58,8 +58,7 @@ struct RunController::Job {
     if (!hasKept())
       throw std::runtime_error(
           RunController::tr(
-              "The iterations before the chosen one do not come out as they were recorded: they "
-              "were made by another version of the program. Run again from the start.")
+              "The recorded iterations are from another version of the program and cannot be repeated. Run again from the start.")
               .toStdString());
     return true;
   }

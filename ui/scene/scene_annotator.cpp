@@ -261,12 +261,11 @@ bool SceneAnnotator::completesPoint() const {
 void SceneAnnotator::placeAim() {
   if (!snapper_.mesh()) {
     Q_EMIT annotation_.told(
-        tr("The station's corners and edges are still being looked for; click again in a "
-           "moment."));
+        tr("The station's corners and edges are still being computed; click again in a moment."));
   } else if (!aim_) {
     Q_EMIT annotation_.told(annotation_.mode() == PlaceMode::kLine
                                 ? tr("No edge is near; click on an edge of the station.")
-                                : tr("Nothing is there; click on the station itself."));
+                                : tr("No surface there; click on the station."));
   } else if (annotation_.mode() == PlaceMode::kLine) {
     annotation_.placeEdgeOnStation(*aim_->edge);
   } else if (aim_->landmark && !completesPoint()) {
@@ -290,13 +289,13 @@ std::vector<Frustum> SceneAnnotator::rigFrusta(const Eigen::Vector3d& centre_m) 
 }
 
 QString SceneAnnotator::place() const {
-  if (!aim_) return tr("Point at the station: Tab snaps to another thing, Alt to none.");
+  if (!aim_) return tr("Point at the station: Tab selects the next snap target, Alt disables snapping.");
   return stationPlaceText(aim_->point_in_station_m, aim_->text);
 }
 
 QString SceneAnnotator::nextStep() const {
   if (!places()) return {};
-  if (!snapper_.mesh()) return tr("Looking for the station's corners and edges ...");
+  if (!snapper_.mesh()) return tr("Computing the station's corners and edges ...");
   if (annotation_.mode() == PlaceMode::kLine) {
     const auto* line = annotation_.selectedLine();
     if (line && !line->edge)
@@ -304,9 +303,9 @@ QString SceneAnnotator::nextStep() const {
     return tr("Click an edge of the station");
   }
   if (completesPoint())
-    return tr("Click the place of %1 on the station")
+    return tr("Click %1 on the station")
         .arg(QString::fromStdString(annotation_.selected()));
-  return tr("Click a place of the station");
+  return tr("Click a point of the station");
 }
 
 void SceneAnnotator::paint(QPainter& painter, const QRectF& area) const {

@@ -123,7 +123,7 @@ void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& 
   });
   connect(&annotation, &AnnotationController::modeChanged, this, [this] {
     navigation_->setStationAlone(annotator_->places());
-    ui_.sceneReadout->setText(tr("Click a template, a mark or a point of the mesh."));
+    ui_.sceneReadout->setText(tr("Click a template, an annotation or a point of the mesh."));
   });
   refreshSoon();
 }
@@ -243,7 +243,7 @@ void SceneView::updateNote() {
     else if (content_->one->source.camera.model != CameraModel::kPinhole)
       note = tr("Undistorted: the image is shown as a camera without lens distortion sees it");
     if (role_ == PoseRole::kTruth && !content_->one->source.camera_from_station_truth)
-      note = tr("This case has no truth; you look through the shown pose");
+      note = tr("This case has no truth; the view uses the shown pose");
   } else if (backend_ == SceneBackend::kPicture && !content_->empty()) {
     note = tr("Drawn without OpenGL");
   }
@@ -287,7 +287,7 @@ void SceneView::pickInScene(const QPointF& pixel) {
   }
   overlay_->setMark(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
   ui_.sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
-                                : tr("Nothing there: click a template or a point of the mesh."));
+                                : tr("No object there: click a template or a point of the mesh."));
 }
 
 }  // namespace boresight::ui

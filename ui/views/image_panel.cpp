@@ -159,7 +159,7 @@ void ImagePanel::showAlternative() {
   if (const auto& other = state_.alternative()) {
     names = {{LayerId::kHypothesisEdges, alternativeTitle(*other)},
              {LayerId::kChosenEdges, chosenTitle(*other)},
-             {LayerId::kIterationEdges, tr("As the shown iteration rendered it")},
+             {LayerId::kIterationEdges, tr("Render of the shown iteration")},
              {LayerId::kSeedEdges, tr("Seed")},
              {LayerId::kTruthEdges, tr("Truth")}};
   }

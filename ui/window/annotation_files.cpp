@@ -19,7 +19,7 @@ namespace boresight::ui {
 namespace {
 
 QString marksFilter() {
-  return AnnotationFiles::tr("Marks (*.json *.csv);;points.json (*.json);;Table (*.csv)");
+  return AnnotationFiles::tr("Annotations (*.json *.csv);;points.json (*.json);;Table (*.csv)");
 }
 
 }  // namespace
@@ -27,8 +27,8 @@ QString marksFilter() {
 AnnotationFiles::AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel)
     : QObject(&window), window_(window), parts_(parts) {
   QMenu& menu = panel.filesMenu();
-  menu.addAction(tr("Import marks ..."), this, &AnnotationFiles::importMarks);
-  menu.addAction(tr("Export marks ..."), this, &AnnotationFiles::exportMarks);
+  menu.addAction(tr("Import annotations ..."), this, &AnnotationFiles::importMarks);
+  menu.addAction(tr("Export annotations ..."), this, &AnnotationFiles::exportMarks);
   menu.addSeparator();
   menu.addAction(tr("Export all poses for COLMAP ..."), this, [this] {
     exportPoses(&sessions::exportColmap, tr("New folder for a COLMAP text model"),
@@ -62,25 +62,25 @@ void AnnotationFiles::attempt(Action&& action) {
 
 void AnnotationFiles::importMarks() {
   const QString file = QFileDialog::getOpenFileName(
-      &window_, tr("Import marks"), inSessionFolder(parts_.document, {}), marksFilter());
+      &window_, tr("Import annotations"), inSessionFolder(parts_.document, {}), marksFilter());
   if (file.isEmpty() || !mayReplaceMarks()) return;
   attempt([&, path = std::filesystem::path(file.toStdString())] {
     parts_.annotation.finishMove();
     const sessions::ImportReport report =
         sessions::importMarks(parts_.document.session(), caseId(), path, true);
-    parts_.document.edit(report.session, tr("Import marks of %1").arg(fileNameOf(path)));
-    Q_EMIT noted(tr("Marks taken from %1.").arg(fileNameOf(path)));
+    parts_.document.edit(report.session, tr("Import annotations of %1").arg(fileNameOf(path)));
+    Q_EMIT noted(tr("Annotations read from %1.").arg(fileNameOf(path)));
   });
 }
 
 void AnnotationFiles::exportMarks() {
   const auto file =
-      askForNewFile(window_, tr("Export the marks of this case"),
+      askForNewFile(window_, tr("Export the annotations of this case"),
                     inSessionFolder(parts_.document, QStringLiteral("points.json")), marksFilter());
   if (file.empty()) return;
   attempt([&] {
     sessions::writeMarks(file, parts_.annotation.marks());
-    Q_EMIT noted(tr("Marks written to %1.").arg(fileNameOf(file)));
+    Q_EMIT noted(tr("Annotations written to %1.").arg(fileNameOf(file)));
   });
 }
 
@@ -112,7 +112,7 @@ void AnnotationFiles::importPoses(Importer importer, const QString& title) {
     const sessions::ImportReport report = importer(parts_.document.session(), folder, true);
     if (!parts_.document.edit(report.session, tr("Import poses of %1").arg(fileNameOf(folder))))
       return;
-    Q_EMIT noted(tr("%1 cases have their truth from %2 now. %3")
+    Q_EMIT noted(tr("%1 cases now have their truth from %2. %3")
                      .arg(report.case_ids.size())
                      .arg(fileNameOf(folder), joinedNotes(report.notes)));
   });
@@ -134,7 +134,7 @@ void AnnotationFiles::openLandmarks() {
 void AnnotationFiles::saveLandmarks() {
   const sessions::SessionCase* one = shownCase(parts_.document, parts_.state);
   const auto file = askForNewFile(
-      window_, tr("Save the marks as landmarks"),
+      window_, tr("Save the annotations as landmarks"),
       one && one->landmarks ? fromText(one->landmarks->string())
                             : inSessionFolder(parts_.document, QStringLiteral("landmarks.json")),
       tr("Landmarks (*.json)"));
@@ -152,9 +152,8 @@ bool AnnotationFiles::mayReplaceMarks() {
   if (marks.empty()) return true;
   const std::size_t count = marks.points.size() + marks.lines.size();
   return QMessageBox::question(
-             &window_, tr("Import marks"),
-             tr("%1 has %2 marks. Replace them? Undo brings them back; to keep both, put them "
-                "aside first (Rounds).")
+             &window_, tr("Import annotations"),
+             tr("%1 has %2 annotations. Replace them? Undo restores them; to keep both, set them aside first (Rounds).")
                  .arg(fromText(caseId()))
                  .arg(count)) == QMessageBox::Yes;
 }

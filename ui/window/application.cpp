@@ -83,7 +83,7 @@ std::string checkDocument() {
     document.apply(sessions::withoutCase(session, session.cases.front()->id), "Remove a case");
   }
   auto document = sessions::SessionDocument::open(file);
-  if (!document.recovery()) return "an edit that was not saved is not offered";
+  if (!document.recovery()) return "an unsaved edit is not recovered";
   document.acceptRecovery();
   return document.session().cases.size() + 1 == session.cases.size() ? "" : "an edit was lost";
 }
@@ -95,7 +95,7 @@ std::string checkImageView() {
   view.fit();
   const QPointF pixel(12.25, 70.5);
   const QPointF back = view.transform().toPixel(view.transform().toWidget(pixel));
-  return (back - pixel).manhattanLength() < 1e-9 ? "" : "pixels do not come back";
+  return (back - pixel).manhattanLength() < 1e-9 ? "" : "pixels are not read back";
 }
 
 std::string checkWindow() {
@@ -154,9 +154,9 @@ int runSelfTest(std::ostream& output) {
   };
   constexpr NamedCheck kChecks[] = {
       {"the example stations converge", checkRuns},
-      {"halting at every stage changes no bit", checkStepping},
-      {"an edit survives a program that was killed", checkDocument},
-      {"pixels of the image view come back", checkImageView},
+      {"pausing at every stage changes no bit", checkStepping},
+      {"an edit survives a killed program", checkDocument},
+      {"pixels of the image view are read back", checkImageView},
       {"the window opens", checkWindow},
   };
   int failed = 0;
@@ -287,7 +287,7 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     window.state().selectTemplate(0);
   window.image().view().fit();
   if (!order.mark.isEmpty() && !workOn(window, order.mark))
-    return QObject::tr("the shown case has no mark '%1'").arg(order.mark);
+    return QObject::tr("the shown case has no annotation '%1'").arg(order.mark);
   waitUntil(resting);
   QApplication::processEvents();
   try {

@@ -258,7 +258,7 @@ void CaseController::prepareRerun(int iteration) {
   const sessions::LocalizationTrace& shown = *state_.snapshot();
   if (shown.replayed)
     throw std::runtime_error(
-        tr("The onboard run is shown: run it again on the ground first.").toStdString());
+        tr("The onboard run is shown; run the case on the ground first.").toStdString());
   if (!shown.views.empty())
     throw std::runtime_error(
         tr("The shown run was made with other views: run it with them again from the start.")

@@ -160,7 +160,7 @@ void CaseDetails::fillErrors(const sessions::SessionCase& one, CaseRow& row) con
       sessions::requirementOf(session_, one));
   if (excess.empty()) return;
   row.detail += (row.detail.isEmpty() ? QString() : QStringLiteral("\n")) +
-                tr("One sigma of its truth is %1: the errors say little.").arg(fromText(excess));
+                tr("One sigma of its truth is %1, too large for these errors.").arg(fromText(excess));
 }
 
 void CaseDetails::fill(std::vector<CaseRow>& rows) const {

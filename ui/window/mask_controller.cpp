@@ -55,7 +55,7 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
         const bool done = parts_.document.edit(
             withConversions(parts_.document.session(), made),
             tr("Change the 8-bit conversion of %1").arg(QString::fromStdString(id)));
-        Q_EMIT noted(done ? tr("Converted; runs made before are stale") : QString());
+        Q_EMIT noted(done ? tr("Converted; earlier runs are stale") : QString());
       });
 }
 
@@ -91,7 +91,7 @@ MaskController::MaskController(const WindowParts& parts, MaskEditor& editor, Mas
 void MaskController::addStroke(const MaskStroke& stroke) {
   const std::string id = shownId();
   const QString text =
-      stroke.erase ? tr("Trust pixels of %1 again (%2)") : tr("Ignore pixels of %1 (%2)");
+      stroke.erase ? tr("Use pixels of %1 again (%2)") : tr("Ignore pixels of %1 (%2)");
   const QString what = QString::fromStdString(sessions::strokeText(stroke));
   parts_.document.edit(withStroke(parts_.document.session(), id, stroke),
                        text.arg(QString::fromStdString(id), what));

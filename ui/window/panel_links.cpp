@@ -177,7 +177,7 @@ void PanelLinks::askForSigmas() {
   parts_.document.edit(
       sessions::withInputSigmas(parts_.document.session(), id, dialog.meshScaleSigma(),
                                 dialog.calibrationSigma()),
-      tr("State how well mesh and camera of %1 are known").arg(fromText(id)));
+      tr("State the uncertainty of mesh and camera of %1").arg(fromText(id)));
 }
 
 void PanelLinks::showJudgement() {

@@ -85,7 +85,7 @@ Take takeOfJson(const std::filesystem::path& file) {
   if (const Take take = findTake(kFormats, format)) return take;
   throw std::runtime_error(
       file.string() + ": the format '" + format +
-      "' is none that can be opened here (camera, pose, transform, dataset, session)");
+      "' cannot be opened in the window (camera, pose, transform, dataset, session)");
 }
 
 /// Throws when it is nothing known.
@@ -100,7 +100,7 @@ Take takeOf(const std::filesystem::path& file) {
   if (const Take take = findTake(kExtensions, extension)) return take;
   if (extension == ".json") return takeOfJson(file);
   if (extension == ".zip")
-    throw std::runtime_error(file.string() + ": an archive: unpack it, and open the session in it");
+    throw std::runtime_error(file.string() + ": an archive; unpack it, then open its session");
   if (sessions::isCahvorFile(file)) return takeCamera;
   if (sessions::hasImageLabel(file)) return takeImage;
   throw std::runtime_error(
@@ -256,13 +256,12 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   }
   if (!dropped.dataset && !dropped.isCase()) {
     if (dropped.problems.empty())
-      Q_EMIT noted(tr("Taken. Still missing: %1").arg(QString::fromStdString(dropped.missing())));
+      Q_EMIT noted(tr("Added. Still needed: %1").arg(QString::fromStdString(dropped.missing())));
     return;
   }
   if (dropped.dataset) {
     if (dropped.record)
-      Q_EMIT failed(tr("A dataset has many cases: open the one that %1 belongs to, and drop the "
-                       "record again.")
+      Q_EMIT failed(tr("A dataset has many cases: open the case of %1, then drop the record again.")
                         .arg(text(dropped.record->filename())));
     makeFrom(*dropped.dataset, false);
   } else {
@@ -275,8 +274,8 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
 void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
   if (!mayLeave()) return;
   collected_ = {};
-  Q_EMIT noted((results ? tr("Reading %1 and all that its dataset names ...")
-                        : tr("Reading %1 and all that it names ..."))
+  Q_EMIT noted((results ? tr("Reading %1 and its dataset's files ...")
+                        : tr("Reading %1 and its files ..."))
                    .arg(text(file.filename())));
   parts_.tasks.start(
       QStringLiteral("make session"),
@@ -356,8 +355,7 @@ void SessionFiles::offerSavingElsewhere(const QString& reason) {
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), reason, QMessageBox::NoButton, &window_);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.setInformativeText(
-      tr("The file is as it was saved last, and nothing is lost yet: everything is still in this "
-         "window. Make room or allow writing there, or save the session elsewhere."));
+      tr("The file keeps its last saved state; all changes are still in this window. Free space or allow writing, or save the session elsewhere."));
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   box.addButton(QMessageBox::Close);
   box.exec();
@@ -368,7 +366,7 @@ bool SessionFiles::mayLoseRuns() {
   const QStringList runs = parts_.cases.unstoredRuns();
   if (runs.isEmpty()) return true;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"),
-                  tr("There was no room for runs of %1; they are in this window only.")
+                  tr("No space for runs of %1; they exist only in this window.")
                       .arg(runs.join(QStringLiteral(", "))),
                   QMessageBox::Discard | QMessageBox::Cancel, &window_);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
@@ -387,9 +385,8 @@ bool SessionFiles::mayLeave() {
                            : tr("Save the changes of %1?").arg(text(document.file().filename())),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   box.setInformativeText(
-      untitled ? tr("Discarded, it is gone with its runs; the files that it was made of stay.")
-               : tr("Changes that are not saved stay in the journal and are offered when the "
-                    "session is opened again."));
+      untitled ? tr("Discarding deletes the session and its runs; its input files stay.")
+               : tr("Unsaved changes stay in the journal and can be recovered when the session is opened again."));
   const int answer = box.exec();
   if (answer == QMessageBox::Save) return save();
   if (answer == QMessageBox::Discard && untitled) document.discardUntitled();
@@ -400,11 +397,10 @@ void SessionFiles::offerUntitled() {
   const std::optional<std::filesystem::path> left = Document::leftUntitled();
   if (!left) return;
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("A session without a name was left when the program ended last. Go on with "
-                     "it?"),
+                  tr("Recover the unsaved session of the last program run?"),
                   QMessageBox::Yes | QMessageBox::No, &window_);
   box.setInformativeText(
-      tr("It lies in %1 and is offered until it is saved or discarded.").arg(text(*left)));
+      tr("It is stored in %1 until it is saved or discarded.").arg(text(*left)));
   if (box.exec() == QMessageBox::Yes) parts_.document.open(*left);
 }
 
@@ -414,8 +410,8 @@ void SessionFiles::offerRecovery() {
   const sessions::Recovery& recovery = **document.recovery();
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   (recovery.edits.size() == 1
-                       ? tr("%1 has a change that was made but not saved, at %2.")
-                       : tr("%1 has %3 changes that were made but not saved, the last one at %2.")
+                       ? tr("%1 has an unsaved change of %2.")
+                       : tr("%1 has %3 unsaved changes, the last of %2.")
                              .replace(QLatin1String("%3"), QString::number(recovery.edits.size())))
                       .arg(text(document.file().filename()), QString::fromStdString(recovery.time)),
                   QMessageBox::NoButton, &window_);

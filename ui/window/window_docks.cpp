@@ -87,10 +87,9 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
 }
 
 void WindowDocks::buildCentre() {
-  warnings.setAction(windowText("Inputs"), windowText("Show all that is known of the inputs"));
+  warnings.setAction(windowText("Inputs"), windowText("Show the inputs' properties and warnings"));
   findings.setAction(windowText("Fix ..."),
-                     windowText("Look for missing files below the session's folder, or take "
-                                "changed ones as they are"));
+                     windowText("Search missing files below the session's folder, or accept changed files"));
   for (Banner* each : {&warnings, &findings}) each->showWarnings({});
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);

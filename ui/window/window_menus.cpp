@@ -143,7 +143,7 @@ void WindowMenus::connectImageAnnotation() {
   auto* group = new QActionGroup(ui_.residualsMenu);
   for (const double factor : {1.0, 10.0, 40.0, 100.0}) {
     QAction* each = ui_.residualsMenu->addAction(tr("%1 times").arg(factor));
-    each->setStatusTip(tr("Draw the residual of each mark this many times as long"));
+    each->setStatusTip(tr("Magnification of the drawn residuals"));
     each->setCheckable(true);
     each->setChecked(factor == annotation->magnification());
     group->addAction(each);
@@ -272,8 +272,7 @@ void WindowMenus::connectHelp() {
 
 void WindowMenus::showAbout() {
   QMessageBox::about(&window_, tr("Boresight"),
-                     tr("<b>Boresight %1</b><p>Localization of a station in one image by salient "
-                        "edges and Weighted Hamming Similarity, as it runs in flight.</p>")
+                     tr("<b>Boresight %1</b><p>Localization of a station in one image by salient edges and Weighted Hamming Similarity.</p>")
                          .arg(QString::fromUtf8(sessions::kVersion)));
 }
 
@@ -288,7 +287,7 @@ void WindowMenus::undo() {
 void WindowMenus::redo() {
   const sessions::Session before = parts_.document.session();
   const QString text = parts_.document.redoText();
-  if (parts_.document.redo()) showChange(before, tr("Done again: %1").arg(text));
+  if (parts_.document.redo()) showChange(before, tr("Redone: %1").arg(text));
 }
 
 void WindowMenus::showChange(const sessions::Session& before, const QString& told) {
@@ -297,7 +296,7 @@ void WindowMenus::showChange(const sessions::Session& before, const QString& tol
   QString message = told;
   if (!changed.empty() && std::find(changed.begin(), changed.end(), shown) == changed.end()) {
     const QString other = QString::fromStdString(changed.front());
-    message = tr("%1, in %2, which is shown now").arg(told, other);
+    message = tr("%1, in %2 (now shown)").arg(told, other);
     parts_.cases.chooseCase(other);
   }
   window_.statusBar()->showMessage(message);

@@ -97,7 +97,7 @@ TEST_F(AnnotationPanelTest, GeometryIsWeakWhereTheSigmaExceedsTheRequirement) {
   controller_.finishMove();
   ASSERT_TRUE(solved());
   EXPECT_TRUE(meter().contains(QStringLiteral("times the"))) << meter().toStdString();
-  EXPECT_FALSE(meter().contains(QStringLiteral("nothing weak")));
+  EXPECT_FALSE(meter().contains(QStringLiteral("no weakness")));
 }
 
 TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {

@@ -194,7 +194,7 @@ TEST_F(IterationsModelTest, ShowsTheFiguresOfTheRun) {
   }
   const int last = model_.rowCount() - 1;
   EXPECT_EQ(text(last, IterationsModel::kStatus), QStringLiteral("converged"));
-  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("went on"));
+  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("continued"));
 }
 
 TEST_F(IterationsModelTest, SaysWhichHypothesisAnIterationWentOnWith) {
@@ -223,7 +223,7 @@ TEST_F(IterationsModelTest, AppendsWhatARunAddsAndKeepsSelections) {
   QSignalSpy inserts(&model_, &QAbstractItemModel::rowsInserted);
   EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("halted"));
   model_.setSnapshot(test::firstIterations(*run_, 2));
-  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("went on"));
+  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("continued"));
   model_.setSnapshot(run_);
   EXPECT_EQ(resets.count(), 0);
   EXPECT_EQ(inserts.count(), 2);
