@@ -24,7 +24,7 @@ struct CheckArguments {
   std::string source = "run";
   std::string preset;
   std::string json;
-  int basin = sessions::kBasinSeeds;
+  int convergence = sessions::kConvergenceSeeds;
   bool sentences = false;
 
   PoseSource poseSource() const {
@@ -51,9 +51,9 @@ CheckedCase checkCase(const sessions::Session& session, const std::string& id,
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
   const auto subject = sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)),
                                                arguments.poseSource());
-  std::optional<sessions::BasinResult> basin;
-  if (arguments.basin > 0) basin = sessions::basinTest(subject, arguments.basin);
-  return {id, sessions::checkPose(subject, limits, basin), ""};
+  std::optional<sessions::ConvergenceResult> convergence;
+  if (arguments.convergence > 0) convergence = sessions::convergenceTest(subject, arguments.convergence);
+  return {id, sessions::checkPose(subject, limits, convergence), ""};
 }
 
 void writeJson(const CheckArguments& arguments, const std::string& preset,
@@ -120,7 +120,7 @@ void addCheck(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command
-      ->add_option("--basin", arguments->basin,
+      ->add_option("--convergence-test", arguments->convergence,
                    "Number of further seeds of the convergence test; 0: no such test")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str()

@@ -16,8 +16,8 @@ struct DecideArguments {
   std::string by;
   std::string comment;
   std::string source = "run";
-  std::vector<std::string> overrides;
-  int basin = sessions::kBasinSeeds;
+  std::vector<std::string> waivers;
+  int convergence = sessions::kConvergenceSeeds;
   bool validate = false;
   bool reject = false;
   bool approve = false;
@@ -28,12 +28,12 @@ struct DecideArguments {
 };
 
 /// "coverage=half of it is dark" and the like.
-sessions::CheckOverrides readOverrides(const DecideArguments& arguments) {
-  sessions::CheckOverrides made;
-  for (const std::string& text : arguments.overrides) {
+sessions::CheckWaivers readWaivers(const DecideArguments& arguments) {
+  sessions::CheckWaivers made;
+  for (const std::string& text : arguments.waivers) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0)
-      throw CLI::ValidationError("--pass-over", "'" + text + "' is not CHECK=REASON");
+      throw CLI::ValidationError("--waive", "'" + text + "' is not CHECK=REASON");
     made[text.substr(0, sign)] = text.substr(sign + 1);
   }
   return made;
@@ -44,14 +44,14 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
   const auto subject = sessions::reviewSubject(
       session, sessions::loadCase(*session.findCase(arguments.case_id)), source);
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-  const sessions::CheckOverrides overrides = readOverrides(arguments);
+  const sessions::CheckWaivers waivers = readWaivers(arguments);
   // What is refused anyway is refused at once.
   const std::string concern = sessions::validationConcern(session, subject);
   if (!concern.empty()) throw sessions::DecisionError(concern);
-  std::optional<sessions::BasinResult> basin;
-  if (arguments.basin > 0) basin = sessions::basinTest(subject, arguments.basin);
-  return sessions::validated(session, subject, sessions::checkPose(subject, limits, basin),
-                             overrides, arguments.signature(), basin ? basin->seeds : 0);
+  std::optional<sessions::ConvergenceResult> convergence;
+  if (arguments.convergence > 0) convergence = sessions::convergenceTest(subject, arguments.convergence);
+  return sessions::validated(session, subject, sessions::checkPose(subject, limits, convergence),
+                             waivers, arguments.signature(), convergence ? convergence->seeds : 0);
 }
 
 Session decided(const Session& session, const DecideArguments& arguments) {
@@ -99,7 +99,7 @@ void addDecide(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("TEXT");
   command
-      ->add_option("--pass-over", arguments->overrides,
+      ->add_option("--waive", arguments->waivers,
                    "Waives a failed check for this reason; may be repeated. `whs check --json` lists the names of the checks")
       ->type_name("CHECK=REASON");
   command
@@ -108,7 +108,7 @@ void addDecide(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command
-      ->add_option("--basin", arguments->basin,
+      ->add_option("--convergence-test", arguments->convergence,
                    "Number of further seeds of the convergence test before a validation; 0: no such test")
       ->check(CLI::Range(0, 1000))
       ->type_name("N")

@@ -172,16 +172,16 @@ std::string commandText() {
   return text;
 }
 
-sessions::Sitting sittingOf(const EvaluateArguments& arguments) {
-  sessions::Sitting sitting = sessions::sittingHere();
-  sitting.command = commandText();
-  sitting.jobs = arguments.batch.jobs;
-  sitting.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.memory_limit,
+sessions::BatchRun batchRunOf(const EvaluateArguments& arguments) {
+  sessions::BatchRun batch_run = sessions::thisBatchRun();
+  batch_run.command = commandText();
+  batch_run.jobs = arguments.batch.jobs;
+  batch_run.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.memory_limit,
                                         arguments.batch.jobs);
-  sitting.kernels = kernelsName(arguments.batch.kernels);
-  sitting.shard = arguments.shard;
-  sitting.reseeds = arguments.batch.reseeds;
-  return sitting;
+  batch_run.kernels = kernelsName(arguments.batch.kernels);
+  batch_run.shard = arguments.shard;
+  batch_run.reseeds = arguments.batch.reseeds;
+  return batch_run;
 }
 
 sessions::MethodFacts factsOf(const EvaluateArguments& arguments, const std::string& method) {
@@ -223,7 +223,7 @@ void runAll(EvaluateArguments& arguments, const sessions::Dataset& dataset, cons
   std::size_t total = 0;
   for (const auto& [method, runs] : work) total += runs.size();
   if (total == 0) return;
-  writer.begin(sittingOf(arguments));
+  writer.begin(batchRunOf(arguments));
   Progress progress(total);
   for (const auto& [method, runs] : work) {
     arguments.batch.method = method;

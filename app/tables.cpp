@@ -91,9 +91,9 @@ std::string provenanceText(const sessions::ResultsSet& set) {
                                 file.dataset.version);
   std::set<std::string> machines;
   for (const sessions::ResultsFacts& file : set.files)
-    for (const sessions::Sitting& sitting : file.sittings)
-      machines.insert(sitting.processor + ", " + std::to_string(sitting.jobs) + " jobs of " +
-                      std::to_string(sitting.threads) + " threads");
+    for (const sessions::BatchRun& batch_run : file.batch_runs)
+      machines.insert(batch_run.processor + ", " + std::to_string(batch_run.jobs) + " jobs of " +
+                      std::to_string(batch_run.threads) + " threads");
   for (const std::string& machine : machines) text += sessions::plainLine("run on " + machine);
   for (const auto& [name, method] : set.methods)
     text += sessions::plainLine(

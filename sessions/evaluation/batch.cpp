@@ -48,7 +48,7 @@ struct CaseImage {
 /// A case and what its runs share.
 struct CaseWork {
   const Case* input = nullptr;
-  std::int64_t place = 0;
+  std::int64_t dataset_index = 0;
   Shared<StationScene> scene;
   const Station* mesh_station = nullptr;
   Shared<CaseImage> image;
@@ -124,7 +124,7 @@ Batch::Batch(const Dataset& dataset, const BatchOptions& options,
     if (cases_.empty() || cases_.back()->input != planned.input) {
       auto work = std::make_unique<CaseWork>();
       work->input = planned.input;
-      work->place = planned.place;
+      work->dataset_index = planned.dataset_index;
       const std::string& mesh = options.mesh_of.empty() ? planned.input->station : options.mesh_of;
       work->mesh_station = &dataset.stations.at(mesh);
       Shared<StationScene>& scene = scenes_[mesh];
@@ -181,7 +181,7 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
   const Case& one = *item.work->input;
   RunResult result;
   result.case_id = one.id;
-  result.place = item.work->place;
+  result.dataset_index = item.work->dataset_index;
   result.reseed = item.reseed;
   result.station = one.station;
   result.method = options_.method;
@@ -267,8 +267,8 @@ std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& op
   requireNames(dataset, options);
   std::vector<PlannedRun> plan;
   std::int64_t selected = 0;
-  for (std::size_t place = 0; place < dataset.cases.size(); ++place) {
-    const Case& one = dataset.cases[place];
+  for (std::size_t dataset_index = 0; dataset_index < dataset.cases.size(); ++dataset_index) {
+    const Case& one = dataset.cases[dataset_index];
     if (!selects(options.cases, [&](const auto& id) { return id == one.id; }) ||
         !selects(options.stations, [&](const auto& station) { return station == one.station; }) ||
         !selects(options.tags, [&](const auto& tag) { return one.hasTag(tag); }) ||
@@ -277,7 +277,7 @@ std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& op
     if (selected++ % options.shards != options.shard - 1) continue;
     const int reseeds = one.truth_camera_from_station ? options.reseeds : 0;
     for (int reseed = 0; reseed <= reseeds; ++reseed)
-      plan.push_back({&one, static_cast<std::int64_t>(place), reseed});
+      plan.push_back({&one, static_cast<std::int64_t>(dataset_index), reseed});
   }
   if (selected == 0) throw InputError(dataset.file, "cases", "none meets all filters");
   return plan;
@@ -300,7 +300,7 @@ std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& opti
       },
       stop);
   std::sort(results.begin(), results.end(), [](const RunResult& a, const RunResult& b) {
-    return std::pair(a.place, a.reseed) < std::pair(b.place, b.reseed);
+    return std::pair(a.dataset_index, a.reseed) < std::pair(b.dataset_index, b.reseed);
   });
   return results;
 }

@@ -110,20 +110,20 @@ std::optional<std::string> contradiction(const MethodFacts& held, const MethodFa
   return std::nullopt;
 }
 
-Sitting sittingHere() {
-  Sitting sitting;
-  sitting.began = utcNowText();
-  sitting.version = kVersion;
+BatchRun thisBatchRun() {
+  BatchRun batch_run;
+  batch_run.began = utcNowText();
+  batch_run.version = kVersion;
   utsname name{};
   if (uname(&name) == 0) {
-    sitting.machine = name.nodename;
-    sitting.system = std::string(name.sysname) + " " + name.release + " " + name.machine;
+    batch_run.machine = name.nodename;
+    batch_run.system = std::string(name.sysname) + " " + name.release + " " + name.machine;
   }
-  sitting.processor =
+  batch_run.processor =
       processorName() + " x " + std::to_string(std::max(1U, std::thread::hardware_concurrency()));
   std::error_code error;
-  sitting.folder = std::filesystem::current_path(error).string();
-  return sitting;
+  batch_run.folder = std::filesystem::current_path(error).string();
+  return batch_run;
 }
 
 }  // namespace boresight::sessions

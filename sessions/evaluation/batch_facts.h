@@ -34,7 +34,7 @@ struct MethodFacts {
 };
 
 /// One process that ran cases into a results file.
-struct Sitting {
+struct BatchRun {
   std::int64_t id = 0;
   std::string began;  ///< UTC
   std::string ended;  ///< UTC; empty while it runs, and when it was killed
@@ -68,6 +68,6 @@ std::optional<std::string> contradiction(const DatasetFacts& held, const Dataset
 std::optional<std::string> contradiction(const MethodFacts& held, const MethodFacts& given);
 
 /// Name, processor and system of this machine, as far as it tells; the rest is the caller's.
-Sitting sittingHere();
+BatchRun thisBatchRun();
 
 }  // namespace boresight::sessions

@@ -66,7 +66,7 @@ class Merge {
                                    "WHERE (o.status = 'input_error') = (h.status = "
                                    "'input_error')"));
     removeRefused();
-    takeSittings();
+    takeBatchRuns();
     takeRuns();
     out_.execute("COMMIT; DETACH other");
   }
@@ -113,18 +113,18 @@ class Merge {
   }
 
   /// A batch run that several files have is taken once.
-  void takeSittings() {
-    const std::string names = joined(sittingTable().names());
+  void takeBatchRuns() {
+    const std::string names = joined(batchRunTable().names());
     const std::string same =
         "h.machine = o.machine AND h.began = o.began AND h.command = o.command AND h.shard = "
         "o.shard";
-    out_.execute("INSERT INTO main.sitting (" + names + ") SELECT " + names +
-                 " FROM other.sitting o WHERE NOT EXISTS (SELECT 1 FROM main.sitting h WHERE " +
+    out_.execute("INSERT INTO main.batch_run (" + names + ") SELECT " + names +
+                 " FROM other.batch_run o WHERE NOT EXISTS (SELECT 1 FROM main.batch_run h WHERE " +
                  same + ") ORDER BY id");
     out_.execute(
-        "DROP TABLE IF EXISTS temp.sitting_of;"
-        "CREATE TEMP TABLE sitting_of AS SELECT o.id AS old, min(h.id) AS new FROM other.sitting "
-        "o JOIN main.sitting h ON " +
+        "DROP TABLE IF EXISTS temp.batch_run_of;"
+        "CREATE TEMP TABLE batch_run_of AS SELECT o.id AS old, min(h.id) AS new FROM other.batch_run "
+        "o JOIN main.batch_run h ON " +
         same + " GROUP BY o.id");
   }
 
@@ -141,8 +141,8 @@ class Merge {
                    " FROM other." + table + " JOIN added ON old = run");
     };
     const std::string names = joined(runTable().names());
-    out_.execute("INSERT INTO main.run (id, sitting, " + names + ") SELECT a.new, s.new, " + names +
-                 " FROM other.run JOIN added a ON a.old = id JOIN sitting_of s ON s.old = sitting "
+    out_.execute("INSERT INTO main.run (id, batch_run, " + names + ") SELECT a.new, s.new, " + names +
+                 " FROM other.run JOIN added a ON a.old = id JOIN batch_run_of s ON s.old = batch_run "
                  "ORDER BY a.new");
     copy("tag", "tag");
     copy("iteration", joined(stepTable().names()));

@@ -281,7 +281,7 @@ struct CheckLook {
 CheckLook lookOf(const JudgedCheck& judged) {
   if (judged.check.state == CheckState::kPassed) return {"\xE2\x9C\x94", kPdfBlue};
   if (judged.check.state == CheckState::kFailed)
-    return {judged.override_reason.empty() ? "\xE2\x9C\x98" : "\xE2\x9C\x98!", kPdfOrange};
+    return {judged.waiver_reason.empty() ? "\xE2\x9C\x98" : "\xE2\x9C\x98!", kPdfOrange};
   return {"\xE2\x80\x93", kFaintInk};
 }
 
@@ -291,7 +291,7 @@ double drawCheck(PdfCanvas& canvas, double y, const JudgedCheck& judged) {
   const Check& check = judged.check;
   const PdfColor& ink = check.state == CheckState::kNotApplicable ? kFaintInk : kInk;
   std::string sentence = check.sentence;
-  if (!judged.override_reason.empty()) sentence += " Waived: " + judged.override_reason;
+  if (!judged.waiver_reason.empty()) sentence += " Waived: " + judged.waiver_reason;
   canvas.text(kLeft, y, 14.0, look.sign, {kSize, true, false, look.color, 1});
   const double title =
       canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink, 2});

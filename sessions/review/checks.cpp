@@ -31,58 +31,58 @@ LocalizationProblem problemFrom(const ReviewSubject& subject, const LoadedCase& 
   return problem;
 }
 
-void addRival(const LoadedCase& loaded, const Pose& camera_from_station, bool mirrored,
-              BasinResult& result) {
-  result.rivals.push_back(
+void addCompeting(const LoadedCase& loaded, const Pose& camera_from_station, bool mirrored,
+              ConvergenceResult& result) {
+  result.competing.push_back(
       {camera_from_station, mirrored, coverageOfPose(loaded, camera_from_station).value()});
 }
 
-void count(const ReviewSubject& subject, const LocalizationTrace& trace, BasinResult& result) {
+void count(const ReviewSubject& subject, const LocalizationTrace& trace, ConvergenceResult& result) {
   ++result.seeds;
   if (!trace.converged()) return;
   ++result.converged;
   if (withinRequirement(subject, trace.camera_from_station))
     ++result.returned;
   else
-    addRival(*subject.loaded, trace.camera_from_station, false, result);
+    addCompeting(*subject.loaded, trace.camera_from_station, false, result);
 }
 
 /// A station with two like halves is nearly its own mirror image: the right one must fit better.
 void tryMirrorImage(const ReviewSubject& subject, const RunPlan& plan, int axis,
-                    const std::stop_token& stop, BasinResult& result) {
+                    const std::stop_token& stop, ConvergenceResult& result) {
   const auto image = mirrorImageOf(*subject.loaded, axis);
   const LocalizationTrace trace =
       localize(problemFrom(subject, *image, Vector6d::Zero()), plan, RecordLevel::kSummary, stop);
-  if (trace.converged()) addRival(*image, trace.camera_from_station, true, result);
+  if (trace.converged()) addCompeting(*image, trace.camera_from_station, true, result);
 }
 
-constexpr CheckName kReturned{"basin_returned", "Convergence from other seeds"};
+constexpr CheckName kReturned{"convergence_returned", "Convergence from other seeds"};
 /// Of coverage over none at all.
 constexpr double kNothingSeen = 10.0;
-constexpr CheckName kRival{"basin_rival", "Best competing pose"};
+constexpr CheckName kCompeting{"convergence_competing", "Best competing pose"};
 
-std::string foundText(const BasinResult& basin) {
-  const auto elsewhere = std::count_if(basin.rivals.begin(), basin.rivals.end(),
-                                       [](const RivalPose& one) { return !one.mirrored; });
-  return "Of " + std::to_string(basin.seeds) + " other seeds " + std::to_string(basin.returned) +
+std::string foundText(const ConvergenceResult& convergence) {
+  const auto elsewhere = std::count_if(convergence.competing.begin(), convergence.competing.end(),
+                                       [](const ConvergedPose& one) { return !one.mirrored; });
+  return "Of " + std::to_string(convergence.seeds) + " other seeds " + std::to_string(convergence.returned) +
          " returned to this pose and " + std::to_string(elsewhere) + " converged elsewhere.";
 }
 
 /// A worse one elsewhere does not speak against the pose: a nearly symmetric station has many.
-Check rivalCheck(const BasinResult& basin, const CheckLimits& limits) {
+Check competingPoseCheck(const ConvergenceResult& convergence, const CheckLimits& limits) {
   const auto best = std::max_element(
-      basin.rivals.begin(), basin.rivals.end(),
-      [](const RivalPose& a, const RivalPose& b) { return a.coverage < b.coverage; });
-  if (best == basin.rivals.end() && basin.returned == 0)
-    return notAskedCheck(kRival,
+      convergence.competing.begin(), convergence.competing.end(),
+      [](const ConvergedPose& a, const ConvergedPose& b) { return a.coverage < b.coverage; });
+  if (best == convergence.competing.end() && convergence.returned == 0)
+    return notAskedCheck(kCompeting,
                          "No other seed converged to a pose for comparison.");
-  if (best == basin.rivals.end())
-    return statedCheck(kRival, true, "No other pose and no mirror image of the station fits.", "");
+  if (best == convergence.competing.end())
+    return statedCheck(kCompeting, true, "No other pose and no mirror image of the station fits.", "");
   const std::string what = best->mirrored ? "a mirror image of the station" : "another pose";
-  const double ratio = basin.coverage > 0.0 ? best->coverage / basin.coverage : kNothingSeen;
+  const double ratio = convergence.coverage > 0.0 ? best->coverage / convergence.coverage : kNothingSeen;
   return measuredCheck(
-      kRival, "%", 100.0 * ratio, limits.rival_percent, LimitSide::kAtMost,
-      "The image shows " + percentText(basin.coverage) + " of the edges that this pose predicts, and " + what + " " +
+      kCompeting, "%", 100.0 * ratio, limits.competing_percent, LimitSide::kAtMost,
+      "The image shows " + percentText(convergence.coverage) + " of the edges that this pose predicts, and " + what + " " +
           percentText(best->coverage) + ".",
       best->mirrored ? "The mesh is mirrored or of another object."
                      : "The competing pose fits better: run from it and compare the overlays.");
@@ -91,7 +91,7 @@ Check rivalCheck(const BasinResult& basin, const CheckLimits& limits) {
 }  // namespace
 
 std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& limits,
-                             const std::optional<BasinResult>& basin) {
+                             const std::optional<ConvergenceResult>& convergence) {
   std::vector<Check> checks;
   PredictedEdges edges;
   if (subject.loaded != nullptr)
@@ -101,15 +101,15 @@ std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& li
   addPrecisionChecks(subject, limits, checks);
   addImageChecks(subject, limits, checks);
   addEdgeChecks(subject, limits, edges, checks);
-  addBasinChecks(basin, limits, checks);
+  addConvergenceChecks(convergence, limits, checks);
   addAgreementChecks(subject, limits, checks);
   addOnboardCheck(subject, checks);
   return checks;
 }
 
-BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop,
-                      const std::function<void(const BasinResult&)>& after_each) {
-  BasinResult result;
+ConvergenceResult convergenceTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop,
+                      const std::function<void(const ConvergenceResult&)>& after_each) {
+  ConvergenceResult result;
   if (subject.loaded == nullptr) return result;
   const RunPlan plan = planFor(subject);
   result.coverage = coverageOfPose(*subject.loaded, subject.camera_from_station).value();
@@ -128,22 +128,22 @@ BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_t
   return result;
 }
 
-bool isBasinCheck(const std::string& check_id) {
-  return check_id == kReturned.id || check_id == kRival.id;
+bool isConvergenceCheck(const std::string& check_id) {
+  return check_id == kReturned.id || check_id == kCompeting.id;
 }
 
-void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
+void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence, const CheckLimits& limits,
                     std::vector<Check>& checks) {
-  if (!basin || basin->seeds == 0) {
+  if (!convergence || convergence->seeds == 0) {
     const char* why = "No convergence test: a competing pose is not excluded.";
     checks.push_back(notAskedCheck(kReturned, why));
-    checks.push_back(notAskedCheck(kRival, why));
+    checks.push_back(notAskedCheck(kCompeting, why));
     return;
   }
-  checks.push_back(measuredCheck(kReturned, "%", 100.0 * basin->returned / basin->seeds,
-                                 limits.basin_percent, LimitSide::kAtLeast, foundText(*basin),
+  checks.push_back(measuredCheck(kReturned, "%", 100.0 * convergence->returned / convergence->seeds,
+                                 limits.convergence_percent, LimitSide::kAtLeast, foundText(*convergence),
                                  "Convergence depends on the seed: compare with annotations or with another image."));
-  checks.push_back(rivalCheck(*basin, limits));
+  checks.push_back(competingPoseCheck(*convergence, limits));
 }
 
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis) {

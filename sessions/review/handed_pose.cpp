@@ -159,8 +159,8 @@ CheckedPose checkedPose(const Session& session, const std::string& case_id) {
   const ReviewStatus status = reviewStatusOf(made.session, case_id);
   made.pose.review_status = reviewStatusText(status);  // of what is handed over
   const Decision* decision = status.judgedPose();
-  const int basin_seeds = decision != nullptr ? decision->basin_seeds : 0;
-  MeasuredPose measured = measurePose(made.session, made.pose, basin_seeds, "session");
+  const int convergence_seeds = decision != nullptr ? decision->convergence_seeds : 0;
+  MeasuredPose measured = measurePose(made.session, made.pose, convergence_seeds, "session");
   if (decision == nullptr) {
     made.pose.covariance = measured.subject.covariance;
     for (const Check& check : measured.checks) made.pose.checks.push_back({check, ""});
@@ -196,16 +196,16 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
   return made;
 }
 
-MeasuredPose measurePose(const Session& session, const HandedPose& pose, int basin_seeds,
+MeasuredPose measurePose(const Session& session, const HandedPose& pose, int convergence_seeds,
                          const std::filesystem::path& session_file) {
   const auto read_run = [&](const RunRecord& run) { return runAgain(run, session, session_file); };
   MeasuredPose measured;
   measured.subject = reviewSubject(session, loadCase(*session.findCase(pose.case_id)), pose.source,
                                    pose.run_digest, read_run);
-  std::optional<BasinResult> basin;
-  if (basin_seeds > 0) basin = basinTest(measured.subject, basin_seeds);
+  std::optional<ConvergenceResult> convergence;
+  if (convergence_seeds > 0) convergence = convergenceTest(measured.subject, convergence_seeds);
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
-  measured.checks = checkPose(measured.subject, limits, basin);
+  measured.checks = checkPose(measured.subject, limits, convergence);
   return measured;
 }
 
@@ -240,14 +240,14 @@ std::string covarianceDifference(const HandedPose& stated, const PoseCovariance&
 }
 
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
-                             bool with_basin) {
+                             bool with_convergence) {
   if (stated.checks.size() != measured.size())
     return std::to_string(stated.checks.size()) + " checks are stated, but " +
            std::to_string(measured.size()) + " are measured";
   std::string text;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const Check& one = stated.checks[i].check;
-    const bool compared = with_basin || !isBasinCheck(measured[i].id);
+    const bool compared = with_convergence || !isConvergenceCheck(measured[i].id);
     if (compared ? sameCheck(one, measured[i]) : one.id == measured[i].id) continue;
     text += (text.empty() ? "check " : "; ") + differenceText(one, measured[i]);
   }

@@ -226,8 +226,8 @@ std::vector<QueueRow> queueRows(const Session& session, int jobs, const std::sto
   std::size_t done = 0;
   std::mutex mutex;
   std::exception_ptr fault;
-  const auto work = [&](int piece, int) {
-    const auto i = static_cast<std::size_t>(piece);
+  const auto work = [&](int task, int) {
+    const auto i = static_cast<std::size_t>(task);
     try {
       made[i] = queueRow(session, session.cases[i]->id);
       const std::lock_guard lock(mutex);

@@ -142,12 +142,12 @@ const SessionCase& requireCase(const Session& session, const std::string& case_i
 
 /// Pairs each check with the reason for passing over it.
 std::vector<JudgedCheck> judgedChecks(const std::vector<Check>& checks,
-                                      const CheckOverrides& overrides) {
+                                      const CheckWaivers& waivers) {
   std::vector<JudgedCheck> judged;
   for (const Check& check : checks) {
-    const auto found = overrides.find(check.id);
+    const auto found = waivers.find(check.id);
     const bool failed = check.state == CheckState::kFailed;
-    const bool answered = failed && found != overrides.end();
+    const bool answered = failed && found != waivers.end();
     judged.push_back({check, std::string(answered ? trimmed(found->second) : "")});
   }
   return judged;
@@ -160,15 +160,15 @@ void requireAnswered(const std::vector<JudgedCheck>& checks) {
     throw DecisionError("this pose has not been checked");
   std::string open;
   for (const JudgedCheck& one : checks)
-    if (one.check.state == CheckState::kFailed && one.override_reason.empty())
+    if (one.check.state == CheckState::kFailed && one.waiver_reason.empty())
       open += (open.empty() ? "" : ", ") + one.check.title;
   if (!open.empty())
     throw DecisionError("failed checks are not waived: " + open);
 }
 
-/// A check without overrides may be given for what is not there any more: it is told.
-void requireKnownOverrides(const std::vector<Check>& checks, const CheckOverrides& overrides) {
-  for (const auto& [id, reason] : overrides) {
+/// A check without waivers may be given for what is not there any more: it is told.
+void requireKnownWaivers(const std::vector<Check>& checks, const CheckWaivers& waivers) {
+  for (const auto& [id, reason] : waivers) {
     const auto found = std::find_if(checks.begin(), checks.end(),
                                     [&id = id](const Check& check) { return check.id == id; });
     if (found == checks.end()) throw DecisionError("there is no check '" + id + "'");
@@ -299,16 +299,16 @@ std::string validationConcern(const Session& session, const ReviewSubject& subje
 }
 
 Session validated(const Session& session, const ReviewSubject& subject,
-                  const std::vector<Check>& checks, const CheckOverrides& overrides,
-                  const Signature& who, int basin_seeds) {
+                  const std::vector<Check>& checks, const CheckWaivers& waivers,
+                  const Signature& who, int convergence_seeds) {
   const Signature signature = requireSigned(who, "validate this pose");
   const std::string concern = validationConcern(session, subject);
   if (!concern.empty()) throw DecisionError(concern);
-  requireKnownOverrides(checks, overrides);
+  requireKnownWaivers(checks, waivers);
   const std::string& id = subject.loaded->source.id;
   Decision decision = newDecision(id, Verdict::kValidated, signature);
-  decision.checks = judgedChecks(checks, overrides);
-  decision.basin_seeds = basin_seeds;
+  decision.checks = judgedChecks(checks, waivers);
+  decision.convergence_seeds = convergence_seeds;
   requireAnswered(decision.checks);
   if (subject.run) decision.digest = subject.run->digest;
   decision.pose = JudgedPose{subject.source, subject.camera_from_station, subject.covariance};

@@ -68,18 +68,18 @@ struct Signature {
 bool samePerson(const std::string& one, const std::string& other);
 
 /// Reasons for passing over failed checks, by their ids.
-using CheckOverrides = std::map<std::string, std::string>;
+using CheckWaivers = std::map<std::string, std::string>;
 
 /// Why this pose cannot be validated now, or "": the run did not converge, it is stale (inputs or
 /// options have changed since), or it is not the case's last one.
 std::string validationConcern(const Session& session, const ReviewSubject& subject);
 
 /// Vouches for a pose: with a name, a comment, and every check passed or passed over with a reason.
-/// `basin_seeds` is the number of further seeds that the checks rest on, 0: none. DecisionError
+/// `convergence_seeds` is the number of further seeds that the checks rest on, 0: none. DecisionError
 /// otherwise.
 Session validated(const Session& session, const ReviewSubject& subject,
-                  const std::vector<Check>& checks, const CheckOverrides& overrides,
-                  const Signature& who, int basin_seeds = 0);
+                  const std::vector<Check>& checks, const CheckWaivers& waivers,
+                  const Signature& who, int convergence_seeds = 0);
 
 /// The second person's yes to a validation that holds. DecisionError when there is none, or when it
 /// is the first person again (whatever the case or blanks of the name).

@@ -53,10 +53,10 @@ struct MeasuredPose {
 
 /// Reads the inputs of the pose's case, runs the localization again (or solves the marks again),
 /// repeats the runs of the rig's other cameras that the checks ask, and makes the checks; the
-/// convergence test with `basin_seeds` seeds, 0: without. Of `pose` only the case, the source and
+/// convergence test with `convergence_seeds` seeds, 0: without. Of `pose` only the case, the source and
 /// the run's digest are used, and no trace is read. InputError when something cannot be read or
 /// repeated, or a run gives another digest than the session states; `session_file` is for messages.
-MeasuredPose measurePose(const Session& session, const HandedPose& pose, int basin_seeds,
+MeasuredPose measurePose(const Session& session, const HandedPose& pose, int convergence_seeds,
                          const std::filesystem::path& session_file);
 
 /// A pose to hand over, of which everything that can be measured was measured.
@@ -80,9 +80,9 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
 /// covariance agree to the last bits; those of marks, and figures of checks, to 1e-6 of their size.
 std::string poseDifference(const HandedPose& stated, const Pose& measured);
 std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured);
-/// `with_basin` false leaves the checks of the convergence test out.
+/// `with_convergence` false leaves the checks of the convergence test out.
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
-                             bool with_basin);
+                             bool with_convergence);
 /// InputError unless `difference` is empty.
 void requireAsMeasured(const std::string& case_id, const std::string& difference);
 
@@ -125,9 +125,9 @@ struct VerifyReport {
 /// Checks a validated_pose.json: its signature, the files that it names by their hashes, whether
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
 /// the run is run again (the marks are solved again), and its digest, pose, covariance, matches and
-/// every check are compared with what is stated; with `basin_again` the convergence test, too.
+/// every check are compared with what is stated; with `convergence_again` the convergence test, too.
 /// InputError when it is no such file.
 VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,
-                        bool basin_again = false);
+                        bool convergence_again = false);
 
 }  // namespace boresight::sessions

@@ -103,7 +103,7 @@ void verifyDecision(const ReviewStatus& status, Findings& findings) {
   std::string wrong = status.dropped.empty() ? "" : "it no longer holds: " + status.dropped;
   for (const JudgedCheck& judged : decision.checks)
     if (decision.verdict == Verdict::kValidated && judged.check.state == CheckState::kFailed &&
-        judged.override_reason.empty())
+        judged.waiver_reason.empty())
       wrong = "the check '" + judged.check.title + "' failed and was not waived";
   if (decision.verdict == Verdict::kValidated && decision.checks.empty())
     wrong = "it has no checks";
@@ -113,7 +113,7 @@ void verifyDecision(const ReviewStatus& status, Findings& findings) {
       {wrong.empty(), "decision", wrong.empty() ? "it follows from the document" : wrong});
 }
 
-void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_basin,
+void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_convergence,
                     Findings& findings) {
   const auto add = [&findings](const std::string& what, const std::string& wrong,
                                const std::string& good) {
@@ -129,15 +129,15 @@ void verifyMeasured(const Document& document, const MeasuredPose& measured, bool
       "the measured pose is the same");
   add("covariance", covarianceDifference(document.pose, measured.subject.covariance),
       "the measured covariance is the same");
-  add("checks", checksDifference(document.pose, measured.checks, with_basin),
+  add("checks", checksDifference(document.pose, measured.checks, with_convergence),
       "measured again, they are the same");
 }
 
 /// Nothing when it cannot be measured, which is then found wrong.
-std::optional<MeasuredPose> measureAgain(const Document& document, int basin_seeds,
+std::optional<MeasuredPose> measureAgain(const Document& document, int convergence_seeds,
                                          Findings& findings) {
   try {
-    return measurePose(document.session, document.pose, basin_seeds, document.file);
+    return measurePose(document.session, document.pose, convergence_seeds, document.file);
   } catch (const InputError& error) {
     findings.push_back({false, "run", std::string("it cannot be measured: ") + error.what()});
     return {};
@@ -191,7 +191,7 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
 }
 
 /// No measurement tells a person, a time or a reason.
-void listNotProved(const Decision* decision, bool measured, bool with_basin,
+void listNotProved(const Decision* decision, bool measured, bool with_convergence,
                    std::vector<std::string>& list) {
   if (!measured)
     list.emplace_back("run, pose, covariance and checks: not measured");
@@ -202,11 +202,11 @@ void listNotProved(const Decision* decision, bool measured, bool with_basin,
   list.push_back("when: " + decision->time +
                  (decision->approval ? " and " + decision->approval->time : ""));
   for (const JudgedCheck& judged : decision->checks)
-    if (!judged.override_reason.empty())
+    if (!judged.waiver_reason.empty())
       list.push_back("reason: why the failed check '" + judged.check.title +
-                     "' was waived: " + judged.override_reason);
-  if (measured && decision->basin_seeds > 0 && !with_basin)
-    list.push_back("convergence test: its " + std::to_string(decision->basin_seeds) +
+                     "' was waived: " + judged.waiver_reason);
+  if (measured && decision->convergence_seeds > 0 && !with_convergence)
+    list.push_back("convergence test: its " + std::to_string(decision->convergence_seeds) +
                    " further seeds were not run again (use --full)");
 }
 
@@ -217,7 +217,7 @@ bool VerifyReport::good() const {
                      [](const VerifyFinding& one) { return one.good; });
 }
 
-VerifyReport verifyPose(const fs::path& file, bool run_again, bool basin_again) {
+VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again) {
   Document document = readDocument(file);
   VerifyReport report;
   Findings& findings = report.findings;
@@ -229,13 +229,13 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool basin_again) 
   verifyDecision(status, findings);
   verifyRunStated(document, findings);
   const Decision* decision = status.judgedPose();
-  const int basin_seeds = basin_again && decision != nullptr ? decision->basin_seeds : 0;
-  const bool with_basin = basin_again || decision == nullptr || decision->basin_seeds == 0;
+  const int convergence_seeds = convergence_again && decision != nullptr ? decision->convergence_seeds : 0;
+  const bool with_convergence = convergence_again || decision == nullptr || decision->convergence_seeds == 0;
   std::optional<MeasuredPose> measured;
-  if (run_again && inputs) measured = measureAgain(document, basin_seeds, findings);
-  if (measured) verifyMeasured(document, *measured, with_basin, findings);
+  if (run_again && inputs) measured = measureAgain(document, convergence_seeds, findings);
+  if (measured) verifyMeasured(document, *measured, with_convergence, findings);
   verifyMembers(document, measured, findings);
-  listNotProved(status.decision, measured.has_value(), with_basin, report.not_proved);
+  listNotProved(status.decision, measured.has_value(), with_convergence, report.not_proved);
   return report;
 }
 

@@ -31,7 +31,7 @@ CheckPreset photographs() {
   preset.limits.clutter_percent = 90.0;
   preset.limits.fall_off_percent = 8.0;
   // Printed boxes and things that look alike from many sides are hard to find.
-  preset.limits.basin_percent = 30.0;
+  preset.limits.convergence_percent = 30.0;
   return preset;
 }
 

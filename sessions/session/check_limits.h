@@ -33,8 +33,8 @@ struct CheckLimits {
   double focal_percent = 0.5;
   double centre_px = 4.0;
   double agreement_percent = 100.0;
-  double basin_percent = 90.0;
-  double rival_percent = 115.0;
+  double convergence_percent = 90.0;
+  double competing_percent = 115.0;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
@@ -93,12 +93,12 @@ struct CheckLimits {
     visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
                      "Largest distance to another pose (annotation, truth, second camera), relative to requirement and covariances."},
           self.agreement_percent);
-    visit(OptionInfo{"check.basin_percent", "%", 0.0, 100.0,
+    visit(OptionInfo{"check.convergence_percent", "%", 0.0, 100.0,
                      "Least share of further seeds that converge to the same pose."},
-          self.basin_percent);
-    visit(OptionInfo{"check.rival_percent", "%", 0.0, 1000.0,
+          self.convergence_percent);
+    visit(OptionInfo{"check.competing_percent", "%", 0.0, 1000.0,
                      "Largest edge coverage of a competing pose or a mirrored station, relative to that of this pose."},
-          self.rival_percent);
+          self.competing_percent);
   }
 };
 

@@ -24,7 +24,7 @@ enum class PoseSource { kRun, kAnnotation };
 /// A check as it was when somebody decided.
 struct JudgedCheck {
   Check check;
-  std::string override_reason;  ///< why a failed one does not stand in the way, or empty
+  std::string waiver_reason;  ///< why a failed one does not stand in the way, or empty
 
   bool operator==(const JudgedCheck&) const = default;
 };
@@ -77,7 +77,7 @@ struct Decision {
   std::map<std::string, std::string> input_fingerprint = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
-  int basin_seeds = 0;  ///< further seeds that the checks rest on, to measure them again; 0: none
+  int convergence_seeds = 0;  ///< further seeds that the checks rest on, to measure them again; 0: none
 
   bool operator==(const Decision&) const = default;
 };

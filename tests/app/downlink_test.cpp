@@ -103,9 +103,9 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   // Three sigma across the view axis are 0.42 mm at the camera, 0.4 mm are required.
   const ProgramRun decided =
       runWhs({"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment",
-              "right", "--pass-over", "covariance_lateral=0.02 mm over"});
+              "right", "--waive", "covariance_lateral=0.02 mm over"});
   EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err
-                                  << runWhs({"check", session_, "--basin", "0"}).out;
+                                  << runWhs({"check", session_, "--convergence-test", "0"}).out;
   const std::string file = folder_ / "pose.json";
   runWhs({"export", session_, "--case", "sol12", "--pose", file}, 0);
   runWhs({"verify", file}, 0);

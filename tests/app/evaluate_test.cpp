@@ -129,7 +129,7 @@ TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
   const sessions::Results results = sessions::readResults(folder_ / "r.sqlite");
   ASSERT_EQ(results.runs.size(), 12u);
   std::int64_t done = 0;
-  for (const sessions::Sitting& sitting : results.facts.sittings) done += sitting.runs;
+  for (const sessions::BatchRun& batch_run : results.facts.batch_runs) done += batch_run.runs;
   EXPECT_EQ(done, 12) << "none was done twice";
   const auto resumed = lines();
 

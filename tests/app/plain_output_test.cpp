@@ -80,8 +80,8 @@ TEST_F(PlainOutput, OfSessionsIsText) {
   run({"info", file("dataset.json")});
   runWhs({"new", "--dataset", file("dataset.json"), "--out", session}, 0);
   run({"run", session});
-  run({"check", session, "--case", case_, "--basin", "0", "--sentences"}, 0);
-  run({"decide", session, "--case", case_, "--validate", "--basin", "8", "--by", hostile("Ada"),
+  run({"check", session, "--case", case_, "--convergence-test", "0", "--sentences"}, 0);
+  run({"decide", session, "--case", case_, "--validate", "--convergence-test", "8", "--by", hostile("Ada"),
        "--comment", hostile("right")});
   run({"info", session});
   run({"queue", session, "--csv", file("q.csv")});

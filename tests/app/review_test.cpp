@@ -75,11 +75,11 @@ TEST_F(ReviewCommands, WhatMayNotBeDecidedIsRefusedAndChangesNothing) {
   EXPECT_EQ(approval.errorLines(), 1) << approval.err;
   EXPECT_THAT(approval.err, HasSubstr("no validation"));
   const ProgramRun unknown =
-      decide({"--validate", "--by", "Ada", "--comment", "yes", "--pass-over", "nothing=because"});
+      decide({"--validate", "--by", "Ada", "--comment", "yes", "--waive", "nothing=because"});
   EXPECT_EQ(unknown.exit_code, 4);
   EXPECT_THAT(unknown.err, HasSubstr("no check 'nothing'"));
   EXPECT_EQ(decide({"--validate", "--reject", "--by", "A", "--comment", "b"}).exit_code, 2);
-  EXPECT_EQ(decide({"--validate", "--by", "A", "--comment", "b", "--pass-over", "x"}).exit_code, 2);
+  EXPECT_EQ(decide({"--validate", "--by", "A", "--comment", "b", "--waive", "x"}).exit_code, 2);
   EXPECT_EQ(folder_.read("s.boresight.json"), before);
 }
 

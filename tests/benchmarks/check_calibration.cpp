@@ -5,7 +5,7 @@
 //   made wrong
 //                                                   only of every so many cases
 //   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses anew
-//   check_calibration basin DATASET OUT.jsonl NEW.jsonl SEEDS  adds the basin test to what passes
+//   check_calibration convergence DATASET OUT.jsonl NEW.jsonl SEEDS  adds the convergence test to what passes
 //   check_calibration judge OUT.jsonl ...                 by the limits as they are now
 #include <algorithm>
 #include <array>
@@ -56,8 +56,8 @@ const std::map<std::string, double CheckLimits::*>& limitsByCheck() {
       {"edge_coverage", &CheckLimits::coverage_percent},
       {"edge_clutter", &CheckLimits::clutter_percent},
       {"edge_explained", &CheckLimits::explained_percent},
-      {"basin_returned", &CheckLimits::basin_percent},
-      {"basin_rival", &CheckLimits::rival_percent},
+      {"convergence_returned", &CheckLimits::convergence_percent},
+      {"convergence_competing", &CheckLimits::competing_percent},
       {"edge_fall_off", &CheckLimits::fall_off_percent},
       {"camera_focal", &CheckLimits::focal_percent},
       {"camera_centre", &CheckLimits::centre_px}};
@@ -256,11 +256,11 @@ sessions::ReviewSubject subjectOf(const CheckedVariant& variant, const Pose& cam
   return subject;
 }
 
-ordered_json checksJson(const sessions::ReviewSubject& subject, int basin_seeds = 0) {
+ordered_json checksJson(const sessions::ReviewSubject& subject, int convergence_seeds = 0) {
   ordered_json json = ordered_json::array();
-  std::optional<sessions::BasinResult> basin;
-  if (basin_seeds > 0) basin = basinTest(subject, basin_seeds);
-  for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits(), basin))
+  std::optional<sessions::ConvergenceResult> convergence;
+  if (convergence_seeds > 0) convergence = convergenceTest(subject, convergence_seeds);
+  for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits(), convergence))
     json.push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
   return json;
 }
@@ -330,12 +330,12 @@ bool isOfEdges(const std::string& id) {
   return id.starts_with("edge_") || id.starts_with("camera_");
 }
 
-bool isOfBasin(const std::string& id) { return id.starts_with("basin_"); }
+bool isOfConvergence(const std::string& id) { return id.starts_with("convergence_"); }
 
 /// Measures anew what `which` names, of the lines for which `when`, and keeps the others.
 int measureAnew(const std::string& dataset, const std::string& from, const std::string& to,
                 const std::function<bool(const ordered_json&)>& when,
-                const std::function<bool(const std::string&)>& which, int basin_seeds) {
+                const std::function<bool(const std::string&)>& which, int convergence_seeds) {
   const Session session = sessionOf(dataset);
   const std::size_t done = linesOf(to).size();
   std::ofstream stream(to, std::ios::app);
@@ -352,7 +352,7 @@ int measureAnew(const std::string& dataset, const std::string& from, const std::
       ordered_json kept = ordered_json::array();
       for (const ordered_json& check : line["checks"])
         if (!which(check["id"].get<std::string>())) kept.push_back(check);
-      for (const ordered_json& check : checksJson(subjectOf(variant, pose), basin_seeds))
+      for (const ordered_json& check : checksJson(subjectOf(variant, pose), convergence_seeds))
         if (which(check["id"].get<std::string>())) kept.push_back(check);
       line["checks"] = kept;
     }
@@ -374,11 +374,11 @@ int main(int argc, char** argv) {
       return boresight::test::measureAnew(
           arguments[1], arguments[2], arguments[3], [](const auto&) { return true; },
           boresight::test::isOfEdges, 0);
-    if (arguments.size() == 5 && arguments[0] == "basin")
+    if (arguments.size() == 5 && arguments[0] == "convergence")
       return boresight::test::measureAnew(
           arguments[1], arguments[2], arguments[3],
           [](const auto& line) { return boresight::test::passes(nlohmann::json(line)); },
-          boresight::test::isOfBasin, std::stoi(arguments[4]));
+          boresight::test::isOfConvergence, std::stoi(arguments[4]));
     if (arguments.size() >= 2 && arguments[0] == "judge")
       return boresight::test::judge({arguments.begin() + 1, arguments.end()});
   } catch (const std::exception& error) {
@@ -386,7 +386,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::cerr
-      << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | basin DATASET "
+      << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | convergence DATASET "
          "FROM TO SEEDS | judge OUT ..."
       << std::endl;
   return 2;

@@ -17,7 +17,7 @@ using sessions::Verdict;
 namespace {
 
 const QString kChecksKey = QStringLiteral("checks");
-const QString kBasinKey = QStringLiteral("basin");
+const QString kConvergenceKey = QStringLiteral("convergence");
 
 /// Whether what was read is the case as the document has it; a nudge by hand is not judged.
 bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase now) {
@@ -34,7 +34,7 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
   connect(&checks_runner_, &TaskRunner::failed, this,
           [this](const QString& message) { take({}, message); });
-  connect(&basin_runner_, &TaskRunner::busyChanged, this, &ReviewController::basinChanged);
+  connect(&convergence_runner_, &TaskRunner::busyChanged, this, &ReviewController::convergenceChanged);
   follow();
 }
 
@@ -113,10 +113,10 @@ void ReviewController::follow() {
 /// they are of another case.
 void ReviewController::drop() {
   checks_runner_.cancel(kChecksKey);
-  basin_runner_.cancel(kBasinKey);
+  convergence_runner_.cancel(kConvergenceKey);
   if (!problem_.isEmpty() || !subject_ || subject_->loaded->source.id != caseId()) checks_.clear();
-  basin_.reset();
-  basin_so_far_ = {};
+  convergence_.reset();
+  convergence_so_far_ = {};
   current_ = false;
   asked_ = false;
 }
@@ -128,12 +128,12 @@ void ReviewController::ask() {
   const sessions::Session session = document_.session();
   checks_runner_.start(
       kChecksKey,
-      [session, asked = *question_, basin = basin_](const std::stop_token&) {
+      [session, asked = *question_, convergence = convergence_](const std::stop_token&) {
         Answer answer;
         answer.subject = std::make_shared<const sessions::ReviewSubject>(
             reviewSubject(session, asked.loaded, asked.source, asked.run_digest));
         const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-        answer.checks = checkPose(*answer.subject, limits, basin);
+        answer.checks = checkPose(*answer.subject, limits, convergence);
         return answer;
       },
       [this](const Answer& answer) { take(answer, {}); });
@@ -162,8 +162,8 @@ void ReviewController::setReason(const std::string& check_id, const QString& rea
   Q_EMIT checksChanged();
 }
 
-sessions::CheckOverrides ReviewController::overrides() const {
-  sessions::CheckOverrides made;
+sessions::CheckWaivers ReviewController::waivers() const {
+  sessions::CheckWaivers made;
   for (const sessions::Check& check : checks_) {
     const QString reason = reasonFor(check);
     if (check.state == sessions::CheckState::kFailed && !reason.isEmpty())
@@ -190,8 +190,8 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
   const std::string id = caseId();
   switch (act) {
     case Act::kValidate:
-      return sessions::validated(session, *subject_, checks_, overrides(), who,
-                                 basin_ ? basin_->seeds : 0);
+      return sessions::validated(session, *subject_, checks_, waivers(), who,
+                                 convergence_ ? convergence_->seeds : 0);
     case Act::kApprove:
       return sessions::approved(session, id, who);
     case Act::kReject:
@@ -268,21 +268,21 @@ void ReviewController::setSecondPerson(bool asked) {
   editSettings(next, asked ? tr("Ask for a second person") : tr("Ask for one person"));
 }
 
-void ReviewController::startBasin(int seeds) {
-  if (!current_ || isBasinRunning()) return;
-  basin_so_far_ = {};
-  basin_runner_.run(kBasinKey, [this, subject = subject_, seeds](const std::stop_token& stop,
+void ReviewController::startConvergenceTest(int seeds) {
+  if (!current_ || isConvergenceTestRunning()) return;
+  convergence_so_far_ = {};
+  convergence_runner_.run(kConvergenceKey, [this, subject = subject_, seeds](const std::stop_token& stop,
                                                                  const TaskRunner::Report& report) {
-    const auto tell = [this, &report](const sessions::BasinResult& so_far) {
+    const auto tell = [this, &report](const sessions::ConvergenceResult& so_far) {
       report([this, so_far] {
-        basin_so_far_ = so_far;
-        Q_EMIT basinChanged();
+        convergence_so_far_ = so_far;
+        Q_EMIT convergenceChanged();
       });
     };
-    sessions::BasinResult result = sessions::basinTest(*subject, seeds, stop, tell);
+    sessions::ConvergenceResult result = sessions::convergenceTest(*subject, seeds, stop, tell);
     report([this, result = std::move(result)] {
       if (result.seeds == 0) return;
-      basin_ = result;
+      convergence_ = result;
       asked_ = false;
       ask();
       Q_EMIT checksChanged();
@@ -290,6 +290,6 @@ void ReviewController::startBasin(int seeds) {
   });
 }
 
-void ReviewController::stopBasin() { basin_runner_.stop(kBasinKey); }
+void ReviewController::stopConvergenceTest() { convergence_runner_.stop(kConvergenceKey); }
 
 }  // namespace boresight::ui

@@ -44,13 +44,13 @@ QString verdictText(const Decision& decision) {
 }
 
 /// Failed checks that were passed over, each with its reason.
-QString overridesHtml(const Decision& decision) {
+QString waiversHtml(const Decision& decision) {
   QString html;
   for (const sessions::JudgedCheck& one : decision.checks)
-    if (!one.override_reason.empty())
+    if (!one.waiver_reason.empty())
       html += DecisionForm::tr("<br>✗ %1 waived: %2")
                   .arg(fromText(one.check.title).toHtmlEscaped(),
-                       fromText(one.override_reason).toHtmlEscaped());
+                       fromText(one.waiver_reason).toHtmlEscaped());
   return html;
 }
 
@@ -64,7 +64,7 @@ QString decisionHtml(const Decision& decision) {
     html += DecisionForm::tr(" (run %1)").arg(fromText(decision.digest).left(kDigestDigits));
   else if (decision.pose)
     html += DecisionForm::tr(" (the annotations)");
-  return html + overridesHtml(decision);
+  return html + waiversHtml(decision);
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ void DecisionForm::showWhatIsPossible() {
 void DecisionForm::showReading() {
   QStringList parts;
   if (!obstacle_.isEmpty()) parts << QStringLiteral("⚠ %1").arg(obstacle_.toHtmlEscaped());
-  if (controller_.awaitsBasin() && nextStep() == Act::kValidate)
+  if (controller_.awaitsConvergenceTest() && nextStep() == Act::kValidate)
     parts << tr(
         "○ No convergence test: a competing pose is not excluded.");
   if (!note_.isEmpty()) parts << note_;
@@ -310,17 +310,17 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   ui_.splitter->addWidget(decision_);
   ui_.splitter->setStretchFactor(0, 1);
   ui_.splitter->setSizes({640, 280});
-  ui_.basinSeeds->setValue(sessions::kBasinSeeds);
+  ui_.convergenceSeeds->setValue(sessions::kConvergenceSeeds);
   buildTable();
   connect(ui_.judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
     controller_.setSource(static_cast<PoseSource>(ui_.judged->currentData().toInt()));
   });
   connect(ui_.openLimits, &QPushButton::clicked, this, &ReviewPanel::openLimits);
-  connect(ui_.basin, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
+  connect(ui_.convergence, &QPushButton::clicked, this, &ReviewPanel::askForConvergenceTest);
   connect(&controller_, &ReviewController::reviewStatusChanged, this,
           &ReviewPanel::showReviewStatus);
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
-  connect(&controller_, &ReviewController::basinChanged, this, &ReviewPanel::showBasin);
+  connect(&controller_, &ReviewController::convergenceChanged, this, &ReviewPanel::showConvergence);
   connect(&model_, &ChecksModel::reasonEdited, &controller_, &ReviewController::setReason);
   showReviewStatus();
   showChecks();
@@ -396,7 +396,7 @@ void ReviewPanel::showChecks() {
   // Failed ones come first; without any there is nothing to give a reason for.
   ui_.checks->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
   showChosen();
-  showBasin();
+  showConvergence();
 }
 
 void ReviewPanel::showChosen() {
@@ -415,25 +415,25 @@ void ReviewPanel::showChosen() {
   decision_->setNote(html);
 }
 
-void ReviewPanel::showBasin() {
-  const bool running = controller_.isBasinRunning();
-  const sessions::BasinResult& so_far = controller_.basinSoFar();
-  ui_.basinSeeds->setEnabled(!running);
-  ui_.basin->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_.basinSeeds->value())
+void ReviewPanel::showConvergence() {
+  const bool running = controller_.isConvergenceTestRunning();
+  const sessions::ConvergenceResult& so_far = controller_.convergenceSoFar();
+  ui_.convergenceSeeds->setEnabled(!running);
+  ui_.convergence->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_.convergenceSeeds->value())
                              : tr("Convergence test"));
-  ui_.basin->setEnabled(running || controller_.isCurrent());
-  ui_.basin->setToolTip(
+  ui_.convergence->setEnabled(running || controller_.isCurrent());
+  ui_.convergence->setToolTip(
       running ? tr("%1 of %2 seeds returned to the pose so far. A stopped test counts, too.")
                     .arg(so_far.returned)
                     .arg(so_far.seeds)
               : tr("Runs from further seeds within the declared uncertainty and counts those that return to this pose. Takes one run per seed; can be stopped."));
 }
 
-void ReviewPanel::askForBasin() {
-  if (controller_.isBasinRunning())
-    controller_.stopBasin();
+void ReviewPanel::askForConvergenceTest() {
+  if (controller_.isConvergenceTestRunning())
+    controller_.stopConvergenceTest();
   else
-    controller_.startBasin(ui_.basinSeeds->value());
+    controller_.startConvergenceTest(ui_.convergenceSeeds->value());
 }
 
 void ReviewPanel::openLimits() {

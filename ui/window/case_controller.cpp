@@ -370,7 +370,7 @@ void CaseController::finishStoring() {
 
 void CaseController::runAll(const QStringList& ids) {
   queue_.assign(ids.begin(), ids.end());
-  batch_ = BatchRun{0, static_cast<int>(ids.size())};
+  batch_ = BatchProgress{0, static_cast<int>(ids.size())};
   runNext();
 }
 

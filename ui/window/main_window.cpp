@@ -26,7 +26,7 @@ constexpr const char* kLayoutKey = "window/state";
 constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
 constexpr int kLayoutVersion = 8;  // of another set of panels, a layout is not taken over
 
-QString stateText(RunState state, const std::optional<BatchRun>& batch) {
+QString stateText(RunState state, const std::optional<BatchProgress>& batch) {
   if (batch && batch->of > 1)
     return MainWindow::tr("Running %1 of %2...").arg(batch->at).arg(batch->of);
   return state == RunState::kWorking    ? MainWindow::tr("Running...")

@@ -195,7 +195,7 @@ TEST(Manual, KnowsEveryCheck) {
   const std::string session = folder / "examples/example.boresight.json";
   runWhs({"run", session, "--case", "os-000038"}, 0);
   runWhs(
-      {"check", session, "--case", "os-000038", "--basin", "0", "--json", folder / "checks.json"},
+      {"check", session, "--case", "os-000038", "--convergence-test", "0", "--json", folder / "checks.json"},
       0);
   const nlohmann::json checks =
       nlohmann::json::parse(folder.read("checks.json")).at("cases").at(0).at("checks");

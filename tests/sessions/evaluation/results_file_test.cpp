@@ -42,7 +42,7 @@ class ResultsFile : public testing::Test {
   void write(const std::vector<RunResult>& runs, const std::string& method = "whs") const {
     ResultsWriter writer(file_, sampleDataset());
     writer.admit(sampleMethod(method));
-    writer.begin(Sitting{});
+    writer.begin(BatchRun{});
     for (const RunResult& run : runs) writer.add(run);
     writer.end();
   }
@@ -60,11 +60,11 @@ class ResultsFile : public testing::Test {
 TEST_F(ResultsFile, HoldsEveryRun) {
   RunResult blind;
   blind.case_id = "bc-2";
-  blind.place = 1;
+  blind.dataset_index = 1;
   blind.method = "whs";
   write({sampleRun(), blind});
   EXPECT_EQ(query(file_,
-                  "SELECT id, place, case_id, reseed, station, method, status, message, completed, "
+                  "SELECT id, dataset_index, case_id, reseed, station, method, status, message, completed, "
                   "success, matches, inliers, edge_support, lateral_mm, projection_px, "
                   "requirement, s_matching, s_total, digest FROM run ORDER BY id"),
             "1|0|bc-1|2|bc|whs|converged|it's \"quoted\"|1|1|96|88|0.5|0.25|NULL|"
@@ -136,9 +136,9 @@ TEST_F(ResultsFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.camera_from_station.translation_m, run.camera_from_station.translation_m);
   ASSERT_EQ(results.facts.methods.size(), 1u);
   EXPECT_EQ(results.facts.methods.front().options, "{\"pnp.seed\":7}");
-  ASSERT_EQ(results.facts.sittings.size(), 1u);
-  EXPECT_EQ(results.facts.sittings.front().runs, 1);
-  EXPECT_NE(results.facts.sittings.front().ended, "");
+  ASSERT_EQ(results.facts.batch_runs.size(), 1u);
+  EXPECT_EQ(results.facts.batch_runs.front().runs, 1);
+  EXPECT_NE(results.facts.batch_runs.front().ended, "");
 }
 
 TEST_F(ResultsFile, OrdersRunsAsTheDatasetDoesWhateverCameFirst) {
@@ -155,21 +155,21 @@ TEST_F(ResultsFile, GoesOnWithoutDoingAnythingTwice) {
   write({sampleRun("bc-1", 0, 0)});
   ResultsWriter writer(file_, sampleDataset());
   writer.admit(sampleMethod("whs"));
-  writer.begin(Sitting{});
+  writer.begin(BatchRun{});
   EXPECT_TRUE(writer.has("whs", "bc-1", 0));
   EXPECT_FALSE(writer.has("whs", "bc-1", 1));
   EXPECT_FALSE(writer.has("ncc", "bc-1", 0));
   writer.add(sampleRun("bc-1", 0, 0));
   writer.add(sampleRun("bc-1", 0, 1));
-  EXPECT_EQ(query(file_, "SELECT reseed, sitting FROM run ORDER BY id"), "0|1|1|2|");
+  EXPECT_EQ(query(file_, "SELECT reseed, batch_run FROM run ORDER BY id"), "0|1|1|2|");
 }
 
 TEST_F(ResultsFile, KeepsWhatWasAddedWhenTheWriterIsNeverEnded) {
   auto* abandoned = new ResultsWriter(file_, sampleDataset());
-  abandoned->begin(Sitting{});
+  abandoned->begin(BatchRun{});
   abandoned->add(sampleRun());
   EXPECT_EQ(readResults(file_).runs.size(), 1u) << "another process sees it at once";
-  EXPECT_EQ(readResults(file_).facts.sittings.front().ended, "");
+  EXPECT_EQ(readResults(file_).facts.batch_runs.front().ended, "");
   delete abandoned;
 }
 
@@ -272,9 +272,9 @@ class MergeResults : public testing::Test {
              const MethodFacts& method = sampleMethod("whs")) const {
     ResultsWriter writer(folder_ / name, dataset);
     writer.admit(method);
-    Sitting sitting;
-    sitting.machine = name;
-    writer.begin(sitting);
+    BatchRun batch_run;
+    batch_run.machine = name;
+    writer.begin(batch_run);
     for (const RunResult& run : runs) writer.add(run);
     writer.end();
   }
@@ -313,9 +313,9 @@ TEST_F(MergeResults, JoinsShards) {
   EXPECT_EQ(merged(), "bc-1/0 bc-1/1 os-2/0 bc-3/0 ");
   const Results results = readResults(folder_ / "out");
   EXPECT_EQ(results.runs[2].tags, stepped.tags);
-  ASSERT_EQ(results.facts.sittings.size(), 2u);
+  ASSERT_EQ(results.facts.batch_runs.size(), 2u);
   SqlDatabase database(folder_ / "out", SqlAccess::kRead);
-  EXPECT_EQ(textOf(database.value("SELECT machine FROM run JOIN sitting ON sitting.id = sitting "
+  EXPECT_EQ(textOf(database.value("SELECT machine FROM run JOIN batch_run ON batch_run.id = batch_run "
                                   "WHERE case_id = 'bc-3'")),
             "a");
   EXPECT_EQ(integerOf(database.value("SELECT count(*) FROM iteration JOIN run ON run.id = run "
@@ -332,7 +332,7 @@ TEST_F(MergeResults, TakesEqualRunsOnceAndMayBeRepeated) {
   EXPECT_EQ(merge({"a", "b"}).equal, 1);
   EXPECT_EQ(merge({"a", "b"}).equal, 4);
   EXPECT_EQ(merged(), "bc-1/0 bc-1/1 os-2/0 ");
-  EXPECT_EQ(readResults(folder_ / "out").facts.sittings.size(), 2u);
+  EXPECT_EQ(readResults(folder_ / "out").facts.batch_runs.size(), 2u);
   EXPECT_EQ(folder_.fileCount(), 3u);
 }
 

@@ -28,7 +28,7 @@ json uncertainty(double translation_m, const char* pivot = "camera") {
           {"pivot", pivot}};
 }
 
-/// Two stations, one in short form and one of two parts; two cases, one that overrides everything.
+/// Two stations, one in short form and one of two parts; two cases, one that waivers everything.
 json sampleDataset() {
   json d = {{"format", "boresight-dataset"}, {"version", 1}};
   d["requirement"] = {{"normal_mm", 0.4}, {"lateral_mm", 0.5}, {"rotation_deg", 0.25}};

@@ -240,20 +240,20 @@ TEST(CheckPose, WithoutAPoseThereIsASentence) {
 
 TEST(CheckPose, OtherSeedsLeadBackAndAStopLeavesWhatWasDone) {
   const ReviewSubject& subject = example("os").subject;
-  const BasinResult basin = basinTest(subject, 2);
-  EXPECT_EQ(basin.seeds, 2);
-  EXPECT_EQ(basin.returned, 2);
-  EXPECT_GT(basin.coverage, 0.5);
-  for (const RivalPose& rival : basin.rivals) {
-    EXPECT_TRUE(rival.mirrored);
-    EXPECT_LT(rival.coverage, basin.coverage);
+  const ConvergenceResult convergence = convergenceTest(subject, 2);
+  EXPECT_EQ(convergence.seeds, 2);
+  EXPECT_EQ(convergence.returned, 2);
+  EXPECT_GT(convergence.coverage, 0.5);
+  for (const ConvergedPose& competing : convergence.competing) {
+    EXPECT_TRUE(competing.mirrored);
+    EXPECT_LT(competing.coverage, convergence.coverage);
   }
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(basinTest(subject, 2, stop.get_token()).seeds, 0);
-  const auto checks = checkPose(subject, presetLimits(), basin);
-  EXPECT_EQ(findCheck(checks, "basin_returned").figure, 100.0);
-  EXPECT_EQ(findCheck(checks, "basin_rival").state, CheckState::kPassed);
+  EXPECT_EQ(convergenceTest(subject, 2, stop.get_token()).seeds, 0);
+  const auto checks = checkPose(subject, presetLimits(), convergence);
+  EXPECT_EQ(findCheck(checks, "convergence_returned").figure, 100.0);
+  EXPECT_EQ(findCheck(checks, "convergence_competing").state, CheckState::kPassed);
 }
 
 TEST(CheckPose, AMirroredStationIsToldByTheRightOneThatFitsBetter) {
@@ -267,10 +267,10 @@ TEST(CheckPose, AMirroredStationIsToldByTheRightOneThatFitsBetter) {
   const LocalizationTrace trace = runCase(*subject.loaded, options);
   ASSERT_TRUE(trace.converged()) << "this station is nearly its own mirror image";
   subject.camera_from_station = trace.camera_from_station;
-  const auto checks = checkPose(subject, presetLimits(), basinTest(subject, 1));
-  const Check rival = findCheck(checks, "basin_rival");
-  EXPECT_EQ(rival.state, CheckState::kFailed) << rival.sentence;
-  EXPECT_THAT(rival.sentence, testing::HasSubstr("mirror image"));
+  const auto checks = checkPose(subject, presetLimits(), convergenceTest(subject, 1));
+  const Check competing = findCheck(checks, "convergence_competing");
+  EXPECT_EQ(competing.state, CheckState::kFailed) << competing.sentence;
+  EXPECT_THAT(competing.sentence, testing::HasSubstr("mirror image"));
 }
 
 TEST(CheckPresets, ArePickedByWhatTheRequirementNames) {

@@ -31,10 +31,10 @@ std::string refusal(const std::function<void()>& act) {
 TEST(Decide, AValidationNeedsANameACommentAndAnswersToAllChecks) {
   Random random = randomFor("Decide.Validation");
   JudgedCase judged(random);
-  const auto refused = [&judged](const sessions::CheckOverrides& overrides,
+  const auto refused = [&judged](const sessions::CheckWaivers& waivers,
                                  const sessions::Signature& who) {
     return refusal(
-        [&] { validated(judged.session, judged.subject, judged.checks, overrides, who); });
+        [&] { validated(judged.session, judged.subject, judged.checks, waivers, who); });
   };
   EXPECT_EQ(refused({}, {"Ada", "right"}), "");
   EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give your name"));
@@ -73,8 +73,8 @@ TEST(Decide, AValidationHoldsItsPoseItsChecksAndTheirReasons) {
   EXPECT_EQ(decision.pose->camera_from_station, judged.subject.camera_from_station);
   EXPECT_EQ(decision.pose->covariance, judged.subject.covariance);
   ASSERT_EQ(decision.checks.size(), 3u);
-  EXPECT_EQ(decision.checks[0].override_reason, "");
-  EXPECT_EQ(decision.checks[1].override_reason, "half of it is dark");
+  EXPECT_EQ(decision.checks[0].waiver_reason, "");
+  EXPECT_EQ(decision.checks[1].waiver_reason, "half of it is dark");
   EXPECT_EQ(reviewStatusOf(next, "a").state, ReviewState::kValidated);
   EXPECT_EQ(reviewStatusText(reviewStatusOf(next, "a")), "validated by Ada");
 }

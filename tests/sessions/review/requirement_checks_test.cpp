@@ -125,43 +125,43 @@ TEST_F(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
   EXPECT_FALSE(withinRequirement(subject_, turned));
 }
 
-std::vector<Check> basinChecks(const std::optional<BasinResult>& basin) {
+std::vector<Check> convergenceChecks(const std::optional<ConvergenceResult>& convergence) {
   std::vector<Check> checks;
-  addBasinChecks(basin, CheckLimits(), checks);
+  addConvergenceChecks(convergence, CheckLimits(), checks);
   return checks;
 }
 
-TEST(BasinChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
-  EXPECT_EQ(findCheck(basinChecks({}), "basin_returned").state, CheckState::kNotApplicable);
-  EXPECT_EQ(findCheck(basinChecks({}), "basin_rival").state, CheckState::kNotApplicable);
-  const double limit = CheckLimits().basin_percent;
-  BasinResult basin{100, 100, static_cast<int>(limit), 0.5, {}};
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").figure, limit);
-  EXPECT_TRUE(allPassed(basinChecks(basin)));
-  --basin.returned;
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
+TEST(ConvergenceChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_returned").state, CheckState::kNotApplicable);
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_competing").state, CheckState::kNotApplicable);
+  const double limit = CheckLimits().convergence_percent;
+  ConvergenceResult convergence{100, 100, static_cast<int>(limit), 0.5, {}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").figure, limit);
+  EXPECT_TRUE(allPassed(convergenceChecks(convergence)));
+  --convergence.returned;
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kPassed);
 }
 
-TEST(BasinChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) {
-  const BasinResult basin{10, 10, 0, 0.5, {}};
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kNotApplicable);
+TEST(ConvergenceChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) {
+  const ConvergenceResult convergence{10, 10, 0, 0.5, {}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kNotApplicable);
 }
 
-TEST(BasinChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
-  BasinResult basin{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
-  EXPECT_NEAR(findCheck(basinChecks(basin), "basin_rival").figure.value(), 60.0, 1e-9);
-  basin.rivals.push_back({Pose(), false, 0.7});
-  const Check other = findCheck(basinChecks(basin), "basin_rival");
+TEST(ConvergenceChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
+  ConvergenceResult convergence{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kPassed);
+  EXPECT_NEAR(findCheck(convergenceChecks(convergence), "convergence_competing").figure.value(), 60.0, 1e-9);
+  convergence.competing.push_back({Pose(), false, 0.7});
+  const Check other = findCheck(convergenceChecks(convergence), "convergence_competing");
   EXPECT_EQ(other.state, CheckState::kFailed);
   EXPECT_THAT(other.sentence, testing::HasSubstr("another pose 70 %"));
-  basin.rivals.push_back({Pose(), true, 0.8});
-  const Check mirrored = findCheck(basinChecks(basin), "basin_rival");
+  convergence.competing.push_back({Pose(), true, 0.8});
+  const Check mirrored = findCheck(convergenceChecks(convergence), "convergence_competing");
   EXPECT_THAT(mirrored.sentence, testing::HasSubstr("mirror image of the station 80 %"));
-  basin.coverage = 0.0;
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kFailed);
+  convergence.coverage = 0.0;
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kFailed);
 }
 
 Check onboardCheck(const ReviewSubject& subject) {

@@ -65,20 +65,20 @@ class ValidatedPose : public testing::Test {
   }
 
   /// By limits that one check fails, which is passed over.
-  void validate(int basin_seeds = 0, sessions::PoseSource source = sessions::PoseSource::kRun) {
+  void validate(int convergence_seeds = 0, sessions::PoseSource source = sessions::PoseSource::kRun) {
     sessions::CheckLimits limits = sessions::checkLimits(session_.review.preset, {});
     limits.inlier_count = 9000.0;
     limits.coverage_percent = 100.0;
     session_.review = withLimits(session_.review, limits);
     subject_ = reviewSubject(session_, sessions::loadCase(*session_.findCase(id_)), source);
-    std::optional<sessions::BasinResult> basin;
-    if (basin_seeds > 0) basin = basinTest(subject_, basin_seeds);
-    const std::vector<sessions::Check> checks = checkPose(subject_, limits, basin);
-    sessions::CheckOverrides overrides;
+    std::optional<sessions::ConvergenceResult> convergence;
+    if (convergence_seeds > 0) convergence = convergenceTest(subject_, convergence_seeds);
+    const std::vector<sessions::Check> checks = checkPose(subject_, limits, convergence);
+    sessions::CheckWaivers waivers;
     for (const sessions::Check& check : checks)
       if (check.state == sessions::CheckState::kFailed)
-        overrides[check.id] = "the shadow of the arm";
-    session_ = validated(session_, subject_, checks, overrides, {"Ada", "right"}, basin_seeds);
+        waivers[check.id] = "the shadow of the arm";
+    session_ = validated(session_, subject_, checks, waivers, {"Ada", "right"}, convergence_seeds);
   }
 
   fs::path write() {
@@ -113,7 +113,7 @@ class ValidatedPose : public testing::Test {
   static void statePassed(ordered_json& check) {
     check["state"] = "passed";
     check["figure"] = check["limit"];
-    check.erase("override_reason");
+    check.erase("waiver_reason");
   }
 
   static ordered_json read(const fs::path& file) {
@@ -134,8 +134,8 @@ class ValidatedPose : public testing::Test {
   }
 
   /// A file that verifies.
-  static VerifyReport verified(const fs::path& file, bool basin_again = false) {
-    VerifyReport report = sessions::verifyPose(file, true, basin_again);
+  static VerifyReport verified(const fs::path& file, bool convergence_again = false) {
+    VerifyReport report = sessions::verifyPose(file, true, convergence_again);
     EXPECT_TRUE(report.good()) << wrongsOf(report);
     return report;
   }
@@ -169,7 +169,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   const ordered_json json = read(file);
   EXPECT_EQ(json["state"], "validated");
   EXPECT_EQ(json["review_status"], "validated by Ada");
-  EXPECT_THAT(json["checks"].dump(), HasSubstr("\"override_reason\":\"the shadow of the arm\""));
+  EXPECT_THAT(json["checks"].dump(), HasSubstr("\"waiver_reason\":\"the shadow of the arm\""));
   EXPECT_EQ(json["sha256"]["image_pixels"], session_.findCase(id_)->image.pixels_sha256);
   EXPECT_EQ(json["run"]["digest"], subject_.run->digest);
   EXPECT_GT(json["run"]["matches"].size(), 20u);
@@ -293,7 +293,7 @@ TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
   EXPECT_THAT(forged(
                   [](ordered_json& json) {
                     for (ordered_json& check : json["session"]["decisions"][0]["checks"])
-                      check.erase("override_reason");
+                      check.erase("waiver_reason");
                   },
                   false),
               HasSubstr("decision: the check"));
@@ -376,14 +376,14 @@ TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
   run();
   validate(1);
   const fs::path file = write();
-  EXPECT_EQ(read(file)["session"]["decisions"][0]["basin_seeds"], 1);
+  EXPECT_EQ(read(file)["session"]["decisions"][0]["convergence_seeds"], 1);
   VerifyReport report = verified(file);
   EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
   report = verified(file, true);
   EXPECT_THAT(report.not_proved, Not(Contains(HasSubstr("convergence test"))));
 
   ordered_json json = read(file);
-  eachCheck(json, "basin_rival", [](ordered_json& check) {
+  eachCheck(json, "convergence_competing", [](ordered_json& check) {
     check["sentence"] = "No other pose and no mirror image of the station is likely.";
   });
   resign(json, file);
@@ -392,7 +392,7 @@ TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, true)),
               HasSubstr("'Best competing pose' is stated as"));
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
-                checkOf(decision, "basin_rival").check.sentence = "None.";
+                checkOf(decision, "convergence_competing").check.sentence = "None.";
               }),
               HasSubstr("'Best competing pose' is stated as"));
 }
@@ -402,7 +402,7 @@ TEST_F(ValidatedPose, ASessionEditedByHandIsNotSigned) {
   validate();
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
                 sessions::JudgedCheck& judged = checkOf(decision, "inlier_count");
-                judged.override_reason.clear();
+                judged.waiver_reason.clear();
                 judged.check.state = sessions::CheckState::kPassed;
                 judged.check.figure = 9100.0;
               }),

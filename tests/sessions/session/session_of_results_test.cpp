@@ -41,7 +41,7 @@ class SessionOfResults : public testing::Test {
     MethodFacts facts = methodFacts(method, "default", options_.localizer);
     facts.mirror = mirror;
     writer.admit(facts);
-    writer.begin(Sitting{});
+    writer.begin(BatchRun{});
     for (RunResult run : runs_) {
       run.method = method;
       writer.add(run);

@@ -243,7 +243,7 @@ class ResultsQueueTest : public test::WindowTest {
     sessions::ResultsWriter writer(results_,
                                    sessions::datasetFacts(sessions::readDataset(dataset)));
     writer.admit(sessions::methodFacts("whs", "default", options.localizer));
-    writer.begin(sessions::Sitting{});
+    writer.begin(sessions::BatchRun{});
     for (const sessions::RunResult& run : runs_) writer.add(run);
   }
   std::filesystem::path results_ = folder_.path() / "results.sqlite";

@@ -282,24 +282,24 @@ TEST_F(ReviewPanelTest, AnotherPresetIsAnEdit) {
   EXPECT_EQ(preset->currentText(), QLatin1String(sessions::kDefaultCheckPreset));
 }
 
-TEST_F(ReviewPanelTest, TheBasinTestEntersTheChecksAndCanBeStopped) {
+TEST_F(ReviewPanelTest, ConvergenceTest_EntersTheChecksAndCanBeStopped) {
   openRun();
   const auto state = [this] {
     for (const sessions::Check& check : controller().checks())
-      if (check.id.find("basin") != std::string::npos) return check.state;
+      if (check.id.find("convergence") != std::string::npos) return check.state;
     ADD_FAILURE() << "there is no such check";
     return CheckState::kNotApplicable;
   };
   EXPECT_EQ(state(), CheckState::kNotApplicable);
-  panel_->findChild<QSpinBox*>(QStringLiteral("basinSeeds"))->setValue(1000);
-  hands().click("basin");
-  EXPECT_TRUE(test::has(hands().button("basin")->text(), "Stop"));
+  panel_->findChild<QSpinBox*>(QStringLiteral("convergenceSeeds"))->setValue(1000);
+  hands().click("convergence");
+  EXPECT_TRUE(test::has(hands().button("convergence")->text(), "Stop"));
   ASSERT_TRUE(
-      QTest::qWaitFor([this] { return controller().basinSoFar().seeds >= 2; }, kPatienceMs));
-  hands().click("basin");
+      QTest::qWaitFor([this] { return controller().convergenceSoFar().seeds >= 2; }, kPatienceMs));
+  hands().click("convergence");
   ASSERT_TRUE(checked());
   EXPECT_NE(state(), CheckState::kNotApplicable) << "what has been run counts";
-  EXPECT_TRUE(test::has(hands().button("basin")->text(), "test"));
+  EXPECT_TRUE(test::has(hands().button("convergence")->text(), "test"));
 }
 
 TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
