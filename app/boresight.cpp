@@ -34,7 +34,7 @@ struct Arguments {
   bool self_test = false;
   ui::ScreenshotOrder screenshot;
   bool dark = false;
-  std::string out, view, size = "1600x1000", mark;  ///< of the screenshot
+  std::string out, view, size = "1600x1000", annotation;  ///< of the screenshot
   std::string documents;  ///< where pages of the manual are written, or empty
   std::vector<std::string> files;
 
@@ -66,7 +66,7 @@ void Arguments::addTo(CLI::App& app) {
                  "Row under Hypotheses in the picture, from 1")
       ->check(CLI::Range(1, kMostRows))
       ->type_name("N");
-  app.add_option("--mark", mark, "Annotation that is edited in the picture")
+  app.add_option("--annotation", annotation, "Annotation that is edited in the picture")
       ->type_name("ID");
   app.add_flag("--dark", dark, "Dark colours");
   app.add_option("--documents", documents, "Write pages of the manual")->group("");
@@ -82,10 +82,11 @@ void Arguments::check() {
   screenshot.size = {width, height};
   screenshot.out = out;
   screenshot.view = QString::fromStdString(view);
-  screenshot.mark = QString::fromStdString(mark);
+  screenshot.annotation = QString::fromStdString(annotation);
   if (!out.empty() && files.size() > 1)
-    throw CLI::ValidationError("--screenshot",
-                               "takes one session (whs new makes one from files), or none for an empty window");
+    throw CLI::ValidationError(
+        "--screenshot",
+        "takes one session (whs new makes one from files), or none for an empty window");
 }
 
 /// Whether the command line asks for something that needs no display, so that it runs anywhere.

@@ -33,8 +33,7 @@ void noteEnding(const path& out, CameraModel model) {
   const std::string needed = std::string(".") + sessions::cameraModelName(model);
   if (out.extension() != needed)
     note("the vectors belong to a " + needed.substr(1) +
-         " model; other programs expect the file ending " +
-         needed);
+         " model; other programs expect the file ending " + needed);
 }
 
 /// What camera.json has no place for.
@@ -86,7 +85,8 @@ void convertAs(const CameraArguments& arguments, const sessions::CameraFile& giv
 int convert(const CameraArguments& arguments) {
   const sessions::CameraFile given = sessions::readCameraFile(path(arguments.file));
   if (!arguments.model.empty() && sessions::isCahvorFile(path(arguments.out)))
-    throw CLI::ValidationError("--out", "a text file holds vectors only; write a fitted model as .json");
+    throw CLI::ValidationError("--out",
+                               "a text file holds vectors only; write a fitted model as .json");
   if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   if (!arguments.model.empty()) {
     convertAs(arguments, given);
@@ -116,7 +116,8 @@ void addCamera(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"pinhole", "brown_conrady", "kannala_brandt"}));
   command
       ->add_option("--distance", arguments->distance_m,
-                   "Distance from the camera at which the model is fitted, where the entrance pupil moves (cahvore), m")
+                   "Distance from the camera at which the model is fitted, where the entrance "
+                   "pupil moves (cahvore), m")
       ->check(numberIn(1e-3, 1e6))
       ->type_name("M");
   addFile(*command, "--out", arguments->out,

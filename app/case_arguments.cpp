@@ -20,8 +20,7 @@ void CaseArguments::addTo(CLI::App& command) {
                   "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
       ->check(numberIn(0.0, 100.0))
       ->type_name("M");
-  addFile(command, "--ignore", ignore,
-          "Mask image of the same size: nonzero pixels are ignored");
+  addFile(command, "--ignore", ignore, "Mask image of the same size: nonzero pixels are ignored");
   command
       .add_option("--bit-depth", bit_depth,
                   "Bit depth of the image's samples, e.g. 12 in a 16-bit file")
@@ -31,7 +30,8 @@ void CaseArguments::addTo(CLI::App& command) {
 
 void CaseArguments::addUncertaintyTo(CLI::App& command) {
   addUncertainty(command, uncertainty,
-                 "Largest error of the seed along and about x, y, z of the camera: three lengths in m, three angles in deg (default: those in the seed's file)");
+                 "Largest error of the seed along and about x, y, z of the camera: three lengths "
+                 "in m, three angles in deg (default: those in the seed's file)");
   command
       .add_option("--pivot", pivot,
                   "Centre of the seed's rotation uncertainty: camera (an arm camera) or station")

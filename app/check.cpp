@@ -52,7 +52,8 @@ CheckedCase checkCase(const sessions::Session& session, const std::string& id,
   const auto subject = sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)),
                                                arguments.poseSource());
   std::optional<sessions::ConvergenceResult> convergence;
-  if (arguments.convergence > 0) convergence = sessions::convergenceTest(subject, arguments.convergence);
+  if (arguments.convergence > 0)
+    convergence = sessions::convergenceTest(subject, arguments.convergence);
   return {id, sessions::checkPose(subject, limits, convergence), ""};
 }
 
@@ -109,14 +110,17 @@ std::vector<std::string> presetNames() {
 }  // namespace
 
 void addCheck(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "check",
-      "Checks the poses of a session, with --convergence-test also from further seeds. Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check",
-      checkSession);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "check",
+                 "Checks the poses of a session, with --convergence-test also from further seeds. "
+                 "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check",
+                 checkSession);
   addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
-  command->add_option("--source", arguments->source, "Pose to check: that of the last run, or that of the annotations")
+  command
+      ->add_option("--source", arguments->source,
+                   "Pose to check: that of the last run, or that of the annotations")
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command

@@ -26,11 +26,10 @@ sessions::PoseFrames FrameArguments::of(const sessions::CameraFile& camera) cons
 }
 
 void MethodArguments::addTo(CLI::App& command, bool several) {
-  CLI::Option* option =
-      command.add_option("--method", methods,
-                         std::string(several ? "Methods to run, one after the other: "
-                                             : "Method to run: ") +
-                             sessions::methodNames());
+  CLI::Option* option = command.add_option(
+      "--method", methods,
+      std::string(several ? "Methods to run, one after the other: " : "Method to run: ") +
+          sessions::methodNames());
   option->type_name("M")->default_str(sessions::kWhs)->check([](const std::string& name) {
     return sessions::isMethod(name)
                ? std::string()
@@ -39,7 +38,8 @@ void MethodArguments::addTo(CLI::App& command, bool several) {
   if (!several) option->expected(1);
   command
       .add_option("--matcher", matcher,
-                  "Command of the external matcher (methods external, loftr-r, loftr-s), e.g. \"node resources/matchers/loftr/loftr.js --model M.onnx\"")
+                  "Command of the external matcher (methods external, loftr-r, loftr-s), e.g. "
+                  "\"node resources/matchers/loftr/loftr.js --model M.onnx\"")
       ->type_name("COMMAND");
 }
 
@@ -194,14 +194,13 @@ sessions::MethodOptions methodProfile(const std::string& name) {
 
 void OptionArguments::addTo(CLI::App& command) {
   command
-      .add_option(
-          "--profile", profile,
-          "Set of options: default (recommended settings), paper (as published), or flight (default for gray images, within 10,000,000 bytes including image and mesh)")
+      .add_option("--profile", profile,
+                  "Set of options: default (recommended settings), paper (as published), or flight "
+                  "(default for gray images, within 10,000,000 bytes including image and mesh)")
       ->check(CLI::IsMember({"default", "paper", "flight"}));
   addFile(command, "--config", config, "config.json: a profile and options that differ from it");
   command
-      .add_option("--set", assignments,
-                  "Sets an option, e.g. pnp.seed=7; `whs options` lists all")
+      .add_option("--set", assignments, "Sets an option, e.g. pnp.seed=7; `whs options` lists all")
       ->type_name("NAME=VALUE");
 }
 
@@ -235,7 +234,8 @@ std::size_t OptionArguments::memoryLimit() const {
 void DatasetArguments::addTo(CLI::App& command) {
   const char* group = "Of a BOP folder";
   command
-      .add_option("--split", selection.split, "Split of a BOP folder, e.g. val (default: test, or the only one)")
+      .add_option("--split", selection.split,
+                  "Split of a BOP folder, e.g. val (default: test, or the only one)")
       ->type_name("NAME")
       ->group(group);
   command.add_option("--scene", selection.scenes, "Only these scenes")
@@ -244,7 +244,9 @@ void DatasetArguments::addTo(CLI::App& command) {
   command.add_option("--obj", selection.objects, "Only these objects")
       ->type_name("N")
       ->group(group);
-  command.add_option("--sensor", selection.sensor, "Sensor of a BOP folder with several: scene_camera_NAME.json")
+  command
+      .add_option("--sensor", selection.sensor,
+                  "Sensor of a BOP folder with several: scene_camera_NAME.json")
       ->type_name("NAME")
       ->group(group);
   command
@@ -252,11 +254,11 @@ void DatasetArguments::addTo(CLI::App& command) {
                 "Includes instances that the challenge leaves out or that are hardly visible")
       ->group(group);
   addUncertainty(command, uncertainty,
-                 "Largest error of the drawn seeds along and about x, y, z of the camera: three lengths in m, three angles in deg (default: 0.03 m, 10 deg)")
+                 "Largest error of the drawn seeds along and about x, y, z of the camera: three "
+                 "lengths in m, three angles in deg (default: 0.03 m, 10 deg)")
       ->group(group);
   command
-      .add_option("--pivot", pivot,
-                  "Centre of the seed's rotation uncertainty (default: station)")
+      .add_option("--pivot", pivot, "Centre of the seed's rotation uncertainty (default: station)")
       ->check(CLI::IsMember({"camera", "station"}))
       ->group(group);
 }

@@ -53,8 +53,9 @@ class GroundSide {
   OnboardRecord attached() const {
     const auto& file = one().onboard_record;
     if (!file)
-      throw InputError(document_.file(), "case " + one().id,
-                       "no onboard record is attached; give one, or attach it in the desktop program");
+      throw InputError(
+          document_.file(), "case " + one().id,
+          "no onboard record is attached; give one, or attach it in the desktop program");
     return sessions::readRecord(file->file);
   }
 
@@ -92,7 +93,8 @@ class GroundSide {
     if (run.inputs_sha256 != sessions::inputsDigest(one()))
       throw InputError(document_.file(), "run " + run.digest,
                        "the inputs of case " + one().id +
-                           " have changed since the run; run it again, or use --rerun to run it with the record's options");
+                           " have changed since the run; run it again, or use --rerun to run it "
+                           "with the record's options");
     return sessions::loadRun(run);
   }
 
@@ -129,11 +131,14 @@ int compare(const CompareArguments& arguments) {
 
 void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
   command
-      .add_option("--found-px", limits.found_px,
-                  "Largest distance of two template positions that count as equal, px at their level")
+      .add_option(
+          "--found-px", limits.found_px,
+          "Largest distance of two template positions that count as equal, px at their level")
       ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
-  command.add_option("--found-share", limits.found_share, "Required share of equal template positions, 0 to 1")
+  command
+      .add_option("--found-share", limits.found_share,
+                  "Required share of equal template positions, 0 to 1")
       ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
   command
@@ -151,16 +156,20 @@ void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
 }  // namespace
 
 void addCompare(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "compare",
-      "Compares two runs and prints their first difference. Exit status: 0 equal to the bit, 5 within the limits for other pixels or a cut record, 6 different. A run is an onboard record (run.whsr), a trace, or a run of a session's case (--case)",
-      compare);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "compare",
+                 "Compares two runs and prints their first difference. Exit status: 0 equal to the "
+                 "bit, 5 within the limits for other pixels or a cut record, 6 different. A run is "
+                 "an onboard record (run.whsr), a trace, or a run of a session's case (--case)",
+                 compare);
   addFile(*command, "A", arguments->one, "Record, trace or session")->required();
   addFile(*command, "B", arguments->other,
-          "Record, trace or session; without it, the onboard record of A's case is compared with the case's run");
+          "Record, trace or session; without it, the onboard record of A's case is compared with "
+          "the case's run");
   command->add_option("--case", arguments->case_id, "Case of the session")->type_name("ID");
-  auto* run = command->add_option("--run", arguments->digest,
-                                  "First digits of the digest of the case's run (default: the last run)");
+  auto* run =
+      command->add_option("--run", arguments->digest,
+                          "First digits of the digest of the case's run (default: the last run)");
   run->type_name("DIGEST");
   command
       ->add_flag("--rerun", arguments->rerun,

@@ -49,7 +49,8 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
   const std::string concern = sessions::validationConcern(session, subject);
   if (!concern.empty()) throw sessions::DecisionError(concern);
   std::optional<sessions::ConvergenceResult> convergence;
-  if (arguments.convergence > 0) convergence = sessions::convergenceTest(subject, arguments.convergence);
+  if (arguments.convergence > 0)
+    convergence = sessions::convergenceTest(subject, arguments.convergence);
   return sessions::validated(session, subject, sessions::checkPose(subject, limits, convergence),
                              waivers, arguments.signature(), convergence ? convergence->seeds : 0);
 }
@@ -81,26 +82,29 @@ int decide(const DecideArguments& arguments) {
 }  // namespace
 
 void addDecide(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "decide",
-      "Validates, rejects or approves the pose of a case, with name and comment. Exit status 4: the pose cannot be validated, as a failed check is not waived",
-      decide);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "decide",
+                 "Validates, rejects or approves the pose of a case, with name and comment. Exit "
+                 "status 4: the pose cannot be validated, as a failed check is not waived",
+                 decide);
   addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->case_id, "Case")->required()->type_name("ID");
   CLI::Option_group* what = command->add_option_group("What");
   what->add_flag("--validate", arguments->validate, "Validate the pose");
   what->add_flag("--reject", arguments->reject, "Reject the result");
-  what->add_flag("--approve", arguments->approve,
-                 "Approve a validation as the second person");
+  what->add_flag("--approve", arguments->approve, "Approve a validation as the second person");
   what->add_flag("--reopen", arguments->reopen, "Withdraw the last decision");
   what->require_option(1);
-  command->add_option("--by", arguments->by, "Name of the person who decides")->required()->type_name("NAME");
+  command->add_option("--by", arguments->by, "Name of the person who decides")
+      ->required()
+      ->type_name("NAME");
   command->add_option("--comment", arguments->comment, "Reason of the decision")
       ->required()
       ->type_name("TEXT");
   command
       ->add_option("--waive", arguments->waivers,
-                   "Waives a failed check for this reason; may be repeated. `whs check --json` lists the names of the checks")
+                   "Waives a failed check for this reason; may be repeated. `whs check --json` "
+                   "lists the names of the checks")
       ->type_name("CHECK=REASON");
   command
       ->add_option("--source", arguments->source,
@@ -108,8 +112,9 @@ void addDecide(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command
-      ->add_option("--convergence-test", arguments->convergence,
-                   "Number of further seeds of the convergence test before a validation; 0: no such test")
+      ->add_option(
+          "--convergence-test", arguments->convergence,
+          "Number of further seeds of the convergence test before a validation; 0: no such test")
       ->check(CLI::Range(0, 1000))
       ->type_name("N")
       ->capture_default_str();

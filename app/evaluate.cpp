@@ -75,7 +75,8 @@ void EvaluateArguments::addTo(CLI::App& command) {
   addThreads(command, batch.threads);
   command
       .add_option("--reseed", batch.reseeds,
-                  "Number of further seeds per case, uniform in the ellipsoids inscribed in its uncertainty")
+                  "Number of further seeds per case, uniform in the ellipsoids inscribed in its "
+                  "uncertainty")
       ->check(CLI::Range(0, 1000000))
       ->type_name("N");
   command
@@ -86,7 +87,8 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->type_name("S");
   command
       .add_option("--mesh-of", batch.mesh_of,
-                  "Negative test: uses this station's mesh for the cases of all others; a completed run is a gross false positive")
+                  "Negative test: uses this station's mesh for the cases of all others; a "
+                  "completed run is a gross false positive")
       ->type_name("STATION");
   command.add_option("--mirror", mirror, "Negative test: mirrors the mesh across this axis")
       ->check(CLI::IsMember({"x", "y", "z"}));
@@ -97,8 +99,7 @@ void EvaluateArguments::addTo(CLI::App& command) {
       ->type_name("I/N");
   command.add_flag("--keep-matches", batch.keep_matches,
                    "Stores every template of every iteration in the results");
-  addFile(command, "--out", out,
-          "Results as an SQLite file; an existing file is continued")
+  addFile(command, "--out", out, "Results as an SQLite file; an existing file is continued")
       ->required();
   addFile(command, "--jsonl", jsonl, "Results as JSON lines");
   addFile(command, "--bop-csv", bop_csv,
@@ -177,7 +178,7 @@ sessions::BatchRun batchRunOf(const EvaluateArguments& arguments) {
   batch_run.command = commandText();
   batch_run.jobs = arguments.batch.jobs;
   batch_run.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.memory_limit,
-                                        arguments.batch.jobs);
+                                          arguments.batch.jobs);
   batch_run.kernels = kernelsName(arguments.batch.kernels);
   batch_run.shard = arguments.shard;
   batch_run.reseeds = arguments.batch.reseeds;
@@ -213,8 +214,8 @@ Work workLeft(const EvaluateArguments& arguments, const std::vector<sessions::Pl
   }
   const std::size_t all = plan.size() * arguments.method.methods.size();
   if (left < all)
-    note(arguments.out + ": resumed, " + std::to_string(all - left) + " of " +
-         std::to_string(all) + " runs are done");
+    note(arguments.out + ": resumed, " + std::to_string(all - left) + " of " + std::to_string(all) +
+         " runs are done");
   return work;
 }
 

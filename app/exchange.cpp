@@ -17,14 +17,14 @@ struct ExchangeArguments {
   std::string landmarks;
   std::string pose;
   std::string bop_results;
-  std::string poses = "marks";
+  std::string poses = "annotations";
   int scene = 1;
   std::vector<std::string> cases;
   bool robust = false;
   bool replace = false;
   bool recover = false;
 
-  /// Marks are those of one case.
+  /// Annotations are those of one case.
   const std::string& onlyCase() const {
     if (cases.size() != 1) throw CLI::ValidationError("--case", "give exactly one case");
     return cases.front();
@@ -49,7 +49,7 @@ sessions::ExportReport exportPoses(const sessions::Session& session,
     return sessions::exportBopResults(session, arguments.bop_results, arguments.cases,
                                       arguments.scene);
   const sessions::CasePoses poses =
-      arguments.poses == "marks"
+      arguments.poses == "annotations"
           ? sessions::annotatedPoses(session, arguments.cases, arguments.robust)
           : sessions::posesToHandOver(session, arguments.cases);
   return arguments.colmap.empty() ? sessions::exportBop(session, arguments.bop, poses)
@@ -61,7 +61,7 @@ int exportFrom(const ExchangeArguments& arguments) {
   const sessions::Session& session = document.session();
   for (const std::string& id : arguments.cases) (void)requireCase(document, id);
   if (!arguments.points.empty()) {
-    sessions::exportMarks(session, arguments.onlyCase(), arguments.points);
+    sessions::exportAnnotations(session, arguments.onlyCase(), arguments.points);
     tell(arguments.cases, {});
   } else if (!arguments.landmarks.empty()) {
     sessions::exportLandmarks(session, arguments.onlyCase(), arguments.landmarks);
@@ -83,8 +83,8 @@ int importInto(const ExchangeArguments& arguments) {
   std::string text = "Import poses";
   if (!arguments.points.empty()) {
     text = "Import annotations of " + arguments.onlyCase();
-    report =
-        sessions::importMarks(session, arguments.onlyCase(), arguments.points, arguments.replace);
+    report = sessions::importAnnotations(session, arguments.onlyCase(), arguments.points,
+                                         arguments.replace);
   } else if (!arguments.colmap.empty()) {
     report = sessions::importColmap(session, arguments.colmap, arguments.replace);
   } else {
@@ -114,11 +114,13 @@ void addExport(CLI::App& app, int& exit_code) {
           "undistorted images in gray/")
       ->type_name("DIR");
   addFile(*what, "--pose", arguments->pose,
-          "Pose of one case with its checks, hashes and decision (validated_pose.json). Pose, covariance and checks are measured again; a decision on other values is refused");
+          "Pose of one case with its checks, hashes and decision (validated_pose.json). Pose, "
+          "covariance and checks are measured again; a decision on other values is refused");
   what->add_option("--bop-results", arguments->bop_results,
                    "Poses for hand-over as a BOP19 results file")
       ->type_name("CSV");
-  addFile(*what, "--points", arguments->points, "Annotations of one case as points.json or points.csv");
+  addFile(*what, "--points", arguments->points,
+          "Annotations of one case as points.json or points.csv");
   addFile(*what, "--landmarks", arguments->landmarks,
           "Points of one case as landmarks.json; added to an existing file");
   what->require_option(1);
@@ -128,19 +130,22 @@ void addExport(CLI::App& app, int& exit_code) {
       ->type_name("ID");
   command
       ->add_option("--poses", arguments->poses,
-                   "Poses that --colmap and --bop write: annotations, or handed-over (validated, else of the last run, else of the annotations)")
-      ->check(CLI::IsMember({"marks", "handed-over"}))
+                   "Poses that --colmap and --bop write: annotations, or handed-over (validated, "
+                   "else of the last run, else of the annotations)")
+      ->check(CLI::IsMember({"annotations", "handed-over"}))
       ->capture_default_str();
   command->add_option("--scene", arguments->scene, "Number of the scene in --bop-results")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  command->add_flag("--robust", arguments->robust, "Give annotations far from their projection less weight");
+  command->add_flag("--robust", arguments->robust,
+                    "Give annotations far from their projection less weight");
 }
 
 void addImport(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "import",
-      "Imports annotations, or poses as the cases' truth, into a session and prints the cases", importInto);
+      "Imports annotations, or poses as the cases' truth, into a session and prints the cases",
+      importInto);
   addFile(*command, "session", arguments->session, "Session file")->required();
   CLI::Option_group* what = command->add_option_group("What");
   addFile(*what, "--points", arguments->points, "points.json or points.csv of one case");

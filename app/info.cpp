@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
@@ -120,14 +120,15 @@ void describeDataset(const sessions::Dataset& dataset) {
   sessions::requireFiles(dataset);
 }
 
-void describeMarks(const sessions::Marks& marks) {
+void describeAnnotations(const sessions::Annotations& annotations) {
   const auto used = [](const auto& pairs) {
     return std::count_if(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.used(); });
   };
-  line(std::to_string(marks.points.size()) + " points, " + std::to_string(used(marks.points)) +
-       " of them complete and enabled; " + std::to_string(marks.lines.size()) + " lines, " +
-       std::to_string(used(marks.lines)));
-  if (used(marks.points) < 4) flag("without a seed a pose needs at least 4 points");
+  line(std::to_string(annotations.points.size()) + " points, " +
+       std::to_string(used(annotations.points)) + " of them complete and enabled; " +
+       std::to_string(annotations.lines.size()) + " lines, " +
+       std::to_string(used(annotations.lines)));
+  if (used(annotations.points) < 4) flag("without a seed a pose needs at least 4 points");
 }
 
 std::string stalenessText(const sessions::Staleness& staleness) {
@@ -268,11 +269,11 @@ void describeValidatedPose(const sessions::JsonReader& root) {
 
 /// rig.json, with the cameras and points that it names.
 void describeRig(const path& file) {
-  for (const sessions::MarkedView& view : sessions::readRig(file)) {
+  for (const sessions::AnnotatedView& view : sessions::readRig(file)) {
     line("view " + view.name + ": camera of " + std::to_string(view.camera.width) + " x " +
          std::to_string(view.camera.height) + " px, " +
-         countText(view.marks.points.size(), "point") + ", " +
-         countText(view.marks.lines.size(), "line"));
+         countText(view.annotations.points.size(), "point") + ", " +
+         countText(view.annotations.lines.size(), "line"));
     printPose(view.camera_from_rig, "camera_from_rig");
   }
 }
@@ -290,7 +291,7 @@ void describeJson(const path& file) {
   } else if (format == "boresight-dataset") {
     describeDataset(sessions::readDataset(file));
   } else if (format == "boresight-points") {
-    describeMarks(sessions::readMarks(file));
+    describeAnnotations(sessions::readAnnotations(file));
   } else if (format == sessions::kSessionFormat) {
     describeSession(file);
   } else if (format == "boresight-config") {
@@ -322,9 +323,9 @@ void describeMesh(const path& file, const std::string& unit) {
     line("extent " + vectorText(extent, 4) + " m, from " + vectorText(info.minimum_m, 4) + " to " +
          vectorText(info.maximum_m, 4) + " m");
   } else {
-    line("extent " + vectorText(extent, 4) +
-         " in the file's unit, which is not stated: in m " + fixedText(extent.norm(), 3) +
-         " m across, in mm " + fixedText(extent.norm() * 1e-3, 6) + " m");
+    line("extent " + vectorText(extent, 4) + " in the file's unit, which is not stated: in m " +
+         fixedText(extent.norm(), 3) + " m across, in mm " + fixedText(extent.norm() * 1e-3, 6) +
+         " m");
     if (extent.norm() > 20.0) flag("over 20 m across if in m: probably in mm");
   }
   for (const std::string& text : info.notes()) flag(text);
@@ -431,9 +432,9 @@ int describeAll(const InfoArguments& arguments) {
 }  // namespace
 
 void addInfo(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "info",
-      "Describes files: size, unit, camera model, field of view, warnings", describeAll);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "info",
+                 "Describes files: size, unit, camera model, field of view, warnings", describeAll);
   addFile(*command, "files", arguments->files,
           "Images, cameras, meshes, poses (validated ones, too), transforms, datasets, sessions, "
           "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")

@@ -101,7 +101,8 @@ void printResult(const sessions::LocalizationTrace& trace, const sessions::Sessi
               << fixedText(trace.seconds.total(), 2) << " s\n"
               << sessions::acceptanceText(trace) << "\n\n"
               << sessions::poseText(trace.camera_from_station, trace.covariance)
-              << "(from the image only; errors of the mesh's scale and of the calibration are not included)\n";
+              << "(from the image only; errors of the mesh's scale and of the calibration are not "
+                 "included)\n";
     printNamedPoses(one, trace.camera_from_station);
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)

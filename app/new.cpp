@@ -30,9 +30,9 @@ void NewArguments::addTo(CLI::App& command) {
   command.add_option("--case", cases, "Only this case of the dataset; may be repeated")
       ->needs(from_dataset)
       ->type_name("ID");
-  addFile(
-      command, "--results", results,
-      "Results of `whs evaluate`: each run becomes a case with its seed and options, the worst first")
+  addFile(command, "--results", results,
+          "Results of `whs evaluate`: each run becomes a case with its seed and options, the worst "
+          "first")
       ->excludes(from_dataset);
   CaseArguments::addTo(command);
   addTruthTo(command);
@@ -49,8 +49,7 @@ void NewArguments::addTo(CLI::App& command) {
     command.get_option(name)->needs(from_image);
   addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
   dataset.addTo(command);
-  addFile(command, "--out", out, "Session file to create, e.g. sol12.boresight.json")
-      ->required();
+  addFile(command, "--out", out, "Session file to create, e.g. sol12.boresight.json")->required();
 }
 
 /// What no edit mends is refused: sizes that do not fit, a camera that folds. A seed can be moved.

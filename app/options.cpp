@@ -97,13 +97,13 @@ std::string optionsPage() {
   text += tables({{"default", sessions::listOptions(profileOptions("default"))},
                   {"paper", sessions::listOptions(profileOptions("paper"))}},
                  "###");
-  text +=
-      "\n## Options of the other methods\n\nFor `--method`; see [Other methods](methods.md).\n";
+  text += "\n## Options of the other methods\n\nFor `--method`; see [Other methods](methods.md).\n";
   text += tables({{"default", sessions::listOptions(methodProfile("default"))},
                   {"paper", sessions::listOptions(methodProfile("paper"))}},
                  "###");
   text +=
-      "\n## Limits of the checks\n\nSet by *Limits* under *Review*, or by `whs check --preset`; see [What each check means](checks.md).\n";
+      "\n## Limits of the checks\n\nSet by *Limits* under *Review*, or by `whs check --preset`; "
+      "see [What each check means](checks.md).\n";
   std::vector<Column> presets;
   for (const sessions::CheckPreset& preset : sessions::checkPresets())
     presets.push_back({preset.name, sessions::listOptions(preset.limits)});
@@ -123,9 +123,9 @@ std::string commandsPage(const CLI::App& app) {
 }  // namespace
 
 void addOptions(CLI::App& app, int& exit_code) {
-  const auto [command, profile] = addCommand(
-      app, exit_code, "options",
-      "Lists every option of a run: value in a profile, range, meaning", printOptions);
+  const auto [command, profile] =
+      addCommand(app, exit_code, "options",
+                 "Lists every option of a run: value in a profile, range, meaning", printOptions);
   *profile = "default";
   command->add_option("--profile", *profile, "default or paper")
       ->check(CLI::IsMember({"default", "paper"}))

@@ -26,10 +26,12 @@ int writePack(const PackArguments& arguments) {
 }  // namespace
 
 void addPack(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "pack",
-      "Packs a session, its inputs and its runs into one archive for another machine. Prints each file first. Refuses a file whose hash differs from the session's, or that lies outside the folders of session and inputs",
-      writePack);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "pack",
+                 "Packs a session, its inputs and its runs into one archive for another machine. "
+                 "Prints each file first. Refuses a file whose hash differs from the session's, or "
+                 "that lies outside the folders of session and inputs",
+                 writePack);
   addFile(*command, "session", arguments->session, "Session file")->required();
   addFile(*command, "--out", arguments->out, "Zip archive to create")->required();
 }

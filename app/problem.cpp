@@ -80,10 +80,9 @@ int writeProblem(const ProblemArguments& arguments) {
 }  // namespace
 
 void addProblem(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "problem",
-                 "Writes one localization for the flight driver: binary problem and pixels",
-                 writeProblem);
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "problem",
+      "Writes one localization for the flight driver: binary problem and pixels", writeProblem);
   arguments->addTo(*command);
 }
 

@@ -63,7 +63,8 @@ int queue(const QueueArguments& arguments) {
 void addQueue(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "queue",
-      "Checks the last runs of a session's cases and lists the worst first: failed runs, failed checks, smallest margin to a limit, largest distance from the seed. Decided cases come last",
+      "Checks the last runs of a session's cases and lists the worst first: failed runs, failed "
+      "checks, smallest margin to a limit, largest distance from the seed. Decided cases come last",
       queue);
   addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--jobs", arguments->jobs, "Number of cases that are checked in parallel")
@@ -73,7 +74,8 @@ void addQueue(CLI::App& app, int& exit_code) {
   csv->type_name("FILE");
   command
       ->add_flag("--differences", arguments->differences,
-                 "Compare each case's last run with the previous run instead: better or worse by the truth, or by the checks without truth")
+                 "Compare each case's last run with the previous run instead: better or worse by "
+                 "the truth, or by the checks without truth")
       ->excludes(csv);
 }
 

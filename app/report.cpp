@@ -30,10 +30,11 @@ int report(const ReportArguments& arguments) {
 }  // namespace
 
 void addReport(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "report",
-      "Writes a two-page PDF report of a case's pose: overlay, pose, inputs, decision, checks, residuals, iterations",
-      report);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "report",
+                 "Writes a two-page PDF report of a case's pose: overlay, pose, inputs, decision, "
+                 "checks, residuals, iterations",
+                 report);
   addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->case_id, "Case; required if the session has several")
       ->type_name("ID");

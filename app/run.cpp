@@ -114,14 +114,15 @@ void addRun(CLI::App& app, int& exit_code) {
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
   command
-      ->add_option(
-          "--again", arguments->again,
-          "Repeat the recorded run whose digest begins with these digits, with its options, and compare the digests")
+      ->add_option("--again", arguments->again,
+                   "Repeat the recorded run whose digest begins with these digits, with its "
+                   "options, and compare the digests")
       ->type_name("DIGEST")
       ->excludes("--case");
   command
       ->add_flag("--views", arguments->views,
-                 "Run each case together with the other views of its rig as one pose; the first case of a rig gives seed and uncertainty")
+                 "Run each case together with the other views of its rig as one pose; the first "
+                 "case of a rig gives seed and uncertainty")
       ->excludes("--again");
   command->add_flag("--recover", arguments->recover,
                     "Recover edits that a killed program left in the session's journal");

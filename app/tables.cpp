@@ -38,7 +38,9 @@ void TablesArguments::addTo(CLI::App& command) {
   addFile(command, "--against", against,
           "Compares RESULTS (before) with these results (after), run by run");
   command.add_flag("--all", all, "With --against: also lists unchanged runs");
-  command.add_option("--table", tables, "Tables to print: errors, success, tolerance, times (default: all)")
+  command
+      .add_option("--table", tables,
+                  "Tables to print: errors, success, tolerance, times (default: all)")
       ->check(CLI::IsMember({"errors", "success", "tolerance", "times"}));
   command.add_option("--station", filter.stations, "Only runs of these stations")->type_name("S");
   command.add_option("--tag", filter.tags, "Only runs with one of these tags")->type_name("T");
@@ -57,7 +59,8 @@ void TablesArguments::addTo(CLI::App& command) {
       ->type_name("FOLDER");
   command
       .add_option("--failures", failures,
-                  "Draws each unsuccessful run into this folder, with the cause of failure; needs the dataset's images")
+                  "Draws each unsuccessful run into this folder, with the cause of failure; needs "
+                  "the dataset's images")
       ->type_name("FOLDER");
   command.add_option("--figure-format", figure_formats, "Formats of the figures: pdf, svg, png")
       ->check(CLI::IsMember({"pdf", "svg", "png"}))
@@ -187,7 +190,8 @@ int makeTables(const TablesArguments& arguments) {
 void addTables(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "tables",
-      "Writes tables and figures of results: errors, success, time per step, distributions. With --against it compares two sets of results run by run; exit status 6: a run became worse",
+      "Writes tables and figures of results: errors, success, time per step, distributions. With "
+      "--against it compares two sets of results run by run; exit status 6: a run became worse",
       makeTables);
   arguments->addTo(*command);
 }

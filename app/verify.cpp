@@ -30,12 +30,14 @@ int verify(const VerifyArguments& arguments) {
 void addVerify(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "verify",
-      "Verifies a validated_pose.json: checks its hashes, runs its localization again, and compares pose, covariance and checks. Lists as not proved who decided, when, and why a check was waived. Exit status: 0 all measured values agree, 6 they do not",
+      "Verifies a validated_pose.json: checks its hashes, runs its localization again, and "
+      "compares pose, covariance and checks. Lists as not proved who decided, when, and why a "
+      "check was waived. Exit status: 0 all measured values agree, 6 they do not",
       verify);
   addFile(*command, "file", arguments->file, "validated_pose.json")->required();
-  CLI::Option* no_run = command->add_flag(
-      "--no-run", arguments->no_run,
-      "Skip the localization; pose, covariance and checks are then not proved");
+  CLI::Option* no_run =
+      command->add_flag("--no-run", arguments->no_run,
+                        "Skip the localization; pose, covariance and checks are then not proved");
   command
       ->add_flag("--full", arguments->full,
                  "Repeat the convergence test, too; takes one run per seed")

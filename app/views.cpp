@@ -87,10 +87,10 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
 }
 
 std::string errorText(const sessions::PoseError& error, const sessions::Case& one) {
-  return std::string("; error at the ") +
-         sessions::judgedPlace(one.camera_from_end_effector) + ": normal " +
-         fixedText(error.normal_mm, 3) + " mm, lateral " + fixedText(error.lateral_mm, 3) +
-         " mm, rotation " + fixedText(error.rotation_mrad, 3) + " mrad";
+  return std::string("; error at the ") + sessions::judgedPlace(one.camera_from_end_effector) +
+         ": normal " + fixedText(error.normal_mm, 3) + " mm, lateral " +
+         fixedText(error.lateral_mm, 3) + " mm, rotation " + fixedText(error.rotation_mrad, 3) +
+         " mrad";
 }
 
 void printRig(const RigRun& run) {
@@ -166,10 +166,11 @@ int localizeRigs(const ViewsArguments& arguments) {
 }  // namespace
 
 void addViews(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "views",
-      "Solves for one pose from several images: cases of a dataset that share a rig (joined cameras, or one camera on an arm)",
-      localizeRigs);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "views",
+                 "Solves for one pose from several images: cases of a dataset that share a rig "
+                 "(joined cameras, or one camera on an arm)",
+                 localizeRigs);
   addFile(*command, "--dataset", arguments->dataset, "dataset.json with cases that have rigs")
       ->required();
   command->add_option("--rig", arguments->rigs, "Rig to localize; may be repeated (default: all)")

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/run/scene_render.h"
 
 namespace boresight::sessions {

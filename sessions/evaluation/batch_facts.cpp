@@ -105,8 +105,7 @@ std::optional<std::string> contradiction(const MethodFacts& held, const MethodFa
     return runs + "the mesh of another station: " + heldNotGiven(held.mesh_of, given.mesh_of);
   if (held.mirror != given.mirror)
     return runs + "a mirrored mesh: " + heldNotGiven(held.mirror, given.mirror);
-  if (held.note != given.note)
-    return runs + "been run with " + heldNotGiven(held.note, given.note);
+  if (held.note != given.note) return runs + "been run with " + heldNotGiven(held.note, given.note);
   return std::nullopt;
 }
 

@@ -270,8 +270,7 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
   const std::string& sensor = selection_.sensor;
   const fs::path truth = bopSceneFile(folder, "scene_gt", sensor);
   if (!fs::exists(truth))
-    throw InputError(truth, "",
-                     "is missing: seeds are drawn about true poses");
+    throw InputError(truth, "", "is missing: seeds are drawn about true poses");
   const auto objects = readBopScene(bopSceneFile(folder, "scene_camera", sensor), truth);
   const auto visible = readVisibility(bopSceneFile(folder, "scene_gt_info", sensor));
   const auto images = bopImages(folder, sensor);

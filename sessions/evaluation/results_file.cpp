@@ -76,7 +76,8 @@ std::vector<Row> readRows(SqlDatabase& database, const RowTable<Row>& table,
 }
 
 std::vector<BatchRun> readBatchRuns(SqlDatabase& database) {
-  std::vector<BatchRun> batch_runs = readRows(database, batchRunTable(), " FROM batch_run ORDER BY id");
+  std::vector<BatchRun> batch_runs =
+      readRows(database, batchRunTable(), " FROM batch_run ORDER BY id");
   SqlStatement ids(database, "SELECT id FROM batch_run ORDER BY id");
   for (BatchRun& batch_run : batch_runs)
     if (ids.step()) batch_run.id = integerOf(ids.cell(0));
@@ -94,8 +95,9 @@ std::map<std::int64_t, std::vector<std::string>> readTags(SqlDatabase& database)
 void readRuns(SqlDatabase& database, const std::function<void(const RunResult&)>& take) {
   auto tags = readTags(database);
   const std::vector<std::string> names = runTable().names();
-  SqlStatement statement(database, "SELECT " + joined(names) +
-                                       ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
+  SqlStatement statement(
+      database,
+      "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
   while (statement.step()) {
     const std::vector<SqlValue> row = statement.row();
     RunResult run = runTable().read(database.file(), names, row);
@@ -259,7 +261,8 @@ struct ResultsWriter::Insertions {
                 "DELETE FROM run WHERE case_id = ?1 AND reseed = ?2 AND method = ?3 AND status = "
                 "'input_error' RETURNING id"),
         tag_removal(database, "DELETE FROM tag WHERE run = ?1"),
-        batch_run(database, "UPDATE batch_run SET runs = ?2, seconds = ?3, ended = ?4 WHERE id = ?1") {}
+        batch_run(database,
+                  "UPDATE batch_run SET runs = ?2, seconds = ?3, ended = ?4 WHERE id = ?1") {}
 
   SqlStatement run;
   SqlStatement tag;

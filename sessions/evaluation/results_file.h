@@ -17,7 +17,7 @@
 
 namespace boresight::sessions {
 
-/// Marks an SQLite file as ours ("BSRT"), and of which form.
+/// Annotations an SQLite file as ours ("BSRT"), and of which form.
 inline constexpr std::int64_t kResultsApplication = 0x42535254;
 inline constexpr std::int64_t kResultsVersion = 4;
 
@@ -26,7 +26,7 @@ struct ResultsFacts {
   std::filesystem::path file;
   DatasetFacts dataset;
   std::vector<MethodFacts> methods;  ///< by name
-  std::vector<BatchRun> batch_runs;     ///< in the order in which they began
+  std::vector<BatchRun> batch_runs;  ///< in the order in which they began
 };
 
 /// InputError unless the file is a results file of this version.

@@ -123,7 +123,8 @@ class Merge {
                  same + ") ORDER BY id");
     out_.execute(
         "DROP TABLE IF EXISTS temp.batch_run_of;"
-        "CREATE TEMP TABLE batch_run_of AS SELECT o.id AS old, min(h.id) AS new FROM other.batch_run "
+        "CREATE TEMP TABLE batch_run_of AS SELECT o.id AS old, min(h.id) AS new FROM "
+        "other.batch_run "
         "o JOIN main.batch_run h ON " +
         same + " GROUP BY o.id");
   }
@@ -141,9 +142,10 @@ class Merge {
                    " FROM other." + table + " JOIN added ON old = run");
     };
     const std::string names = joined(runTable().names());
-    out_.execute("INSERT INTO main.run (id, batch_run, " + names + ") SELECT a.new, s.new, " + names +
-                 " FROM other.run JOIN added a ON a.old = id JOIN batch_run_of s ON s.old = batch_run "
-                 "ORDER BY a.new");
+    out_.execute(
+        "INSERT INTO main.run (id, batch_run, " + names + ") SELECT a.new, s.new, " + names +
+        " FROM other.run JOIN added a ON a.old = id JOIN batch_run_of s ON s.old = batch_run "
+        "ORDER BY a.new");
     copy("tag", "tag");
     copy("iteration", joined(stepTable().names()));
     copy("match", "step, " + joined(matchTable().names()));

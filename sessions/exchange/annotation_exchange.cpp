@@ -8,9 +8,9 @@
 #include <system_error>
 #include <utility>
 
+#include "sessions/annotation/annotations_file.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
-#include "sessions/annotation/marks_on_image.h"
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
 #include "sessions/io/atomic_file.h"
@@ -21,7 +21,7 @@
 #include "sessions/io/undistort.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/image_names.h"
 
 namespace boresight::sessions {
@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Marks& requireMarks(const Session& session, const std::string& case_id) {
+const Annotations& requireMarks(const Session& session, const std::string& case_id) {
   (void)knownCase(session, case_id);
   const auto found = session.annotations.find(case_id);
   if (found == session.annotations.end())
@@ -57,7 +57,8 @@ void requireHonestName(const std::filesystem::path& file, const HandedPoses& han
     if (!pose.validated)
       throw InputError(file, "case '" + pose.case_id + "' is " + pose.review_status +
                                  "; the format cannot state this, so the file name must: put " +
-                                 kNotValidatedName + " into the name, or export only the validated cases");
+                                 kNotValidatedName +
+                                 " into the name, or export only the validated cases");
 }
 
 ExportReport reportOf(const CasePoses& made) {
@@ -74,7 +75,8 @@ void requireOneStation(const Session& session, const CasePoses& made) {
     if (stations[placeOf(session, pose.case_id)] != first)
       throw InputError("session", "cases",
                        "'" + made.poses[0].case_id + "' and '" + pose.case_id +
-                           "' have different stations, but a COLMAP model has one world; choose cases of one station");
+                           "' have different stations, but a COLMAP model has one world; choose "
+                           "cases of one station");
 }
 
 /// Who validated this very pose, or that it is not validated.
@@ -189,11 +191,13 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
   for (const auto& one : session.cases) {
     const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
     if (!case_ids.empty() && !asked) continue;
-    const CaseMarks marks = caseMarks(session, one->id);
-    const bool marked = std::any_of(marks.views.begin(), marks.views.end(),
-                                    [](const MarkedView& view) { return !view.marks.empty(); });
-    if (!marked && !asked) continue;
-    const CaseMarksSolution solved = solveCaseMarks(marks, marksGuess(*one), {}, robust);
+    const CaseAnnotations annotations = caseAnnotations(session, one->id);
+    const bool annotated =
+        std::any_of(annotations.views.begin(), annotations.views.end(),
+                    [](const AnnotatedView& view) { return !view.annotations.empty(); });
+    if (!annotated && !asked) continue;
+    const CaseAnnotationsSolution solved =
+        solveCaseAnnotations(annotations, annotationsGuess(*one), {}, robust);
     if (const auto pose = solved.camera_from_station())
       made.poses.push_back({one->id, *pose});
     else
@@ -274,39 +278,41 @@ ExportReport exportBop(const Session& session, const fs::path& folder, const Cas
   return reportOf(poses);
 }
 
-void exportMarks(const Session& session, const std::string& case_id, const fs::path& file) {
-  writeMarks(file, requireMarks(session, case_id));
+void exportAnnotations(const Session& session, const std::string& case_id, const fs::path& file) {
+  writeAnnotations(file, requireMarks(session, case_id));
 }
 
 void exportLandmarks(const Session& session, const std::string& case_id, const fs::path& file) {
-  const Marks& marks = requireMarks(session, case_id);
+  const Annotations& annotations = requireMarks(session, case_id);
   std::error_code error;
   std::vector<Landmark> landmarks;
   if (fs::exists(file, error)) landmarks = readLandmarks(file);
-  landmarks = withMarks(std::move(landmarks), marks);
+  landmarks = withAnnotations(std::move(landmarks), annotations);
   if (landmarks.empty())
     throw InputError("session", "annotations",
                      "case '" + case_id + "' has no point with station coordinates");
   writeLandmarks(file, landmarks);
 }
 
-ImportReport importMarks(const Session& session, const std::string& case_id, const fs::path& file,
-                         bool replace) {
+ImportReport importAnnotations(const Session& session, const std::string& case_id,
+                               const fs::path& file, bool replace) {
   const SessionCase& one = knownCase(session, case_id);
-  const Marks marks = readMarks(file);
-  for (const PointPair& point : marks.points)
+  const Annotations annotations = readAnnotations(file);
+  for (const PointPair& point : annotations.points)
     if (point.pixel && !isInImage(one.camera, *point.pixel))
       throw InputError(file, point.id,
                        "lies outside of the image of case '" + case_id + "', which has " +
                            std::to_string(one.camera.width) + " x " +
-                           std::to_string(one.camera.height) + " pixels; do the annotations belong to this case?");
+                           std::to_string(one.camera.height) +
+                           " pixels; do the annotations belong to this case?");
   const auto known = session.annotations.find(case_id);
-  if (marks.empty()) throw InputError(file, "has no annotations");
-  if (known != session.annotations.end() && !(*known->second == marks) && !replace)
-    throw InputError("session", "annotations",
-                     "case '" + case_id +
-                         "' already has other annotations; request their replacement (whs: --replace)");
-  return {withAnnotation(session, case_id, marks), {case_id}, {}};
+  if (annotations.empty()) throw InputError(file, "has no annotations");
+  if (known != session.annotations.end() && !(*known->second == annotations) && !replace)
+    throw InputError(
+        "session", "annotations",
+        "case '" + case_id +
+            "' already has other annotations; request their replacement (whs: --replace)");
+  return {withAnnotations(session, case_id, annotations), {case_id}, {}};
 }
 
 ImportReport importColmap(const Session& session, const fs::path& folder, bool replace) {

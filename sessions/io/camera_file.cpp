@@ -264,8 +264,9 @@ CameraFile readChosenCamera(const std::filesystem::path& camera_file,
                             const std::filesystem::path& image) {
   if (!camera_file.empty()) return readCameraFile(camera_file);
   if (!hasImageLabel(image))
-    throw InputError(image, "camera",
-                     "none is given, and the image has no label with a camera model: give a camera.json");
+    throw InputError(
+        image, "camera",
+        "none is given, and the image has no label with a camera model: give a camera.json");
   const ImageLabel label = readImageLabel(image);
   if (!label.camera)
     throw InputError(image, "camera",

@@ -23,7 +23,8 @@ std::string noWayText(const FrameName& a, const FrameName& b,
       "the pose is given in " + frameText(b) + ", but the camera model in " + frameText(a);
   if (a.name.empty())
     return needed +
-           "; if both are one frame, leave reference_frame out of the pose; else state the camera's frame in a camera.json and give their transform";
+           "; if both are one frame, leave reference_frame out of the pose; else state the "
+           "camera's frame in a camera.json and give their transform";
   if (given.empty()) return needed + "; give the transform between the two (transform.json)";
   std::string others;
   for (const FrameTransform& one : given)

@@ -128,8 +128,8 @@ std::vector<std::string> MeshInfo::notes() const {
   constexpr double kUnusuallyLarge_m = 20.0;
   constexpr double kUnusuallySmall_m = 0.002;
   if (diagonal_m() > kUnusuallyLarge_m || diagonal_m() < kUnusuallySmall_m)
-    all.push_back("the mesh measures " + lengthText(diagonal_m()) +
-                  " across: check its unit '" + unit + "'");
+    all.push_back("the mesh measures " + lengthText(diagonal_m()) + " across: check its unit '" +
+                  unit + "'");
   return all;
 }
 

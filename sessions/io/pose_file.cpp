@@ -73,7 +73,8 @@ void readReferencePose(const JsonReader& json, const PoseFrames& frames, PoseFil
   const JsonReader given = json.at("reference_from_station");
   if (!frames.reference)
     given.fail(
-        "needs a camera of the CAHV family, whose file states its reference frame; give camera_from_station");
+        "needs a camera of the CAHV family, whose file states its reference frame; give "
+        "camera_from_station");
   const CameraReference& reference = *frames.reference;
   pose.camera_from_station =
       reference.camera_from_reference * readTransform(given, &pose.rotation_deviation);
@@ -94,9 +95,8 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
     json.requireFormat(kPoseFormat, kPoseVersion);  // a file's content in a dataset
   PoseFile pose;
   if (json.has("reference_from_station") && json.has("camera_from_station"))
-    json.failMember(
-        "reference_from_station",
-        "cannot be combined with camera_from_station; give one of the two");
+    json.failMember("reference_from_station",
+                    "cannot be combined with camera_from_station; give one of the two");
   if (json.has("reference_from_station")) {
     readReferencePose(json, frames, pose);
   } else {

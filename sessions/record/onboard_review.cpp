@@ -43,8 +43,9 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
                                                   const std::stop_token& stop) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, 64 * kMegabyte);
   if (sha256Text(bytes) != sha256)
-    throw InputError(file,
-                     "it differs from the attached record: accept it as it is now, or attach the right one");
+    throw InputError(
+        file,
+        "it differs from the attached record: accept it as it is now, or attach the right one");
   auto made = std::make_shared<OnboardReview>();
   made->record = parseRecord(file, bytes);
   made->plan = planOf(made->record);
@@ -92,8 +93,9 @@ std::string verdictText(const RecordComparison& comparison) {
     case RunVerdict::kEqual:
       return "Agrees with the run on the ground bit for bit.";
     case RunVerdict::kWithinLimits:
-      return comparison.first ? "Within the limits; the pixels differ."
-                              : "Agrees with the run on the ground bit for bit as far as it reaches.";
+      return comparison.first
+                 ? "Within the limits; the pixels differ."
+                 : "Agrees with the run on the ground bit for bit as far as it reaches.";
     case RunVerdict::kDifferent:
       break;
   }
@@ -101,10 +103,12 @@ std::string verdictText(const RecordComparison& comparison) {
 }
 
 std::string limitsText(const ComparisonLimits& limits) {
-  return "Limits if the pixels differ: in the first iteration at least " + percent(limits.found_share) +
-         " of the templates at equal positions match within " + fixedText(limits.found_px, 1) +
-         " px of each other, and at least " + percent(limits.inlier_share) +
-         " of the inliers of either run are inliers of both (shares of ten or more); the final poses are at most " +
+  return "Limits if the pixels differ: in the first iteration at least " +
+         percent(limits.found_share) + " of the templates at equal positions match within " +
+         fixedText(limits.found_px, 1) + " px of each other, and at least " +
+         percent(limits.inlier_share) +
+         " of the inliers of either run are inliers of both (shares of ten or more); the final "
+         "poses are at most " +
          fixedText(limits.pose_sigmas, 1) + " sigmas apart.";
 }
 

@@ -120,8 +120,7 @@ RecordedEnd endOf(const LocalizationTrace& run, std::size_t iterations) {
 }
 
 void noteWhatTheRunLacks(OnboardRecord& record) {
-  if (!record.inputs)
-    record.missing.push_back("the hashes of the inputs (only in the digest)");
+  if (!record.inputs) record.missing.push_back("the hashes of the inputs (only in the digest)");
   if (!record.edges) record.missing.push_back("the edges of the image");
   for (const RecordedIteration& one : record.iterations) {
     const std::string of = " of iteration " + std::to_string(one.trace.index + 1);
@@ -213,8 +212,7 @@ RecordedPlan planOf(const OnboardRecord& record) {
     made.remarks.push_back("The record has no options; the defaults are used.");
   const std::string problem = planProblem(made.plan);
   if (!problem.empty()) {
-    made.remarks.push_back("Options changed during the run are left out: " + problem +
-                           ".");
+    made.remarks.push_back("Options changed during the run are left out: " + problem + ".");
     made.plan.changes.clear();
   }
   return made;

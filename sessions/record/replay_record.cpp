@@ -167,8 +167,7 @@ class Replayer {
 };
 
 void Replayer::noteInputs() {
-  for (const std::string& text : record_.missing)
-    remark("The record is incomplete: " + text + ".");
+  for (const std::string& text : record_.missing) remark("The record is incomplete: " + text + ".");
   for (const std::string& text : recorded_plan_.remarks) remark(text);
   if (!record_.inputs) return;
   const RecordedInputs& onboard = *record_.inputs;
@@ -187,15 +186,18 @@ void Replayer::noteInputs() {
            "; the record may belong to another case; only its poses are shown.");
   else if (onboard.sha256.pixels != here.pixels)
     remark(
-        "The run's pixels differ from this case's image (compressed downlink, or another image); edges, score maps and agreement are computed from this case's image.");
+        "The run's pixels differ from this case's image (compressed downlink, or another image); "
+        "edges, score maps and agreement are computed from this case's image.");
   if (onboard.sha256.ignore != here.ignore)
     remark("The run's ignore mask differs from this case's mask.");
   if (onboard.sha256.scene != here.scene)
     remark(
-        "The run's mesh differs from this case's mesh; renders and points are computed from this case's mesh.");
+        "The run's mesh differs from this case's mesh; renders and points are computed from this "
+        "case's mesh.");
   if (onboard.sha256.camera != here.camera)
     remark(
-        "The run's camera differs from this case's camera; renders and points are computed with this case's camera.");
+        "The run's camera differs from this case's camera; renders and points are computed with "
+        "this case's camera.");
 }
 
 void Replayer::detect() {
@@ -350,7 +352,8 @@ IterationTrace Replayer::iterationOf(const RecordedIteration& one) {
     fillPairs(one, made);
   } else if (!std::exchange(noted_refinement_, true)) {
     remark(
-        "Records do not hold the edge points of refinements; run the case again on the ground to show them.");
+        "Records do not hold the edge points of refinements; run the case again on the ground to "
+        "show them.");
   }
   return made;
 }

@@ -92,12 +92,12 @@ double drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport
   const PdfBox taken = canvas.picture(box, picture.image);
   canvas.frame(taken, kFaintInk);
   const double below = taken.bottom() + 2.0;
-  return below +
-         canvas.text(
-             box.x, below, box.width,
-             formatted("Edges of the seed (red) and of the pose (green) over the image; %d x %d px from (%d, %d).",
-                       picture.image.width, picture.image.height, picture.left_px, picture.top_px),
-             kFaint);
+  return below + canvas.text(box.x, below, box.width,
+                             formatted("Edges of the seed (red) and of the pose (green) over the "
+                                       "image; %d x %d px from (%d, %d).",
+                                       picture.image.width, picture.image.height, picture.left_px,
+                                       picture.top_px),
+                             kFaint);
 }
 
 std::string vectorText(const Eigen::Vector3d& v, const char* unit, const char* number) {
@@ -307,10 +307,10 @@ double drawChecks(PdfCanvas& canvas, double y, const PoseReport& report) {
   std::vector<Check> plain;
   for (const JudgedCheck& judged : report.pose.checks) plain.push_back(judged.check);
   const bool judged = decisionOf(report) != nullptr;
-  const std::string text =
-      plain.empty() ? "Checks: none"
-                    : "Checks: " + checkCountsText(plain) +
-                          (judged ? ", at the time of the decision" : ", current");
+  const std::string text = plain.empty()
+                               ? "Checks: none"
+                               : "Checks: " + checkCountsText(plain) +
+                                     (judged ? ", at the time of the decision" : ", current");
   y = drawHeading(canvas, kLeft, y, kTextWidth, text);
   for (const JudgedCheck& one : report.pose.checks) y = drawCheck(canvas, y, one);
   return y;
@@ -352,7 +352,8 @@ void drawResidualPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport&
                                        [](const ReportResidual& one) { return !one.used; });
   canvas.text(
       box.x, taken.bottom() + 2.0, box.width,
-      formatted("Residuals of %zu %s (one in %zu is drawn), magnified %.3g times; rms %.3f px. Dots: used; crosses: not used (%td).",
+      formatted("Residuals of %zu %s (one in %zu is drawn), magnified %.3g times; rms %.3f px. "
+                "Dots: used; crosses: not used (%td).",
                 residuals.all.size(), residuals.of, step, factor, residuals.rms_px(), set_aside),
       kFaint);
 }
@@ -391,8 +392,7 @@ void drawResidualHistogram(PdfCanvas& canvas, const PdfBox& box, const ReportRes
     if (one.used) lengths.push_back(one.residual_px.norm());
   if (lengths.empty()) return;
   const double high = std::max(0.1, *std::max_element(lengths.begin(), lengths.end()));
-  drawHistogram(canvas, box, "Lengths of the used residuals", "px", lengths, 0.0, high,
-                24);
+  drawHistogram(canvas, box, "Lengths of the used residuals", "px", lengths, 0.0, high, 24);
 }
 
 void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {

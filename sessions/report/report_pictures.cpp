@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/run/overlay.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 
 namespace boresight::sessions {
 namespace {
@@ -77,8 +77,8 @@ ReportResiduals ofTemplates(const PoseReport& report, const Camera& camera,
   return made;
 }
 
-ReportResiduals ofMarks(const PoseReport& report, const Camera& camera) {
-  ReportResiduals made{"marks", {}};
+ReportResiduals ofAnnotations(const PoseReport& report, const Camera& camera) {
+  ReportResiduals made{"annotations", {}};
   const auto found = report.session->annotations.find(report.pose.case_id);
   if (found == report.session->annotations.end()) return made;
   for (const PointPair& point : found->second->points) {
@@ -128,7 +128,7 @@ double ReportResiduals::rms_px() const {
 ReportResiduals reportResiduals(const PoseReport& report) {
   Camera camera = report.loaded->source.camera;
   if (prepareCamera(camera) != Status::kOk) return {};
-  if (report.pose.source == PoseSource::kAnnotation) return ofMarks(report, camera);
+  if (report.pose.source == PoseSource::kAnnotation) return ofAnnotations(report, camera);
   if (!report.trace) return {};
   if (const auto* refined = lastOf(*report.trace, IterationKind::kRefine))
     return ofEdges(report, camera, *refined);

@@ -32,12 +32,13 @@ LocalizationProblem problemFrom(const ReviewSubject& subject, const LoadedCase& 
 }
 
 void addCompeting(const LoadedCase& loaded, const Pose& camera_from_station, bool mirrored,
-              ConvergenceResult& result) {
+                  ConvergenceResult& result) {
   result.competing.push_back(
       {camera_from_station, mirrored, coverageOfPose(loaded, camera_from_station).value()});
 }
 
-void count(const ReviewSubject& subject, const LocalizationTrace& trace, ConvergenceResult& result) {
+void count(const ReviewSubject& subject, const LocalizationTrace& trace,
+           ConvergenceResult& result) {
   ++result.seeds;
   if (!trace.converged()) return;
   ++result.converged;
@@ -64,8 +65,9 @@ constexpr CheckName kCompeting{"convergence_competing", "Best competing pose"};
 std::string foundText(const ConvergenceResult& convergence) {
   const auto elsewhere = std::count_if(convergence.competing.begin(), convergence.competing.end(),
                                        [](const ConvergedPose& one) { return !one.mirrored; });
-  return "Of " + std::to_string(convergence.seeds) + " other seeds " + std::to_string(convergence.returned) +
-         " returned to this pose and " + std::to_string(elsewhere) + " converged elsewhere.";
+  return "Of " + std::to_string(convergence.seeds) + " other seeds " +
+         std::to_string(convergence.returned) + " returned to this pose and " +
+         std::to_string(elsewhere) + " converged elsewhere.";
 }
 
 /// A worse one elsewhere does not speak against the pose: a nearly symmetric station has many.
@@ -74,16 +76,18 @@ Check competingPoseCheck(const ConvergenceResult& convergence, const CheckLimits
       convergence.competing.begin(), convergence.competing.end(),
       [](const ConvergedPose& a, const ConvergedPose& b) { return a.coverage < b.coverage; });
   if (best == convergence.competing.end() && convergence.returned == 0)
-    return notAskedCheck(kCompeting,
-                         "No other seed converged to a pose for comparison.");
+    return notAskedCheck(kCompeting, "No other seed converged to a pose for comparison.");
   if (best == convergence.competing.end())
-    return statedCheck(kCompeting, true, "No other pose and no mirror image of the station fits.", "");
+    return statedCheck(kCompeting, true, "No other pose and no mirror image of the station fits.",
+                       "");
   const std::string what = best->mirrored ? "a mirror image of the station" : "another pose";
-  const double ratio = convergence.coverage > 0.0 ? best->coverage / convergence.coverage : kNothingSeen;
+  const double ratio =
+      convergence.coverage > 0.0 ? best->coverage / convergence.coverage : kNothingSeen;
   return measuredCheck(
       kCompeting, "%", 100.0 * ratio, limits.competing_percent, LimitSide::kAtMost,
-      "The image shows " + percentText(convergence.coverage) + " of the edges that this pose predicts, and " + what + " " +
-          percentText(best->coverage) + ".",
+      "The image shows " + percentText(convergence.coverage) +
+          " of the edges that this pose predicts, and " + what + " " + percentText(best->coverage) +
+          ".",
       best->mirrored ? "The mesh is mirrored or of another object."
                      : "The competing pose fits better: run from it and compare the overlays.");
 }
@@ -107,8 +111,9 @@ std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& li
   return checks;
 }
 
-ConvergenceResult convergenceTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop,
-                      const std::function<void(const ConvergenceResult&)>& after_each) {
+ConvergenceResult convergenceTest(const ReviewSubject& subject, int seeds,
+                                  const std::stop_token& stop,
+                                  const std::function<void(const ConvergenceResult&)>& after_each) {
   ConvergenceResult result;
   if (subject.loaded == nullptr) return result;
   const RunPlan plan = planFor(subject);
@@ -132,17 +137,18 @@ bool isConvergenceCheck(const std::string& check_id) {
   return check_id == kReturned.id || check_id == kCompeting.id;
 }
 
-void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence, const CheckLimits& limits,
-                    std::vector<Check>& checks) {
+void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
+                          const CheckLimits& limits, std::vector<Check>& checks) {
   if (!convergence || convergence->seeds == 0) {
     const char* why = "No convergence test: a competing pose is not excluded.";
     checks.push_back(notAskedCheck(kReturned, why));
     checks.push_back(notAskedCheck(kCompeting, why));
     return;
   }
-  checks.push_back(measuredCheck(kReturned, "%", 100.0 * convergence->returned / convergence->seeds,
-                                 limits.convergence_percent, LimitSide::kAtLeast, foundText(*convergence),
-                                 "Convergence depends on the seed: compare with annotations or with another image."));
+  checks.push_back(measuredCheck(
+      kReturned, "%", 100.0 * convergence->returned / convergence->seeds,
+      limits.convergence_percent, LimitSide::kAtLeast, foundText(*convergence),
+      "Convergence depends on the seed: compare with annotations or with another image."));
   checks.push_back(competingPoseCheck(*convergence, limits));
 }
 

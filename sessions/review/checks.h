@@ -39,8 +39,8 @@ struct ConvergedPose {
 struct ConvergenceResult {
   int seeds = 0;
   int converged = 0;
-  int returned = 0;               ///< converged to the pose in question, within the requirement
-  double coverage = 0.0;          ///< of the pose in question
+  int returned = 0;       ///< converged to the pose in question, within the requirement
+  double coverage = 0.0;  ///< of the pose in question
   std::vector<ConvergedPose> competing;  ///< other poses, and the mirror images' wherever they lie
 };
 
@@ -48,13 +48,14 @@ struct ConvergenceResult {
 /// of the station's three mirror images from the pose in question. Deterministic. A stop leaves
 /// what was done by then; as many seeds as it counts give the same result again. `after_each` is
 /// told what was found so far.
-ConvergenceResult convergenceTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
-                      const std::function<void(const ConvergenceResult&)>& after_each = {});
+ConvergenceResult convergenceTest(
+    const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
+    const std::function<void(const ConvergenceResult&)>& after_each = {});
 
 /// What became of other seeds: enough lead back, and none to another pose.
 bool isConvergenceCheck(const std::string& check_id);
-void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence, const CheckLimits& limits,
-                    std::vector<Check>& checks);
+void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
+                          const CheckLimits& limits, std::vector<Check>& checks);
 
 /// The same case with its station mirrored in the plane through the middle of its matched box.
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis);
@@ -66,7 +67,7 @@ std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& li
 
 /// What a run says of itself: that it converged, that its corrections shrink, and its last
 /// matching iteration's inliers, their spread, window borders and margins. Always the same checks
-/// in the same order; not applicable to a pose from marks.
+/// in the same order; not applicable to a pose from annotations.
 void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
                   std::vector<Check>& checks);
 
@@ -120,8 +121,8 @@ struct CameraFit {
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
                                    const Pose& camera_from_station);
 
-/// How far the pose is from what else is known: the case's marks, its truth, the other cameras of
-/// its rig (the one that is farthest off).
+/// How far the pose is from what else is known: the case's annotations, its truth, the other
+/// cameras of its rig (the one that is farthest off).
 void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
                         std::vector<Check>& checks);
 

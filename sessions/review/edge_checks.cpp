@@ -26,7 +26,8 @@ constexpr CheckName kFocal{"camera_focal", "Focal length estimated from the edge
 constexpr CheckName kCentre{"camera_centre", "Principal point estimated from the edges"};
 
 constexpr const char* kCameraRemedy =
-    "Camera, mesh and image contradict each other: check that the calibration is for this camera, focus and image size, and that the mesh is of this station.";
+    "Camera, mesh and image contradict each other: check that the calibration is for this camera, "
+    "focus and image size, and that the mesh is of this station.";
 
 constexpr const char* kUndecidedRemedy =
     "The image cannot confirm the camera: state its calibration_sigma, or use a nearer image.";
@@ -47,7 +48,8 @@ Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   return measuredCheck(
       kClutter, "%", 100.0 * share, limits.clutter_percent, LimitSide::kAtMost,
       percentText(share) + " of the image's edges on the station are not predicted by the pose.",
-      "Check these edges: shadows and labels are harmless; another station or a part missing in the mesh is not.");
+      "Check these edges: shadows and labels are harmless; another station or a part missing in "
+      "the mesh is not.");
 }
 
 /// A label or a screw that the mesh lacks leaves much unpredicted, a shadow or an obstacle leaves
@@ -71,11 +73,12 @@ Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   if (least == evidence.fall_off.end() || seen <= 0.0)
     return notAskedCheck(kFallOff, "No predicted edge is seen.");
   const double fall = 1.0 - least->coverage / seen;
-  return measuredCheck(
-      kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
-      "Displaced by " + sentenceNumber(kDisplaced_px) + " px in the image, the pose loses at least " +
-          percentText(fall) + " of the edges seen, least when " + least->direction + ".",
-      "The image hardly constrains the pose in this direction: use annotations or a second camera.");
+  return measuredCheck(kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
+                       "Displaced by " + sentenceNumber(kDisplaced_px) +
+                           " px in the image, the pose loses at least " + percentText(fall) +
+                           " of the edges seen, least when " + least->direction + ".",
+                       "The image hardly constrains the pose in this direction: use annotations or "
+                       "a second camera.");
 }
 
 /// Motion and defocus, measured where the pose has its edges.
@@ -114,8 +117,9 @@ Check cameraCheck(const CheckName& name, const std::string& what, const AskedCha
   const double figure = unexplained(asked, sigmas);
   const bool undecided = !asked.stated && std::abs(asked.change) <= limit + sigmas * asked.sigma;
   return measuredCheck(name, asked.unit, figure, limit, LimitSide::kAtMost,
-                       "Estimated freely, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
-                           " (one sigma " + sentenceNumber(asked.sigma) + " " + asked.unit + ").",
+                       "Estimated freely, the " + what + sentenceNumber(asked.change) + " " +
+                           asked.unit + " (one sigma " + sentenceNumber(asked.sigma) + " " +
+                           asked.unit + ").",
                        undecided ? kUndecidedRemedy : kCameraRemedy);
 }
 

@@ -10,7 +10,7 @@
 #include "sessions/io/json_reader.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/review_status.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
@@ -37,14 +37,15 @@ void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
   pose.seconds = trace.seconds.total();
 }
 
-void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose) {
-  const CaseMarksSolution solved =
-      solveCaseMarks(caseMarks(session, one.id), marksGuess(one), {}, false);
+void takeAnnotations(const Session& session, const SessionCase& one, HandedPose& pose) {
+  const CaseAnnotationsSolution solved =
+      solveCaseAnnotations(caseAnnotations(session, one.id), annotationsGuess(one), {}, false);
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
-    throw InputError("session", "cases",
-                     "case '" + one.id + "' has no pose: no run converged, and of its marks: " +
-                         solved.result.reason);
+    throw InputError(
+        "session", "cases",
+        "case '" + one.id +
+            "' has no pose: no run converged, and the annotations fail: " + solved.result.reason);
   pose.source = PoseSource::kAnnotation;
   pose.camera_from_station = *camera_from_station;
 }
@@ -69,9 +70,9 @@ LocalizationTrace runAgain(const RunRecord& run, const Session& session,
   if (again.digest != run.digest)
     throw InputError(session_file, place,
                      "has another digest when repeated: " + again.digest +
-                         (run.version == kVersion ? ""
-                                                  : "; it is from version " + run.version +
-                                                        ", this is " + kVersion));
+                         (run.version == kVersion
+                              ? ""
+                              : "; it is from version " + run.version + ", this is " + kVersion));
   if (localizationStatusText(again.status) != run.status)
     throw InputError(session_file, place,
                      std::string("ended as ") + localizationStatusText(again.status) +
@@ -127,12 +128,13 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
   const bool of_run =
       decision != nullptr ? decision->pose->source == PoseSource::kRun : converged(run);
   if (of_run && !converged(run))
-    throw InputError("session", "decisions",
-                     "the decision on case '" + case_id + "' belongs to a run that did not converge");
+    throw InputError(
+        "session", "decisions",
+        "the decision on case '" + case_id + "' belongs to a run that did not converge");
   if (of_run)
     takeRun(one, *run, pose);
   else
-    takeMarks(session, one, pose);
+    takeAnnotations(session, one, pose);
   if (decision != nullptr) takeDecision(*decision, pose);
   return pose;
 }

@@ -209,8 +209,8 @@ std::string troubleText(const QueueRow& row) {
   if (row.group == QueueGroup::kDecided) return row.review_status_text;
   if (!row.trouble.empty()) return row.trouble;
   if (row.group == QueueGroup::kNotRun && row.margin)
-    return "not run in this session; in the results: error " + fixedText(100.0 * (1.0 - *row.margin), 0) +
-           " % of the requirement";
+    return "not run in this session; in the results: error " +
+           fixedText(100.0 * (1.0 - *row.margin), 0) + " % of the requirement";
   if (row.group == QueueGroup::kNotRun) return "not run yet";
   if (row.failed > 0)
     return std::to_string(row.failed) + (row.failed == 1 ? " check failed: " : " checks failed: ") +

@@ -110,8 +110,9 @@ Check camerasCheck(const ReviewSubject& subject, const CheckLimits& limits) {
     return notAskedCheck(kCamera, "No other camera of a rig has a pose.");
   std::optional<Check> worst;
   for (const OtherPose& other : subject.other_cameras) {
-    Check one = agreementCheck(kCamera, subject, other, apartOfTwoCameras(subject, other), limits,
-                               "One pose or the rig's camera positions are wrong: check both overlays.");
+    Check one =
+        agreementCheck(kCamera, subject, other, apartOfTwoCameras(subject, other), limits,
+                       "One pose or the rig's camera positions are wrong: check both overlays.");
     if (!worst || one.figure.value_or(0.0) > worst->figure.value_or(0.0)) worst = std::move(one);
   }
   return *worst;
@@ -147,9 +148,11 @@ constexpr CheckName kProjection{"covariance_projection", "Covariance in the imag
 constexpr const char* kNotRequired = "The requirement does not limit this value.";
 constexpr const char* kNoCovariance = "The pose has no covariance.";
 constexpr const char* kPictureRemedy =
-    "The seen edges constrain the pose too weakly: take a nearer image, or one with more of the station.";
+    "The seen edges constrain the pose too weakly: take a nearer image, or one with more of the "
+    "station.";
 constexpr const char* kInputsRemedy =
-    "The image alone would pass: state mesh_scale_sigma and calibration_sigma after measurement, or take a nearer image.";
+    "The image alone would pass: state mesh_scale_sigma and calibration_sigma after measurement, "
+    "or take a nearer image.";
 
 /// One sigma of what is judged, of the picture alone and with mesh and camera.
 struct Sigmas {

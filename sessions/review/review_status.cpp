@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_fields.h"
 #include "sessions/io/json_writer.h"
@@ -67,7 +67,7 @@ ordered_json inputSigmasJson(const SessionCase& one) {
   return json;
 }
 
-ordered_json marksJson(const Session& session, const std::string& case_id) {
+ordered_json annotationsJson(const Session& session, const std::string& case_id) {
   std::vector<std::string> ids = casesOfRig(session, case_id);
   ids.insert(ids.begin(), case_id);
   ordered_json json = ordered_json::object();
@@ -99,7 +99,7 @@ const char* inputText(const std::string& name) {
   static const std::map<std::string, const char*> kTexts = {
       {"inputs", "the image, camera, mesh, seed or mask"},
       {"run", "the run"},
-      {"marks", "the marks"},
+      {"annotations", "the annotations"},
       {"truth", "the truth"},
       {"input_sigmas", "the stated sigmas of mesh and camera"},
       {"requirement", "the requirement"},
@@ -162,8 +162,7 @@ void requireAnswered(const std::vector<JudgedCheck>& checks) {
   for (const JudgedCheck& one : checks)
     if (one.check.state == CheckState::kFailed && one.waiver_reason.empty())
       open += (open.empty() ? "" : ", ") + one.check.title;
-  if (!open.empty())
-    throw DecisionError("failed checks are not waived: " + open);
+  if (!open.empty()) throw DecisionError("failed checks are not waived: " + open);
 }
 
 /// A check without waivers may be given for what is not there any more: it is told.
@@ -240,7 +239,7 @@ std::map<std::string, std::string> inputFingerprint(const Session& session,
   if (one == nullptr) return {};
   std::map<std::string, std::string> fingerprint;
   fingerprint["inputs"] = inputsDigest(*one);
-  fingerprint["marks"] = sha256Of(marksJson(session, case_id));
+  fingerprint["annotations"] = sha256Of(annotationsJson(session, case_id));
   fingerprint["truth"] = sha256Of(truthJson(*one));
   fingerprint["input_sigmas"] = sha256Of(inputSigmasJson(*one));
   fingerprint["requirement"] =
@@ -269,7 +268,7 @@ std::string changedInputsText(const std::map<std::string, std::string>& before,
     if (before.count(name) == 0) changed.emplace_back(inputText(name));
   if (changed.empty()) return "";
   const auto plural = [](const std::string& text) {
-    return text.starts_with("the marks") || text.starts_with("the limits") ||
+    return text.starts_with("the annotations") || text.starts_with("the limits") ||
            text.starts_with("the runs") || text.starts_with("the stated sigmas");
   };
   const bool one_thing = changed.size() == 1 && !plural(changed.front());
@@ -289,7 +288,8 @@ std::string validationConcern(const Session& session, const ReviewSubject& subje
   if (subject.source == PoseSource::kAnnotation) return "";
   if (!subject.run || subject.run->digest.empty()) return "there is no finished run";
   if (!subject.run->converged())
-    return "the run did not converge, so that no pose can be validated; annotate the image, or run with other options";
+    return "the run did not converge, so that no pose can be validated; annotate the image, or run "
+           "with other options";
   const RunRecord* last = session.lastRunOf(id);
   if (last == nullptr || last->digest != subject.run->digest)
     return "this is not the last run of the case; review the last run, or run again";
@@ -335,7 +335,8 @@ Session approved(const Session& session, const std::string& case_id, const Signa
 Session rejected(const Session& session, const std::string& case_id,
                  const std::vector<Check>& checks, const Signature& who) {
   requireCase(session, case_id);
-  Decision decision = newDecision(case_id, Verdict::kRejected, requireSigned(who, "reject this result"));
+  Decision decision =
+      newDecision(case_id, Verdict::kRejected, requireSigned(who, "reject this result"));
   decision.checks = judgedChecks(checks, {});
   if (const RunRecord* run = session.lastRunOf(case_id)) decision.digest = run->digest;
   decision.input_fingerprint = inputFingerprint(session, case_id, decision.digest);

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "core/localizer/localizer.h"
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
 
@@ -21,19 +21,19 @@ namespace {
 const RunRecord& runToReview(const Session& session, const std::string& case_id,
                              const std::string& digest) {
   if (const RunRecord* run = findRun(session, case_id, digest)) return *run;
-  throw InputError("case " + case_id, "runs",
-                   digest.empty() ? "it has no run: run it first"
-                                  : "there is no run with digest " + digest);
+  throw InputError(
+      "case " + case_id, "runs",
+      digest.empty() ? "it has no run: run it first" : "there is no run with digest " + digest);
 }
 
-std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& loaded,
-                                     std::string& reason) {
+std::optional<OtherPose> poseOfAnnotations(const Session& session, const LoadedCase& loaded,
+                                           std::string& reason) {
   const std::string& id = loaded.source.id;
   reason = "it has no annotations";
   if (!session.annotations.contains(id)) return {};
-  const CaseMarksSolution solved =
-      solveCaseMarks(caseMarks(session, id), marksGuess(loaded.source),
-                     boxCorners(matchedBounds(loaded.scene.view())), false);
+  const CaseAnnotationsSolution solved =
+      solveCaseAnnotations(caseAnnotations(session, id), annotationsGuess(loaded.source),
+                           boxCorners(matchedBounds(loaded.scene.view())), false);
   reason = solved.result.reason;
   if (!solved.result.solution) return {};
   return OtherPose{"the annotation", *solved.camera_from_station(), {*solved.covariance()}};
@@ -109,15 +109,16 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
   subject.requirement = requirementOf(session, one);
   subject.source = source;
   std::string reason;
-  auto marked = poseOfMarks(session, *loaded, reason);
+  auto annotated = poseOfAnnotations(session, *loaded, reason);
   if (source == PoseSource::kRun) {
     takeRun(read_run(runToReview(session, one.id, digest)), subject);
     subject.onboard = againstOnboard(*loaded, *subject.run);
-    subject.annotated = std::move(marked);
+    subject.annotated = std::move(annotated);
   } else {
-    if (!marked) throw InputError("case " + one.id, "marks", "they give no pose: " + reason);
-    subject.camera_from_station = marked->camera_from_station;
-    subject.covariance = marked->covariance;
+    if (!annotated)
+      throw InputError("case " + one.id, "annotations", "they give no pose: " + reason);
+    subject.camera_from_station = annotated->camera_from_station;
+    subject.covariance = annotated->covariance;
   }
   subject.covariance = poseCovariance(one, loaded->scene.view(), subject.camera_from_station,
                                       subject.covariance.picture);

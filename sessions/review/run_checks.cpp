@@ -24,7 +24,7 @@ constexpr CheckName kDepth{"inlier_depth", "Spread of the inliers in depth"};
 constexpr CheckName kBorder{"matches_at_border", "Matches on window borders"};
 constexpr CheckName kMargin{"peak_margin", "Best against second-best position"};
 
-constexpr const char* kFromMarks = "The pose comes from annotations, not from a run.";
+constexpr const char* kFromAnnotations = "The pose comes from annotations, not from a run.";
 constexpr const char* kNoMatching = "The run has no matching iteration.";
 /// Half the width of a pixel tells a line of edges from a plane of them.
 constexpr double kSpreadFloor_px = 1.0;
@@ -39,9 +39,8 @@ Check convergedCheck(const LocalizationTrace& run) {
           ? "The run converged after " + std::to_string(run.iterations.size()) + " iterations."
           : std::string("The run ended as ") + localizationStatusText(run.status) + ".";
   if (hasProbability(run)) found += " " + acceptanceText(run);
-  return statedCheck(
-      kConverged, run.converged(), found,
-      "Check the failed iteration; start nearer, or ignore unreliable pixels.");
+  return statedCheck(kConverged, run.converged(), found,
+                     "Check the failed iteration; start nearer, or ignore unreliable pixels.");
 }
 
 /// Of the last attempt, those iterations that came to a pose.
@@ -84,13 +83,13 @@ void addCounts(const IterationTrace& iteration, const CheckLimits& limits,
   const double matches = iteration.correspondence_count;
   const std::string found = count(inliers) + " of " + count(matches) +
                             " matches of the last matching iteration agree on the pose.";
-  checks.push_back(measuredCheck(
-      kCount, "", inliers, limits.inlier_count, LimitSide::kAtLeast, found,
-      "Few inliers may agree by chance: check unmatched templates and the mesh."));
-  checks.push_back(measuredCheck(
-      kRatio, "%", matches > 0.0 ? 100.0 * inliers / matches : 0.0, limits.inlier_ratio_percent,
-      LimitSide::kAtLeast, found,
-      "Many matches contradict the pose: check their positions; ignore pixels that are not of the station."));
+  checks.push_back(
+      measuredCheck(kCount, "", inliers, limits.inlier_count, LimitSide::kAtLeast, found,
+                    "Few inliers may agree by chance: check unmatched templates and the mesh."));
+  checks.push_back(measuredCheck(kRatio, "%", matches > 0.0 ? 100.0 * inliers / matches : 0.0,
+                                 limits.inlier_ratio_percent, LimitSide::kAtLeast, found,
+                                 "Many matches contradict the pose: check their positions; ignore "
+                                 "pixels that are not of the station."));
 }
 
 struct InlierPlaces {
@@ -133,12 +132,13 @@ Check depthCheck(const InlierPlaces& places, const CheckLimits& limits) {
   if (edges_m < kLeastDepthShare * medianOf(depths))
     return notAskedCheck(kDepth, "The station's edges lie at nearly the same distance.");
   const double inliers_m = deviationOf(places.inlier_depths_m);
-  return measuredCheck(
-      kDepth, "%", 100.0 * inliers_m / edges_m, limits.inlier_depth_percent, LimitSide::kAtLeast,
-      "Along the view axis the inliers spread by " + sentenceNumber(1e3 * inliers_m) +
-          " mm, the station's edges by " + sentenceNumber(1e3 * edges_m) +
-          " mm (standard deviations).",
-      "Inliers at one depth constrain distance and tilt weakly: check nearer and farther templates.");
+  return measuredCheck(kDepth, "%", 100.0 * inliers_m / edges_m, limits.inlier_depth_percent,
+                       LimitSide::kAtLeast,
+                       "Along the view axis the inliers spread by " +
+                           sentenceNumber(1e3 * inliers_m) + " mm, the station's edges by " +
+                           sentenceNumber(1e3 * edges_m) + " mm (standard deviations).",
+                       "Inliers at one depth constrain distance and tilt weakly: check nearer and "
+                       "farther templates.");
 }
 
 Check borderCheck(const IterationTrace& iteration, const CheckLimits& limits) {
@@ -148,26 +148,25 @@ Check borderCheck(const IterationTrace& iteration, const CheckLimits& limits) {
     searched += match.searched ? 1.0 : 0.0;
     at_border += match.searched && match.at_border ? 1.0 : 0.0;
   }
-  if (searched == 0.0)
-    return notAskedCheck(kBorder, "The run has no stored template positions.");
-  return measuredCheck(kBorder, "%", 100.0 * at_border / searched, limits.border_percent,
-                       LimitSide::kAtMost,
-                       count(at_border) + " of " + count(searched) +
-                           " templates were found on the border of their search window.",
-                       "The station may lie outside the windows: start nearer, or declare a larger uncertainty.");
+  if (searched == 0.0) return notAskedCheck(kBorder, "The run has no stored template positions.");
+  return measuredCheck(
+      kBorder, "%", 100.0 * at_border / searched, limits.border_percent, LimitSide::kAtMost,
+      count(at_border) + " of " + count(searched) +
+          " templates were found on the border of their search window.",
+      "The station may lie outside the windows: start nearer, or declare a larger uncertainty.");
 }
 
 Check marginCheck(const IterationTrace& iteration, const CheckLimits& limits) {
   std::vector<double> margins;
   for (const MatchDetails& match : matchDetails(iteration))
     if (match.inlier && std::isfinite(match.margin)) margins.push_back(100.0 * match.margin);
-  if (margins.empty())
-    return notAskedCheck(kMargin, "No inlier has a second-best position.");
+  if (margins.empty()) return notAskedCheck(kMargin, "No inlier has a second-best position.");
   const double median = medianOf(margins);
-  return measuredCheck(kMargin, "%", median, limits.peak_margin_percent, LimitSide::kAtLeast,
-                       "Half of the inliers score at least " + sentenceNumber(median) +
-                           " % above their second-best position.",
-                       "Template positions are ambiguous: check the score maps for a repeating pattern.");
+  return measuredCheck(
+      kMargin, "%", median, limits.peak_margin_percent, LimitSide::kAtLeast,
+      "Half of the inliers score at least " + sentenceNumber(median) +
+          " % above their second-best position.",
+      "Template positions are ambiguous: check the score maps for a repeating pattern.");
 }
 
 void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
@@ -187,8 +186,7 @@ void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
 }
 
 constexpr CheckName kOnboard{"agreement_onboard", "Agreement with the onboard record"};
-constexpr const char* kRemedy =
-    "Compare both runs: the checked run is not the onboard run.";
+constexpr const char* kRemedy = "Compare both runs: the checked run is not the onboard run.";
 
 std::string differenceText(const RecordComparison& compared) {
   std::string text;
@@ -211,7 +209,7 @@ void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
   if (!subject.run) {
     for (const CheckName& name :
          {kConverged, kCorrections, kCount, kRatio, kSpread, kDepth, kBorder, kMargin})
-      checks.push_back(notAskedCheck(name, kFromMarks));
+      checks.push_back(notAskedCheck(name, kFromAnnotations));
     return;
   }
   checks.push_back(convergedCheck(*subject.run));
@@ -227,7 +225,8 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
   const std::string difference = differenceText(*subject.onboard);
   switch (subject.onboard->verdict) {
     case RunVerdict::kEqual:
-      checks.push_back(statedCheck(kOnboard, true, "The run equals the onboard run to the bit.", ""));
+      checks.push_back(
+          statedCheck(kOnboard, true, "The run equals the onboard run to the bit.", ""));
       return;
     case RunVerdict::kWithinLimits:
       checks.push_back(statedCheck(

@@ -32,8 +32,7 @@ ReadRun readRun(const Session& session, const std::string& digest,
   ReadRun made;
   made.record = findRun(session, loaded->source.id, digest);
   if (made.record == nullptr)
-    throw std::invalid_argument("case " + loaded->source.id + " has no run with digest " +
-                                digest);
+    throw std::invalid_argument("case " + loaded->source.id + " has no run with digest " + digest);
   made.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
   made.checks = checkPose(made.subject, checkLimits(session.review.preset, session.review.limits));
   return made;
@@ -216,8 +215,8 @@ std::string changeText(const RunDifference& made) {
   std::string text = sentence(std::string(runChangeText(made.change)) + ": " + made.why);
   if (made.inputs_differ) text += " The inputs of the runs differ.";
   if (made.comparison.first)
-    text += " First difference: " + std::string(runPartText(made.comparison.first->part)) +
-            ": " + made.comparison.first->text + ".";
+    text += " First difference: " + std::string(runPartText(made.comparison.first->part)) + ": " +
+            made.comparison.first->text + ".";
   return text;
 }
 

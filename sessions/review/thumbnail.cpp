@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 
 namespace boresight::sessions {
 namespace {

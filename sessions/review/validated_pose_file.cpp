@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
@@ -41,7 +41,7 @@ ordered_json conventionsJson() {
           {"covariance",
            "6x6 over (rotation rad, translation m); of camera_from_station: left "
            "perturbation in the camera frame, Exp(xi) * camera_from_station; the sum of its terms: "
-           "picture (or marks), the mesh's scale, the camera's calibration"}};
+           "picture (or annotations), the mesh's scale, the camera's calibration"}};
 }
 
 ordered_json quaternionJson(const Pose& pose) {
@@ -147,9 +147,9 @@ ordered_json chainJson(const HandedPose& pose, const SessionCase& one, const Ses
   if (one.camera_from_end_effector)
     chain.push_back(linkJson("camera_from_end_effector", *one.camera_from_end_effector,
                              "that of the case, as given"));
-  chain.push_back(
-      linkJson("camera_from_station", pose.camera_from_station,
-               pose.source == PoseSource::kRun ? runText(pose, session) : "the annotations of the case"));
+  chain.push_back(linkJson(
+      "camera_from_station", pose.camera_from_station,
+      pose.source == PoseSource::kRun ? runText(pose, session) : "the annotations of the case"));
   return chain;
 }
 
@@ -257,9 +257,9 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   if (!one.image.label.empty()) json["image_label"] = toJson(one.image.label);
   json["sha256"] = hashesJson(one);
   if (run) json["run"] = runJson(*run);
-  if (const auto marks = session.annotations.find(one.id);
-      pose.source == PoseSource::kAnnotation && marks != session.annotations.end())
-    json["marks"] = toJson(*marks->second);
+  if (const auto annotations = session.annotations.find(one.id);
+      pose.source == PoseSource::kAnnotation && annotations != session.annotations.end())
+    json["annotations"] = toJson(*annotations->second);
   json["session"] = toJson(alone, file);
   json["written"] = {{"by", std::string("Boresight ") + kVersion}, {"time", utcNowText()}};
   json["signature"] = signatureOf(ordered_json::parse(prettyJson(json)));

@@ -74,10 +74,9 @@ using Findings = std::vector<VerifyFinding>;
 void verifySignature(const Document& document, Findings& findings) {
   const auto stated = document.json.find("signature");
   const bool good = stated != document.json.end() && *stated == signatureOf(document.json);
-  findings.push_back(
-      {good, "signature",
-       good ? "the document is unchanged since it was signed"
-            : "the document was changed since it was signed, or was never signed"});
+  findings.push_back({good, "signature",
+                      good ? "the document is unchanged since it was signed"
+                           : "the document was changed since it was signed, or was never signed"});
 }
 
 /// True when all files are what they were.
@@ -88,8 +87,7 @@ bool verifyInputs(const Document& document, Findings& findings) {
     findings.push_back({false, found.what, found.text});
     all = false;
   }
-  if (all)
-    findings.push_back({true, "inputs", "every named file has the stated hash"});
+  if (all) findings.push_back({true, "inputs", "every named file has the stated hash"});
   return all;
 }
 
@@ -159,17 +157,16 @@ void verifyMembers(const Document& document, const std::optional<MeasuredPose>& 
   for (const auto& [name, value] : document.json.items())
     if (!anew.contains(name) && (measured || name != "run"))
       wrong += (wrong.empty() ? "" : ", ") + name;
-  findings.push_back({wrong.empty(), "contents",
-                      wrong.empty() ? "the members are consistent"
-                                    : "inconsistent members: " + wrong});
+  findings.push_back(
+      {wrong.empty(), "contents",
+       wrong.empty() ? "the members are consistent" : "inconsistent members: " + wrong});
 }
 
 /// The run of a pose that has one, and what the document says of it.
 void verifyRunStated(const Document& document, Findings& findings) {
   if (document.pose.source != PoseSource::kRun) return;
   if (document.session.lastRunOf(document.pose.case_id) == nullptr)
-    findings.push_back(
-        {false, "run", "the embedded session does not have the run of the pose"});
+    findings.push_back({false, "run", "the embedded session does not have the run of the pose"});
   if (!document.json.contains("run"))
     findings.push_back({false, "run", "the member run, with options and matches, is missing"});
 }
@@ -193,8 +190,7 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
 /// No measurement tells a person, a time or a reason.
 void listNotProved(const Decision* decision, bool measured, bool with_convergence,
                    std::vector<std::string>& list) {
-  if (!measured)
-    list.emplace_back("run, pose, covariance and checks: not measured");
+  if (!measured) list.emplace_back("run, pose, covariance and checks: not measured");
   if (decision == nullptr) return;
   const std::string approved = decision->approval ? " and " + decision->approval->by : "";
   list.push_back("who: " + decision->by + approved +
@@ -229,8 +225,10 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_a
   verifyDecision(status, findings);
   verifyRunStated(document, findings);
   const Decision* decision = status.judgedPose();
-  const int convergence_seeds = convergence_again && decision != nullptr ? decision->convergence_seeds : 0;
-  const bool with_convergence = convergence_again || decision == nullptr || decision->convergence_seeds == 0;
+  const int convergence_seeds =
+      convergence_again && decision != nullptr ? decision->convergence_seeds : 0;
+  const bool with_convergence =
+      convergence_again || decision == nullptr || decision->convergence_seeds == 0;
   std::optional<MeasuredPose> measured;
   if (run_again && inputs) measured = measureAgain(document, convergence_seeds, findings);
   if (measured) verifyMeasured(document, *measured, with_convergence, findings);

@@ -75,12 +75,14 @@ std::string leftUncertaintyText(const LocalizationTrace& trace) {
 std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& last) {
   if (last.kind == IterationKind::kRefine) {
     return format(
-        "too few image edges near the rendered edges: refinement found %d of %d and used %d, needed %d within %.1f px; check exposure, focus and seed",
+        "too few image edges near the rendered edges: refinement found %d of %d and used %d, "
+        "needed %d within %.1f px; check exposure, focus and seed",
         last.refinement.found_count, last.refinement.sample_count, last.refinement.used_count,
         EdgeRefinement::kMinFound, last.threshold_px);
   }
   return format(
-      "too few inliers: %d matches, at most %d inliers at %.1f px, needed %d; check seed, uncertainty and image edges",
+      "too few inliers: %d matches, at most %d inliers at %.1f px, needed %d; check seed, "
+      "uncertainty and image edges",
       last.correspondence_count, last.pnp.inlier_count, last.threshold_px,
       trace.lastOptions().pnp.min_inliers);
 }
@@ -94,11 +96,14 @@ std::string faultText(const LocalizationTrace& trace) {
         trace.lastOptions().render.max_edge_pixels);
   if (trace.fault == Status::kTooManyLayers)
     text += format(
-        "; more than %d faces of the mesh overlap in an image row: use a coarser mesh, or its outer surfaces only",
+        "; more than %d faces of the mesh overlap in an image row: use a coarser mesh, or its "
+        "outer surfaces only",
         static_cast<int>(BandPainter::kMostLayers));
   if (trace.fault == Status::kArenaTooSmall) {
     text += format(
-        "; image, mask and mesh take %zu bytes and the options need %zu more, of %zu: lower render.max_edge_pixels or loop.coarse_size_px, or use a coarser mesh or the default profile",
+        "; image, mask and mesh take %zu bytes and the options need %zu more, of %zu: lower "
+        "render.max_edge_pixels or loop.coarse_size_px, or use a coarser mesh or the default "
+        "profile",
         trace.memory.inputs, trace.memory.use.total(), trace.memory.limit);
   }
   return text;
@@ -106,11 +111,12 @@ std::string faultText(const LocalizationTrace& trace) {
 
 std::string notSupportedText(const LocalizationTrace& trace) {
   if (hasProbability(trace))
-    return probabilityText(trace) +
-           "; check mesh and camera, or state a larger uncertainty";
+    return probabilityText(trace) + "; check mesh and camera, or state a larger uncertainty";
   const EdgeSupport& support = trace.support;
   return format(
-      "the pose is probably wrong: edge support is %.1f %%, needed %.1f %%; %.1f %% of the rendered edges are seen (%.1f %% by chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance); check seed and mesh",
+      "the pose is probably wrong: edge support is %.1f %%, needed %.1f %%; %.1f %% of the "
+      "rendered edges are seen (%.1f %% by chance), %.1f %% of the edges seen on the object are "
+      "rendered (%.1f %% by chance); check seed and mesh",
       100.0 * support.share(), 100.0 * trace.lastOptions().support.min_support,
       100.0 * support.coverage(), 100.0 * support.chanceCoverage(), 100.0 * support.explanation(),
       100.0 * support.chanceExplanation());
@@ -130,7 +136,8 @@ std::string ambiguousText(const LocalizationTrace& trace) {
               ? format("better, by %.1f nats of evidence; ", -other->margin_nats)
               : format("nearly as well: %.1f nats less evidence, needed %.1f; ", other->margin_nats,
                        kLeastMargin_nats)) +
-         "both poses look alike: show more distinct features, give a closer seed, or check that the mesh is not mirrored";
+         "both poses look alike: show more distinct features, give a closer seed, or check that "
+         "the mesh is not mirrored";
 }
 
 /// The widest edges, measured along their normals.
@@ -141,21 +148,25 @@ std::string blurredText(const LocalizationTrace& trace) {
   const int widest = trace.edge_width.widestDirection();
   if (widest < 0) return "the image is too blurred for a pose";
   return format(
-      "the image is blurred: its edges on the object are %.1f px wide %s, limit %.0f px; use a sharper image",
+      "the image is blurred: its edges on the object are %.1f px wide %s, limit %.0f px; use a "
+      "sharper image",
       trace.edge_width.widest_px(), kAcross[widest], EdgeWidth::kWidest_px);
 }
 
 std::string cameraMismatchText(const LocalizationTrace& trace) {
   const double percent = 100.0 * trace.focal.change;
   return format(
-      "the focal length estimated from the edges is %.1f %% %s than the camera's (one sigma %.2f %%); check calibration and mesh proportions",
+      "the focal length estimated from the edges is %.1f %% %s than the camera's (one sigma %.2f "
+      "%%); check calibration and mesh proportions",
       std::abs(percent), percent < 0.0 ? "shorter" : "longer", 100.0 * trace.focal.sigma);
 }
 
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
   const LoopOptions& loop = trace.lastOptions().loop;
   return format(
-      "not converged after %d iterations: the last correction is %.3f mm and %.3f deg, needed under %.3f mm and %.3f deg %d times in a row; raise loop.max_iterations if corrections still shrink",
+      "not converged after %d iterations: the last correction is %.3f mm and %.3f deg, needed "
+      "under %.3f mm and %.3f deg %d times in a row; raise loop.max_iterations if corrections "
+      "still shrink",
       loop.max_iterations, toMillimetres(last.correction_translation_m),
       toDegrees(last.correction_rotation_rad), toMillimetres(loop.converged_translation_m),
       toDegrees(loop.converged_rotation_rad), loop.converged_iterations);
@@ -165,15 +176,18 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
   const LocalizerOptions& options = trace.lastOptions();
   if (trace.status == LocalizationStatus::kTooFewEdges)
     return format(
-        "too few salient edges: the render has %d edge pixels, needed %d; check that the station is in view, and the mesh's unit",
+        "too few salient edges: the render has %d edge pixels, needed %d; check that the station "
+        "is in view, and the mesh's unit",
         last.edge_pixel_count, TemplateSelector::kMinEdgePixels);
   if (trace.status == LocalizationStatus::kTooFewTemplates)
     return format(
-        "too few templates: %d of %d px fit on %d rendered edge pixels, needed %d; use a smaller feature size or a smaller ignore mask",
+        "too few templates: %d of %d px fit on %d rendered edge pixels, needed %d; use a smaller "
+        "feature size or a smaller ignore mask",
         last.template_count, last.template_side_px, last.edge_pixel_count,
         TemplateSelector::kMinCount);
   return format(
-      "too few templates inside the image: %d of %d, needed %d; the station may be at the border, or the template (%d px) too large",
+      "too few templates inside the image: %d of %d, needed %d; the station may be at the border, "
+      "or the template (%d px) too large",
       last.correspondence_count, last.template_count, options.pnp.min_inliers,
       last.template_side_px);
 }
@@ -197,7 +211,8 @@ std::string convergedText(const LocalizationTrace& trace) {
   text += trace.replayed ? "." : format(", %.2f s.", trace.seconds.total());
   if (trace.lastOptions().support.gate) text += " " + acceptanceText(trace);
   return text + format(
-                    " 1 sigma by the image only, at the camera, along its x, y, z: %.3f, %.3f, %.3f mm; about them: %.3f, %.3f, %.3f mrad.",
+                    " 1 sigma by the image only, at the camera, along its x, y, z: %.3f, %.3f, "
+                    "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",
                     toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
                     1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
 }
@@ -225,8 +240,7 @@ std::string replayedText(const LocalizationTrace& trace) {
 std::string aloneText(const LocalizationTrace& trace) {
   if (trace.converged()) return convergedText(trace);
   if (trace.finished) return failedText(trace);
-  if (trace.iterations.empty())
-    return trace.edges ? "The image's edges are found." : "No run yet.";
+  if (trace.iterations.empty()) return trace.edges ? "The image's edges are found." : "No run yet.";
   const std::string number = std::to_string(trace.iterations.size());
   if (!trace.last_under_way) return "Iteration " + number + " is complete.";
   return "Iteration " + number + ": last complete stage is " +
@@ -264,12 +278,12 @@ std::string iterationTable(const LocalizationTrace& trace) {
                fixedText(toDegrees(iteration.correction_rotation_rad), 3),
                fixedText(iteration.rms_px(), 2)});
   }
-  return table.text() + (std::any_of(trace.iterations.begin(), trace.iterations.end(),
-                                     [](const auto& iteration) {
-                                       return iteration->kind == IterationKind::kRefine;
-                                     })
-                             ? "(refine: points along rendered edges, points with an image edge, points used)\n"
-                             : "");
+  return table.text() +
+         (std::any_of(
+              trace.iterations.begin(), trace.iterations.end(),
+              [](const auto& iteration) { return iteration->kind == IterationKind::kRefine; })
+              ? "(refine: points along rendered edges, points with an image edge, points used)\n"
+              : "");
 }
 
 std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::string& name) {

@@ -41,7 +41,8 @@ struct Approval {
 /// Covariance of a pose by its causes, which are independent: over (rotation rad, translation m),
 /// left perturbation, camera frame.
 struct PoseCovariance {
-  Matrix6d picture = Matrix6d::Zero();      ///< of the picture or the marks alone; zero: not known
+  Matrix6d picture =
+      Matrix6d::Zero();  ///< of the picture or the annotations alone; zero: not known
   Matrix6d mesh_scale = Matrix6d::Zero();   ///< of the mesh's scale, which no single image shows
   Matrix6d calibration = Matrix6d::Zero();  ///< of focal length and principal point
 
@@ -77,7 +78,8 @@ struct Decision {
   std::map<std::string, std::string> input_fingerprint = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
-  int convergence_seeds = 0;  ///< further seeds that the checks rest on, to measure them again; 0: none
+  int convergence_seeds =
+      0;  ///< further seeds that the checks rest on, to measure them again; 0: none
 
   bool operator==(const Decision&) const = default;
 };

@@ -87,9 +87,9 @@ std::optional<Finding> findingOf(const std::string& case_id, const Dependency& d
     finding.kind = state.missing ? FindingKind::kMissing : FindingKind::kUnreadable;
     finding.text += dependency.file.string() + ": " + (lost.empty() ? state.error : lost);
   } else if (changed) {
-    finding.text +=
-        namesOf(dependency) + " differs from the session's file (its SHA-256 is " +
-        state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) + "...)";
+    finding.text += namesOf(dependency) + " differs from the session's file (its SHA-256 is " +
+                    state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) +
+                    "...)";
   } else {
     return {};
   }
@@ -248,8 +248,9 @@ SceneMesh readKnownScene(const std::vector<MeshInput>& inputs) {
 void requireKnown(const fs::path& file, const std::string& what, const std::string& found_sha256,
                   const std::string& known_sha256) {
   if (found_sha256 != known_sha256)
-    throw InputError(file, what +
-                               " differ from those of the session: relink the file, or accept it as it is now");
+    throw InputError(
+        file,
+        what + " differ from those of the session: relink the file, or accept it as it is now");
 }
 
 std::string otherFileText(const fs::path& image) {
@@ -274,8 +275,7 @@ std::string lostLabelText(const ImageInput& image) {
   } catch (const InputError&) {
   }
   const std::string stem = file.stem().string();
-  return "its former label is missing: put " + stem +
-         ".lbl (or " + stem + ".xml) back next to it";
+  return "its former label is missing: put " + stem + ".lbl (or " + stem + ".xml) back next to it";
 }
 
 ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit) {

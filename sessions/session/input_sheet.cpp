@@ -41,9 +41,9 @@ void flagCamera(const Camera& camera, CameraSheet& sheet) {
                                      std::abs(camera.cy - 0.5 * bottom) / camera.height);
   if (off_centre > 0.1)
     sheet.flags.push_back(
-        {"camera_off_centre",
-         "the principal point is " + fixedText(100.0 * off_centre, 0) +
-             " % of the image off its middle: check whether the camera is for a sub-frame or another image size"});
+        {"camera_off_centre", "the principal point is " + fixedText(100.0 * off_centre, 0) +
+                                  " % of the image off its middle: check whether the camera is for "
+                                  "a sub-frame or another image size"});
   const double aspect = camera.fx / std::abs(camera.fy);
   if (aspect > 1.02 || 1.0 / aspect > 1.02)
     sheet.flags.push_back(
@@ -90,11 +90,13 @@ void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet)
   const Eigen::Vector3d camera_in_station_m = seed.inverse().translation_m;
   if (contains(bounds, camera_in_station_m) && isInside(scene.view(), camera_in_station_m))
     sheet.flags.push_back({"camera_in_station",
-                           "the seed places the camera inside the station: check the mesh's unit, and that the seed is camera_from_station"});
+                           "the seed places the camera inside the station: check the mesh's unit, "
+                           "and that the seed is camera_from_station"});
   const double size_px = bounds.diagonal() / (seed * bounds.centre()).norm() * one.camera.fx;
   if (size_px < kSmallestStation_px)
-    sheet.flags.push_back({"station_small", "the station would be only " + fixedText(size_px, 1) +
-                                                " px large in the image at the seed: check the mesh's unit"});
+    sheet.flags.push_back(
+        {"station_small", "the station would be only " + fixedText(size_px, 1) +
+                              " px large in the image at the seed: check the mesh's unit"});
 }
 
 /// Beyond these figures a pose is hardly ever found (resources/evidence/trust.md).
@@ -245,11 +247,13 @@ ImageSheet imageSheet(const GrayImage& image) {
         {"image_few_grays", "the image uses few gray levels: check its bit depth"});
   for (const std::string& note : image.notes) sheet.flags.push_back({"image_note", note});
   if (image.sample_bits > 8 && !image.bit_depth_stated && !image.bit_depth_of_label)
-    sheet.flags.push_back({"image_bit_depth",
-                           "the samples have 16 bits, but the used bits are not stated: state the bit depth"});
+    sheet.flags.push_back(
+        {"image_bit_depth",
+         "the samples have 16 bits, but the used bits are not stated: state the bit depth"});
   if (looksLikeMosaic(image.view()))
-    sheet.flags.push_back({"image_mosaic",
-                           "the pixels look like a Bayer mosaic: convert to gray or colour before matching"});
+    sheet.flags.push_back(
+        {"image_mosaic",
+         "the pixels look like a Bayer mosaic: convert to gray or colour before matching"});
   return sheet;
 }
 

@@ -101,7 +101,7 @@ Session withoutCase(const Session& session, const std::string& case_id) {
   return next;
 }
 
-Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation) {
+Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation) {
   Session next = session;
   put(case_id, std::move(annotation), next.annotations);
   return next;

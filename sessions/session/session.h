@@ -15,7 +15,7 @@
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/annotation/annotation_round.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/frame_transform.h"
@@ -77,8 +77,8 @@ struct SessionCase {
   std::optional<Pose> camera_from_station_truth;
   /// Of a truth that was given in a named frame. No input of a run.
   std::optional<StationFrame> truth_frame;
-  /// Of a truth that was measured (by annotations): left perturbation, camera frame, as the marks
-  /// alone say. Nothing: it is exact. No input of a run.
+  /// Of a truth that was measured (by annotations): left perturbation, camera frame, as the
+  /// annotations alone say. Nothing: it is exact. No input of a run.
   std::optional<Matrix6d> truth_covariance;
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
   std::optional<InputFile> ignore;                  ///< mask image
@@ -99,8 +99,8 @@ struct SessionCase {
 void setTruth(SessionCase& one, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance = std::nullopt);
 
-/// What a person marked in one case.
-using Annotation = Marks;
+/// What a person annotated in one case.
+using Annotation = Annotations;
 
 /// What of the view belongs to the document; windows and layout do not.
 struct DocumentView {
@@ -123,7 +123,7 @@ struct Session {
   OptionList options;  ///< what differs from the profile, by name in the order of the alphabet
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
-  /// By case: what people marked who are done, in that order; none is empty.
+  /// By case: what people annotated who are done, in that order; none is empty.
   std::map<std::string, SharedValue<AnnotationRounds>> rounds;
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
@@ -154,8 +154,9 @@ Session withCase(const Session& session, SessionCase changed);
 /// The same session without a case and all that refers to it.
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is taken away.
-Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation);
-/// The same session with the marks that people ended with in a case; no rounds are taken away.
+Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation);
+/// The same session with the annotations that people ended with in a case; no rounds are taken
+/// away.
 Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds);
 
 /// The same session with these options, kept as what differs from a profile that exists.
@@ -185,8 +186,8 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file);
 
 /// Ids of the later session's cases of which a person has changed something since the earlier one
-/// (the case itself, its marks or rounds, decisions on it); new ones too, in their order. Runs and
-/// the view do not count.
+/// (the case itself, its annotations or rounds, decisions on it); new ones too, in their order.
+/// Runs and the view do not count.
 std::vector<std::string> changedCases(const Session& before, const Session& after);
 
 /// `stalenessOf` for all cases of a session again and again as it is edited: what is known of cases

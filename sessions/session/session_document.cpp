@@ -137,8 +137,7 @@ void SessionDocument::takeLock() {
         "it is open already: " +
         (lock_->other() ? lock_->other()->text() : std::string("by another program"));
   else if (lock_->stale())
-    notices_.push_back("the last program did not close it: " +
-                       lock_->stale()->text());
+    notices_.push_back("the last program did not close it: " + lock_->stale()->text());
 }
 
 void SessionDocument::readSaved() {
@@ -184,8 +183,7 @@ void SessionDocument::setJournalAside(const std::string& why) {
 void SessionDocument::requireEditable() const {
   if (readOnly()) throw OutputError(file_, read_only_reason_);
   if (recovery_)
-    throw OutputError(file_,
-                      "unsaved edits of an earlier program must be recovered or declined");
+    throw OutputError(file_, "unsaved edits of an earlier program must be recovered or declined");
 }
 
 void SessionDocument::acceptRecovery() {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
@@ -47,11 +47,11 @@ void requireCase(const Session& session, const std::string& id, const JsonReader
   if (session.findCase(id) == nullptr) at.fail("there is no case '" + id + "'");
 }
 
-/// What people marked, by case.
-void readMarksOf(const JsonReader& json, Session& session) {
+/// What people annotated, by case.
+void readAnnotationsOf(const JsonReader& json, Session& session) {
   for (const auto& [id, annotation] : json.at("annotations").members()) {
     requireCase(session, id, annotation);
-    session.annotations.insert_or_assign(id, readMarks(annotation));
+    session.annotations.insert_or_assign(id, readAnnotations(annotation));
   }
   const auto rounds = json.find("rounds");
   if (!rounds) return;
@@ -59,7 +59,8 @@ void readMarksOf(const JsonReader& json, Session& session) {
     requireCase(session, id, list);
     AnnotationRounds all;
     for (const JsonReader& round : list.elements())
-      all.push_back({round.at("by").nonEmptyText(), readTime(round.at("time")), readMarks(round)});
+      all.push_back(
+          {round.at("by").nonEmptyText(), readTime(round.at("time")), readAnnotations(round)});
     if (all.empty()) list.fail("there is none: leave the case out");
     session.rounds.insert_or_assign(id, std::move(all));
   }
@@ -155,7 +156,7 @@ Session readMembers(const JsonReader& json) {
       json_of_one.failMember("id", "'" + one.id + "' is given twice");
     session.cases.push_back(std::move(one));
   }
-  readMarksOf(json, session);
+  readAnnotationsOf(json, session);
   if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
   for (const JsonReader& decision : json.at("decisions").elements()) {
     session.decisions.push_back(readDecision(decision));
@@ -184,8 +185,7 @@ fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
 SavedSession readSessionFile(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kSession);
   if (asText(bytes).starts_with("PK\x03\x04"))
-    throw InputError(file,
-                     "an archive of whs pack: unpack it, then open its session");
+    throw InputError(file, "an archive of whs pack: unpack it, then open its session");
   const JsonDocument document(file, asText(bytes));
   return {readSession(document.root()), sha256Text(bytes)};
 }
@@ -214,7 +214,7 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   for (const auto& [id, rounds] : session.rounds)
     for (const AnnotationRound& round : *rounds) {
       ordered_json one = {{"by", round.by}, {"time", round.time}};
-      one.update(toJson(round.marks));
+      one.update(toJson(round.annotations));
       json["rounds"][id].push_back(one);
     }
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);

@@ -159,7 +159,8 @@ std::filesystem::path examplesFolder() {
     }
   }
   throw InputError(program,
-                   "the examples are neither in share/boresight/examples next to the program nor in the source tree above it");
+                   "the examples are neither in share/boresight/examples next to the program nor "
+                   "in the source tree above it");
 }
 
 }  // namespace boresight::sessions

@@ -30,9 +30,8 @@ const MethodFacts& whsOf(const ResultsFacts& facts) {
   if (found == facts.methods.end())
     throw InputError(facts.file, "it has no runs of the method whs; only these can be repeated");
   if (!found->mesh_of.empty() || !found->mirror.empty())
-    throw InputError(
-        facts.file,
-        "its runs used deliberately wrong meshes, which sessions do not support");
+    throw InputError(facts.file,
+                     "its runs used deliberately wrong meshes, which sessions do not support");
   return *found;
 }
 

@@ -123,8 +123,9 @@ constexpr std::size_t kMostPadding = 3;  ///< of a glTF buffer, to a multiple of
 
 void requireSame(const fs::path& file, const std::string& found, const std::string& known) {
   if (found != known)
-    throw InputError(file,
-                     "it differs from the session's file: accept it as it is now, or restore the former file");
+    throw InputError(
+        file,
+        "it differs from the session's file: accept it as it is now, or restore the former file");
 }
 
 /// Folders below which a session may take files along.
@@ -147,7 +148,8 @@ class Folders {
       if (folders_.contains(above)) return real;
     }
     throw InputError(file, (real == file ? "it lies" : "it leads to " + real.string() + ",") +
-                               " outside the session's folder and those of its inputs: copy it there, and use the copy");
+                               " outside the session's folder and those of its inputs: copy it "
+                               "there, and use the copy");
   }
 
  private:

@@ -54,7 +54,8 @@ std::string whyAlone(const Session& session, const std::string& case_id) {
   const SessionCase* one = session.findCase(case_id);
   if (one == nullptr) return "There is no such case.";
   if (!one->rig)
-    return "The case has no rig: link it to the other views (Annotation, Rig), or state a rig in dataset.json.";
+    return "The case has no rig: link it to the other views (Annotation, Rig), or state a rig in "
+           "dataset.json.";
   const std::vector<std::string> others = casesOfRig(session, case_id);
   if (others.empty()) return "The session has no other view of rig " + one->rig->id + ".";
   if (others.size() + 1 > kMaxViews)

@@ -306,7 +306,7 @@ TEST_F(Overwrite, OfInputsByOtherCommandsIsRefused) {
   expectRefused({"views", "--dataset", dataset, "--out", dataset}, {"--dataset", "--out"});
 }
 
-TEST_F(Overwrite, OfMarksBySolveIsRefused) {
+TEST_F(Overwrite, OfAnnotationsBySolveIsRefused) {
   const std::string points = file("points.json"), camera = file("stations/os/camera.json");
   folder_.write("points.json",
                 R"({"format": "boresight-points", "version": 1, "points": [
@@ -334,7 +334,7 @@ TEST_F(Overwrite, OfASessionAndItsInputsIsRefused) {
   expectRefused({"queue", session, "--csv", session}, {"session and --csv"});
 }
 
-TEST_F(Overwrite, OfMarksAndRunsOfASessionIsRefused) {
+TEST_F(Overwrite, OfAnnotationsAndRunsOfASessionIsRefused) {
   fs::copy(exampleFolder().parent_path() / "annotated.boresight.json", folder_.path());
   const std::string session = file("annotated.boresight.json");
   expectRefused({"export", session, "--case", "bc-000028", "--points", session}, {"--points"});

@@ -153,8 +153,7 @@ TEST_F(WhsEvaluate, RefusesToGoOnWithOtherOptions) {
   EXPECT_EQ(other.errorLines(), 1) << other.err;
   EXPECT_THAT(other.err, HasSubstr("loop.max_iterations 1, not 2; name another file"));
   EXPECT_EQ(folder_.read("r.sqlite"), before);
-  EXPECT_THAT(runWhs(evaluateArguments(dataset_, quick), 0).err,
-              HasSubstr("2 of 2 runs are done"));
+  EXPECT_THAT(runWhs(evaluateArguments(dataset_, quick), 0).err, HasSubstr("2 of 2 runs are done"));
 }
 
 TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {

@@ -38,11 +38,10 @@ TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
   EXPECT_EQ(decided.exit_code, 0) << decided.err;
   EXPECT_THAT(decided.out, HasSubstr("validated by Ada"));
   const std::string file = exportPose();
-  EXPECT_THAT(
-      runWhs({"verify", file}, 0).out,
-      AllOf(HasSubstr("the run gives the same digest"), HasSubstr("not proved  who: Ada"),
-            HasSubstr("not proved  convergence test: its 8 further seeds"),
-            HasSubstr("stated: validated by Ada")));
+  EXPECT_THAT(runWhs({"verify", file}, 0).out,
+              AllOf(HasSubstr("the run gives the same digest"), HasSubstr("not proved  who: Ada"),
+                    HasSubstr("not proved  convergence test: its 8 further seeds"),
+                    HasSubstr("stated: validated by Ada")));
   EXPECT_THAT(runWhs({"verify", file, "--full"}).out, Not(HasSubstr("convergence test")));
   runWhs({"verify", file, "--full", "--no-run"}, 2);
 

@@ -11,7 +11,7 @@
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/turned_view.h"
 
 namespace boresight::test {
@@ -234,7 +234,7 @@ class WhsExchange : public testing::Test {
 
   TemporaryFolder folder_;
   std::string file_ = folder_ / "s.boresight.json";
-  Session session_ = markedExample(0.2);
+  Session session_ = annotatedExample(0.2);
   std::string bc_ = caseOfStation(session_, "bc");
   std::string os_ = caseOfStation(session_, "os");
 };
@@ -251,14 +251,14 @@ TEST_F(WhsExchange, TakesPosesOutAndInAgain) {
     EXPECT_EQ(in.out, bc_ + "\n");
     const auto error = perturbationBetween(*saved().findCase(bc_)->camera_from_station_truth,
                                            *session_.findCase(bc_)->camera_from_station_truth);
-    EXPECT_GT(error.norm(), 1e-7);  // the marks are noisy
+    EXPECT_GT(error.norm(), 1e-7);  // the annotations are noisy
     EXPECT_LT(error.norm(), 5e-3);
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.boresight.journal"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.boresight.lock"));
 }
 
-TEST_F(WhsExchange, TakesMarksOutAndInAgain) {
+TEST_F(WhsExchange, TakesAnnotationsOutAndInAgain) {
   const std::string points = folder_ / "points.csv";
   runWhs({"export", file_, "--points", points, "--case", bc_}, 0);
   runWhs({"import", file_, "--points", points, "--case", os_, "--replace"}, 0);

@@ -5,8 +5,8 @@
 //   made wrong
 //                                                   only of every so many cases
 //   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses anew
-//   check_calibration convergence DATASET OUT.jsonl NEW.jsonl SEEDS  adds the convergence test to what passes
-//   check_calibration judge OUT.jsonl ...                 by the limits as they are now
+//   check_calibration convergence DATASET OUT.jsonl NEW.jsonl SEEDS  adds the convergence test to
+//   what passes check_calibration judge OUT.jsonl ...                 by the limits as they are now
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -385,9 +385,9 @@ int main(int argc, char** argv) {
     std::cerr << error.what() << std::endl;
     return 1;
   }
-  std::cerr
-      << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | convergence DATASET "
-         "FROM TO SEEDS | judge OUT ..."
-      << std::endl;
+  std::cerr << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | "
+               "convergence DATASET "
+               "FROM TO SEEDS | judge OUT ..."
+            << std::endl;
   return 2;
 }

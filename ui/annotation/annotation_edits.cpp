@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of the document: marks, annotation rounds, landmarks, and the use of a solved pose.
+// Edits of the document: annotations, annotation rounds, landmarks, and the use of a solved pose.
 #include "ui/annotation/annotation_controller.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "sessions/annotation/annotations.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks.h"
-#include "sessions/annotation/marks_on_image.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/text/utc_time.h"
 #include "ui/models/text.h"
@@ -15,17 +15,18 @@
 
 namespace boresight::ui {
 
+using sessions::Annotations;
 using sessions::LinePair;
-using sessions::Marks;
 using sessions::PointPair;
 
 namespace {
 
-Marks withPair(const Marks& marks, const std::string& id, const PointPair& point) {
-  return sessions::withPoint(marks, id, point);
+Annotations withPair(const Annotations& annotations, const std::string& id,
+                     const PointPair& point) {
+  return sessions::withPoint(annotations, id, point);
 }
-Marks withPair(const Marks& marks, const std::string& id, const LinePair& line) {
-  return sessions::withLine(marks, id, line);
+Annotations withPair(const Annotations& annotations, const std::string& id, const LinePair& line) {
+  return sessions::withLine(annotations, id, line);
 }
 
 char letterOf(const PointPair& /*kind*/) { return 'p'; }
@@ -40,11 +41,11 @@ std::string AnnotationController::place(const Pair* chosen, std::optional<Side> 
   const bool completes = chosen && !(chosen->*side) && !chosen->locked;
   Pair made = completes ? *chosen : Pair();
   if (!completes) {
-    made.id = sessions::unusedId(marks_, letterOf(made));
+    made.id = sessions::unusedId(annotations_, letterOf(made));
     made.sigma_px = sigma_px_;
   }
   made.*side = value;
-  if (!commit(withPair(marks_, made.id, made), text.arg(fromText(made.id)))) return {};
+  if (!commit(withPair(annotations_, made.id, made), text.arg(fromText(made.id)))) return {};
   select(made.id);
   return made.id;
 }
@@ -83,10 +84,10 @@ std::string AnnotationController::placeEdgeOnStation(const sessions::ModelEdge& 
   return place(selectedLine(), &LinePair::edge, edge, tr("Place %1 on the station"));
 }
 
-/// Whether a mark exists and is not locked.
+/// Whether an annotation exists and is not locked.
 bool AnnotationController::mayChange(const std::string& id) {
-  const PointPair* point = sessions::findPoint(marks_, id);
-  const LinePair* line = sessions::findLine(marks_, id);
+  const PointPair* point = sessions::findPoint(annotations_, id);
+  const LinePair* line = sessions::findLine(annotations_, id);
   if (!point && !line) return false;
   if (!(point ? point->locked : line->locked)) return true;
   Q_EMIT told(tr("%1 is locked; unlock it in the table to change it.").arg(fromText(id)));
@@ -99,9 +100,9 @@ bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vecto
   const ViewState::CasePtr& one = state_.currentCase();
   if (!one || !sessions::isInImage(one->source.camera, pixel)) return false;
   select(id);
-  marks_ = sessions::withMoved(marks_, id, end, pixel);
+  annotations_ = sessions::withMoved(annotations_, id, end, pixel);
   moving_ = true;
-  Q_EMIT marksChanged();
+  Q_EMIT annotationsChanged();
   askIfChanged(false);
   return true;
 }
@@ -109,7 +110,7 @@ bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vecto
 void AnnotationController::finishMove() {
   pause_.stop();
   if (!std::exchange(moving_, false)) return;
-  if (!commit(marks_, tr("Move %1").arg(fromText(selected_)))) showDocument();
+  if (!commit(annotations_, tr("Move %1").arg(fromText(selected_)))) showDocument();
 }
 
 bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
@@ -123,13 +124,14 @@ bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
   return true;
 }
 
-/// Whether an edit of the table may give a mark this id.
+/// Whether an edit of the table may give an annotation this id.
 bool AnnotationController::mayReplace(const std::string& replaced, const std::string& id) {
   if (id.empty()) {
     Q_EMIT told(tr("An annotation needs a name."));
     return false;
   }
-  if (id != replaced && (sessions::findPoint(marks_, id) || sessions::findLine(marks_, id))) {
+  if (id != replaced &&
+      (sessions::findPoint(annotations_, id) || sessions::findLine(annotations_, id))) {
     Q_EMIT told(tr("The annotation \"%1\" exists; use another name.").arg(fromText(id)));
     return false;
   }
@@ -141,7 +143,7 @@ bool AnnotationController::replace(const Pair* before, const Pair& after, const 
   if (!before || !mayReplace(before->id, after.id)) return false;
   const bool chosen = selected_ == before->id;
   const std::string id = after.id;
-  if (!commit(withPair(marks_, before->id, after), text)) return false;
+  if (!commit(withPair(annotations_, before->id, after), text)) return false;
   if (chosen) select(id);
   return true;
 }
@@ -149,26 +151,27 @@ bool AnnotationController::replace(const Pair* before, const Pair& after, const 
 bool AnnotationController::replacePoint(const std::string& replaced, const PointPair& point,
                                         const QString& text) {
   finishMove();
-  return replace(sessions::findPoint(marks_, replaced), point, text);
+  return replace(sessions::findPoint(annotations_, replaced), point, text);
 }
 
 bool AnnotationController::replaceLine(const std::string& replaced, const LinePair& line,
                                        const QString& text) {
   finishMove();
-  return replace(sessions::findLine(marks_, replaced), line, text);
+  return replace(sessions::findLine(annotations_, replaced), line, text);
 }
 
 void AnnotationController::remove(const std::string& id) {
   finishMove();
-  if (mayChange(id)) commit(sessions::withoutMark(marks_, id), tr("Remove %1").arg(fromText(id)));
+  if (mayChange(id))
+    commit(sessions::withoutAnnotation(annotations_, id), tr("Remove %1").arg(fromText(id)));
 }
 
-void AnnotationController::setMarks(const Marks& marks, const QString& text) {
+void AnnotationController::setAnnotations(const Annotations& annotations, const QString& text) {
   finishMove();
-  commit(marks, text);
+  commit(annotations, text);
 }
 
-PointPair AnnotationController::markOf(const sessions::Landmark& landmark) const {
+PointPair AnnotationController::annotationOf(const sessions::Landmark& landmark) const {
   PointPair point;
   point.id = landmark.name;
   point.point_in_station_m = landmark.point_in_station_m;
@@ -180,10 +183,10 @@ PointPair AnnotationController::markOf(const sessions::Landmark& landmark) const
 void AnnotationController::confirm(const sessions::Proposal& proposal,
                                    const Eigen::Vector2d& pixel) {
   finishMove();
-  PointPair point = markOf(proposal.landmark);
+  PointPair point = annotationOf(proposal.landmark);
   point.pixel = pixel;
   const std::string id = point.id;
-  if (commit(sessions::withPoint(marks_, id, point), tr("Confirm %1").arg(fromText(id))))
+  if (commit(sessions::withPoint(annotations_, id, point), tr("Confirm %1").arg(fromText(id))))
     select(id);
 }
 
@@ -196,29 +199,32 @@ void AnnotationController::confirmSeen() {
   finishMove();
   const ViewState::CasePtr& one = state_.currentCase();
   if (!one) return;
-  Marks confirmed = marks_;
+  Annotations confirmed = annotations_;
   int found = 0;
   const int seen = seenProposals();
   for (const sessions::Proposal& proposal : answer_.proposals) {
-    if (!proposal.seen || sessions::findPoint(marks_, proposal.landmark.name)) continue;
+    if (!proposal.seen || sessions::findPoint(annotations_, proposal.landmark.name)) continue;
     const auto pixel = sessions::featureOf(proposal, one->image.view());
     if (!pixel) continue;
     ++found;
-    PointPair point = markOf(proposal.landmark);
+    PointPair point = annotationOf(proposal.landmark);
     point.pixel = *pixel;
     confirmed = sessions::withPoint(std::move(confirmed), point.id, point);
   }
   if (found > 0) commit(confirmed, tr("Confirm %1 landmarks").arg(found));
-  Q_EMIT told(tr("%1 of %2 landmarks match a corner or an ellipse of the image; place the others by hand.")
-                  .arg(found)
-                  .arg(seen));
+  Q_EMIT told(
+      tr("%1 of %2 landmarks match a corner or an ellipse of the image; place the others by hand.")
+          .arg(found)
+          .arg(seen));
 }
 
 void AnnotationController::begin(const sessions::Landmark& landmark) {
   finishMove();
-  const PointPair point = markOf(landmark);
-  if (sessions::findPoint(marks_, point.id) || sessions::findLine(marks_, point.id)) return;
-  if (commit(sessions::withPoint(marks_, point.id, point), tr("Begin %1").arg(fromText(point.id))))
+  const PointPair point = annotationOf(landmark);
+  if (sessions::findPoint(annotations_, point.id) || sessions::findLine(annotations_, point.id))
+    return;
+  if (commit(sessions::withPoint(annotations_, point.id, point),
+             tr("Begin %1").arg(fromText(point.id))))
     select(landmark.name);
 }
 
@@ -229,20 +235,21 @@ sessions::AnnotationRounds AnnotationController::roundsOfCase() const {
 }
 
 void AnnotationController::setRounds(sessions::AnnotationRounds rounds,
-                                     const sessions::Marks& marks, const QString& text) {
+                                     const sessions::Annotations& annotations,
+                                     const QString& text) {
   if (case_id_.empty()) return;
-  const sessions::Session with_marks =
-      sessions::withAnnotation(document_.session(), case_id_, marks);
-  document_.edit(sessions::withRounds(with_marks, case_id_, std::move(rounds)), text);
+  const sessions::Session with_annotations =
+      sessions::withAnnotations(document_.session(), case_id_, annotations);
+  document_.edit(sessions::withRounds(with_annotations, case_id_, std::move(rounds)), text);
 }
 
 void AnnotationController::putAside(const QString& by) {
   finishMove();
   const std::string name = by.trimmed().toStdString();
-  if (name.empty() || marks_.empty()) return;
+  if (name.empty() || annotations_.empty()) return;
   sessions::AnnotationRounds rounds = roundsOfCase();
-  rounds.push_back({name, sessions::utcNowText(), marks_});
-  setRounds(std::move(rounds), sessions::blindMarks(marks_),
+  rounds.push_back({name, sessions::utcNowText(), annotations_});
+  setRounds(std::move(rounds), sessions::blindAnnotations(annotations_),
             tr("Set the annotations of %1 aside").arg(by.trimmed()));
 }
 
@@ -251,8 +258,8 @@ void AnnotationController::takeUp(int round) {
   const sessions::AnnotationRounds rounds = roundsOfCase();
   if (round < 0 || round >= static_cast<int>(rounds.size())) return;
   const sessions::AnnotationRound& taken = rounds[static_cast<std::size_t>(round)];
-  setRounds(sessions::keepingMarks(rounds, marks_, sessions::utcNowText()), taken.marks,
-            tr("Continue the annotations of %1").arg(fromText(taken.by)));
+  setRounds(sessions::keepingAnnotations(rounds, annotations_, sessions::utcNowText()),
+            taken.annotations, tr("Continue the annotations of %1").arg(fromText(taken.by)));
 }
 
 void AnnotationController::removeRound(int round) {
@@ -261,7 +268,7 @@ void AnnotationController::removeRound(int round) {
   if (round < 0 || round >= static_cast<int>(rounds.size())) return;
   const QString by = fromText(rounds[static_cast<std::size_t>(round)].by);
   rounds.erase(rounds.begin() + round);
-  setRounds(std::move(rounds), marks_, tr("Remove the annotations of %1").arg(by));
+  setRounds(std::move(rounds), annotations_, tr("Remove the annotations of %1").arg(by));
 }
 
 void AnnotationController::useAsTruth() {

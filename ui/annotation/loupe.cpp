@@ -112,7 +112,8 @@ constexpr int kSmallestText = 9;
 constexpr double kEdgeDot = 0.16;  ///< of an image pixel
 const LayerId kEdgeLayers[] = {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kIterationEdges,
                                LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
-const LayerId kMarkLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals, LayerId::kPoints};
+const LayerId kAnnotationLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals,
+                                     LayerId::kPoints};
 
 }  // namespace
 
@@ -149,7 +150,7 @@ void Loupe::setSwitchedOn(bool on) {
   Q_EMIT changed();
 }
 
-void Loupe::lookAt(const std::optional<QPointF>& pixel, const MarkAim& aim) {
+void Loupe::lookAt(const std::optional<QPointF>& pixel, const AnnotationAim& aim) {
   pixel_ = pixel;
   aim_ = aim;
   showOrHide();
@@ -234,7 +235,7 @@ void Loupe::paintEdges(QPainter& painter, const ViewTransform& transform) const 
 }
 
 void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const {
-  for (const LayerId id : kMarkLayers) {
+  for (const LayerId id : kAnnotationLayers) {
     const Layer& layer = view_.layer(id);
     if (!layer.style.visible) continue;
     painter.setOpacity(layer.style.opacity);
@@ -246,7 +247,7 @@ void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const 
   painter.setOpacity(1.0);
 }
 
-/// Where the mark would go, else what the cross is on.
+/// Where the annotation would go, else what the cross is on.
 void Loupe::paintText(QPainter& painter) const {
   const QPointF at =
       aim_.side == AimSide::kNone ? *pixel_ : QPointF(aim_.pixel.x(), aim_.pixel.y());

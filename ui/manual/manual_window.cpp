@@ -113,7 +113,8 @@ ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
   resize(1000, 800);
   if (folder_.isEmpty())
     browser_->setPlainText(
-        tr("The manual is missing: share/boresight/manual is neither next to the program nor in its build tree. Install the program again, or build the target 'manual'."));
+        tr("The manual is missing: share/boresight/manual is neither next to the program nor in "
+           "its build tree. Install the program again, or build the target 'manual'."));
 }
 
 void ManualWindow::showPage(const QString& page) {

@@ -41,7 +41,8 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
   return {
       {tr("Case"), tr("The image's name."), -1, [](Row row) { return row.id; }},
       {tr("State"),
-       tr("State of the case: new, running, converged, failed, annotated, validated, rejected. Stale: its inputs or options have changed since its run."),
+       tr("State of the case: new, running, converged, failed, annotated, validated, rejected. "
+          "Stale: its inputs or options have changed since its run."),
        -1,
        [](Row row) {
          return CasesModel::stateText(row.state) +
@@ -49,13 +50,16 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
        },
        [](Row row) { return static_cast<int>(row.state); }},
       {tr("Normal,\nmm"),
-       tr("Error of the result along the view axis at the end effector (at the camera if that is unknown), in mm, if the truth is known."),
+       tr("Error of the result along the view axis at the end effector (at the camera if that is "
+          "unknown), in mm, if the truth is known."),
        3, error(&CaseRow::normal_mm)},
       {tr("Lateral,\nmm"),
-       tr("Error of the result across the view axis at the end effector (at the camera if that is unknown), in mm, if the truth is known."),
+       tr("Error of the result across the view axis at the end effector (at the camera if that is "
+          "unknown), in mm, if the truth is known."),
        3, error(&CaseRow::lateral_mm)},
       {tr("Turned,\ndeg"),
-       tr("Angle between the view axes of the result and the truth, in degrees, if the truth is known."),
+       tr("Angle between the view axes of the result and the truth, in degrees, if the truth is "
+          "known."),
        3, error(&CaseRow::rotation_deg)},
   };
 }

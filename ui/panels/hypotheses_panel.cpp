@@ -31,10 +31,12 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
   };
   return {
       {tr("Pose"),
-       tr("Competing pose: it shows about the same edges as the result. Candidate: a pose of the global search. Rolled hypothesis: the render turned about the view axis."),
+       tr("Competing pose: it shows about the same edges as the result. Candidate: a pose of the "
+          "global search. Rolled hypothesis: the render turned about the view axis."),
        -1, alternativeTitle},
       {tr("Iteration"),
-       tr("Iteration that evaluated it, counted from 1 over all attempts; competing poses are compared with the result."),
+       tr("Iteration that evaluated it, counted from 1 over all attempts; competing poses are "
+          "compared with the result."),
        -1,
        [](Row one) {
          if (one.kind == AlternativeKind::kCandidate) return tr("search");
@@ -42,21 +44,22 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
        }},
       {tr("Ended"), tr("Whether the run continued with it."), -1, endedText},
       {tr("Behind, nats"),
-       tr("Evidence of the result minus that of the competing pose, in nats; below %1 the run is ambiguous, below zero the competing pose is better.")
+       tr("Evidence of the result minus that of the competing pose, in nats; below %1 the run is "
+          "ambiguous, below zero the competing pose is better.")
            .arg(kLeastMargin_nats),
        0, [](Row one) { return one.margin_nats; }},
       {tr("Similarity"),
        tr("Share of the rendered edges that a competing pose has in common with the result."), 2,
        [](Row one) { return one.similarity; }},
       {tr("Evidence, nats"),
-       tr("Support of a candidate by the image's edges: mean over its edges and half of the weakest quadrant, in nats."),
+       tr("Support of a candidate by the image's edges: mean over its edges and half of the "
+          "weakest quadrant, in nats."),
        2, [](Row one) { return one.evidence_nats; }},
       {tr("Inliers"), tr("Matches that agree with its pose."), 0,
        [=](Row one) { return ofOthers(one, one.inliers); }},
       {tr("Matches"), tr("Templates that could be searched."), 0,
        [=](Row one) { return ofOthers(one, one.matches); }},
-      {tr("Apart, mm"),
-       tr("Distance of the station's origin from that of the chosen pose, mm."), 2,
+      {tr("Apart, mm"), tr("Distance of the station's origin from that of the chosen pose, mm."), 2,
        [](Row one) { return 1e3 * one.apart_m; }},
       {tr("Apart, deg"), tr("Rotation from the chosen pose, in degrees."), 2,
        [](Row one) { return one.apart_rad / kDegree_rad; }},
@@ -90,7 +93,8 @@ HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(par
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(
-      tr("Other poses of the run: competing poses, candidates of the search, rolled hypotheses. The selected row is drawn on the image."));
+      tr("Other poses of the run: competing poses, candidates of the search, rolled hypotheses. "
+         "The selected row is drawn on the image."));
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_) choose(current.isValid() ? current.row() : -1);

@@ -254,13 +254,16 @@ std::vector<TableColumn<IterationRow>> iterationColumns() {
   constexpr auto tr = [](const char* text) { return IterationsModel::tr(text); };
   return {
       {tr("Iteration"),
-       tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. After a failed attempt the next starts from the seed."),
+       tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. After a failed "
+          "attempt the next starts from the seed."),
        -1, [](Line row) { return row.name; }},
       {tr("Kind"),
-       tr("match: templates are searched and a pose is solved from them; refine: the pose is adjusted until rendered and image edges meet."),
+       tr("match: templates are searched and a pose is solved from them; refine: the pose is "
+          "adjusted until rendered and image edges meet."),
        -1, text(kindText)},
       {tr("Hypothesis"),
-       tr("Roll of the render that the iteration used, in degrees, and number of renders. Hover over a cell to list all."),
+       tr("Roll of the render that the iteration used, in degrees, and number of renders. Hover "
+          "over a cell to list all."),
        -1, text(hypothesisText)},
       {tr("Level"),
        tr("Level of the image pyramid: 0 is the full image, each further one has half its size."),
@@ -270,7 +273,8 @@ std::vector<TableColumn<IterationRow>> iterationColumns() {
       {tr("Turned, deg"), tr("Rotation by this iteration, in degrees."), 3,
        number([](Trace one) { return ofPose(one, one.correction_rotation_rad / kDegree_rad); })},
       {tr("In image, px"),
-       tr("Shift of the scene in the image by the correction: mean over the corners of its box, in pixels of the full image."),
+       tr("Shift of the scene in the image by the correction: mean over the corners of its box, in "
+          "pixels of the full image."),
        2, number([](Trace one) { return ofPose(one, one.correction_image_px); })},
       {tr("Templates"),
        tr("Templates cut from the render; of a refinement: points along the rendered edges."), 0,
@@ -278,17 +282,17 @@ std::vector<TableColumn<IterationRow>> iterationColumns() {
          return countOf(one, Stage::kTemplates, one.template_count, one.refinement.sample_count);
        })},
       {tr("Matches"),
-       tr("Templates searched in the image; of a refinement: points with an image edge."),
-       0, number([](Trace one) {
+       tr("Templates searched in the image; of a refinement: points with an image edge."), 0,
+       number([](Trace one) {
          return countOf(one, Stage::kMatch, one.searched_count, one.refinement.found_count);
        })},
-      {tr("Inliers"),
-       tr("Matches that agree with the pose; of a refinement: points used."), 0,
+      {tr("Inliers"), tr("Matches that agree with the pose; of a refinement: points used."), 0,
        number([](Trace one) {
          return countOf(one, Stage::kPose, one.support(), one.refinement.used_count);
        })},
       {tr("Threshold, px"),
-       tr("Largest residual of an inlier, in pixels of the full image; of a refinement: search radius for an edge."),
+       tr("Largest residual of an inlier, in pixels of the full image; of a refinement: search "
+          "radius for an edge."),
        1, number([](Trace one) { return one.threshold_px; })},
       {tr("Best score"), tr("Highest similarity S of a match; 2 is perfect."), 3,
        number([](Trace one) { return ofMatch(one, Stage::kMatch, one.best_score); })},
@@ -384,7 +388,8 @@ void IterationsPanel::buildTable() {
           &IterationsPanel::chooseRow);
   auto* hint = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));
   hint->setText(
-      tr("Run the case to its end (F5), by an iteration (F6) or a stage (F7). Each iteration is a row; every view shows the selected one."));
+      tr("Run the case to its end (F5), by an iteration (F6) or a stage (F7). Each iteration is a "
+         "row; every view shows the selected one."));
 }
 
 void IterationsPanel::buildPlots() {

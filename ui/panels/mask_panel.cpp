@@ -18,7 +18,8 @@ MaskPanel::MaskPanel(MaskEditor& editor, QWidget* parent) : QWidget(parent), edi
   ui_.setupUi(this);
   ui_.takeStroke->setMenu(new QMenu(ui_.takeStroke));
   (new EmptyHint(*ui_.strokes))
-      ->setText(tr("No strokes yet: paint with the brush, draw a polygon, or ignore bright pixels."));
+      ->setText(
+          tr("No strokes yet: paint with the brush, draw a polygon, or ignore bright pixels."));
   connect(ui_.brush, &QToolButton::clicked, this,
           [this](bool on) { editor_.setTool(on ? MaskTool::kBrush : MaskTool::kNone); });
   connect(ui_.polygon, &QToolButton::clicked, this,

@@ -38,7 +38,8 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   histogram_ = new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"),
                                  tr("used"), ui_.refinement);
   histogram_->setToolTip(
-      tr("Distance of the image's edges from the rendered edges after this refinement, in pixels of the full image. A good pose has a narrow peak at 0."));
+      tr("Distance of the image's edges from the rendered edges after this refinement, in pixels "
+         "of the full image. A good pose has a narrow peak at 0."));
   ui_.refinementRow->addWidget(histogram_, 1);
   connect(ui_.show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
     showing_ = true;

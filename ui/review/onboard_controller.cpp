@@ -113,8 +113,7 @@ QString OnboardController::whyNotCompared() const {
   if (!ground_) return tr("No comparison: the case has no run on the ground.");
   if (!ground_->finished) return tr("The run on the ground has not ended.");
   if (!groundIsOfTheCase())
-    return tr(
-        "The inputs have changed since the run on the ground: run the case again.");
+    return tr("The inputs have changed since the run on the ground: run the case again.");
   return tr("Comparing ...");
 }
 
@@ -157,7 +156,9 @@ void OnboardController::attach(const std::filesystem::path& file) {
   }
 }
 
-void OnboardController::detach() { attachAs(std::nullopt, tr("Remove the onboard record from %1")); }
+void OnboardController::detach() {
+  attachAs(std::nullopt, tr("Remove the onboard record from %1"));
+}
 
 void OnboardController::showOnboard() {
   if (!review_) return;

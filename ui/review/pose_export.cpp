@@ -47,8 +47,7 @@ PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, Ta
 
 void PoseExport::addTo(QMenu& menu) {
   QAction* pose = menu.addAction(tr("&Pose for hand-over..."), this, &PoseExport::askForPose);
-  pose->setStatusTip(
-      tr("Pose of the shown case with checks, decision and provenance, as JSON"));
+  pose->setStatusTip(tr("Pose of the shown case with checks, decision and provenance, as JSON"));
   QAction* report = menu.addAction(tr("&Report (PDF)..."), this, &PoseExport::askForReport);
   report->setStatusTip(
       tr("Pose of the shown case on two pages: overlay, inputs, decision, checks, residuals"));

@@ -55,7 +55,8 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
       {tr("Case"), tr("The case."), -1,
        [](const DifferenceEntry& entry) { return fromText(entry.case_id); }},
       {tr("Change"),
-       tr("Whether the last run is better than the previous run: by the truth if known, else by the checks."),
+       tr("Whether the last run is better than the previous run: by the truth if known, else by "
+          "the checks."),
        -1, ofDifference([](Difference made) { return signOf(made.change); }),
        ofDifference([](Difference made) {
          return made.change == RunChange::kWorse ? 0 : made.change == RunChange::kBetter ? 1 : 2;
@@ -74,8 +75,8 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
        ofDifference(apartText),
        ofDifference([](Difference made) { return made.comparison.translation_mm; })},
       {tr("Reason and first difference"),
-       tr("Basis of the verdict, and the first value in which the runs differ."),
-       -1, ofDifference([](Difference made) { return fromText(sessions::changeText(made)); })},
+       tr("Basis of the verdict, and the first value in which the runs differ."), -1,
+       ofDifference([](Difference made) { return fromText(sessions::changeText(made)); })},
   };
 }
 
@@ -146,18 +147,22 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
   constexpr auto tr = [](const char* text) { return QueueModel::tr(text); };
   return {
       {tr("Case"),
-       tr("The case, with the edges of its result over the image; red: edges of the seed, without a result."),
+       tr("The case, with the edges of its result over the image; red: edges of the seed, without "
+          "a result."),
        -1, [](Entry entry) { return fromText(entry.row.case_id); }},
       {tr("State"), tr("State of the case."), -1,
        [](Entry entry) { return QueueModel::reviewStatusText(entry.row); }},
       {tr("Trouble"),
-       tr("Reason for review; sort order: failed runs, failed checks, smallest margin, largest distance from the seed. Decided cases come last."),
+       tr("Reason for review; sort order: failed runs, failed checks, smallest margin, largest "
+          "distance from the seed. Decided cases come last."),
        -1, troubleOf},
       {tr("Margin,\n%"),
-       tr("Margin of the worst check to its limit, in percent of the limit; negative: limit exceeded."),
+       tr("Margin of the worst check to its limit, in percent of the limit; negative: limit "
+          "exceeded."),
        0, [](Entry entry) { return kToPercent * entry.row.margin.value_or(kNaN); }},
       {tr("From\nseed"),
-       tr("Distance of the result from the seed, in mm and mrad, and relative to the seed's uncertainty (100 %: on its border)."),
+       tr("Distance of the result from the seed, in mm and mrad, and relative to the seed's "
+          "uncertainty (100 %: on its border)."),
        0, [](Entry entry) { return fromSeedText(entry.row); },
        [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kNaN; }},
       {tr("Inliers"), tr("Inliers of the last matching iteration."), 0,
@@ -409,10 +414,10 @@ bool QueuePanel::asksForSignature(Act act, const QString& id) {
   pending_case_ = id;
   missing->setFocus();
   const bool accepts = act == Act::kAccept;
-  const QString question = missing == ui_.queueName
-                               ? (accepts ? tr("Your name, to accept %1") : tr("Your name, to reject %1"))
-                           : accepts ? tr("Reason to accept %1")
-                                     : tr("Reason to reject %1");
+  const QString question = missing == ui_.queueName ? (accepts ? tr("Your name, to accept %1")
+                                                               : tr("Your name, to reject %1"))
+                           : accepts                ? tr("Reason to accept %1")
+                                                    : tr("Reason to reject %1");
   tell(question.arg(id) + tr(": type, then Enter; Escape cancels."));
   return true;
 }
@@ -440,8 +445,7 @@ void QueuePanel::decide(Act act) {
   ui_.queueComment->clear();  // the next decision has a comment of its own
   choose(following.isEmpty() ? id : following);
   tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
-       (following.isEmpty() ? tr(" All listed cases are decided or not run.")
-                            : QString()));
+       (following.isEmpty() ? tr(" All listed cases are decided or not run.") : QString()));
 }
 
 /// Enter in a field.
@@ -457,7 +461,8 @@ void QueuePanel::signedNow() {
     return;
   }
   dropQuestion();
-  tell(tr("%1 is not listed any more: clear the filter. No decision was stored.").arg(pending_case_));
+  tell(tr("%1 is not listed any more: clear the filter. No decision was stored.")
+           .arg(pending_case_));
 }
 
 void QueuePanel::dropQuestion() {

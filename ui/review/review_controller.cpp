@@ -34,7 +34,8 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
   connect(&checks_runner_, &TaskRunner::failed, this,
           [this](const QString& message) { take({}, message); });
-  connect(&convergence_runner_, &TaskRunner::busyChanged, this, &ReviewController::convergenceChanged);
+  connect(&convergence_runner_, &TaskRunner::busyChanged, this,
+          &ReviewController::convergenceChanged);
   follow();
 }
 
@@ -45,7 +46,7 @@ void ReviewController::setActive(bool active) {
 
 bool ReviewController::hasRun() const { return document_.session().lastRunOf(caseId()) != nullptr; }
 
-bool ReviewController::hasMarks() const {
+bool ReviewController::hasAnnotations() const {
   return document_.session().annotations.count(caseId()) > 0;
 }
 
@@ -64,21 +65,21 @@ void ReviewController::chooseSource() {
   const std::string id = caseId();
   if (std::exchange(shown_id_, id) != id) wanted_source_.reset();
   const sessions::RunRecord* run = document_.session().lastRunOf(id);
-  source_ = hasMarks() && (!run || run->status != "converged") ? PoseSource::kAnnotation
-                                                               : PoseSource::kRun;
+  source_ = hasAnnotations() && (!run || run->status != "converged") ? PoseSource::kAnnotation
+                                                                     : PoseSource::kRun;
   const sessions::ReviewStatus now = reviewStatus();
   if (now.holds() && now.decision->pose) source_ = now.decision->pose->source;
   if (wanted_source_ == PoseSource::kRun && run) source_ = PoseSource::kRun;
-  if (wanted_source_ == PoseSource::kAnnotation && hasMarks()) source_ = PoseSource::kAnnotation;
+  if (wanted_source_ == PoseSource::kAnnotation && hasAnnotations())
+    source_ = PoseSource::kAnnotation;
 }
 
 QString ReviewController::missing() const {
   if (!document_.isOpen()) return tr("No session is open.");
   const std::string id = caseId();
   if (id.empty()) return tr("No case is shown: select one in the list of cases.");
-  if (!hasRun() && !hasMarks())
-    return tr("%1 has no pose: run it (F5) or annotate it (F2) first.")
-        .arg(fromText(id));
+  if (!hasRun() && !hasAnnotations())
+    return tr("%1 has no pose: run it (F5) or annotate it (F2) first.").arg(fromText(id));
   return {};
 }
 
@@ -271,23 +272,24 @@ void ReviewController::setSecondPerson(bool asked) {
 void ReviewController::startConvergenceTest(int seeds) {
   if (!current_ || isConvergenceTestRunning()) return;
   convergence_so_far_ = {};
-  convergence_runner_.run(kConvergenceKey, [this, subject = subject_, seeds](const std::stop_token& stop,
-                                                                 const TaskRunner::Report& report) {
-    const auto tell = [this, &report](const sessions::ConvergenceResult& so_far) {
-      report([this, so_far] {
-        convergence_so_far_ = so_far;
-        Q_EMIT convergenceChanged();
+  convergence_runner_.run(
+      kConvergenceKey, [this, subject = subject_, seeds](const std::stop_token& stop,
+                                                         const TaskRunner::Report& report) {
+        const auto tell = [this, &report](const sessions::ConvergenceResult& so_far) {
+          report([this, so_far] {
+            convergence_so_far_ = so_far;
+            Q_EMIT convergenceChanged();
+          });
+        };
+        sessions::ConvergenceResult result = sessions::convergenceTest(*subject, seeds, stop, tell);
+        report([this, result = std::move(result)] {
+          if (result.seeds == 0) return;
+          convergence_ = result;
+          asked_ = false;
+          ask();
+          Q_EMIT checksChanged();
+        });
       });
-    };
-    sessions::ConvergenceResult result = sessions::convergenceTest(*subject, seeds, stop, tell);
-    report([this, result = std::move(result)] {
-      if (result.seeds == 0) return;
-      convergence_ = result;
-      asked_ = false;
-      ask();
-      Q_EMIT checksChanged();
-    });
-  });
 }
 
 void ReviewController::stopConvergenceTest() { convergence_runner_.stop(kConvergenceKey); }

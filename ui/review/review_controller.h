@@ -37,7 +37,7 @@ class ReviewController : public QObject {
   /// Of the shown case, or empty.
   std::string caseId() const { return shownCaseId(document_, state_); }
   bool hasRun() const;
-  bool hasMarks() const;
+  bool hasAnnotations() const;
   /// The digest of the run that is judged, or empty.
   std::string runDigest() const;
   sessions::PoseSource source() const { return source_; }
@@ -68,7 +68,9 @@ class ReviewController : public QObject {
   void setSecondPerson(bool asked);
 
   /// Whether a pose is ready to be judged from which no other seeds have been run yet.
-  bool awaitsConvergenceTest() const { return current_ && !convergence_ && !isConvergenceTestRunning(); }
+  bool awaitsConvergenceTest() const {
+    return current_ && !convergence_ && !isConvergenceTestRunning();
+  }
   bool isConvergenceTestRunning() const { return convergence_runner_.isBusy(); }
   /// Of the test that is under way.
   const sessions::ConvergenceResult& convergenceSoFar() const { return convergence_so_far_; }

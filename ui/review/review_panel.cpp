@@ -119,8 +119,9 @@ void DecisionForm::showWhatIsPossible() {
   for (const auto& [act, each] : buttons_) {
     const QString reason = controller_.obstacle(act, who);
     each->setEnabled(reason.isEmpty());
-    each->setToolTip(reason.isEmpty() ? tips_[act]
-                                      : tr("%1. Not available: %2").arg(tips_[act], sentence(reason)));
+    each->setToolTip(reason.isEmpty()
+                         ? tips_[act]
+                         : tr("%1. Not available: %2").arg(tips_[act], sentence(reason)));
   }
   // A second approval is offered only where the session requires it.
   buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
@@ -134,8 +135,7 @@ void DecisionForm::showReading() {
   QStringList parts;
   if (!obstacle_.isEmpty()) parts << QStringLiteral("⚠ %1").arg(obstacle_.toHtmlEscaped());
   if (controller_.awaitsConvergenceTest() && nextStep() == Act::kValidate)
-    parts << tr(
-        "○ No convergence test: a competing pose is not excluded.");
+    parts << tr("○ No convergence test: a competing pose is not excluded.");
   if (!note_.isEmpty()) parts << note_;
   for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
   if (controller_.history().empty()) parts << tr("<i>No decision on this case yet.</i>");
@@ -222,12 +222,13 @@ std::vector<TableColumn<CheckRow>> columns() {
        [](Row row) {
          return ChecksModel::sign(row.check.state) + QLatin1Char(' ') + fromText(row.check.title);
        }},
-      {tr("Found"), tr("Measured value with its unit; empty if the check has no figure."),
-       0, [](Row row) { return fromText(sessions::foundText(row.check)); }},
+      {tr("Found"), tr("Measured value with its unit; empty if the check has no figure."), 0,
+       [](Row row) { return fromText(sessions::foundText(row.check)); }},
       {tr("Limit"), tr("Limit of the measured value, from the preset or as edited under Limits."),
        -1, [](Row row) { return shortLimit(row.check); }},
       {tr("Reason to waive"),
-       tr("A pose with a failed check needs a reason to waive it. The reason is stored with the pose, and dropped when the measured value changes."),
+       tr("A pose with a failed check needs a reason to waive it. The reason is stored with the "
+          "pose, and dropped when the measured value changes."),
        -1, reasonText},
   };
 }
@@ -374,7 +375,7 @@ void ReviewPanel::showSources() {
   if (controller_.hasRun())
     ui_.judged->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kShownDigits)),
                         static_cast<int>(PoseSource::kRun));
-  if (controller_.hasMarks())
+  if (controller_.hasAnnotations())
     ui_.judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
   if (ui_.judged->count() == 0) ui_.judged->addItem(tr("No pose"));
   ui_.judged->setCurrentIndex(
@@ -419,14 +420,16 @@ void ReviewPanel::showConvergence() {
   const bool running = controller_.isConvergenceTestRunning();
   const sessions::ConvergenceResult& so_far = controller_.convergenceSoFar();
   ui_.convergenceSeeds->setEnabled(!running);
-  ui_.convergence->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_.convergenceSeeds->value())
-                             : tr("Convergence test"));
+  ui_.convergence->setText(
+      running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_.convergenceSeeds->value())
+              : tr("Convergence test"));
   ui_.convergence->setEnabled(running || controller_.isCurrent());
   ui_.convergence->setToolTip(
       running ? tr("%1 of %2 seeds returned to the pose so far. A stopped test counts, too.")
                     .arg(so_far.returned)
                     .arg(so_far.seeds)
-              : tr("Runs from further seeds within the declared uncertainty and counts those that return to this pose. Takes one run per seed; can be stopped."));
+              : tr("Runs from further seeds within the declared uncertainty and counts those that "
+                   "return to this pose. Takes one run per seed; can be stopped."));
 }
 
 void ReviewPanel::askForConvergenceTest() {

@@ -57,8 +57,8 @@ struct RunController::Job {
     if (run->trace().complete() < kept && !run->finished()) return false;
     if (!hasKept())
       throw std::runtime_error(
-          RunController::tr(
-              "The recorded iterations are from another version of the program and cannot be repeated. Run again from the start.")
+          RunController::tr("The recorded iterations are from another version of the program and "
+                            "cannot be repeated. Run again from the start.")
               .toStdString());
     return true;
   }

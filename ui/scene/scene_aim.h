@@ -29,7 +29,7 @@ struct SceneAimRules {
   int turn = 0;       ///< how often the operator asked for another thing to snap to
 };
 
-/// What a click into the scene would mark.
+/// What a click into the scene would annotate.
 struct SceneAim {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   std::optional<sessions::ModelEdge> edge;     ///< that it lies on

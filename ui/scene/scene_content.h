@@ -41,7 +41,7 @@ struct Frustum {
   QColor color;
   Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 4> corner_m;  ///< top left, top right, bottom right, bottom left
-  std::vector<SceneLine> lines;             ///< dashed as the role is; a roof marks the image's top
+  std::vector<SceneLine> lines;  ///< dashed as the role is; a roof annotations the image's top
   Eigen::Vector3d label_at_m = Eigen::Vector3d::Zero();
 };
 

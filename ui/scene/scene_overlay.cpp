@@ -4,7 +4,7 @@
 #include <QtWidgets>
 #include <algorithm>
 
-#include "ui/annotation/mark_aim.h"
+#include "ui/annotation/annotation_aim.h"
 #include "ui/plots/plot_colors.h"
 #include "ui/views/overlay_painters.h"
 
@@ -143,8 +143,8 @@ void SceneOverlay::setNote(const QString& note) {
   update();
 }
 
-void SceneOverlay::setMark(const std::optional<Eigen::Vector3d>& at_m) {
-  mark_ = at_m;
+void SceneOverlay::setAnnotation(const std::optional<Eigen::Vector3d>& at_m) {
+  annotation_ = at_m;
   update();
 }
 
@@ -197,7 +197,7 @@ void SceneOverlay::paintNames(QPainter& painter) const {
 }
 
 void SceneOverlay::paintMark(QPainter& painter) const {
-  const auto pixel = mark_ ? view_.toCanvas(*mark_) : std::nullopt;
+  const auto pixel = annotation_ ? view_.toCanvas(*annotation_) : std::nullopt;
   if (!pixel) return;
   const QPointF at = *pixel + QPointF(0.5, 0.5);
   for (const QPen& pen : {QPen(QColor(0, 0, 0), 3.5), QPen(QColor(255, 210, 0), 1.5)}) {

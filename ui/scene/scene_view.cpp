@@ -148,7 +148,7 @@ void SceneView::refresh() {
       now.frusta.push_back(std::move(frustum));
   content_ = std::make_shared<const SceneContent>(std::move(now));
   if (content_->one != before->one) {
-    overlay_->setMark(std::nullopt);
+    overlay_->setAnnotation(std::nullopt);
     backdrop_ = QImage();
     backdrop_of_.reset();
   }
@@ -285,7 +285,7 @@ void SceneView::pickInScene(const QPointF& pixel) {
       aim->text = tr("surface");
     }
   }
-  overlay_->setMark(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
+  overlay_->setAnnotation(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
   ui_.sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
                                 : tr("No object there: click a template or a point of the mesh."));
 }

@@ -72,7 +72,7 @@ class ViewState : public QObject {
   int selectedTemplate() const { return selected_template_; }
   /// The pose that is being nudged, if any.
   const std::optional<Pose>& nudgedPose() const { return nudged_; }
-  /// The pose that solves the case's annotated marks, if any.
+  /// The pose that solves the case's annotated annotations, if any.
   const std::optional<Pose>& annotatedPose() const { return annotated_; }
   /// The pose that the run weighed and that is looked at beside the one it went on with, if any.
   const std::optional<sessions::Alternative>& alternative() const { return alternative_; }
@@ -124,7 +124,7 @@ class ViewState : public QObject {
 
 /// camera_from_station of that role as the views have it: the run's seed (the case's before a run),
 /// the iteration under the cursor (before or after it, as the shown stage says), the nudged pose,
-/// the truth, the pose that solves the annotated marks. Nothing where there is none.
+/// the truth, the pose that solves the annotated annotations. Nothing where there is none.
 std::optional<Pose> poseOf(const ViewState& state, PoseRole role);
 
 /// The document's case that the views show, or nullptr.

@@ -36,7 +36,7 @@ enum class LayerId : std::uint8_t {
   kTemplates,
   kMatches,
   kResiduals,
-  kMarkResiduals,
+  kAnnotationResiduals,
   kProposals,
   kPoints,
 };

@@ -178,7 +178,8 @@ int runSelfTest(std::ostream& output) {
 namespace {
 
 constexpr int kPatienceMs = 120'000;
-constexpr double kMarkScale = 2.0;  // of the image round a mark that the operator works on
+constexpr double kAnnotationScale =
+    2.0;  // of the image round an annotation that the operator works on
 
 /// Lets the event loop run until something holds; false when it takes too long.
 bool waitUntil(const std::function<bool()>& holds) {
@@ -216,17 +217,17 @@ QString knownViews(const MainWindow& window) {
   return names.join(QStringLiteral(", "));
 }
 
-/// As an operator has it who places this mark: the desk in front, the mark magnified. False when
-/// there is no such mark.
-bool workOn(MainWindow& window, const QString& mark) {
-  AnnotationController& annotation = window.annotation();
-  annotation.setMode(PlaceMode::kPoint);
-  annotation.select(mark.toStdString());
+/// As an operator has it who places this annotation: the desk in front, the annotation magnified.
+/// False when there is no such annotation.
+bool workOn(MainWindow& window, const QString& annotation) {
+  AnnotationController& annotator = window.annotation();
+  annotator.setMode(PlaceMode::kPoint);
+  annotator.select(annotation.toStdString());
   if (QDockWidget* dock = window.dock(QStringLiteral("annotation"))) dock->raise();
-  const sessions::PointPair* point = annotation.selectedPoint();
+  const sessions::PointPair* point = annotator.selectedPoint();
   if (point && point->pixel)
-    window.image().view().centreOn({point->pixel->x(), point->pixel->y()}, kMarkScale);
-  return !annotation.selected().empty();
+    window.image().view().centreOn({point->pixel->x(), point->pixel->y()}, kAnnotationScale);
+  return !annotator.selected().empty();
 }
 
 }  // namespace
@@ -286,8 +287,8 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
     window.state().selectTemplate(0);
   window.image().view().fit();
-  if (!order.mark.isEmpty() && !workOn(window, order.mark))
-    return QObject::tr("the shown case has no annotation '%1'").arg(order.mark);
+  if (!order.annotation.isEmpty() && !workOn(window, order.annotation))
+    return QObject::tr("the shown case has no annotation '%1'").arg(order.annotation);
   waitUntil(resting);
   QApplication::processEvents();
   try {

@@ -32,7 +32,8 @@ struct ScreenshotOrder {
   std::filesystem::path out;
   QString view;  ///< object name of a dock, "image", or "" for the whole window
   QSize size = QSize(1600, 1000);
-  QString mark;  ///< id of a mark that the operator works on, in the middle of the image; "": none
+  QString annotation;  ///< id of an annotation that the operator works on, in the middle of the
+                       ///< image; "": none
   int iteration = -2;  ///< index to show; -1: the seed; -2: the last
   int hypothesis = 0;  ///< row under Hypotheses to show, from 1; 0: none
 };

@@ -159,8 +159,9 @@ void CaseDetails::fillErrors(const sessions::SessionCase& one, CaseRow& row) con
       one.truth_covariance.value_or(Matrix6d::Zero()), one.camera_from_end_effector,
       sessions::requirementOf(session_, one));
   if (excess.empty()) return;
-  row.detail += (row.detail.isEmpty() ? QString() : QStringLiteral("\n")) +
-                tr("One sigma of its truth is %1, too large for these errors.").arg(fromText(excess));
+  row.detail +=
+      (row.detail.isEmpty() ? QString() : QStringLiteral("\n")) +
+      tr("One sigma of its truth is %1, too large for these errors.").arg(fromText(excess));
 }
 
 void CaseDetails::fill(std::vector<CaseRow>& rows) const {

@@ -53,8 +53,9 @@ QString InputFindings::adviceFor(const QString& case_id) const {
     missing |= finding.kind == FindingKind::kMissing;
   }
   if (lines.isEmpty()) return {};
-  lines << (missing ? tr("Restore the file, or use \"Fix ...\" to search below the session's folder.")
-                    : tr("Restore the former file, or use \"Fix ...\" to accept the changed file."));
+  lines << (missing
+                ? tr("Restore the file, or use \"Fix ...\" to search below the session's folder.")
+                : tr("Restore the former file, or use \"Fix ...\" to accept the changed file."));
   return lines.join(QStringLiteral("\n\n"));
 }
 
@@ -87,7 +88,8 @@ void InputFindings::findMoved() {
       [this](const std::vector<sessions::Relink>& relinks) {
         const Document& document = parts_.document;
         if (relinks.empty()) {
-          Q_EMIT failed(tr("None of the missing files is in %1 or below. Copy them there, or restore them, and try again.")
+          Q_EMIT failed(tr("None of the missing files is in %1 or below. Copy them there, or "
+                           "restore them, and try again.")
                             .arg(fromText(document.file().parent_path().string())));
         } else if (parts_.document.edit(sessions::relinked(document.session(), relinks),
                                         tr("Find moved files"))) {

@@ -80,9 +80,9 @@ void MainWindow::connectAll() {
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this, note);
   connect(findChild<QAction*>(QStringLiteral("importMarks")), &QAction::triggered, annotation_files,
-          &AnnotationFiles::importMarks);
+          &AnnotationFiles::importAnnotations);
   connect(findChild<QAction*>(QStringLiteral("exportMarks")), &QAction::triggered, annotation_files,
-          &AnnotationFiles::exportMarks);
+          &AnnotationFiles::exportAnnotations);
   connect(&onboard_, &OnboardController::rerunRequested, &cases_, &CaseController::runPlan);
   connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
   connect(&onboard_, &OnboardController::told, this, note);

@@ -274,9 +274,9 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
 void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
   if (!mayLeave()) return;
   collected_ = {};
-  Q_EMIT noted((results ? tr("Reading %1 and its dataset's files ...")
-                        : tr("Reading %1 and its files ..."))
-                   .arg(text(file.filename())));
+  Q_EMIT noted(
+      (results ? tr("Reading %1 and its dataset's files ...") : tr("Reading %1 and its files ..."))
+          .arg(text(file.filename())));
   parts_.tasks.start(
       QStringLiteral("make session"),
       [file, results](const std::stop_token&) {
@@ -355,7 +355,8 @@ void SessionFiles::offerSavingElsewhere(const QString& reason) {
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), reason, QMessageBox::NoButton, &window_);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.setInformativeText(
-      tr("The file keeps its last saved state; all changes are still in this window. Free space or allow writing, or save the session elsewhere."));
+      tr("The file keeps its last saved state; all changes are still in this window. Free space or "
+         "allow writing, or save the session elsewhere."));
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   box.addButton(QMessageBox::Close);
   box.exec();
@@ -386,7 +387,8 @@ bool SessionFiles::mayLeave() {
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   box.setInformativeText(
       untitled ? tr("Discarding deletes the session and its runs; its input files stay.")
-               : tr("Unsaved changes stay in the journal and can be recovered when the session is opened again."));
+               : tr("Unsaved changes stay in the journal and can be recovered when the session is "
+                    "opened again."));
   const int answer = box.exec();
   if (answer == QMessageBox::Save) return save();
   if (answer == QMessageBox::Discard && untitled) document.discardUntitled();
@@ -399,8 +401,7 @@ void SessionFiles::offerUntitled() {
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   tr("Recover the unsaved session of the last program run?"),
                   QMessageBox::Yes | QMessageBox::No, &window_);
-  box.setInformativeText(
-      tr("It is stored in %1 until it is saved or discarded.").arg(text(*left)));
+  box.setInformativeText(tr("It is stored in %1 until it is saved or discarded.").arg(text(*left)));
   if (box.exec() == QMessageBox::Yes) parts_.document.open(*left);
 }
 

@@ -88,8 +88,9 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
 
 void WindowDocks::buildCentre() {
   warnings.setAction(windowText("Inputs"), windowText("Show the inputs' properties and warnings"));
-  findings.setAction(windowText("Fix ..."),
-                     windowText("Search missing files below the session's folder, or accept changed files"));
+  findings.setAction(
+      windowText("Fix ..."),
+      windowText("Search missing files below the session's folder, or accept changed files"));
   for (Banner* each : {&warnings, &findings}) each->showWarnings({});
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);

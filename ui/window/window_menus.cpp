@@ -7,9 +7,9 @@
 
 #include "sessions/version.h"
 #include "ui/annotation/annotation_panel.h"
+#include "ui/annotation/annotation_tool.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/loupe.h"
-#include "ui/annotation/mark_tool.h"
 #include "ui/manual/manual_window.h"
 #include "ui/panels/iterations_panel.h"
 #include "ui/panels/mask_panel.h"
@@ -115,11 +115,12 @@ void WindowMenus::connectMode(QAction* action, PlaceMode mode) {
 
 void WindowMenus::connectAnnotate() {
   AnnotationController* annotation = &parts_.annotation;
-  annotation_edits_ = {ui_.placePoints, ui_.placeLines,  ui_.removeMark, ui_.useAsTruth,
-                       ui_.putAside,    ui_.importMarks, ui_.exportMarks};
+  annotation_edits_ = {ui_.placePoints, ui_.placeLines,        ui_.removeAnnotation, ui_.useAsTruth,
+                       ui_.putAside,    ui_.importAnnotations, ui_.exportAnnotations};
   connectMode(ui_.placePoints, PlaceMode::kPoint);
   connectMode(ui_.placeLines, PlaceMode::kLine);
-  on(ui_.removeMark, annotation, [annotation] { annotation->remove(annotation->selected()); });
+  on(ui_.removeAnnotation, annotation,
+     [annotation] { annotation->remove(annotation->selected()); });
   on(ui_.useAsTruth, annotation, &AnnotationController::useAsTruth);
   on(ui_.putAside, &docks_.annotation, &AnnotationPanel::askForName);
   connect(&docks_.mask_editor, &MaskEditor::changed, this, [this] {
@@ -131,8 +132,8 @@ void WindowMenus::connectAnnotate() {
 void WindowMenus::connectImageAnnotation() {
   ImageAnnotation* annotation = &docks_.image_annotation;
   Loupe* loupe = &annotation->loupe();
-  connectSwitch(ui_.snap, &annotation->tool(), &MarkTool::snaps, &MarkTool::setSnaps,
-                &MarkTool::snapsChanged);
+  connectSwitch(ui_.snap, &annotation->tool(), &AnnotationTool::snaps, &AnnotationTool::setSnaps,
+                &AnnotationTool::snapsChanged);
   connectSwitch(ui_.loupe, loupe, &Loupe::isSwitchedOn, &Loupe::setSwitchedOn, &Loupe::changed);
   const auto magnify = [loupe](double factor) {
     return [loupe, factor] { loupe->setMagnification(loupe->magnification() * factor); };
@@ -272,7 +273,8 @@ void WindowMenus::connectHelp() {
 
 void WindowMenus::showAbout() {
   QMessageBox::about(&window_, tr("Boresight"),
-                     tr("<b>Boresight %1</b><p>Localization of a station in one image by salient edges and Weighted Hamming Similarity.</p>")
+                     tr("<b>Boresight %1</b><p>Localization of a station in one image by salient "
+                        "edges and Weighted Hamming Similarity.</p>")
                          .arg(QString::fromUtf8(sessions::kVersion)));
 }
 

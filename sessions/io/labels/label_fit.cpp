@@ -80,7 +80,8 @@ std::string partMisfit(const Side& x, const Side& y, bool of_subframe) {
   }
   const bool beyond_as_whole = x.principal_px < -0.5 || y.principal_px < -0.5;
   if (of_subframe || beyond_as_whole) return "";
-  return "the label does not state whether its camera model is for the whole detector or the sub-frame at " +
+  return "the label does not state whether its camera model is for the whole detector or the "
+         "sub-frame at " +
          firstText(x, y) + kAdvice;
 }
 
@@ -90,8 +91,8 @@ std::string focalMisfit(const Side& x, const Side& y, double fx, double fy, bool
     return !(focal_px >= kShortestFocal * longest && focal_px <= kLongestFocal_px);
   };
   if (absurd(fx) || absurd(fy))
-    return "the label's camera model is invalid: focal lengths of " + fixedText(fx, 3) +
-           " and " + fixedText(fy, 3) + " px for an image of " + sizeText(x, y) + " px";
+    return "the label's camera model is invalid: focal lengths of " + fixedText(fx, 3) + " and " +
+           fixedText(fy, 3) + " px for an image of " + sizeText(x, y) + " px";
   const double ratio = fx * x.step / (fy * y.step);
   if (stated && (ratio > kMostUnequal || ratio < 1.0 / kMostUnequal))
     return "the label's camera model does not fit the down-sampling by " + fixedText(x.step, 2) +
@@ -113,7 +114,8 @@ std::string vectorsMisfit(const CahvModel& cahv) {
 /// A picture is not mirrored, and its rows and columns are square to each other.
 std::string axesMisfit(const Camera& camera) {
   if (camera.fx * camera.fy < 0.0)
-    return "the label's camera model mirrors the image (H and V are swapped, or one is reversed); give a camera file that fits";
+    return "the label's camera model mirrors the image (H and V are swapped, or one is reversed); "
+           "give a camera file that fits";
   if (!(std::abs(camera.cahv.skew_px) <= kMostSkew * std::abs(camera.fy)))
     return "the label's camera model is invalid: H and V are " +
            fixedText(std::atan2(std::abs(camera.cahv.skew_px), std::abs(camera.fy)) / kDegree_rad,

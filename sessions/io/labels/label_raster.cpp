@@ -73,8 +73,8 @@ SampleType sampleTypeOf(const std::filesystem::path& file, GDALRasterBand& band)
   const int bits = GDALGetDataTypeSizeBits(type);
   const bool floating = GDALDataTypeIsFloating(type) != 0;
   if (GDALDataTypeIsComplex(type) != 0 || (bits > 32 && !floating))
-    throw InputError(
-        file, "samples of the type " + std::string(GDALGetDataTypeName(type)) + " are not an image");
+    throw InputError(file, "samples of the type " + std::string(GDALGetDataTypeName(type)) +
+                               " are not an image");
   // GDAL before 3.7 has no type for signed bytes.
   const char* kind = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
   const bool signed_byte = kind != nullptr && std::string_view(kind) == "SIGNEDBYTE";
@@ -219,8 +219,7 @@ void requireEndLabel(const LabelFiles& files, std::int64_t at) {
   const std::string_view end = text.substr(std::min(static_cast<std::size_t>(at), text.size()));
   const auto size = statedInteger(end.substr(0, 64), "LBLSIZE");
   if (!size || *size < 1 || static_cast<std::uint64_t>(*size) > end.size())
-    throw InputError(files.file, "EOL",
-                     "the part of the label at the file's end is incomplete");
+    throw InputError(files.file, "EOL", "the part of the label at the file's end is incomplete");
 }
 
 /// The sizes of a VICAR label agree: a record is NBB bytes and N1 samples, the label a number of

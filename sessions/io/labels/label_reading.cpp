@@ -250,7 +250,8 @@ StatedCamera chosenCamera(const Source& source, const json& vicar_label,
   }
   if (stated.cahv && other.cahv && !sameModel(stated, other))
     flags.push_back(
-        "the VICAR header in the file and the PDS3 label state different camera models; that of the PDS3 label is used");
+        "the VICAR header in the file and the PDS3 label state different camera models; that of "
+        "the PDS3 label is used");
   return stated;
 }
 

@@ -211,8 +211,8 @@ void requirePicture(const LabelFiles& files, const LabelRaster& raster,
                                      " bands; 1 (gray) or 3 (red, green, blue) are needed: write "
                                      "the wanted band into a file of its own");
   if (bands == 3 && !reading.derived_type.empty())
-    throw InputError(
-        files.file, "the label calls this a " + reading.derived_type + ", not a colour image");
+    throw InputError(files.file,
+                     "the label calls this a " + reading.derived_type + ", not a colour image");
 }
 
 std::string ruleOf(const LabelSamples& samples, const Range& range, const SampleType& type) {
@@ -252,8 +252,8 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
   const Validity valid(reading.invalid, raster.picture.type);
   Range range = rangeOf(raster, valid);
   if (!(range.lowest <= range.highest))
-    throw InputError(files.file,
-                     "no sample of the image has a value: all are missing, invalid or not a number");
+    throw InputError(
+        files.file, "no sample of the image has a value: all are missing, invalid or not a number");
   LabelSamples samples;
   samples.container = labelFormatName(files.format);
   samples.width = raster.picture.width;

@@ -172,8 +172,8 @@ TEST(Manual, NamesNoOptionThatThereIsNot) {
   add(defaultProfile());
   add(sessions::MethodOptions());
   add(sessions::CheckLimits());
-  for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md", "robustness.md", "trust.md",
-                           "formats.md", "evaluate.md", "window.md"})
+  for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md",
+                           "robustness.md", "trust.md", "formats.md", "evaluate.md", "window.md"})
     for (const std::string& word : matches(pages().at(name), R"(`([a-z]+\.[a-z_]+)(=[^`]*)?`)", 1))
       EXPECT_TRUE(known.contains(word) || !groups.contains(word.substr(0, word.find('.'))))
           << name << ": " << word;
@@ -194,9 +194,9 @@ TEST(Manual, KnowsEveryCheck) {
   fs::copy(exampleFolder().parent_path(), folder / "examples", fs::copy_options::recursive);
   const std::string session = folder / "examples/example.boresight.json";
   runWhs({"run", session, "--case", "os-000038"}, 0);
-  runWhs(
-      {"check", session, "--case", "os-000038", "--convergence-test", "0", "--json", folder / "checks.json"},
-      0);
+  runWhs({"check", session, "--case", "os-000038", "--convergence-test", "0", "--json",
+          folder / "checks.json"},
+         0);
   const nlohmann::json checks =
       nlohmann::json::parse(folder.read("checks.json")).at("cases").at(0).at("checks");
   EXPECT_GE(checks.size(), 24u);

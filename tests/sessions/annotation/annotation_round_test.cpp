@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "tests/sessions/annotation/marked_scene.h"
-#include "tests/sessions/annotation/random_marks.h"
+#include "tests/sessions/annotation/annotated_scene.h"
+#include "tests/sessions/annotation/random_annotations.h"
 
 namespace boresight::sessions {
 namespace {
@@ -14,14 +14,14 @@ namespace {
 using test::gaussian;
 using test::randomFor;
 
-TEST(BlindMarks, KeepTheStationAndNothingOfTheImage) {
+TEST(BlindAnnotations, KeepTheStationAndNothingOfTheImage) {
   Random random = randomFor("BlindMarks");
-  const Marks marks = test::randomMarks(random, 12, 12);
-  const Marks blind = blindMarks(marks);
+  const Annotations annotations = test::randomAnnotations(random, 12, 12);
+  const Annotations blind = blindAnnotations(annotations);
   EXPECT_EQ(blind.points.size(), 9u);  // every fourth has no place of the station
   EXPECT_EQ(blind.lines.size(), 9u);
   std::size_t i = 0;
-  for (const PointPair& point : marks.points) {
+  for (const PointPair& point : annotations.points) {
     if (!point.point_in_station_m) continue;
     const PointPair& made = blind.points[i++];
     EXPECT_EQ(made.id, point.id);
@@ -33,8 +33,8 @@ TEST(BlindMarks, KeepTheStationAndNothingOfTheImage) {
   for (const LinePair& line : blind.lines) EXPECT_TRUE(line.edge && !line.line);
 }
 
-Marks seenBy(const Marks& truth, double sigma_px, Random& random) {
-  Marks seen = truth;
+Annotations seenBy(const Annotations& truth, double sigma_px, Random& random) {
+  Annotations seen = truth;
   for (PointPair& point : seen.points) *point.pixel += gaussian(random, sigma_px);
   for (LinePair& line : seen.lines) {
     line.line->start += gaussian(random, sigma_px);
@@ -47,9 +47,9 @@ TEST(Repeatability, FindsTheSigmaOfTwoAnnotators) {
   Random random = randomFor("Repeatability");
   const auto scene = test::randomScene(random, CameraModel::kPinhole, 400, 400, 0.0);
   for (const double sigma_px : {0.1, 0.35, 1.0}) {
-    const Repeatability made = repeatability(seenBy(scene.view.marks, sigma_px, random),
-                                             seenBy(scene.view.marks, sigma_px, random));
-    ASSERT_EQ(made.marks.size(), 800u);
+    const Repeatability made = repeatability(seenBy(scene.view.annotations, sigma_px, random),
+                                             seenBy(scene.view.annotations, sigma_px, random));
+    ASSERT_EQ(made.annotations.size(), 800u);
     // 1600 values: the deviation of their deviation is 1.8 %.
     EXPECT_NEAR(made.sigma_px / sigma_px, 1.0, 0.06);
   }
@@ -72,27 +72,27 @@ LinePair line(const std::string& id, const Eigen::Vector2d& start, const Eigen::
 }
 
 TEST(Repeatability, ComparesWhatBothHave) {
-  Marks first, second;
+  Annotations first, second;
   first.points = {point("b", {10, 20}), point("a", {1, 2}), point("half", {1, 1}),
                   point("alone", {1, 1})};
   first.points[2].pixel.reset();
   second.points = {point("a", {4, 6}), point("b", {10, 20}), point("half", {1, 1})};
   const Repeatability made = repeatability(first, second);
-  ASSERT_EQ(made.marks.size(), 2u);
-  EXPECT_EQ(made.marks[0].id, "a");
-  EXPECT_EQ(made.marks[0].difference_px, Eigen::Vector2d(3, 4));
-  EXPECT_EQ(made.marks[1].difference_px, Eigen::Vector2d::Zero());
+  ASSERT_EQ(made.annotations.size(), 2u);
+  EXPECT_EQ(made.annotations[0].id, "a");
+  EXPECT_EQ(made.annotations[0].difference_px, Eigen::Vector2d(3, 4));
+  EXPECT_EQ(made.annotations[1].difference_px, Eigen::Vector2d::Zero());
   EXPECT_DOUBLE_EQ(made.sigma_px, std::sqrt(25.0 / 4.0) / std::sqrt(2.0));
   EXPECT_EQ(repeatability(first, {}).sigma_px, 0.0);
 }
 
 TEST(Repeatability, OfALineCountsOnlyWhatIsAcross) {
-  Marks first, second;
+  Annotations first, second;
   first.lines.push_back(line("l1", {0, 0}, {100, 0}));
   second.lines.push_back(line("l1", {130, 2}, {40, 1}));  // the other way round
   const Repeatability made = repeatability(first, second);
-  ASSERT_EQ(made.marks.size(), 1u);
-  EXPECT_EQ(made.marks[0].difference_px, Eigen::Vector2d(1, 2));
+  ASSERT_EQ(made.annotations.size(), 1u);
+  EXPECT_EQ(made.annotations[0].difference_px, Eigen::Vector2d(1, 2));
 }
 
 }  // namespace

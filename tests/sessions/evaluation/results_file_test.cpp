@@ -63,13 +63,15 @@ TEST_F(ResultsFile, HoldsEveryRun) {
   blind.dataset_index = 1;
   blind.method = "whs";
   write({sampleRun(), blind});
-  EXPECT_EQ(query(file_,
-                  "SELECT id, dataset_index, case_id, reseed, station, method, status, message, completed, "
-                  "success, matches, inliers, edge_support, lateral_mm, projection_px, "
-                  "requirement, s_matching, s_total, digest FROM run ORDER BY id"),
-            "1|0|bc-1|2|bc|whs|converged|it's \"quoted\"|1|1|96|88|0.5|0.25|NULL|"
-            "{\"normal_mm\":0.4}|1.5|1.5|abc|"
-            "2|1|bc-2|0||whs|||0|NULL|0|0|0.0|NULL|NULL|NULL|0.0|0.0||");
+  EXPECT_EQ(
+      query(
+          file_,
+          "SELECT id, dataset_index, case_id, reseed, station, method, status, message, completed, "
+          "success, matches, inliers, edge_support, lateral_mm, projection_px, "
+          "requirement, s_matching, s_total, digest FROM run ORDER BY id"),
+      "1|0|bc-1|2|bc|whs|converged|it's \"quoted\"|1|1|96|88|0.5|0.25|NULL|"
+      "{\"normal_mm\":0.4}|1.5|1.5|abc|"
+      "2|1|bc-2|0||whs|||0|NULL|0|0|0.0|NULL|NULL|NULL|0.0|0.0||");
   EXPECT_EQ(query(file_, "SELECT value FROM fact WHERE name = 'dataset_sha256'"), "d1|");
   EXPECT_EQ(query(file_, "SELECT tag, case_id FROM tag JOIN run ON run.id = run ORDER BY tag"),
             "far|bc-1|low_sun|bc-1|");
@@ -227,7 +229,8 @@ TEST_F(ResultsFile, WithATriggerIsRefusedByReadersAndWriters) {
   write({sampleRun("bc-1", 0, 0)});
   query(file_, "CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END");
   const std::string reason =
-      "r.sqlite: its trigger \"stop\" is not from whs evaluate; it was changed by another program: evaluate again into a new file";
+      "r.sqlite: its trigger \"stop\" is not from whs evaluate; it was changed by another program: "
+      "evaluate again into a new file";
   EXPECT_EQ(folder_.message([&] { (void)readResults(file_); }), reason);
   EXPECT_EQ(refusal(sampleDataset(), sampleMethod("whs")), "cannot write " + reason);
 }
@@ -315,9 +318,10 @@ TEST_F(MergeResults, JoinsShards) {
   EXPECT_EQ(results.runs[2].tags, stepped.tags);
   ASSERT_EQ(results.facts.batch_runs.size(), 2u);
   SqlDatabase database(folder_ / "out", SqlAccess::kRead);
-  EXPECT_EQ(textOf(database.value("SELECT machine FROM run JOIN batch_run ON batch_run.id = batch_run "
-                                  "WHERE case_id = 'bc-3'")),
-            "a");
+  EXPECT_EQ(
+      textOf(database.value("SELECT machine FROM run JOIN batch_run ON batch_run.id = batch_run "
+                            "WHERE case_id = 'bc-3'")),
+      "a");
   EXPECT_EQ(integerOf(database.value("SELECT count(*) FROM iteration JOIN run ON run.id = run "
                                      "WHERE case_id = 'os-2'")),
             2);

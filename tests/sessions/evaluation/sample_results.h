@@ -20,8 +20,9 @@ inline sessions::MethodFacts sampleMethod(const std::string& method) {
   return facts;
 }
 
-inline sessions::RunResult sampleRun(const std::string& case_id = "bc-1", std::int64_t dataset_index = 0,
-                                     std::int32_t reseed = 2, const std::string& method = "whs") {
+inline sessions::RunResult sampleRun(const std::string& case_id = "bc-1",
+                                     std::int64_t dataset_index = 0, std::int32_t reseed = 2,
+                                     const std::string& method = "whs") {
   sessions::RunResult run;
   run.case_id = case_id;
   run.dataset_index = dataset_index;

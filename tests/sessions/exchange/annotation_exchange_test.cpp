@@ -3,20 +3,20 @@
 
 #include <gmock/gmock.h>
 
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/undistort.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/image_names.h"
 #include "tests/sessions/review/judged_case.h"
 #include "tests/sessions/session/random_session.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/bop_results.h"
-#include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
@@ -29,21 +29,21 @@ using testing::HasSubstr;
 class AnnotationExchange : public testing::Test {
  protected:
   Pose solved(const std::string& id) const {
-    return *sessions::solveCaseMarks(session_, id, true, false).camera_from_station();
+    return *sessions::solveCaseAnnotations(session_, id, true, false).camera_from_station();
   }
-  static sessions::CasePoses marked(const Session& session, std::vector<std::string> ids = {}) {
+  static sessions::CasePoses annotated(const Session& session, std::vector<std::string> ids = {}) {
     return sessions::annotatedPoses(session, ids, false);
   }
   std::string message(const std::function<void()>& call) const { return folder_.message(call); }
 
   TemporaryFolder folder_;
-  Session session_ = markedExample(0.2);
+  Session session_ = annotatedExample(0.2);
   std::string bc_ = caseOfStation(session_, "bc");
   std::string os_ = caseOfStation(session_, "os");
 };
 
 TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
-  const auto made = sessions::exportColmap(session_, folder_ / "model", marked(session_, {bc_}));
+  const auto made = sessions::exportColmap(session_, folder_ / "model", annotated(session_, {bc_}));
   EXPECT_THAT(made.case_ids, ElementsAre(bc_));
   const auto images = sessions::readColmapText(folder_ / "model");
   ASSERT_EQ(images.size(), 1u);
@@ -59,7 +59,7 @@ TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
 }
 
 TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
-  const auto made = sessions::exportBop(session_, folder_ / "scene", marked(session_));
+  const auto made = sessions::exportBop(session_, folder_ / "scene", annotated(session_));
   EXPECT_EQ(made.case_ids.size(), 2u);
   const auto objects = sessions::readBopScene(folder_ / "scene");
   ASSERT_EQ(objects.size(), 2u);
@@ -79,19 +79,21 @@ TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
   EXPECT_EQ(gray.pixels, sessions::undistort(camera, image.view()).pixels);
 }
 
-TEST_F(AnnotationExchange, MarksComeBackAsTheyWere) {
+TEST_F(AnnotationExchange, AnnotationsComeBackAsTheyWere) {
   for (const char* name : {"points.json", "points.csv"}) {
-    sessions::exportMarks(session_, bc_, folder_ / name);
-    const Session without = withAnnotation(session_, bc_, {});
-    const auto read = sessions::importMarks(without, bc_, folder_ / name, false);
+    sessions::exportAnnotations(session_, bc_, folder_ / name);
+    const Session without = withAnnotations(session_, bc_, {});
+    const auto read = sessions::importAnnotations(without, bc_, folder_ / name, false);
     EXPECT_TRUE(read.session == session_) << name;
-    // The same marks once more are no others.
-    EXPECT_TRUE(sessions::importMarks(session_, bc_, folder_ / name, false).session == session_);
-    EXPECT_THAT(message([&] { (void)sessions::importMarks(session_, os_, folder_ / name, false); }),
-                HasSubstr("has other marks already"));
-    EXPECT_EQ(
-        *sessions::importMarks(session_, os_, folder_ / name, true).session.annotations.at(os_),
-        *session_.annotations.at(bc_));
+    // The same annotations once more are no others.
+    EXPECT_TRUE(sessions::importAnnotations(session_, bc_, folder_ / name, false).session ==
+                session_);
+    EXPECT_THAT(
+        message([&] { (void)sessions::importAnnotations(session_, os_, folder_ / name, false); }),
+        HasSubstr("already has other annotations"));
+    EXPECT_EQ(*sessions::importAnnotations(session_, os_, folder_ / name, true)
+                   .session.annotations.at(os_),
+              *session_.annotations.at(bc_));
   }
 }
 
@@ -101,7 +103,7 @@ TEST_F(AnnotationExchange, LandmarksAreAddedToThoseOfTheFile) {
   sessions::writeLandmarks(folder_ / "l.json", before);
   sessions::exportLandmarks(session_, bc_, folder_ / "l.json");
   const auto after = sessions::readLandmarks(folder_ / "l.json");
-  EXPECT_EQ(after, sessions::withMarks(before, *session_.annotations.at(bc_)));
+  EXPECT_EQ(after, sessions::withAnnotations(before, *session_.annotations.at(bc_)));
   EXPECT_EQ(after.size(), 11u);
   EXPECT_EQ(after[0], before[0]);
   folder_.write("broken.json", std::string_view("{"));
@@ -113,20 +115,20 @@ TEST_F(AnnotationExchange, LandmarksAreAddedToThoseOfTheFile) {
 TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   const auto colmap = [&](const Session& session, const std::vector<std::string>& ids) {
     return message(
-        [&] { (void)sessions::exportColmap(session, folder_ / "m", marked(session, ids)); });
+        [&] { (void)sessions::exportColmap(session, folder_ / "m", annotated(session, ids)); });
   };
   EXPECT_THAT(colmap(session_, {}), HasSubstr("are of different stations"));
   EXPECT_THAT(colmap(session_, {"x"}), HasSubstr("there is no case 'x'"));
-  const Session none = withAnnotation(withAnnotation(session_, bc_, {}), os_, {});
-  EXPECT_THAT(colmap(none, {}), HasSubstr("no case has marks"));
+  const Session none = withAnnotations(withAnnotations(session_, bc_, {}), os_, {});
+  EXPECT_THAT(colmap(none, {}), HasSubstr("no case has annotations"));
   EXPECT_THAT(colmap(none, {bc_}), HasSubstr("case '" + bc_ + "' has no pose: "));
-  EXPECT_THAT(message([&] { sessions::exportMarks(none, bc_, folder_ / "p.json"); }),
+  EXPECT_THAT(message([&] { sessions::exportAnnotations(none, bc_, folder_ / "p.json"); }),
               HasSubstr("has no annotations"));
   sessions::SessionCase moved = *session_.findCase(os_);
   moved.image.source.file = folder_ / "gone.png";
   EXPECT_THAT(message([&] {
                 const Session session = withCase(session_, moved);
-                (void)sessions::exportBop(session, folder_ / "s", marked(session));
+                (void)sessions::exportBop(session, folder_ / "s", annotated(session));
               }),
               HasSubstr("gone.png"));
   // No half-written folder.
@@ -134,8 +136,8 @@ TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   // One case without a pose does not keep the others from being written.
   auto few = *session_.annotations.at(os_);
   few.points.resize(2);
-  const Session session = withAnnotation(session_, os_, few);
-  const auto made = sessions::exportBop(session, folder_ / "s", marked(session));
+  const Session session = withAnnotations(session_, os_, few);
+  const auto made = sessions::exportBop(session, folder_ / "s", annotated(session));
   EXPECT_THAT(made.case_ids, ElementsAre(bc_));
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
 }
@@ -189,7 +191,7 @@ TEST(ImageNames, AreRelativeToWhatHoldsAllImages) {
   EXPECT_FALSE(sessions::isEndOf("", "/data/b/7.png"));
 }
 
-/// Both stations are marked, the marks of the OS one validated.
+/// Both stations are annotated, the annotations of the OS one validated.
 class PoseExchange : public testing::Test {
  protected:
   PoseExchange() {
@@ -200,7 +202,7 @@ class PoseExchange : public testing::Test {
                   {}, {"Ada", "right"});
   }
   TemporaryFolder folder_;
-  Session session_ = markedExample(0.1);
+  Session session_ = annotatedExample(0.1);
   std::string os_ = caseOfStation(session_, "os");
   std::string bc_ = caseOfStation(session_, "bc");
 };
@@ -227,7 +229,7 @@ TEST_F(PoseExchange, ResultsThatAreNotValidatedNeedANameThatSaysSo) {
   EXPECT_NE(read[0].object_id, read[1].object_id);
 }
 
-TEST_F(PoseExchange, APoseThatItsMarksDoNotGiveIsLeftOut) {
+TEST_F(PoseExchange, APoseThatItsAnnotationsDoNotGiveIsLeftOut) {
   session_.decisions.back().pose->camera_from_station.translation_m.z() = 0.5;
   EXPECT_THROW(posesToHandOver(session_, {os_}), sessions::InputError);
   const sessions::CasePoses others = posesToHandOver(session_, {});

@@ -87,8 +87,7 @@ TEST_F(ConfigFile, NamesTheOptionItsRangeAndItsUnit) {
             "config.json: options.sample.colour: 'pink' is not one of red, green, blue");
   EXPECT_EQ(error(R"({"sample.colour": 1})"),
             "config.json: options.sample.colour: 1 is not one of red, green, blue");
-  EXPECT_EQ(error(R"({"sample.tint": 1})"),
-            "config.json: options.sample.tint: unknown option");
+  EXPECT_EQ(error(R"({"sample.tint": 1})"), "config.json: options.sample.tint: unknown option");
   EXPECT_EQ(error(R"({"sample.count": [1]})"),
             "config.json: options.sample.count: not a number, true, false, or a name");
 }

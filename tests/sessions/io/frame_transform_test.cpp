@@ -130,7 +130,8 @@ TEST_F(FrameTransforms, ThatContradictEachOtherAreRefused) {
       second.target_from_source = second.target_from_source.inverse();
     }
     EXPECT_THAT(poseError(kSiteJson, {roverCamera(), {first, second}}),
-                EndsWith("sol12.json and sol13.json lead from SITE_FRAME (194) to ROVER_FRAME (194, 835, 1) with different values; give only the valid one"));
+                EndsWith("sol12.json and sol13.json lead from SITE_FRAME (194) to ROVER_FRAME "
+                         "(194, 835, 1) with different values; give only the valid one"));
   }
 }
 

@@ -453,7 +453,8 @@ TEST_F(ReadMesh, RefusesCountsThatTheFileContradicts) {
   expectCube(read("f.ply", binaryPly(cube(), false) + "\n"));
   std::string stl = binaryStl(cube());
   stl[80] = 11;
-  EXPECT_EQ(error("g.stl", stl), "g.stl: header: declares 11 facets, but the file can hold only 12");
+  EXPECT_EQ(error("g.stl", stl),
+            "g.stl: header: declares 11 facets, but the file can hold only 12");
 }
 
 TEST_F(ReadMesh, RefusesHugeDeclarationsBeforeReading) {

@@ -113,7 +113,8 @@ TEST_F(SceneMeshTest, NamesTheFileOfAWrongUnit) {
   EXPECT_EQ(message(-900.5), "(nothing)");
   for (Eigen::Vector3f& vertex : large.vertices_m) vertex.z() -= 1000.0F;
   EXPECT_EQ(message(0.4),
-            "cube.ply: mesh_unit: the mesh measures 346.4 m across, but the seed's camera is 400 mm away (unit 'm'): check the unit");
+            "cube.ply: mesh_unit: the mesh measures 346.4 m across, but the seed's camera is 400 "
+            "mm away (unit 'm'): check the unit");
 }
 
 }  // namespace

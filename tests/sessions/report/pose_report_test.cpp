@@ -13,7 +13,7 @@
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/review_status.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
@@ -39,7 +39,7 @@ std::string pageText(const std::filesystem::path& file, int page) {
 class PoseReportTest : public testing::Test {
  protected:
   void SetUp() override {
-    const Session both = markedExample(0.1);
+    const Session both = annotatedExample(0.1);
     id_ = caseOfStation(both, "os");
     session_ = withoutCase(both, caseOfStation(both, "bc"));
   }
@@ -102,7 +102,7 @@ TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
   EXPECT_THAT(second, HasSubstr("the hose is known"));
 }
 
-TEST_F(PoseReportTest, OfMarksNeedsNoRun) {
+TEST_F(PoseReportTest, OfAnnotationsNeedsNoRun) {
   const sessions::PoseReport report = sessions::poseReport(session_, id_);
   EXPECT_EQ(report.pose.source, sessions::PoseSource::kAnnotation);
   const sessions::ReportResiduals residuals = reportResiduals(report);
@@ -131,7 +131,7 @@ TEST_F(PoseReportTest, ACheckThatIsNotAsMeasuredIsNotReported) {
 }
 
 TEST_F(PoseReportTest, WithoutAnyPoseThereIsNoReport) {
-  session_ = withAnnotation(session_, id_, {});
+  session_ = withAnnotations(session_, id_, {});
   EXPECT_THROW(sessions::poseReport(session_, id_), sessions::InputError);
   run();
   EXPECT_THROW(writePoseReport(folder_ / "none" / "r.pdf", sessions::poseReport(session_, id_)),

@@ -13,9 +13,9 @@
 #include "sessions/session/check.h"
 #include "sessions/session/session_maker.h"
 #include "tests/sessions/review/find_check.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/example_case.h"
 #include "tests/support/loaded_example.h"
-#include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
@@ -181,18 +181,18 @@ TEST(CheckPose, FiguresAreTheSameEveryTimeAndIdsAreTheSameForEveryPose) {
   EXPECT_EQ(ids.size(), once.size());
 }
 
-TEST(CheckPose, MarksOfThePoseAgreeAndArePosesOfTheirOwn) {
+TEST(CheckPose, AnnotationsOfThePoseAgreeAndArePosesOfTheirOwn) {
   ExampleReview review = example("bc");
-  review.session.annotations = test::markedExample(0.0).annotations;
+  review.session.annotations = test::annotatedExample(0.0).annotations;
   const auto loaded = review.subject.loaded;
   const auto run = reviewSubject(review.session, loaded, PoseSource::kRun);
   ASSERT_TRUE(run.annotated);
   EXPECT_EQ(findCheck(checkPose(run, presetLimits()), "agreement_annotation").state,
             CheckState::kPassed);
-  const auto marked = reviewSubject(review.session, loaded, PoseSource::kAnnotation);
-  EXPECT_FALSE(marked.run);
-  EXPECT_EQ(marked.camera_from_station, run.annotated->camera_from_station);
-  const auto checks = checkPose(marked, presetLimits());
+  const auto annotated = reviewSubject(review.session, loaded, PoseSource::kAnnotation);
+  EXPECT_FALSE(annotated.run);
+  EXPECT_EQ(annotated.camera_from_station, run.annotated->camera_from_station);
+  const auto checks = checkPose(annotated, presetLimits());
   EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kPassed);
   EXPECT_EQ(findCheck(checks, "converged").state, CheckState::kNotApplicable);
 }
@@ -299,7 +299,8 @@ TEST(ChecksText, OnesThatAreNotApplicableSayWhyNot) {
   check.state = CheckState::kNotApplicable;
   check.sentence = "No other seeds were run.";
   EXPECT_EQ(checksText(std::vector{check}),
-            "  -   Convergence from other seeds\n      No other seeds were run.\n0 passed, 0 failed, 1 not applicable\n");
+            "  -   Convergence from other seeds\n      No other seeds were run.\n0 passed, 0 "
+            "failed, 1 not applicable\n");
   check.state = CheckState::kPassed;
   EXPECT_EQ(checksText(std::vector{check}).find("No other seeds were run."), std::string::npos);
 }

@@ -33,8 +33,7 @@ TEST(Decide, AValidationNeedsANameACommentAndAnswersToAllChecks) {
   JudgedCase judged(random);
   const auto refused = [&judged](const sessions::CheckWaivers& waivers,
                                  const sessions::Signature& who) {
-    return refusal(
-        [&] { validated(judged.session, judged.subject, judged.checks, waivers, who); });
+    return refusal([&] { validated(judged.session, judged.subject, judged.checks, waivers, who); });
   };
   EXPECT_EQ(refused({}, {"Ada", "right"}), "");
   EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give your name"));
@@ -131,10 +130,10 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
          session.runs.push_back(run);
        }},
       {"its run is missing", [](Session& session, auto&) { session.runs.clear(); }},
-      {"the marks have", [&](Session& session, auto& one) {
-         sessions::Marks marks;
-         while (marks == sessions::Marks()) marks = randomAnnotation(random);
-         session = withAnnotation(session, one.id, marks);
+      {"the annotations have", [&](Session& session, auto& one) {
+         sessions::Annotations annotations;
+         while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
+         session = withAnnotations(session, one.id, annotations);
        }}};
   for (const auto& [text, edit] : edits) {
     Session after = before;

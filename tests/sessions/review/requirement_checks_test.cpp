@@ -132,27 +132,35 @@ std::vector<Check> convergenceChecks(const std::optional<ConvergenceResult>& con
 }
 
 TEST(ConvergenceChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
-  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_returned").state, CheckState::kNotApplicable);
-  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_competing").state, CheckState::kNotApplicable);
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_returned").state,
+            CheckState::kNotApplicable);
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_competing").state,
+            CheckState::kNotApplicable);
   const double limit = CheckLimits().convergence_percent;
   ConvergenceResult convergence{100, 100, static_cast<int>(limit), 0.5, {}};
   EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").figure, limit);
   EXPECT_TRUE(allPassed(convergenceChecks(convergence)));
   --convergence.returned;
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
+            CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kPassed);
 }
 
 TEST(ConvergenceChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) {
   const ConvergenceResult convergence{10, 10, 0, 0.5, {}};
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kNotApplicable);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
+            CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kNotApplicable);
 }
 
 TEST(ConvergenceChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
   ConvergenceResult convergence{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kPassed);
-  EXPECT_NEAR(findCheck(convergenceChecks(convergence), "convergence_competing").figure.value(), 60.0, 1e-9);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kPassed);
+  EXPECT_NEAR(findCheck(convergenceChecks(convergence), "convergence_competing").figure.value(),
+              60.0, 1e-9);
   convergence.competing.push_back({Pose(), false, 0.7});
   const Check other = findCheck(convergenceChecks(convergence), "convergence_competing");
   EXPECT_EQ(other.state, CheckState::kFailed);
@@ -161,7 +169,8 @@ TEST(ConvergenceChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
   const Check mirrored = findCheck(convergenceChecks(convergence), "convergence_competing");
   EXPECT_THAT(mirrored.sentence, testing::HasSubstr("mirror image of the station 80 %"));
   convergence.coverage = 0.0;
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kFailed);
 }
 
 Check onboardCheck(const ReviewSubject& subject) {

@@ -175,15 +175,15 @@ TEST(RunChecks, OnlyTheLastAttemptCounts) {
   EXPECT_EQ(findCheck(checksOf(subject), "inlier_count").figure, 10.0);
 }
 
-TEST(RunChecks, APoseFromMarksHasTheSameChecksNotApplicable) {
+TEST(RunChecks, APoseFromAnnotationsHasTheSameChecksNotApplicable) {
   const auto of_run = checksOf(subjectOf({}));
-  const auto of_marks = checksOf(ReviewSubject());
-  ASSERT_EQ(of_marks.size(), of_run.size());
+  const auto of_annotations = checksOf(ReviewSubject());
+  ASSERT_EQ(of_annotations.size(), of_run.size());
   std::set<std::string> ids;
   for (std::size_t i = 0; i < of_run.size(); ++i) {
-    EXPECT_EQ(of_marks[i].id, of_run[i].id);
-    EXPECT_EQ(of_marks[i].state, CheckState::kNotApplicable);
-    EXPECT_FALSE(of_marks[i].sentence.empty());
+    EXPECT_EQ(of_annotations[i].id, of_run[i].id);
+    EXPECT_EQ(of_annotations[i].state, CheckState::kNotApplicable);
+    EXPECT_FALSE(of_annotations[i].sentence.empty());
     ids.insert(of_run[i].id);
   }
   EXPECT_EQ(ids.size(), of_run.size());

@@ -19,7 +19,7 @@
 #include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
@@ -42,7 +42,7 @@ void overwrite(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The example's OS station, run and marked, in a folder of its own with its files.
+/// The example's OS station, run and annotated, in a folder of its own with its files.
 class ValidatedPose : public testing::Test {
  protected:
   void SetUp() override {
@@ -51,8 +51,8 @@ class ValidatedPose : public testing::Test {
     id_ = caseOfStation(both, "os");
     session_ = withoutCase(both, caseOfStation(both, "bc"));
     Random random = randomFor("ValidatedPose");
-    session_ =
-        withAnnotation(session_, id_, marksOf(spreadCorners(ExampleCase("os"), 8), 0.1, random));
+    session_ = withAnnotations(session_, id_,
+                               annotationsOf(spreadCorners(ExampleCase("os"), 8), 0.1, random));
     sessions::SessionCase one = *session_.findCase(id_);
     one.camera_from_end_effector = randomPose(random);
     session_ = withCase(session_, one);
@@ -65,7 +65,8 @@ class ValidatedPose : public testing::Test {
   }
 
   /// By limits that one check fails, which is passed over.
-  void validate(int convergence_seeds = 0, sessions::PoseSource source = sessions::PoseSource::kRun) {
+  void validate(int convergence_seeds = 0,
+                sessions::PoseSource source = sessions::PoseSource::kRun) {
     sessions::CheckLimits limits = sessions::checkLimits(session_.review.preset, {});
     limits.inlier_count = 9000.0;
     limits.coverage_percent = 100.0;
@@ -76,8 +77,7 @@ class ValidatedPose : public testing::Test {
     const std::vector<sessions::Check> checks = checkPose(subject_, limits, convergence);
     sessions::CheckWaivers waivers;
     for (const sessions::Check& check : checks)
-      if (check.state == sessions::CheckState::kFailed)
-        waivers[check.id] = "the shadow of the arm";
+      if (check.state == sessions::CheckState::kFailed) waivers[check.id] = "the shadow of the arm";
     session_ = validated(session_, subject_, checks, waivers, {"Ada", "right"}, convergence_seeds);
   }
 
@@ -223,10 +223,10 @@ TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {
   EXPECT_EQ(report.review_status, "NOT VALIDATED: converged");
 }
 
-TEST_F(ValidatedPose, OfMarksIsSolvedAgain) {
+TEST_F(ValidatedPose, OfAnnotationsIsSolvedAgain) {
   const fs::path file = write();
   EXPECT_EQ(read(file)["pose"]["source"], "annotation");
-  EXPECT_EQ(read(file)["marks"]["points"].size(), 8u);
+  EXPECT_EQ(read(file)["annotations"]["points"].size(), 8u);
   verified(file);
 }
 
@@ -452,7 +452,7 @@ TEST_F(ValidatedPose, WithoutItsRunItDoesNotVerify) {
   }
 }
 
-TEST_F(ValidatedPose, OfMarksIsMeasuredLikeThatOfARun) {
+TEST_F(ValidatedPose, OfAnnotationsIsMeasuredLikeThatOfARun) {
   validate(0, sessions::PoseSource::kAnnotation);
   const fs::path file = write();
   verified(file);

@@ -119,7 +119,7 @@ TEST(Alternatives, OfASearch_AreItsCandidates) {
   EXPECT_EQ(chosen, 1);
 }
 
-TEST(Alternatives, ResultFromALaterCandidate_MarksThatOneAsChosen) {
+TEST(Alternatives, ResultFromALaterCandidate_AnnotationsThatOneAsChosen) {
   LocalizationTrace run = *test::runOfExample("os", defaultProfile());
   run.candidates.resize(1);
   PoseCandidate elsewhere = run.candidates.front();

@@ -189,7 +189,8 @@ TEST(RunStatusText, NamesTheOtherViews) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
   EXPECT_THAT(runStatusText(trace),
-              testing::StartsWith("Together with b (left out: too few of its templates match edges of the image) and c. Converged in"));
+              testing::StartsWith("Together with b (left out: too few of its templates match edges "
+                                  "of the image) and c. Converged in"));
   trace = endedWith(LocalizationStatus::kTooFewMatches);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}};
   trace.own_view = 1;

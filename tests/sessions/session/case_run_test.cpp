@@ -59,7 +59,8 @@ TEST(CaseRun, AMeshWithAnotherHashIsNotParsed) {
   SessionCase one = *session.cases[0];
   one.parts[0].source.mesh = folder.write("m.ply", "this is no mesh");
   const std::string expected =
-      "m.ply: its bytes differ from those of the session: relink the file, or accept it as it is now";
+      "m.ply: its bytes differ from those of the session: relink the file, or accept it as it is "
+      "now";
   EXPECT_EQ(folder.message([&] { (void)sessions::loadCase(one); }), expected);
   session = withCase(session, one);
   EXPECT_EQ(sessions::checkInputs(session).front().kind, sessions::FindingKind::kChanged);

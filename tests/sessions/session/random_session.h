@@ -238,7 +238,7 @@ inline sessions::Session randomSession(Random& random) {
   for (std::uint32_t i = random.below(5); i > 0; --i) {
     const std::string id = "case " + std::to_string(i);
     session.cases.push_back(randomCase(random, id));
-    if (coin(random)) session = withAnnotation(session, id, randomAnnotation(random));
+    if (coin(random)) session = withAnnotations(session, id, randomAnnotation(random));
     if (coin(random)) session = withRounds(session, id, randomRounds(random));
     if (coin(random)) session.decisions.push_back(randomDecision(random, id));
     if (coin(random))
@@ -266,7 +266,7 @@ inline sessions::Session randomEdit(Random& random, const sessions::Session& ses
     case 0:
       return withoutCase(session, one.id);
     case 1:
-      return withAnnotation(session, one.id, randomAnnotation(random));
+      return withAnnotations(session, one.id, randomAnnotation(random));
     case 2:
       return withOptions(session, "default", randomOptions(random));
     case 3: {

@@ -437,7 +437,7 @@ TEST(SessionHistory, RunsAndTheViewAreNotUndone) {
   SessionDocument document =
       SessionDocument::create(folder / "s.json", withCase({}, randomCase(random, "a")));
   SessionHistory history(document);
-  history.perform(withAnnotation(document.session(), "a", randomAnnotation(random)), "Mark");
+  history.perform(withAnnotations(document.session(), "a", randomAnnotation(random)), "Mark");
   Session ran = document.session();
   ran.runs.push_back({"a", randomSha256(random), folder / "x", "converged", "0.1.0",
                       "2026-01-31T23:59:59Z", randomSha256(random), randomSha256(random)});
@@ -456,7 +456,7 @@ TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
   SessionDocument document = SessionDocument::open(folder / "s.json", sessions::Access::kReadOnly);
   SessionHistory history(document);
   EXPECT_NE(folder.message([&] {
-    history.perform(withAnnotation(document.session(), "a", randomAnnotation(random)), "Mark");
+    history.perform(withAnnotations(document.session(), "a", randomAnnotation(random)), "Mark");
   }),
             "(nothing)");
   EXPECT_FALSE(history.canUndo());

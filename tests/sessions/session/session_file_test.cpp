@@ -85,7 +85,7 @@ json goodSession() {
   one.camera = makePinhole(100, 80, 200.0);
   one.image.eight_bit = {};
   Session session = withCase({}, one);
-  session = withAnnotation(session, "bc", randomAnnotation(random));
+  session = withAnnotations(session, "bc", randomAnnotation(random));
   session = withRounds(session, "bc", randomRounds(random));
   session.decisions.push_back(
       {"bc", sessions::Verdict::kValidated, "Ada", "", "2026-01-31T23:59:59Z", ""});
@@ -112,8 +112,7 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
       {[](json& s) { s["version"] = "1"; }, "version: not an integer"},
       {[](json& s) { s["zoom"] = 1; }, "zoom: is not known to this version"},
       {[](json& s) { s["profile"] = "best"; }, "profile: there is no profile \"best\""},
-      {[](json& s) { s["options"]["pnp.speed"] = 1; },
-       "options.pnp.speed: unknown option"},
+      {[](json& s) { s["options"]["pnp.speed"] = 1; }, "options.pnp.speed: unknown option"},
       {[](json& s) { s["options"]["loop.max_iterations"] = 0; }, "options.loop.max_iterations: "},
       {[](json& s) { s.erase("cases"); }, "cases: missing"},
       {[](json& s) { s["cases"].push_back(s["cases"][0]); }, "cases[1].id: 'bc' is given twice"},

@@ -68,7 +68,8 @@ TEST_F(SessionOfResults, ListsTheMostTroubledFirstAndSoDoesTheQueue) {
   for (const QueueRow& row : rows) queued.push_back(row.case_id);
   EXPECT_EQ(queued, expected);
   EXPECT_EQ(troubleText(rows[0]), "not run in this session; in the results: pnp_failed");
-  EXPECT_EQ(troubleText(rows[1]), "not run in this session; in the results: error 75 % of the requirement");
+  EXPECT_EQ(troubleText(rows[1]),
+            "not run in this session; in the results: error 75 % of the requirement");
 }
 
 TEST_F(SessionOfResults, RepeatsARunByItsOwnSeedAndOptions) {

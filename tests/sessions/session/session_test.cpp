@@ -25,14 +25,14 @@ TEST(ChangedCases, NamesThoseThatSomebodyEdited) {
   Random random = randomFor("ChangedCases");
   Session before;
   for (const char* id : {"a", "b", "c"}) before = withCase(before, randomCase(random, id));
-  before = withAnnotation(before, "b", randomAnnotation(random));
+  before = withAnnotations(before, "b", randomAnnotation(random));
   EXPECT_THAT(changedCases(before, before), IsEmpty());
 
   sessions::SessionCase moved = *before.findCase("c");
   moved.camera_from_station_seed.translation_m.x() += 0.01;
   EXPECT_THAT(changedCases(before, withCase(before, moved)), ElementsAre("c"));
-  EXPECT_THAT(changedCases(before, withAnnotation(before, "b", {})), ElementsAre("b"));
-  EXPECT_THAT(changedCases(before, withAnnotation(before, "a", randomAnnotation(random))),
+  EXPECT_THAT(changedCases(before, withAnnotations(before, "b", {})), ElementsAre("b"));
+  EXPECT_THAT(changedCases(before, withAnnotations(before, "a", randomAnnotation(random))),
               ElementsAre("a"));
   EXPECT_THAT(changedCases(before, withCase(before, randomCase(random, "d"))), ElementsAre("d"));
   EXPECT_THAT(changedCases(before, withoutCase(before, "a")), IsEmpty());

@@ -210,8 +210,7 @@ TEST_F(ViewsRunTest, AHandedPoseOfItIsVerifiedByRunningAllViewsAgain) {
   EXPECT_TRUE(report.good());
   bool said = false;
   for (const auto& finding : report.findings)
-    said = said ||
-           finding.text == "the run together with " + second() + " gives the same digest";
+    said = said || finding.text == "the run together with " + second() + " gives the same digest";
   EXPECT_TRUE(said);
 }
 

@@ -18,23 +18,23 @@ TEST_F(AnnotationControllerTest, APairIsMadeInEitherOrderAndStaysHalfMadeUntilTh
   const Eigen::Vector3d corner_m = corners_m(1).front();
   const std::string first = controller_.placeInImage({10.25, 20.5});
   EXPECT_EQ(first, "p1");
-  ASSERT_EQ(controller_.marks().points.size(), 1u);
-  EXPECT_FALSE(controller_.marks().points[0].complete());
+  ASSERT_EQ(controller_.annotations().points.size(), 1u);
+  EXPECT_FALSE(controller_.annotations().points[0].complete());
   EXPECT_EQ(controller_.placeOnStation(corner_m), first)
       << "the chosen half-made pair is completed";
-  EXPECT_TRUE(controller_.marks().points[0].complete());
+  EXPECT_TRUE(controller_.annotations().points[0].complete());
   const std::string second = controller_.placeOnStation(corner_m);
   EXPECT_EQ(second, "p2") << "a complete pair is not overwritten";
   EXPECT_EQ(controller_.placeInImage({30.0, 40.0}), second);
-  EXPECT_EQ(controller_.marks().points[1].pixel, Eigen::Vector2d(30.0, 40.0));
+  EXPECT_EQ(controller_.annotations().points[1].pixel, Eigen::Vector2d(30.0, 40.0));
   EXPECT_EQ(document_.undoText(), QStringLiteral("Place p2 on the image"));
   ASSERT_TRUE(document_.undo());
-  EXPECT_FALSE(controller_.marks().points[1].pixel);
+  EXPECT_FALSE(controller_.annotations().points[1].pixel);
   ASSERT_TRUE(document_.undo());
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
   ASSERT_TRUE(document_.redo());
   ASSERT_TRUE(document_.redo());
-  EXPECT_TRUE(controller_.marks().points[1].complete());
+  EXPECT_TRUE(controller_.annotations().points[1].complete());
 }
 
 TEST_F(AnnotationControllerTest, LinesArePairedLikewise) {
@@ -42,8 +42,8 @@ TEST_F(AnnotationControllerTest, LinesArePairedLikewise) {
   const std::string id = controller_.placeEdgeOnStation(edge);
   EXPECT_EQ(id, "l1");
   EXPECT_EQ(controller_.placeLineInImage({{10.0, 10.0}, {50.0, 10.0}}), id);
-  ASSERT_EQ(controller_.marks().lines.size(), 1u);
-  EXPECT_TRUE(controller_.marks().lines[0].complete());
+  ASSERT_EQ(controller_.annotations().lines.size(), 1u);
+  EXPECT_TRUE(controller_.annotations().lines[0].complete());
   QSignalSpy told(&controller_, &AnnotationController::told);
   EXPECT_EQ(controller_.placeLineInImage({{10.0, 10.0}, {10.2, 10.0}}), "");
   EXPECT_EQ(told.count(), 1);
@@ -76,14 +76,14 @@ TEST_F(AnnotationControllerTest, AGestureIsOneStepOfUndo) {
   EXPECT_EQ(document_.undoText(), QStringLiteral("Move p1"));
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(controller_.nudge({0.1, 0.0}));
   controller_.finishMove();
-  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 119.5, 1e-9);
+  EXPECT_NEAR(controller_.annotations().points[0].pixel->x(), 119.5, 1e-9);
   ASSERT_TRUE(document_.undo());
-  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 119.0, 1e-9);
+  EXPECT_NEAR(controller_.annotations().points[0].pixel->x(), 119.0, 1e-9);
   ASSERT_TRUE(document_.undo());
-  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 100.0, 1e-9);
+  EXPECT_NEAR(controller_.annotations().points[0].pixel->x(), 100.0, 1e-9);
 }
 
-TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReason) {
+TEST_F(AnnotationControllerTest, LockedAnnotationsAndPlacesOutsideAreRefusedWithAReason) {
   const std::string id = controller_.placeInImage({100.0, 100.0});
   sessions::PointPair locked = *controller_.selectedPoint();
   locked.locked = true;
@@ -92,7 +92,7 @@ TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReaso
   EXPECT_FALSE(controller_.dragInImage(id, {1.0, 1.0}));
   EXPECT_FALSE(controller_.nudge({1.0, 0.0}));
   controller_.remove(id);
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
   EXPECT_EQ(controller_.placeInImage({-3.0, 10.0}), "");
   EXPECT_EQ(controller_.placeInImage({std::nan(""), 10.0}), "");
   EXPECT_EQ(told.count(), 5);
@@ -103,9 +103,9 @@ TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReaso
 
 TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHowPeopleDiffer) {
   const auto ids = markCorners(6);
-  const sessions::Marks first = controller_.marks();
+  const sessions::Annotations first = controller_.annotations();
   controller_.putAside(QStringLiteral(" Ada "));
-  for (const sessions::PointPair& point : controller_.marks().points) {
+  for (const sessions::PointPair& point : controller_.annotations().points) {
     EXPECT_TRUE(point.point_in_station_m);
     EXPECT_FALSE(point.pixel);
   }
@@ -117,14 +117,14 @@ TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHow
   ASSERT_EQ(controller_.answer().rounds.size(), 1u);
   EXPECT_EQ(controller_.answer().rounds[0].by, "Ada");
   EXPECT_TRUE(controller_.answer().rounds[0].camera_from_station);
-  EXPECT_EQ(controller_.answer().rounds[0].repeatability.marks.size(), ids.size());
+  EXPECT_EQ(controller_.answer().rounds[0].repeatability.annotations.size(), ids.size());
   EXPECT_NEAR(controller_.answer().rounds[0].repeatability.sigma_px, 0.5 / std::sqrt(2.0), 1e-9);
   controller_.takeUp(0);
-  EXPECT_EQ(controller_.marks(), first);
+  EXPECT_EQ(controller_.annotations(), first);
   EXPECT_EQ(document_.session().rounds.at(source().id)->size(), 2u)
-      << "the marks that were at work are put aside";
+      << "the annotations that were at work are put aside";
   ASSERT_TRUE(document_.undo()) << "the second round is not lost";
-  EXPECT_TRUE(controller_.marks().points[0].complete());
+  EXPECT_TRUE(controller_.annotations().points[0].complete());
   controller_.removeRound(0);
   EXPECT_TRUE(document_.session().rounds.empty());
 }
@@ -180,15 +180,15 @@ TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithF
   ASSERT_TRUE(document_.undo());
 }
 
-TEST_F(AnnotationControllerTest, MarksBelongToTheirCaseAndSurviveTheProgram) {
+TEST_F(AnnotationControllerTest, AnnotationsBelongToTheirCaseAndSurviveTheProgram) {
   controller_.placeInImage({12.0, 34.0});
   const std::string id = source().id;
   const auto other = document_.session().cases.back()->id;
   ASSERT_NE(other, id);
   open(other);
-  EXPECT_TRUE(controller_.marks().empty());
+  EXPECT_TRUE(controller_.annotations().empty());
   open(id);
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
   const auto killed =
       sessions::SessionDocument::open(document_.file(), sessions::Access::kReadOnly);
   ASSERT_TRUE(killed.recovery());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks placed with real mouse events in the scene, without OpenGL. Runs at a scaling of 1, and
-// again with QT_SCALE_FACTOR=1.5.
+// Annotations placed with real mouse events in the scene, without OpenGL. Runs at a scaling of 1,
+// and again with QT_SCALE_FACTOR=1.5.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,7 @@ class SceneAnnotatingTest : public AnnotationTest {
     return view_.annotator()->aim() ? view_.annotator()->aim()->text : QString();
   }
   Eigen::Vector3d lastPlace_m() const {
-    const auto& points = controller_.marks().points;
+    const auto& points = controller_.annotations().points;
     if (points.empty() || !points.back().point_in_station_m) return {9.0, 9.0, 9.0};
     return *points.back().point_in_station_m;
   }
@@ -112,7 +112,7 @@ TEST_P(SceneAnnotatingFrom, AClickNearACornerGivesTheVerticesOwnDigits) {
     click(pixelOf(kCorner_m) + off);
     EXPECT_EQ(lastPlace_m(), kCorner_m);
   }
-  EXPECT_EQ(controller_.marks().points.size(), 3u);
+  EXPECT_EQ(controller_.annotations().points.size(), 3u);
 }
 
 TEST_P(SceneAnnotatingFrom, AClickNearAnEdgeGivesItsNearestPlace) {
@@ -153,15 +153,15 @@ TEST_P(SceneAnnotatingFrom, AltTakesTheSurfaceInstead) {
   EXPECT_LT((lastPlace_m() - onLevel(at, 0.0)).norm(), 1e-7);
 }
 
-TEST_P(SceneAnnotatingFrom, AnEdgeIsMarkedInLineMode) {
+TEST_P(SceneAnnotatingFrom, AnEdgeIsAnnotatedInLineMode) {
   controller_.setMode(PlaceMode::kLine);
   const Eigen::Vector3d middle_m(0.1, 0.03, 0.0);
   hover(pixelOf(middle_m) + QPointF(4.0, 2.0));
   ASSERT_TRUE(view_.annotator()->aim());
   EXPECT_TRUE(view_.annotator()->aim()->edge);
   click(pixelOf(middle_m) + QPointF(4.0, 2.0));
-  ASSERT_EQ(controller_.marks().lines.size(), 1u);
-  const sessions::ModelEdge edge = *controller_.marks().lines[0].edge;
+  ASSERT_EQ(controller_.annotations().lines.size(), 1u);
+  const sessions::ModelEdge edge = *controller_.annotations().lines[0].edge;
   for (const Eigen::Vector3d& end_m : {edge.start_in_station_m, edge.end_in_station_m}) {
     EXPECT_EQ(end_m.x(), kCorner_m.x());
     EXPECT_EQ(std::abs(end_m.y()), std::abs(kCorner_m.y()));
@@ -177,13 +177,13 @@ TEST_F(SceneAnnotatingTest, WithoutAnEdgeALineIsRefusedWithAReason) {
   controller_.setMode(PlaceMode::kLine);
   QSignalSpy told(&controller_, &AnnotationController::told);
   click(pixelOf({-0.05, -0.03, 0.0}));
-  EXPECT_TRUE(controller_.marks().lines.empty());
+  EXPECT_TRUE(controller_.annotations().lines.empty());
   ASSERT_EQ(told.count(), 1);
   EXPECT_TRUE(told[0][0].toString().contains(QStringLiteral("edge")));
   controller_.setMode(PlaceMode::kPoint);
   click({3.0, 3.0});  // beside the station
   EXPECT_EQ(told.count(), 2);
-  EXPECT_TRUE(controller_.marks().empty());
+  EXPECT_TRUE(controller_.annotations().empty());
 }
 
 TEST_F(SceneAnnotatingTest, TabGoesOnToOtherThingsAndComesBack) {
@@ -208,21 +208,21 @@ TEST_F(SceneAnnotatingTest, APairIsCompletedFromTheSceneInEitherOrder) {
   const std::string image_first = controller_.placeInImage({10.0, 12.0});
   EXPECT_TRUE(view_.annotator()->nextStep().contains(QStringLiteral("p1")));
   click(pixelOf(kCorner_m));
-  ASSERT_EQ(controller_.marks().points.size(), 1u);
-  EXPECT_EQ(controller_.marks().points[0].id, image_first);
-  EXPECT_TRUE(controller_.marks().points[0].complete());
+  ASSERT_EQ(controller_.annotations().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points[0].id, image_first);
+  EXPECT_TRUE(controller_.annotations().points[0].complete());
   click(pixelOf(kCircle_m));
-  ASSERT_EQ(controller_.marks().points.size(), 2u);
-  EXPECT_FALSE(controller_.marks().points[1].complete());
-  const std::string scene_first = controller_.marks().points[1].id;
+  ASSERT_EQ(controller_.annotations().points.size(), 2u);
+  EXPECT_FALSE(controller_.annotations().points[1].complete());
+  const std::string scene_first = controller_.annotations().points[1].id;
   EXPECT_EQ(controller_.placeInImage({20.0, 22.0}), scene_first);
-  EXPECT_TRUE(controller_.marks().points[1].complete());
+  EXPECT_TRUE(controller_.annotations().points[1].complete());
   ASSERT_TRUE(document_.undo());
   ASSERT_TRUE(document_.undo());
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
 }
 
-TEST_F(SceneAnnotatingTest, AClickOnAMarkChoosesItUnlessSomebodyPlaces) {
+TEST_F(SceneAnnotatingTest, AClickOnAAnnotationChoosesItUnlessSomebodyPlaces) {
   const std::string corner = controller_.placeOnStation(kCorner_m);
   controller_.select({});
   const std::string hidden = controller_.placeOnStation(kHiddenCorner_m);
@@ -237,11 +237,11 @@ TEST_F(SceneAnnotatingTest, AClickOnAMarkChoosesItUnlessSomebodyPlaces) {
   EXPECT_EQ(controller_.selected(), edge);
   click(pixelOf(kHiddenCorner_m));
   EXPECT_NE(controller_.selected(), hidden) << "a face hides it";
-  const std::size_t before = controller_.marks().points.size();
+  const std::size_t before = controller_.annotations().points.size();
   controller_.setMode(PlaceMode::kPoint);
   controller_.select({});
   click(pixelOf(kCorner_m));
-  EXPECT_EQ(controller_.marks().points.size(), before + 1);
+  EXPECT_EQ(controller_.annotations().points.size(), before + 1);
 }
 
 TEST_F(SceneAnnotatingTest, EscapeDropsTheChoiceThenTheMode) {
@@ -255,7 +255,7 @@ TEST_F(SceneAnnotatingTest, EscapeDropsTheChoiceThenTheMode) {
   EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
 }
 
-TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndMarksNothing) {
+TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndAnnotationsNothing) {
   controller_.setMode(PlaceMode::kPoint);
   const double azimuth_rad = view_.navigation().orbit().azimuth_rad();
   const QPoint from = screenPixel(pixelOf(kCorner_m));
@@ -265,7 +265,7 @@ TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndMarksNothing) {
   send(QEvent::MouseButtonRelease, from + QPoint(80, 0), Qt::LeftButton, Qt::NoButton,
        Qt::NoModifier);
   EXPECT_NE(view_.navigation().orbit().azimuth_rad(), azimuth_rad);
-  EXPECT_TRUE(controller_.marks().empty());
+  EXPECT_TRUE(controller_.annotations().empty());
 }
 
 TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned) {
@@ -334,7 +334,7 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
     one.rig = sessions::Rig{"rig", id == own ? Pose() : other_from_own};
     session = withCase(session, one);
   }
-  sessions::Marks marks;  // of the other camera: one place, exactly where it is seen
+  sessions::Annotations annotations;  // of the other camera: one place, exactly where it is seen
   sessions::PointPair point;
   point.id = "p1";
   point.point_in_station_m = corners_m(1).front();
@@ -343,8 +343,8 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
   ASSERT_TRUE(project(session.findCase(other)->camera,
                       other_from_station * *point.point_in_station_m, pixel));
   point.pixel = pixel;
-  marks.points = {point};
-  session = sessions::withAnnotation(session, other, marks);
+  annotations.points = {point};
+  session = sessions::withAnnotations(session, other, annotations);
   ASSERT_TRUE(document_.edit(session, QStringLiteral("Rig")));
   open(own);
   ASSERT_EQ(markCorners(8).size(), 8u);
@@ -362,7 +362,7 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
   EXPECT_EQ(shown, 1);
 }
 
-TEST_F(SceneAnnotatingTest, MarksAreDrawnByWhatTheyAre) {
+TEST_F(SceneAnnotatingTest, AnnotationsAreDrawnByWhatTheyAre) {
   const auto drawn = [this] { return view_.grab().toImage(); };
   const auto differing = [](const QImage& a, const QImage& b) {
     int count = 0;
@@ -380,7 +380,7 @@ TEST_F(SceneAnnotatingTest, MarksAreDrawnByWhatTheyAre) {
   controller_.select({});
   pictures.push_back(drawn());  // complete
   for (const bool lock : {true, false}) {
-    sessions::PointPair point = controller_.marks().points[0];
+    sessions::PointPair point = controller_.annotations().points[0];
     point.locked = lock;
     point.enabled = lock;
     ASSERT_TRUE(controller_.replacePoint(id, point, QStringLiteral("Change")));

@@ -7,7 +7,7 @@
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/session_document.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/ui/review/review_fixture.h"
 #include "ui/models/text.h"
 #include "ui/panels/cases_panel.h"
@@ -209,10 +209,10 @@ TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
   EXPECT_TRUE(history().contains(QStringLiteral("Taken back by Grace"))) << "the newest first";
 }
 
-TEST_F(ReviewPanelTest, MarksCanBeJudgedInsteadAndTheirChangeIsTold) {
+TEST_F(ReviewPanelTest, AnnotationsCanBeJudgedInsteadAndTheirChangeIsTold) {
   sessions::Session session = RunExample::get().withItsRun(file());
   const std::string id = RunExample::get().id;
-  session = withAnnotation(session, id, *test::markedExample(0.2).annotations.at(id));
+  session = withAnnotations(session, id, *test::annotatedExample(0.2).annotations.at(id));
   open(session, id);
   ASSERT_TRUE(checked());
   auto* judged = panel_->findChild<QComboBox*>(QStringLiteral("judged"));
@@ -226,10 +226,10 @@ TEST_F(ReviewPanelTest, MarksCanBeJudgedInsteadAndTheirChangeIsTold) {
   validateAs(QStringLiteral("Ada"));
   ASSERT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_EQ(controller().reviewStatus().decision->pose->source, sessions::PoseSource::kAnnotation);
-  sessions::Marks moved = *document_.session().annotations.at(id);
+  sessions::Annotations moved = *document_.session().annotations.at(id);
   moved.points[0].pixel->x() += 0.3;
-  document_.edit(withAnnotation(document_.session(), id, moved), QStringLiteral("Move"));
-  EXPECT_TRUE(test::has(banner(), "the marks have changed"));
+  document_.edit(withAnnotations(document_.session(), id, moved), QStringLiteral("Move"));
+  EXPECT_TRUE(test::has(banner(), "the annotations have changed"));
   EXPECT_FALSE(controller().isCurrent());
 }
 

@@ -97,8 +97,7 @@ TEST(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
   std::string at_end = textOf(vicar.bytes(gray));
   EXPECT_EQ(message(at_end), "(nothing)");
   at_end.pop_back();
-  EXPECT_EQ(message(at_end),
-            "x.vic: EOL: the part of the label at the file's end is incomplete");
+  EXPECT_EQ(message(at_end), "x.vic: EOL: the part of the label at the file's end is incomplete");
 }
 
 TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {

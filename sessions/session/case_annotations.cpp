@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 
 #include <utility>
 
@@ -12,27 +12,27 @@
 namespace boresight::sessions {
 namespace {
 
-Marks marksOf(const Session& session, const std::string& case_id) {
+Annotations annotationsOf(const Session& session, const std::string& case_id) {
   const auto found = session.annotations.find(case_id);
-  return found == session.annotations.end() ? Marks() : *found->second;
+  return found == session.annotations.end() ? Annotations() : *found->second;
 }
 
-MarkedView viewOf(const Session& session, const SessionCase& one, const Pose& camera_from_rig) {
-  MarkedView view;
+AnnotatedView viewOf(const Session& session, const SessionCase& one, const Pose& camera_from_rig) {
+  AnnotatedView view;
   view.name = one.id;
   view.camera = one.camera;
   if (prepareCamera(view.camera) != Status::kOk)
     throw InputError("case " + one.id, "camera", "its parameters are not those of a camera");
   view.camera_from_rig = camera_from_rig;
-  view.marks = marksOf(session, one.id);
+  view.annotations = annotationsOf(session, one.id);
   return view;
 }
 
 }  // namespace
 
-CaseMarks caseMarks(const Session& session, const std::string& case_id, bool together) {
+CaseAnnotations caseAnnotations(const Session& session, const std::string& case_id, bool together) {
   const SessionCase* chosen = &knownCase(session, case_id);
-  CaseMarks made;
+  CaseAnnotations made;
   made.requirement = requirementOf(session, *chosen);
   made.camera_from_end_effector = chosen->camera_from_end_effector;
   const auto add = [&](const SessionCase& one, const Pose& camera_from_rig) {
@@ -50,61 +50,63 @@ CaseMarks caseMarks(const Session& session, const std::string& case_id, bool tog
   return made;
 }
 
-std::optional<Pose> CaseMarksSolution::camera_from_station() const {
+std::optional<Pose> CaseAnnotationsSolution::camera_from_station() const {
   if (!result.solution) return {};
   return result.solution->camera_from_station[0];
 }
 
-std::optional<Matrix6d> CaseMarksSolution::covariance() const {
+std::optional<Matrix6d> CaseAnnotationsSolution::covariance() const {
   if (!result.solution) return {};
-  return cameraCovariance(*result.solution, marks.views[0]);
+  return cameraCovariance(*result.solution, annotations.views[0]);
 }
 
-std::string CaseMarksSolution::sigmaExcess() const {
-  return sigmaExcessText(covariance().value_or(Matrix6d::Zero()), marks.camera_from_end_effector,
-                         marks.requirement);
+std::string CaseAnnotationsSolution::sigmaExcess() const {
+  return sigmaExcessText(covariance().value_or(Matrix6d::Zero()),
+                         annotations.camera_from_end_effector, annotations.requirement);
 }
 
-std::optional<Pose> CaseMarksSolution::ambiguous_camera_from_station() const {
+std::optional<Pose> CaseAnnotationsSolution::ambiguous_camera_from_station() const {
   if (!result.solution || !result.solution->ambiguous) return {};
-  return marks.views[0].camera_from_rig * result.solution->ambiguous->rig_from_station;
+  return annotations.views[0].camera_from_rig * result.solution->ambiguous->rig_from_station;
 }
 
-std::map<std::string, double> CaseMarksSolution::outlierMarks() const {
+std::map<std::string, double> CaseAnnotationsSolution::outlierAnnotations() const {
   std::map<std::string, double> found;
   if (!result.solution) return found;
-  for (const SolvedMark& mark : result.solution->marks)
-    if (mark.address.view == 0 && mark.isOutlier())
-      found[markId(marks.views, mark.address)] = mark.normalized;
+  for (const SolvedAnnotation& annotation : result.solution->annotations)
+    if (annotation.address.view == 0 && annotation.isOutlier())
+      found[annotationId(annotations.views, annotation.address)] = annotation.normalized;
   return found;
 }
 
-CaseMarksSolution solveCaseMarks(CaseMarks marks, const Pose& camera_from_station_guess,
-                                 std::span<const Eigen::Vector3d> station_m, bool robust) {
-  CaseMarksSolution made;
-  made.marks = std::move(marks);
-  const std::vector<MarkedView>& views = made.marks.views;
-  SolveMarksOptions options;
+CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
+                                             const Pose& camera_from_station_guess,
+                                             std::span<const Eigen::Vector3d> station_m,
+                                             bool robust) {
+  CaseAnnotationsSolution made;
+  made.annotations = std::move(annotations);
+  const std::vector<AnnotatedView>& views = made.annotations.views;
+  SolveAnnotationsOptions options;
   options.robust = robust;
   options.rig_from_station_guess = views[0].camera_from_rig.inverse() * camera_from_station_guess;
   made.warnings = geometryWarnings(views, &*options.rig_from_station_guess, station_m);
-  made.result = solveMarks(views, options);
+  made.result = solveAnnotations(views, options);
   if (made.result.solution) made.left_out = leaveOneOut(views, *made.result.solution);
   const std::string excess = made.sigmaExcess();
   if (!excess.empty()) made.warnings.push_back(imprecisionWarning(excess));
   return made;
 }
 
-CaseMarksSolution solveCaseMarks(const Session& session, const std::string& case_id, bool together,
-                                 bool robust) {
-  CaseMarks marks = caseMarks(session, case_id, together);
+CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::string& case_id,
+                                             bool together, bool robust) {
+  CaseAnnotations annotations = caseAnnotations(session, case_id, together);
   const SessionCase& one = *session.findCase(case_id);
   const SceneMesh scene = readKnownScene(one.parts);
-  return solveCaseMarks(std::move(marks), marksGuess(one), boxCorners(matchedBounds(scene.view())),
-                        robust);
+  return solveCaseAnnotations(std::move(annotations), annotationsGuess(one),
+                              boxCorners(matchedBounds(scene.view())), robust);
 }
 
-const Pose& marksGuess(const SessionCase& one) {
+const Pose& annotationsGuess(const SessionCase& one) {
   return one.camera_from_station_working ? *one.camera_from_station_working
                                          : one.camera_from_station_seed;
 }

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 
 #include <gmock/gmock.h>
 
 #include "sessions/io/errors.h"
-#include "tests/sessions/annotation/marked_scene.h"
+#include "tests/sessions/annotation/annotated_scene.h"
 #include "tests/sessions/session/random_session.h"
 
 namespace boresight::test {
 namespace {
 
-using sessions::caseMarks;
-using sessions::MarkedView;
+using sessions::AnnotatedView;
+using sessions::caseAnnotations;
 using sessions::Session;
 
 /// Two cameras of a rig that see one station, a camera elsewhere, and a session of them.
 struct RigSession {
   Session session;
-  std::vector<MarkedView> views;  ///< left, right
+  std::vector<AnnotatedView> views;  ///< left, right
   Pose rig_from_station;
 
   explicit RigSession(double noise_px = 0.3) {
     Random random = randomFor("RigSession");
-    const MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, noise_px);
+    const AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, noise_px);
     Pose left_from_rig, right_from_rig;
     left_from_rig.rotation = rotationExp({0.01, -0.02, 0.03});
     left_from_rig.translation_m = {0.05, 0.01, 0.0};
@@ -35,21 +35,21 @@ struct RigSession {
     views[1].name = "right";
     views[1].camera = annotatedCamera(CameraModel::kKannalaBrandt);
     views[1].camera_from_rig = right_from_rig;
-    views[1].marks = {};
-    while (views[1].marks.points.size() < 5)
+    views[1].annotations = {};
+    while (views[1].annotations.points.size() < 5)
       addPoint(views[1], right_from_rig * rig_from_station, randomVector(random, 0.1), noise_px,
                0.3, random);
     for (const char* id : {"right", "other", "left", "unmarked"}) addCase(random, id);
-    session = withAnnotation(session, "left", views[0].marks);
-    session = withAnnotation(session, "right", views[1].marks);
-    session = withAnnotation(session, "other", randomAnnotation(random));
+    session = withAnnotations(session, "left", views[0].annotations);
+    session = withAnnotations(session, "right", views[1].annotations);
+    session = withAnnotations(session, "other", randomAnnotation(random));
   }
 
   void addCase(Random& random, const std::string& id) {
     sessions::SessionCase one = randomCase(random, id);
     one.rig = sessions::Rig{id == "other" ? "another rig" : "rig", Pose()};
     if (id == "left" || id == "right") {
-      const MarkedView& view = views[id == "left" ? 0 : 1];
+      const AnnotatedView& view = views[id == "left" ? 0 : 1];
       one.camera = view.camera;
       one.rig->camera_from_rig = view.camera_from_rig;
     }
@@ -57,36 +57,37 @@ struct RigSession {
   }
 };
 
-TEST(CaseMarks, PutsTheCaseFirstAndLeavesOutUnmarkedAndOtherRigs) {
+TEST(CaseAnnotations, PutsTheCaseFirstAndLeavesOutUnannotatedAndOtherRigs) {
   const RigSession rig;
-  const auto together = caseMarks(rig.session, "left");
+  const auto together = caseAnnotations(rig.session, "left");
   EXPECT_EQ(together.case_ids, (std::vector<std::string>{"left", "right"}));
   EXPECT_TRUE(together.rigid);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(together.views[i].name, rig.views[i].name);
-    EXPECT_EQ(together.views[i].marks, rig.views[i].marks);
+    EXPECT_EQ(together.views[i].annotations, rig.views[i].annotations);
     EXPECT_EQ(together.views[i].camera, rig.views[i].camera);
     EXPECT_EQ(together.views[i].camera_from_rig, rig.views[i].camera_from_rig);
   }
-  const auto alone = caseMarks(rig.session, "left", false);
+  const auto alone = caseAnnotations(rig.session, "left", false);
   EXPECT_EQ(alone.case_ids, std::vector<std::string>{"left"});
   EXPECT_FALSE(alone.rigid);
   EXPECT_EQ(alone.views[0].camera_from_rig, Pose());
-  EXPECT_EQ(caseMarks(rig.session, "unmarked").case_ids,
+  EXPECT_EQ(caseAnnotations(rig.session, "unmarked").case_ids,
             (std::vector<std::string>{"unmarked", "right", "left"}));
-  EXPECT_FALSE(caseMarks(rig.session, "other").rigid);
-  EXPECT_THROW((void)caseMarks(rig.session, "nobody"), sessions::InputError);
+  EXPECT_FALSE(caseAnnotations(rig.session, "other").rigid);
+  EXPECT_THROW((void)caseAnnotations(rig.session, "nobody"), sessions::InputError);
 }
 
-TEST(CaseMarks, SolvesWithTheDigitsOfTheViewsThemselves) {
+TEST(CaseAnnotations, SolvesWithTheDigitsOfTheViewsThemselves) {
   const RigSession rig;
   const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
   for (const bool robust : {false, true}) {
-    sessions::SolveMarksOptions options;
+    sessions::SolveAnnotationsOptions options;
     options.robust = robust;
     options.rig_from_station_guess = rig.views[0].camera_from_rig.inverse() * guess;
-    const auto direct = sessions::solveMarks(rig.views, options);
-    const auto made = sessions::solveCaseMarks(caseMarks(rig.session, "left"), guess, {}, robust);
+    const auto direct = sessions::solveAnnotations(rig.views, options);
+    const auto made =
+        sessions::solveCaseAnnotations(caseAnnotations(rig.session, "left"), guess, {}, robust);
     ASSERT_TRUE(direct.solution && made.result.solution) << made.result.reason;
     EXPECT_EQ(made.result.solution->rig_from_station, direct.solution->rig_from_station);
     EXPECT_EQ(made.result.solution->covariance, direct.solution->covariance);
@@ -101,54 +102,57 @@ TEST(CaseMarks, SolvesWithTheDigitsOfTheViewsThemselves) {
   }
 }
 
-TEST(CaseMarks, NamesItsOwnMarksThatStandOut) {
-  using sessions::MarkKind;
-  sessions::CaseMarksSolution made;
-  EXPECT_TRUE(made.outlierMarks().empty()) << "without a solution";
-  made.marks.views = RigSession().views;
+TEST(CaseAnnotations, NamesItsOwnAnnotationsThatStandOut) {
+  using sessions::AnnotationKind;
+  sessions::CaseAnnotationsSolution made;
+  EXPECT_TRUE(made.outlierAnnotations().empty()) << "without a solution";
+  made.annotations.views = RigSession().views;
   made.result.solution.emplace();
-  const auto add = [&](const sessions::MarkAddress& address, bool projected, double normalized) {
-    sessions::SolvedMark& mark = made.result.solution->marks.emplace_back();
-    mark.address = address;
-    mark.projected = projected;
-    mark.normalized = normalized;
+  const auto add = [&](const sessions::AnnotationAddress& address, bool projected,
+                       double normalized) {
+    sessions::SolvedAnnotation& annotation = made.result.solution->annotations.emplace_back();
+    annotation.address = address;
+    annotation.projected = projected;
+    annotation.normalized = normalized;
   };
-  add({0, MarkKind::kPoint, 0}, true, 2.9);
-  add({0, MarkKind::kPoint, 1}, true, 4.2);
-  add({0, MarkKind::kPoint, 2}, false, 9.0);
-  add({0, MarkKind::kLine, 1}, true, 3.1);
-  add({1, MarkKind::kPoint, 3}, true, 8.0);
-  const sessions::Marks& own = made.marks.views[0].marks;
+  add({0, AnnotationKind::kPoint, 0}, true, 2.9);
+  add({0, AnnotationKind::kPoint, 1}, true, 4.2);
+  add({0, AnnotationKind::kPoint, 2}, false, 9.0);
+  add({0, AnnotationKind::kLine, 1}, true, 3.1);
+  add({1, AnnotationKind::kPoint, 3}, true, 8.0);
+  const sessions::Annotations& own = made.annotations.views[0].annotations;
   const std::map<std::string, double> expected = {{own.points[1].id, 4.2}, {own.lines[1].id, 3.1}};
-  EXPECT_EQ(made.outlierMarks(), expected);
+  EXPECT_EQ(made.outlierAnnotations(), expected);
 }
 
-TEST(CaseMarks, AnUnmarkedCaseGetsItsPoseFromTheRig) {
+TEST(CaseAnnotations, AnUnannotatedCaseGetsItsPoseFromTheRig) {
   const RigSession rig(0.0);
-  Session session = withAnnotation(rig.session, "left", {});
-  const auto made = sessions::solveCaseMarks(caseMarks(session, "left"), Pose(), {}, false);
+  Session session = withAnnotations(rig.session, "left", {});
+  const auto made =
+      sessions::solveCaseAnnotations(caseAnnotations(session, "left"), Pose(), {}, false);
   ASSERT_TRUE(made.camera_from_station()) << made.result.reason;
   const Pose truth = rig.views[0].camera_from_rig * rig.rig_from_station;
   EXPECT_LT(perturbationBetween(truth, *made.camera_from_station()).norm(), 1e-6);
 }
 
-TEST(CaseMarks, SaysWhyThereIsNoPose) {
+TEST(CaseAnnotations, SaysWhyThereIsNoPose) {
   const RigSession rig;
-  const auto made = sessions::solveCaseMarks(caseMarks(rig.session, "other"), Pose(), {}, false);
+  const auto made =
+      sessions::solveCaseAnnotations(caseAnnotations(rig.session, "other"), Pose(), {}, false);
   if (!made.result.solution) {
     EXPECT_FALSE(made.result.reason.empty());
     EXPECT_FALSE(made.camera_from_station());
     EXPECT_TRUE(made.left_out.empty());
   }
-  const auto none = sessions::solveCaseMarks(
-      caseMarks(withAnnotation(rig.session, "other", {}), "other"), Pose(), {}, false);
+  const auto none = sessions::solveCaseAnnotations(
+      caseAnnotations(withAnnotations(rig.session, "other", {}), "other"), Pose(), {}, false);
   EXPECT_FALSE(none.camera_from_station());
   ASSERT_FALSE(none.warnings.empty());
   EXPECT_TRUE(none.warnings[0].prevents);
   EXPECT_EQ(none.result.reason, none.warnings[0].text);
 }
 
-TEST(CaseMarks, ASigmaBeyondTheRequirementIsCalledWeakAndByHowMuch) {
+TEST(CaseAnnotations, ASigmaBeyondTheRequirementIsCalledWeakAndByHowMuch) {
   const RigSession rig(3.0);
   Session session = rig.session;
   const auto warningsFor = [&](double required_mm) {
@@ -157,7 +161,8 @@ TEST(CaseMarks, ASigmaBeyondTheRequirementIsCalledWeakAndByHowMuch) {
     one.camera_from_end_effector = Pose();
     session = withCase(session, one);
     const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
-    return sessions::solveCaseMarks(caseMarks(session, "left", false), guess, {}, false);
+    return sessions::solveCaseAnnotations(caseAnnotations(session, "left", false), guess, {},
+                                          false);
   };
   const auto made = warningsFor(0.001);
   ASSERT_TRUE(made.result.solution);
@@ -174,7 +179,7 @@ TEST(CaseMarks, ASigmaBeyondTheRequirementIsCalledWeakAndByHowMuch) {
   EXPECT_EQ(warningsFor(1e6).warnings.size(), weak.size() - 1);
 }
 
-TEST(CaseMarks, NamesTheCornersOfABox) {
+TEST(CaseAnnotations, NamesTheCornersOfABox) {
   const auto corners = sessions::boxCorners({{-1, -2, -3}, {1, 2, 3}});
   ASSERT_EQ(corners.size(), 8u);
   EXPECT_EQ(corners.front(), Eigen::Vector3d(-1, -2, -3));

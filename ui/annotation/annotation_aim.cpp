@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annotation/mark_aim.h"
+#include "ui/annotation/annotation_aim.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <QCoreApplication>
 #include <QFontMetricsF>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/run/surface_point.h"
 #include "ui/views/overlay_painters.h"
 
@@ -33,7 +33,7 @@ constexpr std::array<const char*, 3> kMeshSnapNames = {"vertex", "model edge", "
 
 /// Which of several, and how many there are to choose from.
 template <class Snap>
-const Snap& chosenOf(const std::vector<Snap>& snaps, int turn, MarkAim& aim) {
+const Snap& chosenOf(const std::vector<Snap>& snaps, int turn, AnnotationAim& aim) {
   aim.found = static_cast<int>(snaps.size());
   aim.chosen = turn % aim.found;
   return snaps[static_cast<std::size_t>(aim.chosen)];
@@ -45,9 +45,9 @@ double snapRadius_px(double scale) {
   return std::clamp(kSnapRadius / scale, kLeastRadius_px, kMostRadius_px);
 }
 
-MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& pointer,
-                   const AimRules& rules) {
-  MarkAim aim;
+AnnotationAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& pointer,
+                         const AimRules& rules) {
+  AnnotationAim aim;
   aim.side = AimSide::kImage;
   aim.pixel = pointer;
   aim.text = aimText("free");
@@ -66,10 +66,10 @@ MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& point
   return aim;
 }
 
-MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
-                     const Eigen::Vector2d& pointer, std::vector<MeshSnap> snaps,
-                     const AimRules& rules) {
-  MarkAim aim;
+AnnotationAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
+                           const Eigen::Vector2d& pointer, std::vector<MeshSnap> snaps,
+                           const AimRules& rules) {
+  AnnotationAim aim;
   const Camera& camera = one.source.camera;
   if (rules.line) std::erase_if(snaps, [](const MeshSnap& snap) { return !snap.edge; });
   if (!snaps.empty() && (rules.snaps || rules.line)) {
@@ -122,7 +122,7 @@ QPolygonF ellipseOnWidget(const ViewTransform& transform, const sessions::Ellips
   return line;
 }
 
-void paintFound(QPainter& painter, const ViewTransform& transform, const MarkAim& aim) {
+void paintFound(QPainter& painter, const ViewTransform& transform, const AnnotationAim& aim) {
   const QPointF at = toWidget(transform, aim.pixel);
   if (aim.snap && aim.snap->kind == sessions::ImageSnapKind::kEllipse)
     painter.drawPolyline(ellipseOnWidget(transform, aim.snap->ellipse));
@@ -139,7 +139,7 @@ void paintFound(QPainter& painter, const ViewTransform& transform, const MarkAim
 
 }  // namespace
 
-void paintAim(QPainter& painter, const ViewTransform& transform, const MarkAim& aim,
+void paintAim(QPainter& painter, const ViewTransform& transform, const AnnotationAim& aim,
               const QPointF& pointer) {
   if (aim.side == AimSide::kNone) return;
   const QPointF at = toWidget(transform, aim.pixel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 
 #include <array>
 #include <charconv>
@@ -186,17 +186,17 @@ LinePair readLine(const RowReader& row) {
 
 }  // namespace
 
-std::string marksCsv(const Marks& marks) {
+std::string annotationsCsv(const Annotations& annotations) {
   Row header;
   for (std::size_t i = 0; i < kColumns.size(); ++i) header[i] = kColumns[i];
   std::string text = lineOf(header);
-  for (const PointPair& point : marks.points) {
+  for (const PointPair& point : annotations.points) {
     Row row = commonRow("point", point);
     if (point.pixel) put(*point.pixel, kFirstPixel, row);
     if (point.point_in_station_m) put(*point.point_in_station_m, kFirstPlace, row);
     text += lineOf(row);
   }
-  for (const LinePair& line : marks.lines) {
+  for (const LinePair& line : annotations.lines) {
     Row row = commonRow("line", line);
     if (line.line) {
       put(line.line->start, kFirstPixel, row);
@@ -211,26 +211,27 @@ std::string marksCsv(const Marks& marks) {
   return text;
 }
 
-Marks parseMarksCsv(const std::filesystem::path& file, std::string_view text) {
+Annotations parseAnnotationsCsv(const std::filesystem::path& file, std::string_view text) {
   CsvReader reader(file, text);
   Record record;
   if (!reader.next(record) ||
       record.fields != std::vector<std::string>(kColumns.begin(), kColumns.end()))
-    throw InputError(file, "line 1", "is not the header of an annotation table (kind,id,x1_px,...)");
-  Marks marks;
+    throw InputError(file, "line 1",
+                     "is not the header of an annotation table (kind,id,x1_px,...)");
+  Annotations annotations;
   std::set<std::string> ids;
   while (reader.next(record)) {
     const RowReader row(file, record);
     if (!ids.insert(row.text(1)).second) row.fail(1, "'" + row.text(1) + "' is given twice");
     if (row.text(0) == "point") {
-      marks.points.push_back(readPoint(row));
+      annotations.points.push_back(readPoint(row));
     } else if (row.text(0) == "line") {
-      marks.lines.push_back(readLine(row));
+      annotations.lines.push_back(readLine(row));
     } else {
       row.fail(0, "must be point or line");
     }
   }
-  return marks;
+  return annotations;
 }
 
 }  // namespace boresight::sessions
