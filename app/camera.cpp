@@ -53,12 +53,12 @@ void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& 
   noteEnding(arguments.out, given.camera.model);
   if (sessions::isCahvorFile(path(arguments.file)))
     return sessions::writeCahvorFile(arguments.out, sessions::readCahvorFile(arguments.file));
-  sessions::CahvorFile made;
-  made.cahv = cahvFromCamera(given.camera,
-                             given.reference ? given.reference->camera_from_reference : Pose());
-  made.width = given.camera.width;
-  made.height = given.camera.height;
-  sessions::writeCahvorFile(arguments.out, made);
+  sessions::CahvorFile cahvor_file;
+  cahvor_file.cahv = cahvFromCamera(
+      given.camera, given.reference ? given.reference->camera_from_reference : Pose());
+  cahvor_file.width = given.camera.width;
+  cahvor_file.height = given.camera.height;
+  sessions::writeCahvorFile(arguments.out, cahvor_file);
   if (given.reference)
     note("the vectors are in " + frameText(given.reference->frame) +
          "; a text file cannot state this frame");

@@ -62,18 +62,18 @@ sessions::CaseFiles CaseArguments::files() const {
   return files;
 }
 
-LocalizerOptions CaseArguments::optionsOf(const sessions::SessionCase& one) const {
-  LocalizerOptions made = options.read();
-  double& size_m = made.templates.feature_size_m;
+LocalizerOptions CaseArguments::optionsOf(const sessions::SessionCase& session_case) const {
+  LocalizerOptions result = options.read();
+  double& size_m = result.templates.feature_size_m;
   if (feature_size_m > 0.0) size_m = feature_size_m;
-  if (size_m == 0.0) size_m = one.feature_size_m.value_or(0.0);
-  return made;
+  if (size_m == 0.0) size_m = session_case.feature_size_m.value_or(0.0);
+  return result;
 }
 
 ReadCase readCase(const CaseArguments& arguments) {
   (void)arguments.options.read();  // options that do not exist are refused before files are read
-  sessions::MadeCase made = sessions::makeCase(arguments.files());
-  ReadCase read{sessions::loadCase(made.made), std::move(made.notes)};
+  sessions::MadeCase new_case = sessions::makeCase(arguments.files());
+  ReadCase read{sessions::loadCase(new_case.made), std::move(new_case.notes)};
   for (std::string& warning : sessions::labelWarnings(read.loaded->source))
     read.notes.push_back(std::move(warning));
   return read;
@@ -81,10 +81,11 @@ ReadCase readCase(const CaseArguments& arguments) {
 
 void requireRunnable(const sessions::LoadedCase& loaded, const std::string& camera_file,
                      const std::string& seed_file) {
-  const sessions::SessionCase& one = loaded.source;
-  sessions::requireSameSize(loaded.image, one.camera);
-  sessions::requireField(camera_file, "distortion", one.camera);
-  sessions::requireSensibleSeed(one.camera, loaded.scene, one.camera_from_station_seed, seed_file,
+  const sessions::SessionCase& session_case = loaded.source;
+  sessions::requireSameSize(loaded.image, session_case.camera);
+  sessions::requireField(camera_file, "distortion", session_case.camera);
+  sessions::requireSensibleSeed(session_case.camera, loaded.scene,
+                                session_case.camera_from_station_seed, seed_file,
                                 "camera_from_station");
 }
 

@@ -63,13 +63,14 @@ void writeJson(const CheckArguments& arguments, const std::string& preset,
   json["preset"] = preset;
   json["source"] = arguments.source;
   json["cases"] = nlohmann::ordered_json::array();
-  for (const CheckedCase& one : cases) {
-    nlohmann::ordered_json made = {{"id", one.id}, {"passed", sessions::allPassed(one.checks)}};
-    if (!one.reason.empty()) made["reason"] = one.reason;
-    made["checks"] = nlohmann::ordered_json::array();
-    for (const sessions::Check& check : one.checks)
-      made["checks"].push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
-    json["cases"].push_back(std::move(made));
+  for (const CheckedCase& checked_case : cases) {
+    nlohmann::ordered_json result = {{"id", checked_case.id},
+                                     {"passed", sessions::allPassed(checked_case.checks)}};
+    if (!checked_case.reason.empty()) result["reason"] = checked_case.reason;
+    result["checks"] = nlohmann::ordered_json::array();
+    for (const sessions::Check& check : checked_case.checks)
+      result["checks"].push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
+    json["cases"].push_back(std::move(result));
   }
   sessions::writeJsonFile(arguments.json, json);
 }
@@ -81,16 +82,17 @@ int checkSession(const CheckArguments& arguments) {
   std::vector<std::string> ids = arguments.cases;
   for (const std::string& id : ids) (void)requireCase(document, id);
   if (ids.empty())
-    for (const auto& one : session.cases) ids.push_back(one->id);
+    for (const auto& session_case : session.cases) ids.push_back(session_case->id);
   int exit_code = kDone;
   std::vector<CheckedCase> checked;
   for (const std::string& id : ids) {
     try {
       checked.push_back(checkCase(session, id, arguments));
-      const CheckedCase& one = checked.back();
+      const CheckedCase& checked_case = checked.back();
       print(id);
-      std::cout << sessions::checksText(one.checks, arguments.sentences) << std::endl;
-      if (exit_code == kDone && !sessions::allPassed(one.checks)) exit_code = kNotConverged;
+      std::cout << sessions::checksText(checked_case.checks, arguments.sentences) << std::endl;
+      if (exit_code == kDone && !sessions::allPassed(checked_case.checks))
+        exit_code = kNotConverged;
     } catch (const sessions::InputError& error) {
       std::cerr << error.what() << std::endl;
       checked.push_back({id, {}, error.what()});

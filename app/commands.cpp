@@ -53,10 +53,10 @@ sessions::MethodSetup MethodArguments::setup(const OptionArguments& options) con
     if (sessions::needsMatcher(name) && matcher.empty())
       throw CLI::ValidationError("--matcher",
                                  "the method " + name + " needs its matcher's command");
-  sessions::MethodSetup made;
-  made.matcher = matcher;
-  made.options = options.readMethodOptions();
-  return made;
+  sessions::MethodSetup method_setup;
+  method_setup.matcher = matcher;
+  method_setup.options = options.readMethodOptions();
+  return method_setup;
 }
 
 sessions::OptionList MethodArguments::changedOptions(const sessions::MethodOptions& options) const {
@@ -72,7 +72,9 @@ constexpr const char* kFlightProfile = "flight";
 bool isMethodOption(const std::string& name) {
   const auto all = sessions::listOptions(sessions::MethodOptions());
   return std::any_of(all.begin(), all.end(),
-                     [&name](const sessions::OptionDescription& one) { return one.name == name; });
+                     [&name](const sessions::OptionDescription& option_description) {
+                       return option_description.name == name;
+                     });
 }
 
 /// Sets what the config, then the assignments name: options of methods, or all others.
@@ -82,7 +84,7 @@ void applyTo(Options& options, const std::string& config, const std::vector<std:
   if (!config.empty()) {
     sessions::Config read = sessions::readConfig(config);
     std::erase_if(read.options,
-                  [=](const auto& one) { return isMethodOption(one.first) != of_methods; });
+                  [=](const auto& item) { return isMethodOption(item.first) != of_methods; });
     sessions::applyConfig(options, read);
   }
   for (const std::string& assignment : set) {
@@ -165,9 +167,9 @@ std::vector<Kernels> availableKernels() {
 void addKernels(CLI::App& command, Kernels& kernels) {
   std::map<std::string, Kernels> named = {{"best", bestKernels()}};
   std::string names = "best";
-  for (const Kernels one : availableKernels()) {
-    named.emplace(kernelsName(one), one);
-    names += std::string(", ") + kernelsName(one);
+  for (const Kernels item : availableKernels()) {
+    named.emplace(kernelsName(item), item);
+    names += std::string(", ") + kernelsName(item);
   }
   command
       .add_option_function<std::string>(

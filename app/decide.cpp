@@ -29,14 +29,14 @@ struct DecideArguments {
 
 /// "coverage=half of it is dark" and the like.
 sessions::CheckWaivers readWaivers(const DecideArguments& arguments) {
-  sessions::CheckWaivers made;
+  sessions::CheckWaivers check_waivers;
   for (const std::string& text : arguments.waivers) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0)
       throw CLI::ValidationError("--waive", "'" + text + "' is not CHECK=REASON");
-    made[text.substr(0, sign)] = text.substr(sign + 1);
+    check_waivers[text.substr(0, sign)] = text.substr(sign + 1);
   }
-  return made;
+  return check_waivers;
 }
 
 Session validatedCase(const Session& session, const DecideArguments& arguments) {

@@ -47,8 +47,8 @@ std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
 }
 
 /// "1 case", "2 cases".
-std::string countText(std::size_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+std::string countText(std::size_t count, const std::string& text) {
+  return std::to_string(count) + " " + text + (count == 1 ? "" : "s");
 }
 
 std::string sizeText(int width, int height) {
@@ -56,7 +56,7 @@ std::string sizeText(int width, int height) {
 }
 
 void flagAll(const std::vector<sessions::RedFlag>& flags) {
-  for (const sessions::RedFlag& one : flags) flag(one.text);
+  for (const sessions::RedFlag& red_flag : flags) flag(red_flag.text);
 }
 
 void describeCamera(const sessions::CameraFile& file) {
@@ -93,7 +93,7 @@ void describeDataset(const sessions::Dataset& dataset) {
        countText(dataset.stations.size(), "station") + ", " +
        countText(dataset.cameras.size(), "camera"));
   std::map<std::string, std::size_t> cases_of;
-  for (const sessions::Case& one : dataset.cases) ++cases_of[one.station];
+  for (const sessions::Case& dataset_case : dataset.cases) ++cases_of[dataset_case.station];
   for (const auto& [id, station] : dataset.stations)
     line("station " + id + ": " + countText(cases_of[id], "case") + ", " +
          countText(station.parts.size(), "part") +
@@ -109,12 +109,14 @@ void describeDataset(const sessions::Dataset& dataset) {
     describeCamera(described);
   }
   std::set<std::string> tags;
-  for (const sessions::Case& one : dataset.cases) tags.insert(one.tags.begin(), one.tags.end());
+  for (const sessions::Case& dataset_case : dataset.cases)
+    tags.insert(dataset_case.tags.begin(), dataset_case.tags.end());
   std::string list;
   for (const std::string& tag : tags) list += " " + tag;
   if (!list.empty()) line("tags:" + list);
-  const auto blind = std::count_if(dataset.cases.begin(), dataset.cases.end(),
-                                   [](const auto& one) { return !one.truth_camera_from_station; });
+  const auto blind =
+      std::count_if(dataset.cases.begin(), dataset.cases.end(),
+                    [](const auto& item) { return !item.truth_camera_from_station; });
   if (blind > 0) flag(std::to_string(blind) + " cases have no truth");
   for (const std::string& text : dataset.notes) flag(text);
   sessions::requireFiles(dataset);
@@ -154,11 +156,13 @@ struct CaseSources {
   std::multimap<std::string, const sessions::RunRecord*> runs = {};  ///< by case, in their order
 };
 
-void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
+void describeCase(const sessions::SessionCase& session_case, CaseSources& sources) {
   const auto& session = sources.session;
-  line("case " + one.id + (one.station.empty() ? "" : ", station " + one.station));
+  line("case " + session_case.id +
+       (session_case.station.empty() ? "" : ", station " + session_case.station));
   try {
-    sources.before = sources.before ? reloadCase(*sources.before, one) : sessions::loadCase(one);
+    sources.before = sources.before ? reloadCase(*sources.before, session_case)
+                                    : sessions::loadCase(session_case);
     const sessions::InputSheet sheet = sessions::inputSheet(*sources.before);
     for (const sessions::SheetLine& entry : sheet.lines)
       line("  " + entry.label + ": " + entry.value);
@@ -166,14 +170,14 @@ void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
   } catch (const sessions::InputError& error) {
     flag(error.what());
   }
-  const auto [first, last] = sources.runs.equal_range(one.id);
+  const auto [first, last] = sources.runs.equal_range(session_case.id);
   for (auto place = first; place != last; ++place) {
     const sessions::RunRecord& run = *place->second;
     line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
          stalenessText(sessions::stalenessOf(run, session, sources.file)) + rerunText(run) +
-         (run.together ? ", " + togetherText(run.together->views, one.id) : ""));
+         (run.together ? ", " + togetherText(run.together->views, session_case.id) : ""));
   }
-  const sessions::ReviewStatus status = sessions::reviewStatusOf(session, one.id);
+  const sessions::ReviewStatus status = sessions::reviewStatusOf(session, session_case.id);
   if (status.decision != nullptr)
     line("  " + reviewStatusText(status) + ", " + status.decision->time +
          (status.decision->comment.empty() ? "" : ": " + status.decision->comment));

@@ -53,10 +53,10 @@ void NewArguments::addTo(CLI::App& command) {
 }
 
 /// What no edit mends is refused: sizes that do not fit, a camera that folds. A seed can be moved.
-void requireUsable(const sessions::SessionCase& one) {
-  const auto loaded = sessions::loadCase(one);
-  sessions::requireSameSize(loaded->image, one.camera);
-  sessions::requireField("case " + one.id, "camera", one.camera);
+void requireUsable(const sessions::SessionCase& session_case) {
+  const auto loaded = sessions::loadCase(session_case);
+  sessions::requireSameSize(loaded->image, session_case.camera);
+  sessions::requireField("case " + session_case.id, "camera", session_case.camera);
   try {
     sessions::requireRunnable(*loaded);
   } catch (const sessions::InputError& refusal) {
@@ -76,10 +76,10 @@ sessions::Session sessionOf(const NewArguments& arguments) {
   sessions::CaseFiles case_files = arguments.files();
   case_files.id = arguments.id;
   case_files.mesh_scale_sigma = arguments.mesh_scale_sigma;
-  const sessions::MadeCase made = sessions::makeCase(case_files);
-  for (const std::string& text : made.notes) note(text);
-  requireUsable(made.made);
-  return withCase({}, made.made);
+  const sessions::MadeCase new_case = sessions::makeCase(case_files);
+  for (const std::string& text : new_case.notes) note(text);
+  requireUsable(new_case.made);
+  return withCase({}, new_case.made);
 }
 
 /// The session with the record attached to its case.
@@ -87,18 +87,18 @@ sessions::Session withRecord(const sessions::Session& session, const std::string
   if (session.cases.size() != 1)
     throw CLI::ValidationError("--record", "belongs to one case; choose it with --case");
   (void)sessions::readRecord(file);  // that it is one
-  sessions::SessionCase one = *session.cases.front();
-  one.onboard_record = sessions::InputFile{std::filesystem::absolute(file).lexically_normal(),
-                                           sessions::inputSha256(file)};
-  return withCase(session, std::move(one));
+  sessions::SessionCase session_case = *session.cases.front();
+  session_case.onboard_record = sessions::InputFile{
+      std::filesystem::absolute(file).lexically_normal(), sessions::inputSha256(file)};
+  return withCase(session, std::move(session_case));
 }
 
 int makeNew(const NewArguments& arguments) {
   sessions::Session session = sessionOf(arguments);
   if (!arguments.record.empty()) session = withRecord(session, arguments.record);
-  for (const auto& one : session.cases)
-    for (const std::string& warning : sessions::labelWarnings(*one))
-      note("case " + one->id + ": " + warning);
+  for (const auto& session_case : session.cases)
+    for (const std::string& warning : sessions::labelWarnings(*session_case))
+      note("case " + session_case->id + ": " + warning);
   if (arguments.results.empty())
     session = withOptions(session, arguments.options.profileName(), arguments.options.read());
   const auto document = sessions::SessionDocument::create(arguments.out, session);

@@ -17,7 +17,8 @@ int writePack(const PackArguments& arguments) {
   const sessions::SessionDocument document = openToRead(arguments.session);
   const sessions::SessionPack pack = sessions::planPack(document.session(), document.file());
   for (const std::string& text : pack.notes) note(text);
-  for (const sessions::PackedFile& one : pack.files) print(one.name + " from " + one.file.string());
+  for (const sessions::PackedFile& packed_file : pack.files)
+    print(packed_file.name + " from " + packed_file.file.string());
   sessions::writePack(pack, arguments.out);
   print(arguments.out);
   return kDone;

@@ -31,17 +31,17 @@ int listQueue(const sessions::Session& session, const QueueArguments& arguments)
 int listDifferences(const sessions::Session& session) {
   int exit_code = kDone;
   int counts[3] = {};
-  for (const auto& one : session.cases) {
-    const auto pair = sessions::lastTwoRuns(session, one->id);
+  for (const auto& session_case : session.cases) {
+    const auto pair = sessions::lastTwoRuns(session, session_case->id);
     if (!pair) {
-      note("case " + one->id + ": fewer than two runs to compare");
+      note("case " + session_case->id + ": fewer than two runs to compare");
       continue;
     }
     try {
-      const auto made = sessions::compareRuns(session, pair->before->digest, pair->after->digest,
-                                              sessions::loadCase(*one));
-      ++counts[static_cast<int>(made.change)];
-      std::cout << sessions::differenceText(made) << std::endl;
+      const auto result = sessions::compareRuns(session, pair->before->digest, pair->after->digest,
+                                                sessions::loadCase(*session_case));
+      ++counts[static_cast<int>(result.change)];
+      std::cout << sessions::differenceText(result) << std::endl;
     } catch (const sessions::InputError& error) {
       note(error.what());
       exit_code = kBadInput;

@@ -21,9 +21,9 @@ int report(const ReportArguments& arguments) {
   if (id.empty() && session.cases.size() == 1) id = session.cases.front()->id;
   if (id.empty()) throw CLI::ValidationError("--case", "the session has several cases; give one");
   (void)requireCase(document, id);
-  const sessions::PoseReport made = sessions::poseReport(session, id);
-  sessions::writePoseReport(arguments.out, made);
-  print(id + ": " + made.pose.review_status);
+  const sessions::PoseReport pose_report = sessions::poseReport(session, id);
+  sessions::writePoseReport(arguments.out, pose_report);
+  print(id + ": " + pose_report.pose.review_status);
   return kDone;
 }
 

@@ -25,7 +25,7 @@ std::vector<std::string> selectedCases(const sessions::SessionDocument& document
   for (const std::string& id : asked) (void)requireCase(document, id);
   if (!asked.empty()) return asked;
   std::vector<std::string> all;
-  for (const auto& one : document.session().cases) all.push_back(one->id);
+  for (const auto& session_case : document.session().cases) all.push_back(session_case->id);
   return all;
 }
 
@@ -60,8 +60,8 @@ int runTogether(sessions::SessionDocument& document, const std::string& id) {
 /// Each rig once, by the first of its cases that was asked for; cases without other views alone.
 bool rigHasRun(const sessions::Session& session, const std::string& id,
                const std::vector<std::string>& led) {
-  const auto rigOf = [&session](const std::string& one) {
-    const auto& rig = session.findCase(one)->rig;
+  const auto rigOf = [&session](const std::string& text) {
+    const auto& rig = session.findCase(text)->rig;
     return rig ? rig->id : std::string();
   };
   return std::any_of(led.begin(), led.end(), [&](const std::string& leader) {

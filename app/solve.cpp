@@ -38,9 +38,9 @@ std::vector<sessions::AnnotatedView> readViews(const SolveArguments& arguments) 
 
 /// Annotations in files of their own: nothing but they says where the station is.
 sessions::CaseAnnotationsSolution solveFiles(const SolveArguments& arguments) {
-  sessions::CaseAnnotationsSolution made;
-  made.annotations.views = readViews(arguments);
-  made.annotations.rigid = !arguments.rig.empty();
+  sessions::CaseAnnotationsSolution case_annotations_solution;
+  case_annotations_solution.annotations.views = readViews(arguments);
+  case_annotations_solution.annotations.rigid = !arguments.rig.empty();
   sessions::SolveAnnotationsOptions options;
   options.robust = arguments.robust;
   if (!arguments.seed.empty()) {
@@ -51,13 +51,16 @@ sessions::CaseAnnotationsSolution solveFiles(const SolveArguments& arguments) {
     options.rig_from_station_guess =
         sessions::readPose(std::filesystem::path(arguments.seed), frames).camera_from_station;
   }
-  const auto& views = made.annotations.views;
-  made.result = sessions::solveAnnotations(views, options);
+  const auto& views = case_annotations_solution.annotations.views;
+  case_annotations_solution.result = sessions::solveAnnotations(views, options);
   const Pose* known = options.rig_from_station_guess ? &*options.rig_from_station_guess : nullptr;
-  if (made.result.solution) known = &made.result.solution->rig_from_station;
-  made.warnings = sessions::geometryWarnings(views, known, {});
-  if (made.result.solution) made.left_out = sessions::leaveOneOut(views, *made.result.solution);
-  return made;
+  if (case_annotations_solution.result.solution)
+    known = &case_annotations_solution.result.solution->rig_from_station;
+  case_annotations_solution.warnings = sessions::geometryWarnings(views, known, {});
+  if (case_annotations_solution.result.solution)
+    case_annotations_solution.left_out =
+        sessions::leaveOneOut(views, *case_annotations_solution.result.solution);
+  return case_annotations_solution;
 }
 
 /// A case of a session, as the desktop program solves it.
@@ -72,24 +75,29 @@ int solve(const SolveArguments& arguments) {
   if (arguments.rig.empty() && arguments.points.empty() && arguments.session.empty())
     throw CLI::RequiredError("--points and --camera, or --rig, or --session and --case");
   const bool of_session = !arguments.session.empty();
-  const sessions::CaseAnnotationsSolution made =
+  const sessions::CaseAnnotationsSolution case_annotations_solution =
       of_session ? solveSession(arguments) : solveFiles(arguments);
   for (const std::string& file : {arguments.out, arguments.json})
     if (!file.empty()) sessions::requireWritable(file);
-  const auto& views = made.annotations.views;
+  const auto& views = case_annotations_solution.annotations.views;
   if (!arguments.json.empty())
-    sessions::writeSolution(arguments.json, views, made.result, made.left_out, made.warnings,
+    sessions::writeSolution(arguments.json, views, case_annotations_solution.result,
+                            case_annotations_solution.left_out, case_annotations_solution.warnings,
                             arguments.robust);
-  if (!made.result.solution) {
-    note("no pose: " + made.result.reason);
+  if (!case_annotations_solution.result.solution) {
+    note("no pose: " + case_annotations_solution.result.reason);
     return kNotConverged;
   }
-  std::cout << sessions::solutionText(views, *made.result.solution, made.left_out, made.warnings);
+  std::cout << sessions::solutionText(views, *case_annotations_solution.result.solution,
+                                      case_annotations_solution.left_out,
+                                      case_annotations_solution.warnings);
   if (!arguments.out.empty())
-    sessions::writePose(
-        arguments.out,
-        of_session ? *made.camera_from_station() : made.result.solution->rig_from_station, {},
-        of_session ? made.covariance() : made.result.solution->covariance);
+    sessions::writePose(arguments.out,
+                        of_session ? *case_annotations_solution.camera_from_station()
+                                   : case_annotations_solution.result.solution->rig_from_station,
+                        {},
+                        of_session ? case_annotations_solution.covariance()
+                                   : case_annotations_solution.result.solution->covariance);
   return kDone;
 }
 
@@ -105,18 +113,18 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
       command.add_option("--session", arguments.session,
                          "Session with the case; solved as in the desktop program: with the "
                          "annotations of its rig's other cases, from its working pose or seed");
-  CLI::Option* one = command.add_option("--case", arguments.case_id, "Case");
+  CLI::Option* option = command.add_option("--case", arguments.case_id, "Case");
   CLI::Option* alone =
       command.add_flag("--alone", arguments.alone, "Leave out the other cases of its rig");
   CLI::Option* seed = command.add_option(
       "--seed", arguments.seed, "pose.json to start from, needed if no image has four points");
   for (CLI::Option* file : {points, camera, rig, session, seed}) file->type_name("FILE");
-  one->type_name("ID");
+  option->type_name("ID");
   arguments.frames.addTo(command);
   rig->excludes(points)->excludes(camera);
   session->excludes(points)->excludes(camera)->excludes(rig)->excludes(seed);
-  session->needs(one);
-  one->needs(session);
+  session->needs(option);
+  option->needs(session);
   alone->needs(session);
   points->needs(camera);
   camera->needs(points);

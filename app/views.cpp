@@ -38,20 +38,20 @@ struct RigRun {
   bool converged() const { return joint.result.status == LocalizationStatus::kConverged; }
   /// At the end effector, or at the camera; nothing without a pose or a truth.
   std::optional<sessions::PoseError> errorOf(std::size_t view) const {
-    const sessions::Case& one = *cases[view];
-    if (!converged() || !one.truth_camera_from_station) return std::nullopt;
-    return sessions::poseError(*one.truth_camera_from_station,
+    const sessions::Case& dataset_case = *cases[view];
+    if (!converged() || !dataset_case.truth_camera_from_station) return std::nullopt;
+    return sessions::poseError(*dataset_case.truth_camera_from_station,
                                joint.result.views[view].camera_from_station,
-                               one.camera_from_end_effector);
+                               dataset_case.camera_from_end_effector);
   }
 };
 
 /// In the order of their first cases.
 std::vector<std::string> rigIds(const sessions::Dataset& dataset) {
   std::vector<std::string> ids;
-  for (const sessions::Case& one : dataset.cases)
-    if (one.rig && std::find(ids.begin(), ids.end(), one.rig->id) == ids.end())
-      ids.push_back(one.rig->id);
+  for (const sessions::Case& dataset_case : dataset.cases)
+    if (dataset_case.rig && std::find(ids.begin(), ids.end(), dataset_case.rig->id) == ids.end())
+      ids.push_back(dataset_case.rig->id);
   return ids;
 }
 
@@ -61,10 +61,10 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
   RigRun run;
   run.rig = rig;
   std::vector<std::string> ids;
-  for (const sessions::Case& one : dataset.cases)
-    if (one.rig && one.rig->id == rig) {
-      run.cases.push_back(&one);
-      ids.push_back(one.id);
+  for (const sessions::Case& dataset_case : dataset.cases)
+    if (dataset_case.rig && dataset_case.rig->id == rig) {
+      run.cases.push_back(&dataset_case);
+      ids.push_back(dataset_case.id);
     }
   const std::string place = "rig \"" + rig + "\"";
   if (ids.empty()) throw sessions::InputError(dataset.file, place, "no case names it");
@@ -86,11 +86,11 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
   return run;
 }
 
-std::string errorText(const sessions::PoseError& error, const sessions::Case& one) {
-  return std::string("; error at the ") + sessions::judgedPlace(one.camera_from_end_effector) +
-         ": normal " + fixedText(error.normal_mm, 3) + " mm, lateral " +
-         fixedText(error.lateral_mm, 3) + " mm, rotation " + fixedText(error.rotation_mrad, 3) +
-         " mrad";
+std::string errorText(const sessions::PoseError& error, const sessions::Case& dataset_case) {
+  return std::string("; error at the ") +
+         sessions::judgedPlace(dataset_case.camera_from_end_effector) + ": normal " +
+         fixedText(error.normal_mm, 3) + " mm, lateral " + fixedText(error.lateral_mm, 3) +
+         " mm, rotation " + fixedText(error.rotation_mrad, 3) + " mrad";
 }
 
 void printRig(const RigRun& run) {

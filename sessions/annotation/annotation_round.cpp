@@ -12,11 +12,11 @@ namespace {
 template <class Pair, class Compare>
 void compareAll(const std::vector<Pair>& first, const std::vector<Pair>& second, Compare&& compare,
                 std::vector<AnnotationDifference>& differences) {
-  for (const Pair& one : first) {
+  for (const Pair& item : first) {
     const auto other = std::find_if(second.begin(), second.end(),
-                                    [&one](const Pair& pair) { return pair.id == one.id; });
-    if (other == second.end() || !one.complete() || !other->complete()) continue;
-    differences.push_back({one.id, compare(one, *other)});
+                                    [&item](const Pair& pair) { return pair.id == item.id; });
+    if (other == second.end() || !item.complete() || !other->complete()) continue;
+    differences.push_back({item.id, compare(item, *other)});
   }
 }
 
@@ -74,25 +74,26 @@ AnnotationRounds keepingAnnotations(AnnotationRounds rounds, const Annotations& 
 }
 
 Repeatability repeatability(const Annotations& first, const Annotations& second) {
-  Repeatability made;
+  Repeatability result;
   compareAll(
       first.points, second.points,
       [](const PointPair& a, const PointPair& b) { return (*b.pixel - *a.pixel).eval(); },
-      made.annotations);
+      result.annotations);
   compareAll(
       first.lines, second.lines,
       [](const LinePair& a, const LinePair& b) { return acrossLine(*a.line, *b.line); },
-      made.annotations);
+      result.annotations);
   std::sort(
-      made.annotations.begin(), made.annotations.end(),
+      result.annotations.begin(), result.annotations.end(),
       [](const AnnotationDifference& a, const AnnotationDifference& b) { return a.id < b.id; });
   double squares = 0.0;
-  for (const AnnotationDifference& annotation : made.annotations)
+  for (const AnnotationDifference& annotation : result.annotations)
     squares += annotation.difference_px.squaredNorm();
   // Two values an annotation; a difference has twice the variance of either person's annotation.
-  if (!made.annotations.empty())
-    made.sigma_px = std::sqrt(squares / (2.0 * static_cast<double>(made.annotations.size())) / 2.0);
-  return made;
+  if (!result.annotations.empty())
+    result.sigma_px =
+        std::sqrt(squares / (2.0 * static_cast<double>(result.annotations.size())) / 2.0);
+  return result;
 }
 
 }  // namespace boresight::sessions

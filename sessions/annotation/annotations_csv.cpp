@@ -136,9 +136,9 @@ class RowReader {
     bool empty = true;
     for (std::size_t i = 0; i < N; ++i) empty = empty && text(column + i).empty();
     if (empty) return {};
-    Eigen::Matrix<double, N, 1> made;
-    for (std::size_t i = 0; i < N; ++i) made[static_cast<Eigen::Index>(i)] = number(column + i);
-    return made;
+    Eigen::Matrix<double, N, 1> matrix;
+    for (std::size_t i = 0; i < N; ++i) matrix[static_cast<Eigen::Index>(i)] = number(column + i);
+    return matrix;
   }
 
   template <class Pair>

@@ -71,7 +71,7 @@ std::vector<Landmark> withAnnotations(std::vector<Landmark> landmarks,
     if (!point.point_in_station_m) continue;
     const Landmark landmark{point.id, *point.point_in_station_m, point.comment};
     const auto same = std::find_if(landmarks.begin(), landmarks.end(),
-                                   [&](const Landmark& one) { return one.name == point.id; });
+                                   [&](const Landmark& item) { return item.name == point.id; });
     if (same == landmarks.end())
       landmarks.push_back(landmark);
     else

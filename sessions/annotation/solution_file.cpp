@@ -25,10 +25,10 @@ constexpr const char* kWeaknessNames[] = {"too_few",   "few",       "collinear",
 
 /// Roots of three entries of the diagonal, in thousandths.
 ordered_json sigmas(const Matrix6d& covariance, int first) {
-  ordered_json made = ordered_json::array();
+  ordered_json json = ordered_json::array();
   for (int i = first; i < first + 3; ++i)
-    made.push_back(kThousand * std::sqrt(std::max(0.0, covariance(i, i))));
-  return made;
+    json.push_back(kThousand * std::sqrt(std::max(0.0, covariance(i, i))));
+  return json;
 }
 
 ordered_json viewJson(const AnnotatedView& view, const Pose& camera_from_station,

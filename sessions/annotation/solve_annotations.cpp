@@ -28,10 +28,11 @@ constexpr int kMostSamples = 5000;
 constexpr double kConfidence = 0.999;  ///< of having drawn a sample without outliers
 
 std::vector<Correspondence> correspondencesOf(const AnnotatedView& view) {
-  std::vector<Correspondence> made;
+  std::vector<Correspondence> correspondences;
   for (const PointPair& point : view.annotations.points)
-    if (point.used()) made.push_back({*point.point_in_station_m, *point.pixel, point.sigma_px});
-  return made;
+    if (point.used())
+      correspondences.push_back({*point.point_in_station_m, *point.pixel, point.sigma_px});
+  return correspondences;
 }
 
 /// What OpenCV's solvers say where most points of a view agree (P3P with RANSAC, then SQPnP, and
@@ -256,20 +257,20 @@ void describeAnnotations(std::span<const AnnotatedView> views,
     const AnnotatedView& view = views[annotations[i].view];
     const AnnotationResidual annotation =
         annotationResidual(view, annotations[i], solution.camera_from_station[annotations[i].view]);
-    SolvedAnnotation made;
-    made.address = annotations[i];
-    made.weight = fit.weight[i];
-    made.projected = annotation.valid;
+    SolvedAnnotation solved_annotation;
+    solved_annotation.address = annotations[i];
+    solved_annotation.weight = fit.weight[i];
+    solved_annotation.projected = annotation.valid;
     if (annotation.valid) {
-      made.residual_px = annotation.residual_px;
-      made.residual_mm =
+      solved_annotation.residual_px = annotation.residual_px;
+      solved_annotation.residual_mm =
           annotation.residual_px * (1000.0 * annotation.depth_m / pixelsPerRadian(view.camera));
       const double noise_px =
           annotationSigma_px(views, annotations[i]) * std::max(solution.noise_factor, 1e-6);
-      made.normalized =
-          normalizedResidual(annotation, cameraCovariance(solution, view), noise_px, made.weight);
+      solved_annotation.normalized = normalizedResidual(
+          annotation, cameraCovariance(solution, view), noise_px, solved_annotation.weight);
     }
-    solution.annotations.push_back(made);
+    solution.annotations.push_back(solved_annotation);
   }
 }
 
@@ -337,18 +338,18 @@ std::vector<LeftOut> leaveOneOut(std::span<const AnnotatedView> views,
     without[i] = 0.0;
     Pose pose = solution.rig_from_station;
     NormalEquations equations;
-    LeftOut made;
-    made.address = annotations[i];
-    made.determined = refineAnnotations(views, annotations, without, pose, equations);
-    if (made.determined) {
-      made.translation_mm =
+    LeftOut left_out;
+    left_out.address = annotations[i];
+    left_out.determined = refineAnnotations(views, annotations, without, pose, equations);
+    if (left_out.determined) {
+      left_out.translation_mm =
           1000.0 * (pose * middle_m - solution.rig_from_station * middle_m).norm();
-      made.rotation_mrad =
+      left_out.rotation_mrad =
           1000.0 *
           rotationLog((pose.rotation * solution.rig_from_station.rotation.conjugate()).normalized())
               .norm();
     }
-    all.push_back(made);
+    all.push_back(left_out);
   }
   return all;
 }

@@ -26,18 +26,18 @@ std::string heldNotGiven(const std::string& held, const std::string& given) {
 
 /// The options in which two lists (JSON objects) differ: "pnp.seed=1, not 7".
 std::string optionDifference(const std::string& held, const std::string& given) {
-  const auto one = nlohmann::json::parse(held, nullptr, false);
+  const auto entry = nlohmann::json::parse(held, nullptr, false);
   const auto other = nlohmann::json::parse(given, nullptr, false);
-  if (!one.is_object() || !other.is_object()) return "others";
-  nlohmann::json all = one;
+  if (!entry.is_object() || !other.is_object()) return "others";
+  nlohmann::json all = entry;
   all.update(other);
   std::string text;
   const auto value = [](const nlohmann::json& list, const std::string& name) {
     return list.contains(name) ? list[name].dump() : std::string("the profile's");
   };
   for (const auto& [name, unused] : all.items())
-    if (value(one, name) != value(other, name))
-      text += (text.empty() ? "" : "; ") + name + " " + value(one, name) + ", not " +
+    if (value(entry, name) != value(other, name))
+      text += (text.empty() ? "" : "; ") + name + " " + value(entry, name) + ", not " +
               value(other, name);
   return text.empty() ? "others" : text;
 }

@@ -66,7 +66,7 @@ struct RunStep {
 
 /// One per iteration of the trace; errors where the case's truth is known. Matches come along when
 /// the trace was recorded in full.
-std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& one);
+std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case);
 
 /// What is kept of one run of a batch.
 struct RunResult {

@@ -93,9 +93,9 @@ class Line {
   }
 
   std::string word(const char* what) {
-    std::string made;
-    if (!(words_ >> made)) fail(std::string(what) + " is missing");
-    return made;
+    std::string text;
+    if (!(words_ >> text)) fail(std::string(what) + " is missing");
+    return text;
   }
 
   double number(const char* what) {
@@ -115,11 +115,11 @@ class Line {
   }
 
   std::string rest(const char* what) {
-    std::string made;
-    std::getline(words_ >> std::ws, made);
-    while (!made.empty() && (made.back() == '\r' || made.back() == ' ')) made.pop_back();
-    if (made.empty()) fail(std::string(what) + " is missing");
-    return made;
+    std::string text;
+    std::getline(words_ >> std::ws, text);
+    while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
+    if (text.empty()) fail(std::string(what) + " is missing");
+    return text;
   }
 
   void end() {
@@ -150,8 +150,8 @@ bool isBlank(const std::string& line) {
 Camera readCameraLine(Line& line) {
   const std::string name = line.word("the camera's model");
   const ColmapModel* model = nullptr;
-  for (const ColmapModel& one : colmapModels())
-    if (name == one.name) model = &one;
+  for (const ColmapModel& colmap_model : colmapModels())
+    if (name == colmap_model.name) model = &colmap_model;
   if (model == nullptr) line.fail("no camera model matches " + name + kWhatToDo);
   Camera camera;
   camera.model = model->model;

@@ -166,7 +166,7 @@ FrameName readFrameName(const JsonReader& json) {
   FrameName frame;
   frame.name = json.at("name").nonEmptyText();
   if (const auto index = json.find("index"))
-    for (const JsonReader& one : index->elements()) frame.index.push_back(one.integer());
+    for (const JsonReader& item : index->elements()) frame.index.push_back(item.integer());
   return frame;
 }
 
@@ -179,8 +179,8 @@ nlohmann::ordered_json toJson(const FrameName& frame) {
 std::string frameText(const FrameName& frame) {
   if (frame.name.empty()) return "a frame without a name";
   std::string index;
-  for (const std::int64_t one : frame.index)
-    index += (index.empty() ? " (" : ", ") + std::to_string(one);
+  for (const std::int64_t item : frame.index)
+    index += (index.empty() ? " (" : ", ") + std::to_string(item);
   return frame.name + (index.empty() ? "" : index + ")");
 }
 

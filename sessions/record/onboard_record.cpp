@@ -275,9 +275,10 @@ void noteWhatIsMissing(OnboardRecord& record) {
         std::to_string(record.end->iterations - static_cast<int>(record.iterations.size())) +
         " of " + std::to_string(record.end->iterations) + " iterations");
   }
-  for (const RecordedIteration& one : record.iterations)
-    if (one.trace.template_count > 0 && !one.templates)
-      record.missing.push_back("the templates of iteration " + std::to_string(one.trace.index + 1));
+  for (const RecordedIteration& recorded : record.iterations)
+    if (recorded.trace.template_count > 0 && !recorded.templates)
+      record.missing.push_back("the templates of iteration " +
+                               std::to_string(recorded.trace.index + 1));
 }
 
 }  // namespace

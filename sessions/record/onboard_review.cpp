@@ -46,12 +46,12 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
     throw InputError(
         file,
         "it differs from the attached record: accept it as it is now, or attach the right one");
-  auto made = std::make_shared<OnboardReview>();
-  made->record = parseRecord(file, bytes);
-  made->plan = planOf(made->record);
-  made->replay =
-      std::make_shared<const LocalizationTrace>(replayRecord(made->record, ground, stop));
-  return made;
+  auto result = std::make_shared<OnboardReview>();
+  result->record = parseRecord(file, bytes);
+  result->plan = planOf(result->record);
+  result->replay =
+      std::make_shared<const LocalizationTrace>(replayRecord(result->record, ground, stop));
+  return result;
 }
 
 RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,

@@ -22,12 +22,13 @@ RunPlan planFor(const ReviewSubject& subject) {
 /// The case with its seed displaced by `offset`.
 LocalizationProblem problemFrom(const ReviewSubject& subject, const LoadedCase& loaded,
                                 const Vector6d& offset) {
-  const SessionCase& one = loaded.source;
+  const SessionCase& session_case = loaded.source;
   const Eigen::Vector3d centre = matchedBounds(loaded.scene.view()).centre();
   LocalizationProblem problem = loaded.problem();
   problem.camera_from_station_seed =
-      seedForOffset(subject.camera_from_station, offset, one.uncertainty.pivot, centre);
-  problem.uncertainty = seedUncertainty(one.uncertainty, problem.camera_from_station_seed, centre);
+      seedForOffset(subject.camera_from_station, offset, session_case.uncertainty.pivot, centre);
+  problem.uncertainty =
+      seedUncertainty(session_case.uncertainty, problem.camera_from_station_seed, centre);
   return problem;
 }
 
@@ -63,8 +64,9 @@ constexpr double kNothingSeen = 10.0;
 constexpr CheckName kCompeting{"convergence_competing", "Best competing pose"};
 
 std::string foundText(const ConvergenceResult& convergence) {
-  const auto elsewhere = std::count_if(convergence.competing.begin(), convergence.competing.end(),
-                                       [](const ConvergedPose& one) { return !one.mirrored; });
+  const auto elsewhere =
+      std::count_if(convergence.competing.begin(), convergence.competing.end(),
+                    [](const ConvergedPose& converged_pose) { return !converged_pose.mirrored; });
   return "Of " + std::to_string(convergence.seeds) + " other seeds " +
          std::to_string(convergence.returned) + " returned to this pose and " +
          std::to_string(elsewhere) + " converged elsewhere.";
@@ -122,8 +124,8 @@ ConvergenceResult convergenceTest(const ReviewSubject& subject, int seeds,
   for (int axis = 0; axis < 3 && seeds > 0 && !stop.stop_requested(); ++axis)
     tryMirrorImage(subject, plan, axis, stop, result);
   for (int number = 1; number <= seeds && !stop.stop_requested(); ++number) {
-    const SessionCase& one = subject.loaded->source;
-    const Vector6d offset = drawOffset(one.uncertainty, 1.0, one.id, number);
+    const SessionCase& session_case = subject.loaded->source;
+    const Vector6d offset = drawOffset(session_case.uncertainty, 1.0, session_case.id, number);
     const LocalizationTrace trace =
         localize(problemFrom(subject, *subject.loaded, offset), plan, RecordLevel::kSummary, stop);
     if (trace.status == LocalizationStatus::kRunning) break;
@@ -153,13 +155,13 @@ void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
 }
 
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis) {
-  auto made = std::make_unique<LoadedCase>();
-  made->source = loaded.source;
-  made->image = loaded.image;
-  made->scene = mirrored(loaded.scene, static_cast<MirrorAxis>(axis));
-  made->ignore = loaded.ignore;
-  if (made->ignore) made->ignore_bits = made->ignore->view();
-  return made;
+  auto result = std::make_unique<LoadedCase>();
+  result->source = loaded.source;
+  result->image = loaded.image;
+  result->scene = mirrored(loaded.scene, static_cast<MirrorAxis>(axis));
+  result->ignore = loaded.ignore;
+  if (result->ignore) result->ignore_bits = result->ignore->view();
+  return result;
 }
 
 }  // namespace boresight::sessions

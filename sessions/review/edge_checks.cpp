@@ -123,7 +123,7 @@ Check cameraCheck(const CheckName& name, const std::string& what, const AskedCha
                        undecided ? kUndecidedRemedy : kCameraRemedy);
 }
 
-void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& one,
+void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
                      const CheckLimits& limits, std::vector<Check>& checks) {
   if (!fit) {
     const char* why = "The edges do not determine the camera together with the pose.";
@@ -131,8 +131,8 @@ void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& one
     checks.push_back(notAskedCheck(kCentre, why));
     return;
   }
-  const double percent = 100.0 / one.camera.fx;
-  const InputSigmas known(one);
+  const double percent = 100.0 / session_case.camera.fx;
+  const InputSigmas known(session_case);
   checks.push_back(
       cameraCheck(kFocal, "focal length changes by ",
                   {percent * fit->focal_px, percent * fit->focal_sigma_px,
@@ -192,18 +192,18 @@ std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camer
                         const Pose& camera_from_station) {
   std::vector<Row> rows;
   Eigen::AlignedBox2d box;
-  for (const LookedPlace& one : looked) box.extend(one.place.pixel);
+  for (const LookedPlace& looked_place : looked) box.extend(looked_place.place.pixel);
   const double tile_px = std::max(box.sizes().maxCoeff() / kTiles, 1.0);
-  for (const LookedPlace& one : looked) {
+  for (const LookedPlace& looked_place : looked) {
     PlaceDerivative by;
-    if (!one.found || std::abs(one.found->offset_px) > kFarthest_px ||
-        !placeDerivative(camera, camera_from_station, one.place.point_in_station_m, by))
+    if (!looked_place.found || std::abs(looked_place.found->offset_px) > kFarthest_px ||
+        !placeDerivative(camera, camera_from_station, looked_place.place.point_in_station_m, by))
       continue;
     Row row;
-    row.by.head<6>() = by.by_pose.transpose() * one.place.normal;
-    row.by.tail<3>() = by.by_camera.transpose() * one.place.normal;
-    row.residual_px = one.found->offset_px;
-    const Eigen::Vector2d tile = (one.place.pixel - box.min()) / tile_px;
+    row.by.head<6>() = by.by_pose.transpose() * looked_place.place.normal;
+    row.by.tail<3>() = by.by_camera.transpose() * looked_place.place.normal;
+    row.residual_px = looked_place.found->offset_px;
+    const Eigen::Vector2d tile = (looked_place.place.pixel - box.min()) / tile_px;
     row.tile = {static_cast<int>(tile.x()), static_cast<int>(tile.y())};
     rows.push_back(row);
   }

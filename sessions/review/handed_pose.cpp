@@ -24,11 +24,11 @@ bool converged(const RunRecord* run) {
   return run != nullptr && run->status == localizationStatusText(LocalizationStatus::kConverged);
 }
 
-void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
-  if (run.inputs_sha256 != inputsDigest(one))
+void takeRun(const SessionCase& session_case, const RunRecord& run, HandedPose& pose) {
+  if (run.inputs_sha256 != inputsDigest(session_case))
     throw InputError(
         "session", "runs",
-        "the inputs of case '" + one.id + "' have changed since its run: run it again");
+        "the inputs of case '" + session_case.id + "' have changed since its run: run it again");
   const LocalizationTrace trace = loadRun(run);
   pose.source = PoseSource::kRun;
   pose.camera_from_station = trace.camera_from_station;
@@ -37,14 +37,14 @@ void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
   pose.seconds = trace.seconds.total();
 }
 
-void takeAnnotations(const Session& session, const SessionCase& one, HandedPose& pose) {
-  const CaseAnnotationsSolution solved =
-      solveCaseAnnotations(caseAnnotations(session, one.id), annotationsGuess(one), {}, false);
+void takeAnnotations(const Session& session, const SessionCase& session_case, HandedPose& pose) {
+  const CaseAnnotationsSolution solved = solveCaseAnnotations(
+      caseAnnotations(session, session_case.id), annotationsGuess(session_case), {}, false);
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
     throw InputError(
         "session", "cases",
-        "case '" + one.id +
+        "case '" + session_case.id +
             "' has no pose: no run converged, and the annotations fail: " + solved.result.reason);
   pose.source = PoseSource::kAnnotation;
   pose.camera_from_station = *camera_from_station;
@@ -99,16 +99,17 @@ std::string shortText(const Check& check) {
 
 std::string differenceText(const Check& stated, const Check& measured) {
   const std::string before = shortText(stated);
-  const std::string now = shortText(measured);
-  return "'" + measured.title + "' is stated as " + before + " and measured as " + now +
-         (before == now ? ", with another text" : "");
+  const std::string after = shortText(measured);
+  return "'" + measured.title + "' is stated as " + before + " and measured as " + after +
+         (before == after ? ", with another text" : "");
 }
 
 /// A run that had other options than the session has now names them, so that it can be repeated.
 Session withPlans(Session session) {
   for (RunRecord& run : session.runs) {
-    const SessionCase& one = *session.findCase(run.case_id);
-    if (!run.rerun && run.options_sha256 != optionsDigest(caseOptions(session, one, "session")))
+    const SessionCase& session_case = *session.findCase(run.case_id);
+    if (!run.rerun &&
+        run.options_sha256 != optionsDigest(caseOptions(session, session_case, "session")))
       run.rerun = RerunRecord{loadRun(run).plan(), ""};
   }
   return session;
@@ -117,7 +118,7 @@ Session withPlans(Session session) {
 }  // namespace
 
 HandedPose handedPose(const Session& session, const std::string& case_id) {
-  const SessionCase& one = knownCase(session, case_id);
+  const SessionCase& session_case = knownCase(session, case_id);
   HandedPose pose;
   pose.case_id = case_id;
   const ReviewStatus status = reviewStatusOf(session, case_id);
@@ -132,46 +133,49 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
         "session", "decisions",
         "the decision on case '" + case_id + "' belongs to a run that did not converge");
   if (of_run)
-    takeRun(one, *run, pose);
+    takeRun(session_case, *run, pose);
   else
-    takeAnnotations(session, one, pose);
+    takeAnnotations(session, session_case, pose);
   if (decision != nullptr) takeDecision(*decision, pose);
   return pose;
 }
 
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids) {
   for (const std::string& id : case_ids) (void)knownCase(session, id);
-  HandedPoses made;
-  for (const auto& one : session.cases) {
-    const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
+  HandedPoses handed_poses;
+  for (const auto& session_case : session.cases) {
+    const bool asked =
+        std::find(case_ids.begin(), case_ids.end(), session_case->id) != case_ids.end();
     if (!case_ids.empty() && !asked) continue;
     try {
-      made.poses.push_back(handedPose(session, one->id));
+      handed_poses.poses.push_back(handedPose(session, session_case->id));
     } catch (const InputError& error) {
-      made.notes.push_back(error.what());
+      handed_poses.notes.push_back(error.what());
     }
   }
-  return made;
+  return handed_poses;
 }
 
 CheckedPose checkedPose(const Session& session, const std::string& case_id) {
-  CheckedPose made;
-  made.pose = handedPose(session, case_id);
-  made.session = withPlans(sessionOfCase(session, case_id, made.pose.run_digest));
-  const ReviewStatus status = reviewStatusOf(made.session, case_id);
-  made.pose.review_status = reviewStatusText(status);  // of what is handed over
+  CheckedPose checked_pose;
+  checked_pose.pose = handedPose(session, case_id);
+  checked_pose.session = withPlans(sessionOfCase(session, case_id, checked_pose.pose.run_digest));
+  const ReviewStatus status = reviewStatusOf(checked_pose.session, case_id);
+  checked_pose.pose.review_status = reviewStatusText(status);  // of what is handed over
   const Decision* decision = status.judgedPose();
   const int convergence_seeds = decision != nullptr ? decision->convergence_seeds : 0;
-  MeasuredPose measured = measurePose(made.session, made.pose, convergence_seeds, "session");
+  MeasuredPose measured =
+      measurePose(checked_pose.session, checked_pose.pose, convergence_seeds, "session");
   if (decision == nullptr) {
-    made.pose.covariance = measured.subject.covariance;
-    for (const Check& check : measured.checks) made.pose.checks.push_back({check, ""});
+    checked_pose.pose.covariance = measured.subject.covariance;
+    for (const Check& check : measured.checks) checked_pose.pose.checks.push_back({check, ""});
   }
-  requireAsMeasured(case_id, poseDifference(made.pose, measured.subject.camera_from_station));
-  requireAsMeasured(case_id, covarianceDifference(made.pose, measured.subject.covariance));
-  requireAsMeasured(case_id, checksDifference(made.pose, measured.checks, true));
-  made.subject = std::move(measured.subject);
-  return made;
+  requireAsMeasured(case_id,
+                    poseDifference(checked_pose.pose, measured.subject.camera_from_station));
+  requireAsMeasured(case_id, covarianceDifference(checked_pose.pose, measured.subject.covariance));
+  requireAsMeasured(case_id, checksDifference(checked_pose.pose, measured.checks, true));
+  checked_pose.subject = std::move(measured.subject);
+  return checked_pose;
 }
 
 Session sessionOfCase(const Session& session, const std::string& case_id,
@@ -180,22 +184,22 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
   const auto isOther = [&](const std::string& id) {
     return id != case_id && std::find(linked.begin(), linked.end(), id) == linked.end();
   };
-  Session made = session;
-  made.cases.eraseIf([&](const auto& one) { return isOther(one->id); });
-  std::erase_if(made.annotations, [&](const auto& entry) { return isOther(entry.first); });
-  made.runs.eraseIf([&](const RunRecord& run) {
+  Session next_session = session;
+  next_session.cases.eraseIf([&](const auto& item) { return isOther(item->id); });
+  std::erase_if(next_session.annotations, [&](const auto& entry) { return isOther(entry.first); });
+  next_session.runs.eraseIf([&](const RunRecord& run) {
     if (isOther(run.case_id)) return true;
     if (run.case_id == case_id) return run.digest != run_digest;
     const RunRecord* asked = ownRunOf(session, run.case_id, case_id);
     return asked == nullptr || run != *asked;
   });
-  made.decisions.clear();
-  if (const Decision* last = session.decisionOn(case_id)) made.decisions.push_back(*last);
-  if (!made.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
-    made.decisions.front().checks.clear();
-  made.rounds.clear();
-  made.view = {};
-  return made;
+  next_session.decisions.clear();
+  if (const Decision* last = session.decisionOn(case_id)) next_session.decisions.push_back(*last);
+  if (!next_session.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
+    next_session.decisions.front().checks.clear();
+  next_session.rounds.clear();
+  next_session.view = {};
+  return next_session;
 }
 
 MeasuredPose measurePose(const Session& session, const HandedPose& pose, int convergence_seeds,
@@ -248,10 +252,10 @@ std::string checksDifference(const HandedPose& stated, const std::vector<Check>&
            std::to_string(measured.size()) + " are measured";
   std::string text;
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const Check& one = stated.checks[i].check;
+    const Check& check = stated.checks[i].check;
     const bool compared = with_convergence || !isConvergenceCheck(measured[i].id);
-    if (compared ? sameCheck(one, measured[i]) : one.id == measured[i].id) continue;
-    text += (text.empty() ? "check " : "; ") + differenceText(one, measured[i]);
+    if (compared ? sameCheck(check, measured[i]) : check.id == measured[i].id) continue;
+    text += (text.empty() ? "check " : "; ") + differenceText(check, measured[i]);
   }
   return text;
 }

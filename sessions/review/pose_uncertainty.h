@@ -27,7 +27,7 @@ std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlac
 /// - Errors of focal length and principal point are independent; the pose follows them as
 ///   `poseByCamera` says at the edges that it shows, or where these do not determine it as a shift
 ///   of the same point that undoes the error.
-PoseCovariance poseCovariance(const SessionCase& one, const MeshView& mesh,
+PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,
                               const Pose& camera_from_station, const Matrix6d& picture);
 
 /// Where the end effector is, and what a move commanded from the seed has to be corrected by.

@@ -110,10 +110,11 @@ Check camerasCheck(const ReviewSubject& subject, const CheckLimits& limits) {
     return notAskedCheck(kCamera, "No other camera of a rig has a pose.");
   std::optional<Check> worst;
   for (const OtherPose& other : subject.other_cameras) {
-    Check one =
+    Check check =
         agreementCheck(kCamera, subject, other, apartOfTwoCameras(subject, other), limits,
                        "One pose or the rig's camera positions are wrong: check both overlays.");
-    if (!worst || one.figure.value_or(0.0) > worst->figure.value_or(0.0)) worst = std::move(one);
+    if (!worst || check.figure.value_or(0.0) > worst->figure.value_or(0.0))
+      worst = std::move(check);
   }
   return *worst;
 }
@@ -130,10 +131,10 @@ Check annotationCheck(const ReviewSubject& subject, const CheckLimits& limits) {
 Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
   if (subject.loaded == nullptr || !subject.loaded->source.camera_from_station_truth)
     return notAskedCheck(kTruth, "The case has no truth.");
-  const SessionCase& one = subject.loaded->source;
+  const SessionCase& session_case = subject.loaded->source;
   const OtherPose truth{"the truth",
-                        *one.camera_from_station_truth,
-                        {one.truth_covariance.value_or(Matrix6d::Zero())}};
+                        *session_case.camera_from_station_truth,
+                        {session_case.truth_covariance.value_or(Matrix6d::Zero())}};
   return agreementCheck(kTruth, subject, truth, apartOfOneCamera(subject, truth), limits,
                         truth.covariance.known()
                             ? "One of both poses is wrong: check both overlays."
@@ -257,12 +258,14 @@ bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_sta
 
 void addPrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits,
                         std::vector<Check>& checks) {
-  const PrecisionChecks made(subject, limits);
+  const PrecisionChecks precision_checks(subject, limits);
   const Requirement& required = subject.requirement;
-  checks.push_back(made.ofTranslation(kNormal, &PoseSigma::normal_mm, required.normal_mm));
-  checks.push_back(made.ofTranslation(kLateral, &PoseSigma::lateral_mm, required.lateral_mm));
-  checks.push_back(made.ofRotation(rotationLimit_mrad(required)));
-  checks.push_back(made.inImage(required.projection_px));
+  checks.push_back(
+      precision_checks.ofTranslation(kNormal, &PoseSigma::normal_mm, required.normal_mm));
+  checks.push_back(
+      precision_checks.ofTranslation(kLateral, &PoseSigma::lateral_mm, required.lateral_mm));
+  checks.push_back(precision_checks.ofRotation(rotationLimit_mrad(required)));
+  checks.push_back(precision_checks.inImage(required.projection_px));
 }
 
 }  // namespace boresight::sessions

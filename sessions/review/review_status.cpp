@@ -54,16 +54,16 @@ ordered_json poseJson(const std::optional<Pose>& pose) {
   return pose ? exactPoseJson(*pose) : ordered_json();
 }
 
-ordered_json truthJson(const SessionCase& one) {
-  ordered_json json = poseJson(one.camera_from_station_truth);
-  if (one.truth_covariance) json["covariance"] = toJson(*one.truth_covariance);
+ordered_json truthJson(const SessionCase& session_case) {
+  ordered_json json = poseJson(session_case.camera_from_station_truth);
+  if (session_case.truth_covariance) json["covariance"] = toJson(*session_case.truth_covariance);
   return json;
 }
 
-ordered_json inputSigmasJson(const SessionCase& one) {
+ordered_json inputSigmasJson(const SessionCase& session_case) {
   ordered_json json = ordered_json::object();
-  if (one.mesh_scale_sigma) json["mesh_scale"] = *one.mesh_scale_sigma;
-  if (one.calibration_sigma) json["calibration"] = toJson(*one.calibration_sigma);
+  if (session_case.mesh_scale_sigma) json["mesh_scale"] = *session_case.mesh_scale_sigma;
+  if (session_case.calibration_sigma) json["calibration"] = toJson(*session_case.calibration_sigma);
   return json;
 }
 
@@ -78,11 +78,11 @@ ordered_json annotationsJson(const Session& session, const std::string& case_id)
 }
 
 /// The rig's cameras as they lie to each other; its name is only a name.
-ordered_json rigJson(const Session& session, const SessionCase& one) {
+ordered_json rigJson(const Session& session, const SessionCase& session_case) {
   ordered_json json = ordered_json::object();
-  if (!one.rig) return json;
-  json[one.id] = exactPoseJson(one.rig->camera_from_rig);
-  for (const std::string& id : casesOfRig(session, one.id))
+  if (!session_case.rig) return json;
+  json[session_case.id] = exactPoseJson(session_case.rig->camera_from_rig);
+  for (const std::string& id : casesOfRig(session, session_case.id))
     json[id] = exactPoseJson(session.findCase(id)->rig->camera_from_rig);
   return json;
 }
@@ -135,9 +135,9 @@ Signature requireSigned(const Signature& who, const char* what) {
 }
 
 const SessionCase& requireCase(const Session& session, const std::string& case_id) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) throw DecisionError("there is no case '" + case_id + "'");
-  return *one;
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) throw DecisionError("there is no case '" + case_id + "'");
+  return *session_case;
 }
 
 /// Pairs each check with the reason for passing over it.
@@ -154,14 +154,14 @@ std::vector<JudgedCheck> judgedChecks(const std::vector<Check>& checks,
 }
 
 void requireAnswered(const std::vector<JudgedCheck>& checks) {
-  if (std::none_of(checks.begin(), checks.end(), [](const JudgedCheck& one) {
-        return one.check.state != CheckState::kNotApplicable;
+  if (std::none_of(checks.begin(), checks.end(), [](const JudgedCheck& judged) {
+        return judged.check.state != CheckState::kNotApplicable;
       }))
     throw DecisionError("this pose has not been checked");
   std::string open;
-  for (const JudgedCheck& one : checks)
-    if (one.check.state == CheckState::kFailed && one.waiver_reason.empty())
-      open += (open.empty() ? "" : ", ") + one.check.title;
+  for (const JudgedCheck& judged : checks)
+    if (judged.check.state == CheckState::kFailed && judged.waiver_reason.empty())
+      open += (open.empty() ? "" : ", ") + judged.check.title;
   if (!open.empty()) throw DecisionError("failed checks are not waived: " + open);
 }
 
@@ -235,19 +235,19 @@ std::string reviewStatusText(const ReviewStatus& status) {
 std::map<std::string, std::string> inputFingerprint(const Session& session,
                                                     const std::string& case_id,
                                                     const std::string& run_digest) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return {};
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) return {};
   std::map<std::string, std::string> fingerprint;
-  fingerprint["inputs"] = inputsDigest(*one);
+  fingerprint["inputs"] = inputsDigest(*session_case);
   fingerprint["annotations"] = sha256Of(annotationsJson(session, case_id));
-  fingerprint["truth"] = sha256Of(truthJson(*one));
-  fingerprint["input_sigmas"] = sha256Of(inputSigmasJson(*one));
+  fingerprint["truth"] = sha256Of(truthJson(*session_case));
+  fingerprint["input_sigmas"] = sha256Of(inputSigmasJson(*session_case));
   fingerprint["requirement"] =
-      sha256Of(one->requirement ? toJson(*one->requirement) : ordered_json());
-  fingerprint["end_effector"] = sha256Of(poseJson(one->camera_from_end_effector));
-  fingerprint["rig"] = sha256Of(rigJson(session, *one));
-  fingerprint["onboard_record"] =
-      sha256Text(one->onboard_record ? one->onboard_record->sha256 : std::string());
+      sha256Of(session_case->requirement ? toJson(*session_case->requirement) : ordered_json());
+  fingerprint["end_effector"] = sha256Of(poseJson(session_case->camera_from_end_effector));
+  fingerprint["rig"] = sha256Of(rigJson(session, *session_case));
+  fingerprint["onboard_record"] = sha256Text(
+      session_case->onboard_record ? session_case->onboard_record->sha256 : std::string());
   ReviewSettings limits = session.review;
   limits.second_person = false;  // who has to sign does not change what was measured
   fingerprint["limits"] = sha256Of(toJson(limits));
@@ -258,13 +258,13 @@ std::map<std::string, std::string> inputFingerprint(const Session& session,
 }
 
 std::string changedInputsText(const std::map<std::string, std::string>& before,
-                              const std::map<std::string, std::string>& now) {
+                              const std::map<std::string, std::string>& after) {
   std::vector<std::string> changed;
   for (const auto& [name, sha256] : before) {
-    const auto found = now.find(name);
-    if (found == now.end() || found->second != sha256) changed.emplace_back(inputText(name));
+    const auto found = after.find(name);
+    if (found == after.end() || found->second != sha256) changed.emplace_back(inputText(name));
   }
-  for (const auto& [name, sha256] : now)
+  for (const auto& [name, sha256] : after)
     if (before.count(name) == 0) changed.emplace_back(inputText(name));
   if (changed.empty()) return "";
   const auto plural = [](const std::string& text) {
@@ -275,15 +275,15 @@ std::string changedInputsText(const std::map<std::string, std::string>& before,
   return listText(changed) + (one_thing ? " has changed" : " have changed");
 }
 
-bool samePerson(const std::string& one, const std::string& other) {
-  return comparableName(one) == comparableName(other);
+bool samePerson(const std::string& text, const std::string& other) {
+  return comparableName(text) == comparableName(other);
 }
 
 std::string validationConcern(const Session& session, const ReviewSubject& subject) {
   const std::string& id = subject.loaded->source.id;
-  const SessionCase* one = session.findCase(id);
-  if (one == nullptr) return "there is no case '" + id + "' any more";
-  if (inputsDigest(*one) != inputsDigest(subject.loaded->source))
+  const SessionCase* session_case = session.findCase(id);
+  if (session_case == nullptr) return "there is no case '" + id + "' any more";
+  if (inputsDigest(*session_case) != inputsDigest(subject.loaded->source))
     return "the inputs have changed since they were checked: check again";
   if (subject.source == PoseSource::kAnnotation) return "";
   if (!subject.run || subject.run->digest.empty()) return "there is no finished run";
@@ -293,7 +293,7 @@ std::string validationConcern(const Session& session, const ReviewSubject& subje
   const RunRecord* last = session.lastRunOf(id);
   if (last == nullptr || last->digest != subject.run->digest)
     return "this is not the last run of the case; review the last run, or run again";
-  if (last->inputs_sha256 != inputsDigest(*one))
+  if (last->inputs_sha256 != inputsDigest(*session_case))
     return "the inputs have changed since the run: run again";
   return "";
 }

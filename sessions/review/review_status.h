@@ -51,7 +51,7 @@ std::map<std::string, std::string> inputFingerprint(const Session& session,
 /// What differs, as a clause: "the annotations and the requirement have changed"; empty when
 /// nothing.
 std::string changedInputsText(const std::map<std::string, std::string>& before,
-                              const std::map<std::string, std::string>& now);
+                              const std::map<std::string, std::string>& after);
 
 /// A decision that is not allowed; `what()` is a sentence for people.
 class DecisionError : public std::runtime_error {
@@ -66,7 +66,7 @@ struct Signature {
 };
 
 /// Whether two names are one person's, whatever the case of their letters and their blanks.
-bool samePerson(const std::string& one, const std::string& other);
+bool samePerson(const std::string& text, const std::string& other);
 
 /// Reasons for passing over failed checks, by their ids.
 using CheckWaivers = std::map<std::string, std::string>;

@@ -43,13 +43,14 @@ std::optional<OtherPose> poseOfAnnotations(const Session& session, const LoadedC
 /// converged with the inputs that it has now.
 std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& loaded,
                                      const SessionCase& other, const RunReader& read_run) {
-  const SessionCase& one = loaded.source;
-  const RunRecord* run = ownRunOf(session, other.id, one.id);
+  const SessionCase& session_case = loaded.source;
+  const RunRecord* run = ownRunOf(session, other.id, session_case.id);
   if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
   const LocalizationTrace seen = read_run(*run);
-  const Pose one_from_other = one.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
+  const Pose one_from_other =
+      session_case.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
   const PoseCovariance own =
       poseCovariance(other, loaded.scene.view(), seen.camera_from_station, seen.covariance);
   const auto turned = [turn = adjointOf(one_from_other)](const Matrix6d& covariance) {
@@ -92,12 +93,12 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
 }  // namespace
 
 std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station) {
-  const SessionCase& one = loaded.source;
-  if (!one.camera_from_station_truth) return std::nullopt;
-  const Pose& truth = *one.camera_from_station_truth;
-  PoseError error = poseError(truth, camera_from_station, one.camera_from_end_effector);
-  error.projection_px =
-      projectionError(one.camera, truth, camera_from_station, matchedVertices(loaded.scene.view()));
+  const SessionCase& session_case = loaded.source;
+  if (!session_case.camera_from_station_truth) return std::nullopt;
+  const Pose& truth = *session_case.camera_from_station_truth;
+  PoseError error = poseError(truth, camera_from_station, session_case.camera_from_end_effector);
+  error.projection_px = projectionError(session_case.camera, truth, camera_from_station,
+                                        matchedVertices(loaded.scene.view()));
   return error;
 }
 
@@ -105,24 +106,24 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
                             PoseSource source, const std::string& digest,
                             const RunReader& read_run) {
   ReviewSubject subject;
-  const SessionCase& one = loaded->source;
-  subject.requirement = requirementOf(session, one);
+  const SessionCase& session_case = loaded->source;
+  subject.requirement = requirementOf(session, session_case);
   subject.source = source;
   std::string reason;
   auto annotated = poseOfAnnotations(session, *loaded, reason);
   if (source == PoseSource::kRun) {
-    takeRun(read_run(runToReview(session, one.id, digest)), subject);
+    takeRun(read_run(runToReview(session, session_case.id, digest)), subject);
     subject.onboard = againstOnboard(*loaded, *subject.run);
     subject.annotated = std::move(annotated);
   } else {
     if (!annotated)
-      throw InputError("case " + one.id, "annotations", "they give no pose: " + reason);
+      throw InputError("case " + session_case.id, "annotations", "they give no pose: " + reason);
     subject.camera_from_station = annotated->camera_from_station;
     subject.covariance = annotated->covariance;
   }
-  subject.covariance = poseCovariance(one, loaded->scene.view(), subject.camera_from_station,
-                                      subject.covariance.picture);
-  if (one.rig) subject.other_cameras = otherCameras(session, *loaded, read_run);
+  subject.covariance = poseCovariance(session_case, loaded->scene.view(),
+                                      subject.camera_from_station, subject.covariance.picture);
+  if (session_case.rig) subject.other_cameras = otherCameras(session, *loaded, read_run);
   subject.loaded = std::move(loaded);
   return subject;
 }

@@ -46,11 +46,11 @@ Check convergedCheck(const LocalizationTrace& run) {
 /// Of the last attempt, those iterations that came to a pose.
 std::vector<const IterationTrace*> lastAttempt(const LocalizationTrace& run) {
   std::vector<const IterationTrace*> found;
-  for (const auto& one : run.iterations) {
-    if (!found.empty() && found.back()->attempt != one->attempt) found.clear();
-    if (one->status == LocalizationStatus::kRunning ||
-        one->status == LocalizationStatus::kConverged)
-      found.push_back(one.get());
+  for (const auto& item : run.iterations) {
+    if (!found.empty() && found.back()->attempt != item->attempt) found.clear();
+    if (item->status == LocalizationStatus::kRunning ||
+        item->status == LocalizationStatus::kConverged)
+      found.push_back(item.get());
   }
   return found;
 }
@@ -72,8 +72,8 @@ Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) 
 
 const IterationTrace* lastMatching(const LocalizationTrace& run) {
   const IterationTrace* found = nullptr;
-  for (const auto& one : run.iterations)
-    if (one->kind == IterationKind::kMatch && one->reached > Stage::kRender) found = one.get();
+  for (const auto& item : run.iterations)
+    if (item->kind == IterationKind::kMatch && item->reached > Stage::kRender) found = item.get();
   return found;
 }
 
@@ -100,17 +100,17 @@ struct InlierPlaces {
 };
 
 InlierPlaces inlierPlaces(const IterationTrace& iteration) {
-  InlierPlaces made;
+  InlierPlaces inlier_places;
   for (const MatchDetails& match : matchDetails(iteration)) {
     if (!match.inlier) continue;
-    made.inliers_px.push_back(match.found_px);
-    made.inlier_depths_m.push_back(match.depth_m);
+    inlier_places.inliers_px.push_back(match.found_px);
+    inlier_places.inlier_depths_m.push_back(match.depth_m);
   }
   for (const EdgePixel& pixel : iteration.render.pixels) {
-    made.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
-    made.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
+    inlier_places.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
+    inlier_places.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
   }
-  return made;
+  return inlier_places;
 }
 
 Check spreadCheck(const InlierPlaces& places, const CheckLimits& limits) {

@@ -210,7 +210,7 @@ void listNotProved(const Decision* decision, bool measured, bool with_convergenc
 
 bool VerifyReport::good() const {
   return std::all_of(findings.begin(), findings.end(),
-                     [](const VerifyFinding& one) { return one.good; });
+                     [](const VerifyFinding& verify_finding) { return verify_finding.good; });
 }
 
 VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again) {

@@ -9,8 +9,9 @@ RunPlan continuedPlan(const RunPlan& plan, std::int32_t iteration,
                       const LocalizerOptions& options) {
   if (iteration < 1) return options;
   RunPlan continued = plan;
-  std::erase_if(continued.changes,
-                [iteration](const OptionChange& one) { return one.iteration >= iteration; });
+  std::erase_if(continued.changes, [iteration](const OptionChange& option_change) {
+    return option_change.iteration >= iteration;
+  });
   if (!sameOptions(continued.last(), options)) continued.changes.push_back({iteration, options});
   return continued;
 }

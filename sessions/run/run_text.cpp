@@ -199,8 +199,8 @@ std::string sentence(std::string text) {
   return text.back() == '.' ? text : text + ".";
 }
 
-std::string countText(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+std::string countText(std::size_t count, const char* item, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? item : many);
 }
 
 std::string convergedText(const LocalizationTrace& trace) {

@@ -17,14 +17,16 @@ Annotations annotationsOf(const Session& session, const std::string& case_id) {
   return found == session.annotations.end() ? Annotations() : *found->second;
 }
 
-AnnotatedView viewOf(const Session& session, const SessionCase& one, const Pose& camera_from_rig) {
+AnnotatedView viewOf(const Session& session, const SessionCase& session_case,
+                     const Pose& camera_from_rig) {
   AnnotatedView view;
-  view.name = one.id;
-  view.camera = one.camera;
+  view.name = session_case.id;
+  view.camera = session_case.camera;
   if (prepareCamera(view.camera) != Status::kOk)
-    throw InputError("case " + one.id, "camera", "its parameters are not those of a camera");
+    throw InputError("case " + session_case.id, "camera",
+                     "its parameters are not those of a camera");
   view.camera_from_rig = camera_from_rig;
-  view.annotations = annotationsOf(session, one.id);
+  view.annotations = annotationsOf(session, session_case.id);
   return view;
 }
 
@@ -32,22 +34,23 @@ AnnotatedView viewOf(const Session& session, const SessionCase& one, const Pose&
 
 CaseAnnotations caseAnnotations(const Session& session, const std::string& case_id, bool together) {
   const SessionCase* chosen = &knownCase(session, case_id);
-  CaseAnnotations made;
-  made.requirement = requirementOf(session, *chosen);
-  made.camera_from_end_effector = chosen->camera_from_end_effector;
-  const auto add = [&](const SessionCase& one, const Pose& camera_from_rig) {
-    made.case_ids.push_back(one.id);
-    made.views.push_back(viewOf(session, one, camera_from_rig));
+  CaseAnnotations case_annotations;
+  case_annotations.requirement = requirementOf(session, *chosen);
+  case_annotations.camera_from_end_effector = chosen->camera_from_end_effector;
+  const auto add = [&](const SessionCase& session_case, const Pose& camera_from_rig) {
+    case_annotations.case_ids.push_back(session_case.id);
+    case_annotations.views.push_back(viewOf(session, session_case, camera_from_rig));
   };
   add(*chosen, Pose());
-  if (!together || !chosen->rig) return made;
+  if (!together || !chosen->rig) return case_annotations;
   for (const auto& other : session.cases) {
     if (other->id == case_id || !other->rig || other->rig->id != chosen->rig->id) continue;
     if (session.annotations.contains(other->id)) add(*other, other->rig->camera_from_rig);
   }
-  made.rigid = made.views.size() > 1;
-  if (made.rigid) made.views[0].camera_from_rig = chosen->rig->camera_from_rig;
-  return made;
+  case_annotations.rigid = case_annotations.views.size() > 1;
+  if (case_annotations.rigid)
+    case_annotations.views[0].camera_from_rig = chosen->rig->camera_from_rig;
+  return case_annotations;
 }
 
 std::optional<Pose> CaseAnnotationsSolution::camera_from_station() const {
@@ -83,32 +86,35 @@ CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
                                              const Pose& camera_from_station_guess,
                                              std::span<const Eigen::Vector3d> station_m,
                                              bool robust) {
-  CaseAnnotationsSolution made;
-  made.annotations = std::move(annotations);
-  const std::vector<AnnotatedView>& views = made.annotations.views;
+  CaseAnnotationsSolution case_annotations_solution;
+  case_annotations_solution.annotations = std::move(annotations);
+  const std::vector<AnnotatedView>& views = case_annotations_solution.annotations.views;
   SolveAnnotationsOptions options;
   options.robust = robust;
   options.rig_from_station_guess = views[0].camera_from_rig.inverse() * camera_from_station_guess;
-  made.warnings = geometryWarnings(views, &*options.rig_from_station_guess, station_m);
-  made.result = solveAnnotations(views, options);
-  if (made.result.solution) made.left_out = leaveOneOut(views, *made.result.solution);
-  const std::string excess = made.sigmaExcess();
-  if (!excess.empty()) made.warnings.push_back(imprecisionWarning(excess));
-  return made;
+  case_annotations_solution.warnings =
+      geometryWarnings(views, &*options.rig_from_station_guess, station_m);
+  case_annotations_solution.result = solveAnnotations(views, options);
+  if (case_annotations_solution.result.solution)
+    case_annotations_solution.left_out =
+        leaveOneOut(views, *case_annotations_solution.result.solution);
+  const std::string excess = case_annotations_solution.sigmaExcess();
+  if (!excess.empty()) case_annotations_solution.warnings.push_back(imprecisionWarning(excess));
+  return case_annotations_solution;
 }
 
 CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::string& case_id,
                                              bool together, bool robust) {
   CaseAnnotations annotations = caseAnnotations(session, case_id, together);
-  const SessionCase& one = *session.findCase(case_id);
-  const SceneMesh scene = readKnownScene(one.parts);
-  return solveCaseAnnotations(std::move(annotations), annotationsGuess(one),
+  const SessionCase& session_case = *session.findCase(case_id);
+  const SceneMesh scene = readKnownScene(session_case.parts);
+  return solveCaseAnnotations(std::move(annotations), annotationsGuess(session_case),
                               boxCorners(matchedBounds(scene.view())), robust);
 }
 
-const Pose& annotationsGuess(const SessionCase& one) {
-  return one.camera_from_station_working ? *one.camera_from_station_working
-                                         : one.camera_from_station_seed;
+const Pose& annotationsGuess(const SessionCase& session_case) {
+  return session_case.camera_from_station_working ? *session_case.camera_from_station_working
+                                                  : session_case.camera_from_station_seed;
 }
 
 std::vector<Eigen::Vector3d> boxCorners(const BoundingBox& box) {

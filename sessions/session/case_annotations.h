@@ -69,7 +69,7 @@ CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::
 
 /// Where solving a case's annotations begins: its working pose, else its seed. The last bits of a
 /// solution depend on it, so everybody begins here.
-const Pose& annotationsGuess(const SessionCase& one);
+const Pose& annotationsGuess(const SessionCase& session_case);
 
 /// The eight corners of a station's box, as `solveCaseAnnotations` asks for them.
 std::vector<Eigen::Vector3d> boxCorners(const BoundingBox& box);

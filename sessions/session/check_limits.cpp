@@ -44,19 +44,20 @@ const std::vector<CheckPreset>& checkPresets() {
 
 const CheckPreset* findCheckPreset(const std::string& name) {
   const auto& all = checkPresets();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&name](const CheckPreset& one) { return one.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&name](const CheckPreset& check_preset) {
+    return check_preset.name == name;
+  });
   return found == all.end() ? nullptr : &*found;
 }
 
 const CheckPreset& presetFor(const Requirement& requirement) {
-  const auto names = [](const Requirement& one) {
-    return std::array{one.normal_mm.has_value(), one.lateral_mm.has_value(),
-                      one.rotation_deg.has_value(), one.projection_px.has_value()};
+  const auto names = [](const Requirement& item) {
+    return std::array{item.normal_mm.has_value(), item.lateral_mm.has_value(),
+                      item.rotation_deg.has_value(), item.projection_px.has_value()};
   };
   const auto& all = checkPresets();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const CheckPreset& one) {
-    return names(one.requirement) == names(requirement);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CheckPreset& check_preset) {
+    return names(check_preset.requirement) == names(requirement);
   });
   return found == all.end() ? all.front() : *found;
 }
@@ -74,8 +75,8 @@ ReviewSettings withPreset(const ReviewSettings& settings, const std::string& pre
   return {preset, {}, settings.second_person};
 }
 
-Requirement requirementOf(const Session& session, const SessionCase& one) {
-  if (one.requirement) return *one.requirement;
+Requirement requirementOf(const Session& session, const SessionCase& session_case) {
+  if (session_case.requirement) return *session_case.requirement;
   const CheckPreset* preset = findCheckPreset(session.review.preset);
   if (preset == nullptr)
     throw InputError("session", "review.preset",

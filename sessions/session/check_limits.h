@@ -144,7 +144,7 @@ CheckLimits checkLimits(const std::string& preset, const OptionList& changed);
 ReviewSettings withPreset(const ReviewSettings& settings, const std::string& preset);
 
 /// A case's own requirement, else the preset's. InputError when there is no such preset.
-Requirement requirementOf(const Session& session, const SessionCase& one);
+Requirement requirementOf(const Session& session, const SessionCase& session_case);
 
 /// These limits, kept as what differs from the preset. std::invalid_argument when there is none.
 ReviewSettings withLimits(const ReviewSettings& settings, const CheckLimits& limits);

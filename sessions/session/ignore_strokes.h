@@ -49,7 +49,7 @@ Session withStroke(const Session& session, const std::string& case_id, MaskStrok
 
 /// Strokes that leave no pixel ignored: none, or where the case has a mask image one that trusts
 /// every pixel of it again.
-MaskStrokes clearedStrokes(const SessionCase& one);
+MaskStrokes clearedStrokes(const SessionCase& session_case);
 
 /// Other cases whose pixels mean the same: of an equal camera and image size.
 std::vector<std::string> casesOfSameCamera(const Session& session, const std::string& case_id);

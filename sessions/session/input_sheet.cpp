@@ -77,12 +77,12 @@ bool contains(const BoundingBox& bounds, const Eigen::Vector3d& point_m) {
          (point_m.array() <= bounds.maximum_m.array()).all();
 }
 
-void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet) {
+void flagSeed(const SessionCase& session_case, const SceneMesh& scene, InputSheet& sheet) {
   const BoundingBox bounds = matchedBounds(scene.view());
-  const Pose& seed = one.camera_from_station_seed;
+  const Pose& seed = session_case.camera_from_station_seed;
   const std::string scale = scaleConcern(bounds, seed);
   if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": check the mesh's unit"});
-  const std::string concern = seedConcern(one.camera, scene.view(), seed);
+  const std::string concern = seedConcern(session_case.camera, scene.view(), seed);
   if (!concern.empty()) {
     const bool behind = concern.find("behind") != std::string::npos;
     sheet.flags.push_back({behind ? "station_behind_camera" : "station_out_of_view", concern});
@@ -92,7 +92,8 @@ void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet)
     sheet.flags.push_back({"camera_in_station",
                            "the seed places the camera inside the station: check the mesh's unit, "
                            "and that the seed is camera_from_station"});
-  const double size_px = bounds.diagonal() / (seed * bounds.centre()).norm() * one.camera.fx;
+  const double size_px =
+      bounds.diagonal() / (seed * bounds.centre()).norm() * session_case.camera.fx;
   if (size_px < kSmallestStation_px)
     sheet.flags.push_back(
         {"station_small", "the station would be only " + fixedText(size_px, 1) +
@@ -120,12 +121,13 @@ void flagQuality(const std::optional<ImageQuality>& quality, InputSheet& sheet) 
 
 void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const CameraSheet& camera,
               const std::optional<ImageQuality>& quality, InputSheet& sheet) {
-  const SessionCase& one = loaded.source;
+  const SessionCase& session_case = loaded.source;
   const GrayImage& image = loaded.image;
   const BoundingBox bounds = matchedBounds(loaded.scene.view());
   const Eigen::Vector3d extent_mm = kMillimetres * (bounds.maximum_m - bounds.minimum_m);
-  const double seed_distance_m = (one.camera_from_station_seed * bounds.centre()).norm();
-  const double view_width_mm = kMillimetres * seed_distance_m * one.camera.width / one.camera.fx;
+  const double seed_distance_m = (session_case.camera_from_station_seed * bounds.centre()).norm();
+  const double view_width_mm =
+      kMillimetres * seed_distance_m * session_case.camera.width / session_case.camera.fx;
   const auto add = [&sheet](const char* label, const std::string& value) {
     sheet.lines.push_back({label, value});
   };
@@ -141,15 +143,15 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
                   std::to_string(image_sheet.highest_gray) + ", " +
                   fixedText(100.0 * image_sheet.saturated_share, 2) + " % saturated");
   add("image at the seed", imageQualityText(quality));
-  add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
-                    sizeText(one.camera.width, one.camera.height) + " px");
-  for (const LabelItem& line : frameLines(one)) add(line.name.c_str(), line.value);
+  add("camera", std::string(cameraModelName(session_case.camera.model)) + ", " +
+                    sizeText(session_case.camera.width, session_case.camera.height) + " px");
+  for (const LabelItem& line : frameLines(session_case)) add(line.name.c_str(), line.value);
   add("field of view", fixedText(camera.field_of_view_x_deg, 2) + " x " +
                            fixedText(camera.field_of_view_y_deg, 2) + " deg");
   for (const MeshInfo& info : loaded.scene.infos)
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
-  const InputSigmas sigmas(one);
+  const InputSigmas sigmas(session_case);
   add("scale, one sigma", meshScaleText(sigmas));
   add("calibration, one sigma", calibrationText(sigmas) +
                                     ": of the focal length and of the "
@@ -204,11 +206,11 @@ bool looksLikeMosaic(const ImageView& image) {
   Differences along_rows, along_columns;
   for (int y = 0; y + 2 < image.height; ++y)
     for (int x = 0; x + 2 < image.width; ++x) {
-      const int here = image.at(x, y);
-      along_rows.next += std::abs(here - image.at(x + 1, y));
-      along_rows.second += std::abs(here - image.at(x + 2, y));
-      along_columns.next += std::abs(here - image.at(x, y + 1));
-      along_columns.second += std::abs(here - image.at(x, y + 2));
+      const int current = image.at(x, y);
+      along_rows.next += std::abs(current - image.at(x + 1, y));
+      along_rows.second += std::abs(current - image.at(x + 2, y));
+      along_columns.next += std::abs(current - image.at(x, y + 1));
+      along_columns.second += std::abs(current - image.at(x, y + 2));
     }
   return along_rows.alternate() && along_columns.alternate();
 }
@@ -259,26 +261,28 @@ ImageSheet imageSheet(const GrayImage& image) {
 
 InputSheet inputSheet(const LoadedCase& loaded) {
   InputSheet sheet;
-  const SessionCase& one = loaded.source;
+  const SessionCase& session_case = loaded.source;
   const GrayImage& image = loaded.image;
   const ImageSheet image_sheet = imageSheet(image);
-  const CameraSheet camera = cameraSheet(one.camera);
-  const std::optional<ImageQuality> quality = measureImageQuality(
-      image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
-      stationRegion(one.camera, loaded.scene.view(), one.camera_from_station_seed));
+  const CameraSheet camera = cameraSheet(session_case.camera);
+  const std::optional<ImageQuality> quality =
+      measureImageQuality(image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
+                          stationRegion(session_case.camera, loaded.scene.view(),
+                                        session_case.camera_from_station_seed));
   describe(loaded, image_sheet, camera, quality, sheet);
   sheet.flags = image_sheet.flags;
   flagQuality(quality, sheet);
-  if (image.width != one.camera.width || image.height != one.camera.height)
+  if (image.width != session_case.camera.width || image.height != session_case.camera.height)
     sheet.flags.push_back(
-        {"camera_size", "the camera is of " + sizeText(one.camera.width, one.camera.height) +
+        {"camera_size", "the camera is of " +
+                            sizeText(session_case.camera.width, session_case.camera.height) +
                             " px, but the image has " + sizeText(image.width, image.height)});
   sheet.flags.insert(sheet.flags.end(), camera.flags.begin(), camera.flags.end());
   for (const MeshInfo& info : loaded.scene.infos)
     for (const std::string& note : info.notes())
       sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
-  flagSeed(one, loaded.scene, sheet);
-  if (image.label) flagLabel(one, *image.label, sheet.flags);
+  flagSeed(session_case, loaded.scene, sheet);
+  if (image.label) flagLabel(session_case, *image.label, sheet.flags);
   return sheet;
 }
 

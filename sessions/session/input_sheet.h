@@ -76,9 +76,10 @@ bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m);
 /// in the same frame, and `transform_label` where a transform that was given places a frame of the
 /// label elsewhere than the label does; takes `camera_off_centre` away where the camera is that of
 /// the sub-frame which the label states. Nothing is changed by it: what people gave counts.
-void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedFlag>& flags);
+void flagLabel(const SessionCase& session_case, const ImageLabel& label,
+               std::vector<RedFlag>& flags);
 
 /// The same of the label of the case's image, as sentences; none where it has no label. InputError.
-std::vector<std::string> labelWarnings(const SessionCase& one);
+std::vector<std::string> labelWarnings(const SessionCase& session_case);
 
 }  // namespace boresight::sessions

@@ -96,7 +96,7 @@ struct SessionCase {
 };
 
 /// Gives a case this truth in place of a former one, with all that was said of that.
-void setTruth(SessionCase& one, const Pose& camera_from_station,
+void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance = std::nullopt);
 
 /// What a person annotated in one case.
@@ -113,7 +113,9 @@ struct DocumentView {
 
 /// The case that something of a session is or belongs to.
 struct CaseIdOf {
-  const std::string& operator()(const SharedValue<SessionCase>& one) const { return one->id; }
+  const std::string& operator()(const SharedValue<SessionCase>& shared_value) const {
+    return shared_value->id;
+  }
   const std::string& operator()(const Decision& decision) const { return decision.case_id; }
   const std::string& operator()(const RunRecord& run) const { return run.case_id; }
 };
@@ -167,12 +169,12 @@ Session withOptions(const Session& session, const std::string& profile,
 /// session) when the profile or an option does not exist or cannot have its value.
 LocalizerOptions sessionOptions(const Session& session, const std::filesystem::path& file);
 /// The options that a case is run with: a feature size of 0 is replaced by the case's.
-LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
+LocalizerOptions caseOptions(const Session& session, const SessionCase& session_case,
                              const std::filesystem::path& file);
 
 /// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts, seed, uncertainty;
 /// not names, truth, tags or requirement.
-std::string inputsDigest(const SessionCase& one);
+std::string inputsDigest(const SessionCase& session_case);
 
 /// In what a run differs from what would be run now.
 struct Staleness {
@@ -196,8 +198,8 @@ class StaleRuns {
  public:
   /// As `stalenessOf(run, session, file).stale()`; `one` is the run's case in the session.
   /// InputError of options that cannot be read.
-  bool isStale(const RunRecord& run, const SharedValue<SessionCase>& one, const Session& session,
-               const std::filesystem::path& file);
+  bool isStale(const RunRecord& run, const SharedValue<SessionCase>& shared_value,
+               const Session& session, const std::filesystem::path& file);
 
  private:
   struct Inputs {

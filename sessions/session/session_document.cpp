@@ -251,12 +251,12 @@ void SessionDocument::saveAs(const fs::path& file) {
   *this = std::move(other);
 }
 
-Session keepingRuns(const Session& target, const Session& now) {
+Session keepingRuns(const Session& target, const Session& current) {
   Session kept = target;
   kept.runs.clear();
-  for (const RunRecord& run : now.runs)
+  for (const RunRecord& run : current.runs)
     if (kept.findCase(run.case_id) != nullptr) kept.runs.push_back(run);
-  kept.view = now.view;
+  kept.view = current.view;
   if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
   return kept;
 }

@@ -151,10 +151,10 @@ Session readMembers(const JsonReader& json) {
   Session session;
   readOptionsOf(json, session);
   for (const JsonReader& json_of_one : json.at("cases").elements()) {
-    SessionCase one = readSessionCase(json_of_one);
-    if (session.findCase(one.id) != nullptr)
-      json_of_one.failMember("id", "'" + one.id + "' is given twice");
-    session.cases.push_back(std::move(one));
+    SessionCase session_case = readSessionCase(json_of_one);
+    if (session.findCase(session_case.id) != nullptr)
+      json_of_one.failMember("id", "'" + session_case.id + "' is given twice");
+    session.cases.push_back(std::move(session_case));
   }
   readAnnotationsOf(json, session);
   if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
@@ -207,15 +207,16 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["profile"] = session.profile;
   json["options"] = toJson(session.options);
   json["cases"] = ordered_json::array();
-  for (const auto& one : session.cases) json["cases"].push_back(toJson(*one, path));
+  for (const auto& session_case : session.cases)
+    json["cases"].push_back(toJson(*session_case, path));
   json["annotations"] = ordered_json::object();
   for (const auto& [id, annotation] : session.annotations)
     json["annotations"][id] = toJson(*annotation);
   for (const auto& [id, rounds] : session.rounds)
     for (const AnnotationRound& round : *rounds) {
-      ordered_json one = {{"by", round.by}, {"time", round.time}};
-      one.update(toJson(round.annotations));
-      json["rounds"][id].push_back(one);
+      ordered_json value = {{"by", round.by}, {"time", round.time}};
+      value.update(toJson(round.annotations));
+      json["rounds"][id].push_back(value);
     }
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
   json["decisions"] = ordered_json::array();

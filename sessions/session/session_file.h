@@ -39,7 +39,7 @@ std::string writeSessionFile(const std::filesystem::path& file, const Session& s
 
 class PathWriter;
 
-nlohmann::ordered_json toJson(const SessionCase& one, const PathWriter& path);
+nlohmann::ordered_json toJson(const SessionCase& session_case, const PathWriter& path);
 /// The reverse, without whether its id is given twice. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 

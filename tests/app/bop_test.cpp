@@ -23,16 +23,16 @@ const std::filesystem::path kRendered = BORESIGHT_SYNTHETIC_EXAMPLE;
 class WhsBop : public testing::Test {
  protected:
   WhsBop() {
-    const sessions::Case& one = *dataset_.findCase("bc-000000");
-    truth_ = *one.truth_camera_from_station;
+    const sessions::Case& dataset_case = *dataset_.findCase("bc-000000");
+    truth_ = *dataset_case.truth_camera_from_station;
     sessions::PosedImage image;
     image.id = 4;
-    image.camera = dataset_.cameras.at(one.camera);
+    image.camera = dataset_.cameras.at(dataset_case.camera);
     image.camera_from_station = truth_;
     const std::filesystem::path scene = folder_ / "set/test/000003";
     std::filesystem::create_directories(scene / "gray");
     sessions::writeBopScene(scene, {{{image, 5}}});
-    std::filesystem::copy_file(one.image, scene / "gray/000004.png");
+    std::filesystem::copy_file(dataset_case.image, scene / "gray/000004.png");
     writeModel(sessions::readStationScene(dataset_.stations.at("bc")));
   }
 

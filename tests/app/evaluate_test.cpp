@@ -31,9 +31,9 @@ class WhsEvaluate : public testing::Test {
   }
   std::vector<nlohmann::json> lines() const {
     std::istringstream stream(folder_.read("r.jsonl"));
-    std::vector<nlohmann::json> made;
-    for (std::string line; std::getline(stream, line);) made.push_back(nlohmann::json::parse(line));
-    return made;
+    std::vector<nlohmann::json> json;
+    for (std::string line; std::getline(stream, line);) json.push_back(nlohmann::json::parse(line));
+    return json;
   }
 
   const std::filesystem::path dataset_ = exampleFolder() / "dataset.json";
@@ -169,12 +169,12 @@ TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
   }
   const ProgramRun merged = runWhs(merge, 0);
   EXPECT_THAT(merged.out, HasSubstr("4 runs"));
-  const auto one = sessions::readResults(folder_ / "r.sqlite").runs;
+  const auto value = sessions::readResults(folder_ / "r.sqlite").runs;
   const auto joined = sessions::readResults(folder_ / "merged.sqlite").runs;
-  ASSERT_EQ(one.size(), joined.size());
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].case_id, joined[i].case_id);
-    EXPECT_EQ(one[i].digest, joined[i].digest);
+  ASSERT_EQ(value.size(), joined.size());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    EXPECT_EQ(value[i].case_id, joined[i].case_id);
+    EXPECT_EQ(value[i].digest, joined[i].digest);
   }
   runWhs({"evaluate", "--dataset", dataset_.string(), "--shard", "3/2", "--out", folder_ / "x"}, 2);
 }

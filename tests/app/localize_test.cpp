@@ -254,10 +254,10 @@ class WhsProblem : public testing::Test {
  protected:
   /// The example's orbiting sample with a few arguments replaced.
   Arguments arguments(const std::map<std::string, std::string>& replaced = {}) const {
-    Arguments made = localizeArguments(replaced);
-    made[0] = "problem";
-    made.insert(made.end(), {"--out", problem_, "--image-out", image_});
-    return made;
+    Arguments arguments = localizeArguments(replaced);
+    arguments[0] = "problem";
+    arguments.insert(arguments.end(), {"--out", problem_, "--image-out", image_});
+    return arguments;
   }
 
   ProgramRun drive() const { return runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, image_}); }

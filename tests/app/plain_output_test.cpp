@@ -39,15 +39,15 @@ class PlainOutput : public testing::Test {
       object[to] = object[from];
       object.erase(from);
     };
-    for (json& one : dataset["cases"]) {
-      const std::string folder = one["image"].get<std::string>().substr(0, 2);
+    for (json& item : dataset["cases"]) {
+      const std::string folder = item["image"].get<std::string>().substr(0, 2);
       const std::string image = hostile(folder) + ".png";
-      std::filesystem::copy(exampleFolder() / one["image"].get<std::string>(), folder_ / image);
-      one["id"] = hostile(one["id"]);
-      one["image"] = image;
-      one["station"] = hostile(one["station"]);
-      one["camera"] = hostile(one["camera"]);
-      one["tags"] = {hostile("tag")};
+      std::filesystem::copy(exampleFolder() / item["image"].get<std::string>(), folder_ / image);
+      item["id"] = hostile(item["id"]);
+      item["image"] = image;
+      item["station"] = hostile(item["station"]);
+      item["camera"] = hostile(item["camera"]);
+      item["tags"] = {hostile("tag")};
     }
     for (const std::string station : {"bc", "os"}) {
       const std::string mesh = hostile(station) + ".ply";
@@ -118,10 +118,10 @@ class LostOutput : public testing::Test {
     for (const std::string& argument : arguments) command += " '" + argument + "'";
     const int status =
         std::system((command + " >/dev/full 2>'" + (folder_ / "err").string() + "'").c_str());
-    ProgramRun made;
-    if (WIFEXITED(status)) made.exit_code = WEXITSTATUS(status);
-    made.err = folder_.read("err");
-    return made;
+    ProgramRun result;
+    if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+    result.err = folder_.read("err");
+    return result;
   }
   const TemporaryFolder folder_;
 };

@@ -184,12 +184,12 @@ TEST(WhsInfo, ReadsTheInputsOfABoundedNumberOfCases) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
   Session session = sessions::readSessionFile(file).session;
-  sessions::SessionCase one = *session.cases[0];
-  one.image.source.file = folder / "none.png";
+  sessions::SessionCase session_case = *session.cases[0];
+  session_case.image.source.file = folder / "none.png";
   session.cases.clear();
   for (int i = 0; i < 250; ++i) {
-    one.id = "case-" + std::to_string(i);
-    session.cases.push_back(one);
+    session_case.id = "case-" + std::to_string(i);
+    session.cases.push_back(session_case);
   }
   sessions::writeSessionFile(file, session);
   const ProgramRun run = runWhs({"info", file}, 0);
@@ -203,16 +203,16 @@ TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
   sessions::Session session = sessions::readSessionFile(file).session;
-  sessions::SessionCase one = *session.cases[0];
-  one.landmarks = folder.write(
+  sessions::SessionCase session_case = *session.cases[0];
+  session_case.landmarks = folder.write(
       "named points.json", R"({"format": "boresight-landmarks", "version": 1, "landmarks": []})");
-  sessions::writeSessionFile(file, withCase(session, one));
+  sessions::writeSessionFile(file, withCase(session, session_case));
   const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"}, 0);
   EXPECT_EQ(packed.errorLines(), 0);
   EXPECT_THAT(folder.read("s.zip"), HasSubstr("/named points.json"));
-  std::filesystem::remove(*one.landmarks);
+  std::filesystem::remove(*session_case.landmarks);
   EXPECT_THAT(runWhs({"pack", file, "--out", folder / "t.zip"}, 0).err,
-              HasSubstr("the landmarks of case " + one.id + " are missing"));
+              HasSubstr("the landmarks of case " + session_case.id + " are missing"));
   EXPECT_THAT(folder.read("t.zip"), Not(HasSubstr("/named points.json")));
 }
 

@@ -319,13 +319,13 @@ TEST(WhsBench, WritesWhatItMeasured) {
   EXPECT_EQ(json["format"], "boresight-bench");
   // Two stations, by portable and by the best kernels.
   ASSERT_EQ(json["localizations"].size(), 4u);
-  for (const auto& one : json["localizations"]) {
-    EXPECT_THAT(run.out, HasSubstr(one["name"].get<std::string>()));
-    EXPECT_GT(one["per_second"], 0.0);
-    EXPECT_GT(one["arena_bytes"], 1000000);
-    EXPECT_EQ(one["digest"].get<std::string>().size(), 64u);
+  for (const auto& item : json["localizations"]) {
+    EXPECT_THAT(run.out, HasSubstr(item["name"].get<std::string>()));
+    EXPECT_GT(item["per_second"], 0.0);
+    EXPECT_GT(item["arena_bytes"], 1000000);
+    EXPECT_EQ(item["digest"].get<std::string>().size(), 64u);
     for (const char* stage : {"initialization", "rendering", "matching", "pose", "refinement"})
-      EXPECT_GT(one["mean_seconds"][stage], 0.0) << one["name"] << " " << stage;
+      EXPECT_GT(item["mean_seconds"][stage], 0.0) << item["name"] << " " << stage;
   }
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     EXPECT_EQ(json["localizations"][i]["kernels"], "portable");

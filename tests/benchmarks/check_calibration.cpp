@@ -195,12 +195,12 @@ using nlohmann::ordered_json;
 using sessions::Session;
 using sessions::SessionCase;
 
-const SessionCase& lender(const Session& session, const SessionCase& one) {
+const SessionCase& lender(const Session& session, const SessionCase& session_case) {
   const SessionCase* first = nullptr;
   bool passed = false;
   for (const auto& other : session.cases) {
-    passed = passed || other->id == one.id;
-    if (other->station == one.station) continue;
+    passed = passed || other->id == session_case.id;
+    if (other->station == session_case.station) continue;
     if (first == nullptr) first = &*other;
     if (passed) return *other;
   }
@@ -209,14 +209,14 @@ const SessionCase& lender(const Session& session, const SessionCase& one) {
 
 ordered_json errorJson(const CheckedVariant& variant, const Pose& camera_from_station,
                        bool& meets) {
-  const SessionCase& one = variant.loaded->source;
+  const SessionCase& session_case = variant.loaded->source;
   sessions::PoseError error = sessions::poseError(
-      variant.camera_from_station_true, camera_from_station, one.camera_from_end_effector);
-  if (one.requirement->projection_px)
+      variant.camera_from_station_true, camera_from_station, session_case.camera_from_end_effector);
+  if (session_case.requirement->projection_px)
     error.projection_px = sessions::projectionError(
         variant.true_camera, variant.camera_from_station_true, camera_from_station,
         sessions::matchedVertices(variant.loaded->scene.view()));
-  meets = sessions::meetsRequirement(error, *one.requirement);
+  meets = sessions::meetsRequirement(error, *session_case.requirement);
   return sessions::toJson(error);
 }
 
@@ -301,8 +301,9 @@ std::string keyOf(const ordered_json& json) {
 
 Session sessionOf(const std::string& dataset) { return sessions::makeSession(dataset); }
 
-bool isPhotograph(const SessionCase& one) {
-  return std::find(one.tags.begin(), one.tags.end(), "real") != one.tags.end();
+bool isPhotograph(const SessionCase& session_case) {
+  return std::find(session_case.tags.begin(), session_case.tags.end(), "real") !=
+         session_case.tags.end();
 }
 
 int measure(const std::string& dataset, const std::string& out, std::size_t every) {
@@ -311,14 +312,16 @@ int measure(const std::string& dataset, const std::string& out, std::size_t ever
   for (const ordered_json& line : linesOf(out)) done.insert(keyOf(line));
   std::ofstream stream(out, std::ios::app);
   for (std::size_t i = 0; i < session.cases.size(); ++i) {
-    const SessionCase& one = *session.cases[i];
-    for (const std::string& name : variantNames(isPhotograph(one))) {
+    const SessionCase& session_case = *session.cases[i];
+    for (const std::string& name : variantNames(isPhotograph(session_case))) {
       const bool may_be_right = name == "right" || name.starts_with("reseed");
       if (!may_be_right && i % every != 0) continue;
-      ordered_json json = {{"case", one.id}, {"station", one.station}, {"variant", name}};
-      json["set"] = isPhotograph(one) ? "photographs" : "synthetic";
+      ordered_json json = {
+          {"case", session_case.id}, {"station", session_case.station}, {"variant", name}};
+      json["set"] = isPhotograph(session_case) ? "photographs" : "synthetic";
       if (done.contains(keyOf(json))) continue;
-      json.update(measured(makeVariant(session, one, lender(session, one), name)));
+      json.update(
+          measured(makeVariant(session, session_case, lender(session, session_case), name)));
       stream << json.dump() << std::endl;
       std::cerr << keyOf(json) << " " << json["status"] << std::endl;
     }
@@ -342,10 +345,11 @@ int measureAnew(const std::string& dataset, const std::string& from, const std::
   std::size_t number = 0;
   for (ordered_json line : linesOf(from)) {
     if (number++ < done) continue;
-    const SessionCase* one = session.findCase(line["case"].get<std::string>());
-    if (one != nullptr && line.contains("pose") && when(line)) {
+    const SessionCase* session_case = session.findCase(line["case"].get<std::string>());
+    if (session_case != nullptr && line.contains("pose") && when(line)) {
       const CheckedVariant variant =
-          makeVariant(session, *one, lender(session, *one), line["variant"].get<std::string>());
+          makeVariant(session, *session_case, lender(session, *session_case),
+                      line["variant"].get<std::string>());
       const auto pose_json = nlohmann::json::parse(line["pose"].dump());
       const Pose pose = sessions::readExactPose(sessions::JsonReader(from, pose_json, "pose"));
       line["right_in_image"] = !variant.wrong_mesh && meetsInImage(variant, pose);

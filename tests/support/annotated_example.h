@@ -35,10 +35,10 @@ inline std::vector<SeenCorner> spreadCorners(const ExampleCase& example, std::si
       candidates.push_back({corner, place.pixel});
   }
   std::vector<SeenCorner> chosen;
-  const auto distance = [&chosen](const SeenCorner& one) {
+  const auto distance = [&chosen](const SeenCorner& seen_corner) {
     double least = 1e9;
     for (const SeenCorner& other : chosen)
-      least = std::min(least, (one.pixel - other.pixel).norm());
+      least = std::min(least, (seen_corner.pixel - other.pixel).norm());
     return least;
   };
   while (chosen.size() < std::min(count, candidates.size()))
@@ -67,8 +67,8 @@ inline sessions::Annotations annotationsOf(const std::vector<SeenCorner>& corner
 
 /// The id of the case of a station.
 inline std::string caseOfStation(const sessions::Session& session, const std::string& station) {
-  for (const auto& one : session.cases)
-    if (one->station == station) return one->id;
+  for (const auto& session_case : session.cases)
+    if (session_case->station == station) return session_case->id;
   return "";
 }
 

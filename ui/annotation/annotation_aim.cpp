@@ -45,15 +45,16 @@ double snapRadius_px(double scale) {
   return std::clamp(kSnapRadius / scale, kLeastRadius_px, kMostRadius_px);
 }
 
-AnnotationAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& pointer,
+AnnotationAim aimAtImage(const sessions::LoadedCase& loaded_case, const Eigen::Vector2d& pointer,
                          const AimRules& rules) {
   AnnotationAim aim;
   aim.side = AimSide::kImage;
   aim.pixel = pointer;
   aim.text = aimText("free");
   if (!rules.snaps) return aim;
-  std::vector<ImageSnap> snaps = sessions::imageSnaps(
-      one.image.view(), pointer, rules.radius_px, std::max(kLeastRim_px, kRims * rules.radius_px));
+  std::vector<ImageSnap> snaps =
+      sessions::imageSnaps(loaded_case.image.view(), pointer, rules.radius_px,
+                           std::max(kLeastRim_px, kRims * rules.radius_px));
   // Ends of a line lie on an edge; where it ends or what it goes round does not count.
   if (rules.line)
     std::stable_partition(snaps.begin(), snaps.end(), [](const ImageSnap& snap) {
@@ -66,11 +67,11 @@ AnnotationAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d&
   return aim;
 }
 
-AnnotationAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
+AnnotationAim aimAtStation(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station,
                            const Eigen::Vector2d& pointer, std::vector<MeshSnap> snaps,
                            const AimRules& rules) {
   AnnotationAim aim;
-  const Camera& camera = one.source.camera;
+  const Camera& camera = loaded_case.source.camera;
   if (rules.line) std::erase_if(snaps, [](const MeshSnap& snap) { return !snap.edge; });
   if (!snaps.empty() && (rules.snaps || rules.line)) {
     const MeshSnap& snap = chosenOf(snaps, rules.turn, aim);
@@ -85,7 +86,7 @@ AnnotationAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_f
   }
   if (rules.line) return aim;
   const auto surface =
-      sessions::surfacePointAt(camera, one.scene.view(), camera_from_station, pointer);
+      sessions::surfacePointAt(camera, loaded_case.scene.view(), camera_from_station, pointer);
   if (!surface) return aim;
   aim.side = AimSide::kStation;
   aim.pixel = pointer;

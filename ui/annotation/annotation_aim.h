@@ -43,12 +43,12 @@ struct AimRules {
 /// Image pixels within which things are snapped to, at so many screen pixels to an image pixel.
 double snapRadius_px(double scale);
 
-AnnotationAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& pointer,
+AnnotationAim aimAtImage(const sessions::LoadedCase& loaded_case, const Eigen::Vector2d& pointer,
                          const AimRules& rules);
 
 /// `snaps`: what of the mesh is near the pointer under the pose, the likeliest first. Without one
 /// (or refused) it is the surface under the pointer; lines need an edge.
-AnnotationAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
+AnnotationAim aimAtStation(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station,
                            const Eigen::Vector2d& pointer, std::vector<sessions::MeshSnap> snaps,
                            const AimRules& rules);
 

@@ -35,11 +35,11 @@ bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
 }
 
 RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQuestion& asked) {
-  RoundAnswer made;
-  made.by = round.by;
-  made.time = round.time;
+  RoundAnswer round_answer;
+  round_answer.by = round.by;
+  round_answer.time = round.time;
   const sessions::AnnotatedView& at_work = asked.annotations.views.front();
-  made.repeatability = sessions::repeatability(round.annotations, at_work.annotations);
+  round_answer.repeatability = sessions::repeatability(round.annotations, at_work.annotations);
   sessions::AnnotatedView view = at_work;
   view.camera_from_rig = Pose();
   view.annotations = round.annotations;
@@ -47,26 +47,28 @@ RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQue
   options.robust = asked.robust;
   options.rig_from_station_guess = asked.camera_from_station_guess;
   const sessions::AnnotationsResult result = sessions::solveAnnotations({&view, 1}, options);
-  if (result.solution) made.camera_from_station = result.solution->camera_from_station.front();
-  return made;
+  if (result.solution)
+    round_answer.camera_from_station = result.solution->camera_from_station.front();
+  return round_answer;
 }
 
 AnnotationAnswer solve(const AnnotationQuestion& asked) {
-  AnnotationAnswer made;
+  AnnotationAnswer annotation_answer;
   const MeshView mesh = asked.one->scene.view();
   auto solution = std::make_shared<sessions::CaseAnnotationsSolution>(
       sessions::solveCaseAnnotations(asked.annotations, asked.camera_from_station_guess,
                                      sessions::boxCorners(matchedBounds(mesh)), asked.robust));
   if (const auto pose = solution->camera_from_station()) {
     const sessions::AnnotatedView& view = solution->annotations.views.front();
-    made.covariance = solution->covariance();
-    made.proposals = sessions::proposeAnnotations(asked.landmarks, view.annotations, mesh,
-                                                  view.camera, *pose, &*made.covariance);
+    annotation_answer.covariance = solution->covariance();
+    annotation_answer.proposals =
+        sessions::proposeAnnotations(asked.landmarks, view.annotations, mesh, view.camera, *pose,
+                                     &*annotation_answer.covariance);
   }
   for (const sessions::AnnotationRound& round : asked.rounds)
-    made.rounds.push_back(answerOf(round, asked));
-  made.solution = std::move(solution);
-  return made;
+    annotation_answer.rounds.push_back(answerOf(round, asked));
+  annotation_answer.solution = std::move(solution);
+  return annotation_answer;
 }
 
 }  // namespace
@@ -110,9 +112,9 @@ void AnnotationController::showDocument() {
   }
   const auto& annotations = document_.session().annotations;
   const auto found = annotations.find(id);
-  const Annotations now = found == annotations.end() ? Annotations() : *found->second;
-  const bool differs = !moving_ && !(now == annotations_);
-  if (differs) annotations_ = now;
+  const Annotations current = found == annotations.end() ? Annotations() : *found->second;
+  const bool differs = !moving_ && !(current == annotations_);
+  if (differs) annotations_ = current;
   if (!selected_.empty() && !selectedPoint() && !selectedLine()) selected_.clear();
   showLandmarks();
   if (other_case || differs) {
@@ -124,8 +126,8 @@ void AnnotationController::showDocument() {
 }
 
 void AnnotationController::showLandmarks() {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_);
-  const auto file = one ? one->landmarks : std::nullopt;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
+  const auto file = session_case ? session_case->landmarks : std::nullopt;
   if (file == landmarks_file_) return;
   landmarks_file_ = file;
   landmarks_.clear();
@@ -139,26 +141,26 @@ void AnnotationController::showLandmarks() {
 /// Solves what the annotations, the rig, the landmarks and the rounds are now, if that is news.
 void AnnotationController::askIfChanged(bool anyway) {
   if (case_id_.empty()) return;
-  AnnotationQuestion now;
+  AnnotationQuestion current;
   try {
-    now.annotations = sessions::caseAnnotations(document_.session(), case_id_, together_);
+    current.annotations = sessions::caseAnnotations(document_.session(), case_id_, together_);
   } catch (const std::exception& error) {
     Q_EMIT told(QString::fromUtf8(error.what()));
     return;
   }
-  now.annotations.views.front().annotations = annotations_;
-  now.one = state_.currentCase();
-  now.camera_from_station_guess =
+  current.annotations.views.front().annotations = annotations_;
+  current.one = state_.currentCase();
+  current.camera_from_station_guess =
       sessions::annotationsGuess(*document_.session().findCase(case_id_));
-  now.landmarks = landmarks_;
-  now.rounds = roundsOfCase();
-  now.robust = robust_;
-  if (!anyway && asked_ && sameQuestion(*asked_, now)) return;
-  asked_ = now;
+  current.landmarks = landmarks_;
+  current.rounds = roundsOfCase();
+  current.robust = robust_;
+  if (!anyway && asked_ && sameQuestion(*asked_, current)) return;
+  asked_ = current;
   stale_ = true;
   Q_EMIT solutionChanged();
   runner_.start(
-      kSolving, [question = std::move(now)](const std::stop_token&) { return solve(question); },
+      kSolving, [question = std::move(current)](const std::stop_token&) { return solve(question); },
       [this](const AnnotationAnswer& answer) { take(answer); });
 }
 

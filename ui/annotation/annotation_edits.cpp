@@ -39,22 +39,22 @@ template <class Pair, class Side>
 std::string AnnotationController::place(const Pair* chosen, std::optional<Side> Pair::*side,
                                         const Side& value, const QString& text) {
   const bool completes = chosen && !(chosen->*side) && !chosen->locked;
-  Pair made = completes ? *chosen : Pair();
+  Pair pair = completes ? *chosen : Pair();
   if (!completes) {
-    made.id = sessions::unusedId(annotations_, letterOf(made));
-    made.sigma_px = sigma_px_;
+    pair.id = sessions::unusedId(annotations_, letterOf(pair));
+    pair.sigma_px = sigma_px_;
   }
-  made.*side = value;
-  if (!commit(withPair(annotations_, made.id, made), text.arg(fromText(made.id)))) return {};
-  select(made.id);
-  return made.id;
+  pair.*side = value;
+  if (!commit(withPair(annotations_, pair.id, pair), text.arg(fromText(pair.id)))) return {};
+  select(pair.id);
+  return pair.id;
 }
 
 std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
   finishMove();
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (case_id_.empty() || !one) return {};
-  if (!sessions::isInImage(one->source.camera, pixel)) {
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (case_id_.empty() || !loaded_case) return {};
+  if (!sessions::isInImage(loaded_case->source.camera, pixel)) {
     Q_EMIT told(tr("This position is outside the image; click on the image."));
     return {};
   }
@@ -97,8 +97,8 @@ bool AnnotationController::mayChange(const std::string& id) {
 bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vector2d& pixel,
                                        int end) {
   if (!mayChange(id)) return false;
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one || !sessions::isInImage(one->source.camera, pixel)) return false;
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case || !sessions::isInImage(loaded_case->source.camera, pixel)) return false;
   select(id);
   annotations_ = sessions::withMoved(annotations_, id, end, pixel);
   moving_ = true;
@@ -197,14 +197,14 @@ int AnnotationController::seenProposals() const {
 
 void AnnotationController::confirmSeen() {
   finishMove();
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one) return;
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case) return;
   Annotations confirmed = annotations_;
   int found = 0;
   const int seen = seenProposals();
   for (const sessions::Proposal& proposal : answer_.proposals) {
     if (!proposal.seen || sessions::findPoint(annotations_, proposal.landmark.name)) continue;
-    const auto pixel = sessions::featureOf(proposal, one->image.view());
+    const auto pixel = sessions::featureOf(proposal, loaded_case->image.view());
     if (!pixel) continue;
     ++found;
     PointPair point = annotationOf(proposal.landmark);
@@ -274,15 +274,15 @@ void AnnotationController::removeRound(int round) {
 void AnnotationController::useAsTruth() {
   finishMove();
   const std::optional<Pose> solved = solvedPose();
-  const sessions::SessionCase* one = document_.session().findCase(case_id_);
-  if (!one || !solved) return;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
+  if (!session_case || !solved) return;
   if (stale_) {
     Q_EMIT told(tr("The pose is being solved again; try again in a moment."));
     return;
   }
-  const bool replaces = one->camera_from_station_truth.has_value();
+  const bool replaces = session_case->camera_from_station_truth.has_value();
   const std::string excess = answer_.solution->sigmaExcess();
-  sessions::SessionCase changed = *one;
+  sessions::SessionCase changed = *session_case;
   sessions::setTruth(changed, *solved, answer_.covariance);
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Use the annotated pose of %1 as its truth").arg(fromText(case_id_)));
@@ -310,10 +310,10 @@ void AnnotationController::unlinkCase() {
 }
 
 void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_);
-  if (!one) return;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
+  if (!session_case) return;
   landmarks_file_.reset();  // read again, also where only its content has changed
-  const std::vector<sessions::MeshInput> parts = one->parts;
+  const std::vector<sessions::MeshInput> parts = session_case->parts;
   sessions::Session session = document_.session();
   for (const auto& each : document_.session().cases) {
     if (!(each->parts == parts)) continue;

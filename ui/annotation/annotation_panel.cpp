@@ -393,16 +393,16 @@ void AnnotationPanel::chooseRow(const QModelIndex& current) {
 }
 
 std::vector<ComparedPose> AnnotationPanel::otherPoses() const {
-  std::vector<ComparedPose> made;
-  if (!state_.currentCase()) return made;
+  std::vector<ComparedPose> compared_poses;
+  if (!state_.currentCase()) return compared_poses;
   const auto add = [&](const QString& name, PoseRole role) {
-    if (const auto pose = poseOf(state_, role)) made.push_back({name, *pose});
+    if (const auto pose = poseOf(state_, role)) compared_poses.push_back({name, *pose});
   };
   add(tr("seed"), PoseRole::kSeed);
   add(tr("run, iteration %1").arg(state_.cursor().iteration + 1), PoseRole::kEstimate);
   add(tr("nudged"), PoseRole::kNudged);
   add(tr("truth"), PoseRole::kTruth);
-  return made;
+  return compared_poses;
 }
 
 void AnnotationPanel::showSolution() {
@@ -417,8 +417,8 @@ void AnnotationPanel::showSolution() {
   const bool solved = controller_.solvedPose().has_value();
   ui_.annotationAsTruth->setEnabled(solved && !controller_.stale());
   ui_.annotationAsSeed->setEnabled(solved && !controller_.stale());
-  const ViewState::CasePtr& one = state_.currentCase();
-  ui_.together->setVisible(one && one->source.rig);
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  ui_.together->setVisible(loaded_case && loaded_case->source.rig);
 }
 
 void AnnotationPanel::showRounds() {
@@ -430,10 +430,10 @@ void AnnotationPanel::showRounds() {
   menu.addSeparator();
   for (int i = 0; i < static_cast<int>(controller_.answer().rounds.size()); ++i) {
     const auto& round = controller_.answer().rounds[static_cast<std::size_t>(i)];
-    QMenu* one =
+    QMenu* q_menu =
         menu.addMenu(QStringLiteral("%1, %2").arg(fromText(round.by), fromText(round.time)));
-    one->addAction(tr("Continue"), this, [this, i] { controller_.takeUp(i); });
-    one->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
+    q_menu->addAction(tr("Continue"), this, [this, i] { controller_.takeUp(i); });
+    q_menu->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
   }
 }
 

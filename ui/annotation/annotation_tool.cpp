@@ -90,24 +90,24 @@ void AnnotationTool::clearAim() {
 }
 
 void AnnotationTool::updateAim() {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!active() || !one || !pointer_ || drag_) return;
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!active() || !loaded_case || !pointer_ || drag_) return;
   const Eigen::Vector2d pixel = vectorOf(*pointer_);
   const QPointF place = view_.transform().toWidget(*pointer_);
   aim_ = {};
   if ((modifiers_ & Qt::ControlModifier) != 0) {
     const Pose pose = stationPose();
     const AimRules how = rules();
-    aim_ = aimAtStation(*one, pose, pixel,
-                        snapper_.near(one->source.camera, pose, pixel, how.radius_px), how);
+    aim_ = aimAtStation(*loaded_case, pose, pixel,
+                        snapper_.near(loaded_case->source.camera, pose, pixel, how.radius_px), how);
   } else if (const auto handle = line_start_ ? std::nullopt : handleUnder(place)) {
     aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
   } else if (const auto* proposal = proposalUnder(place)) {
-    aim_ = aimAtImage(*one, pixel, rules());
+    aim_ = aimAtImage(*loaded_case, pixel, rules());
     aim_.text = tr("%1, %2: click places it, right click to place it later")
                     .arg(QString::fromStdString(proposal->landmark.name), aim_.text);
   } else {
-    aim_ = aimAtImage(*one, pixel, rules());
+    aim_ = aimAtImage(*loaded_case, pixel, rules());
   }
   focus_ = pointer_;
   view_.update();
@@ -166,12 +166,12 @@ std::optional<AnnotationTool::Handle> AnnotationTool::handleUnder(const QPointF&
 
 /// A point without a place in the image that the pose predicts within reach, or "".
 std::string AnnotationTool::stationOnlyUnder(const QPointF& place) const {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one || lacksImageSide()) return {};
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case || lacksImageSide()) return {};
   for (const sessions::PointPair& point : controller_.annotations().points) {
     if (point.pixel || !point.point_in_station_m) continue;
-    const auto at =
-        sessions::predictPlace(one->source.camera, stationPose(), *point.point_in_station_m);
+    const auto at = sessions::predictPlace(loaded_case->source.camera, stationPose(),
+                                           *point.point_in_station_m);
     if (at.valid && screenDistance(at.pixel, place) <= kReach) return point.id;
   }
   return {};

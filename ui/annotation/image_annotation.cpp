@@ -62,7 +62,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
   connect(edges_, &PoseRenderer::rendered, this,
           [this](const std::shared_ptr<const sessions::RenderTrace>& render, int level) {
             std::vector<LayerBits> bits = bitsOf(render, false);
-            for (LayerBits& one : bits) one.level = level;
+            for (LayerBits& entry : bits) entry.level = level;
             image_.setBits(LayerId::kAnnotationEdges, std::move(bits));
             loupe_->update();
           });
@@ -94,12 +94,13 @@ void ImageAnnotation::showSamples() {
 }
 
 AnnotationLook ImageAnnotation::look() const {
-  AnnotationLook made;
-  made.selected = controller_.selected();
-  made.camera = state_.currentCase()->source.camera;
-  made.camera_from_station = tool_->stationPose();
-  if (controller_.solution()) made.outliers = controller_.solution()->outlierAnnotations();
-  return made;
+  AnnotationLook annotation_look;
+  annotation_look.selected = controller_.selected();
+  annotation_look.camera = state_.currentCase()->source.camera;
+  annotation_look.camera_from_station = tool_->stationPose();
+  if (controller_.solution())
+    annotation_look.outliers = controller_.solution()->outlierAnnotations();
+  return annotation_look;
 }
 
 void ImageAnnotation::showAnnotations() {

@@ -88,8 +88,8 @@ void putLoupeAside(QWidget& loupe, const LoupeSize& size, const QPoint& place, b
   const int side = on_raster(std::clamp(size.share * shorter, size.least, size.most));
   const QRect at_right(on_raster(view.width() - side - kMargin), kMargin, side, side);
   const QRect at_left(kMargin, kMargin, side, side);
-  const QRect& now = left ? at_left : at_right;
-  if (now.adjusted(-kShyness, -kShyness, kShyness, kShyness).contains(place)) left = !left;
+  const QRect& current = left ? at_left : at_right;
+  if (current.adjusted(-kShyness, -kShyness, kShyness, kShyness).contains(place)) left = !left;
   loupe.setGeometry(left ? at_left : at_right);
 }
 
@@ -168,10 +168,10 @@ void Loupe::putAside() {
 }
 
 ViewTransform Loupe::transform() const {
-  ViewTransform made;
-  made.zoomAt(QPointF(0.0, 0.0), magnification() / devicePixelRatioF());
-  if (pixel_) made.centreOn(*pixel_, size());
-  return made;
+  ViewTransform view_transform;
+  view_transform.zoomAt(QPointF(0.0, 0.0), magnification() / devicePixelRatioF());
+  if (pixel_) view_transform.centreOn(*pixel_, size());
+  return view_transform;
 }
 
 bool Loupe::eventFilter(QObject* watched, QEvent* event) {

@@ -175,9 +175,9 @@ void ManualWindow::find(bool backward) {
   if (words.isEmpty() || browser_->find(words, flags)) return;
   const QStringList pages = manualPages(folder_);
   const int count = static_cast<int>(pages.size());
-  const int here = std::max(0, static_cast<int>(pages.indexOf(browser_->source().fileName())));
+  const int current = std::max(0, static_cast<int>(pages.indexOf(browser_->source().fileName())));
   for (int i = 1; i <= count; ++i) {  // this page again at last
-    const QString& page = pages[(here + (backward ? count - i : i)) % count];
+    const QString& page = pages[(current + (backward ? count - i : i)) % count];
     if (!manualText(folder_ + QLatin1Char('/') + page).contains(words, Qt::CaseInsensitive))
       continue;
     goTo(page);

@@ -223,11 +223,11 @@ void AnnotationsModel::fillRows() {
   }
   if (solution_ && solution_->result.solution) {
     const auto fill = [this, &rows](const auto& judged, auto member) {
-      for (const auto& one : judged)
+      for (const auto& item : judged)
         for (AnnotationRow& row : rows)
-          if (one.address.view == 0 &&
-              row.id == sessions::annotationId(solution_->annotations.views, one.address))
-            row.*member = one;
+          if (item.address.view == 0 &&
+              row.id == sessions::annotationId(solution_->annotations.views, item.address))
+            row.*member = item;
     };
     fill(solution_->result.solution->annotations, &AnnotationRow::solved);
     fill(solution_->left_out, &AnnotationRow::left_out);

@@ -127,10 +127,10 @@ CasesPanel::CasesPanel(QWidget* parent) : QWidget(parent) {
 void CasesPanel::applyFilter() {
   const int state = ui_.state->currentIndex() - 1;
   filter_.setCondition([this, state, text = ui_.text->text().trimmed()](int row) {
-    const CaseRow& one = model_.at(row);
-    return (state < 0 || one.state == static_cast<CaseState>(state)) &&
-           (one.id.contains(text, Qt::CaseInsensitive) ||
-            one.station.contains(text, Qt::CaseInsensitive));
+    const CaseRow& case_row = model_.at(row);
+    return (state < 0 || case_row.state == static_cast<CaseState>(state)) &&
+           (case_row.id.contains(text, Qt::CaseInsensitive) ||
+            case_row.station.contains(text, Qt::CaseInsensitive));
   });
   setCurrent(current_);
 }

@@ -78,11 +78,12 @@ void ConfigurationPanel::change(const std::string& name, const std::string& valu
 QStringList ConfigurationPanel::differences() const {
   const auto* run = view_.snapshot().get();
   if (run == nullptr) return {};
-  LocalizerOptions now = options_;
-  if (!(now.templates.feature_size_m > 0.0)) now.templates.feature_size_m = case_feature_size_m_;
+  LocalizerOptions current = options_;
+  if (!(current.templates.feature_size_m > 0.0))
+    current.templates.feature_size_m = case_feature_size_m_;
   QStringList names;
   for (const auto& option : sessions::listOptions(run->lastOptions())) {
-    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), now)) {
+    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), current)) {
       if (name != option.name) continue;
       names.append(tr("%1 (was %2)").arg(fromText(name), fromText(valueText(option, value))));
     }

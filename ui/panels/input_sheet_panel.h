@@ -20,7 +20,7 @@ class InputSigmasDialog : public QDialog {
   Q_OBJECT
 
  public:
-  InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent);
+  InputSigmasDialog(const sessions::SessionCase& session_case, QWidget* parent);
 
   std::optional<double> meshScaleSigma() const;
   std::optional<sessions::CalibrationSigma> calibrationSigma() const;

@@ -48,9 +48,9 @@ void MaskPanel::showTool() {
   ui_.brushSize->setValue(2.0 * editor_.radius_px());
 }
 
-void MaskPanel::setCase(const sessions::SessionCase* one, const MaskStrokes& named,
+void MaskPanel::setCase(const sessions::SessionCase* session_case, const MaskStrokes& named,
                         int cases_of_camera) {
-  case_ = one ? std::optional(*one) : std::nullopt;
+  case_ = session_case ? std::optional(*session_case) : std::nullopt;
   named_ = named;
   cases_of_camera_ = cases_of_camera;
   showStrokes();

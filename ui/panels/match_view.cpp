@@ -20,50 +20,50 @@ std::vector<TableColumn<MatchDetails>> templateColumns() {
   constexpr auto tr = [](const char* text) { return TemplatesModel::tr(text); };
   return {
       {tr("Template"), tr("Number of the template, from 1."), 0,
-       [](Row one) { return one.index + 1; }},
+       [](Row row) { return row.index + 1; }},
       {tr("x, px"),
        tr("Predicted position of its centre, pixels of the full image to the right of the centre "
           "of the top-left pixel."),
-       1, [](Row one) { return one.predicted_px.x(); }},
+       1, [](Row row) { return row.predicted_px.x(); }},
       {tr("y, px"),
        tr("Predicted position of its centre, pixels of the full image below the centre of the "
           "top-left pixel."),
-       1, [](Row one) { return one.predicted_px.y(); }},
+       1, [](Row row) { return row.predicted_px.y(); }},
       {tr("Depth, m"), tr("Distance of its point from the camera along the view axis, in metres."),
-       3, [](Row one) { return one.depth_m; }},
+       3, [](Row row) { return row.depth_m; }},
       {tr("Distinctness"),
        tr("Number of edge pixels that constrain the template in its weakest direction; 0: it "
           "slides along a straight edge."),
-       1, [](Row one) { return one.distinctness; }},
+       1, [](Row row) { return row.distinctness; }},
       {tr("dx, px"), tr("From the predicted to the found position, in pixels of the full image."),
-       2, [](Row one) { return one.moved_px().x(); }},
+       2, [](Row row) { return row.moved_px().x(); }},
       {tr("dy, px"), tr("From the predicted to the found position, in pixels of the full image."),
-       2, [](Row one) { return one.moved_px().y(); }},
+       2, [](Row row) { return row.moved_px().y(); }},
       {tr("Score S"),
        tr("Weighted Hamming similarity at the found position, S+/c+ plus S-/c-; 2 is perfect."), 3,
-       [](Row one) { return one.score; }},
+       [](Row row) { return row.score; }},
       {tr("S+/c+"), tr("Share of the template's edge pixels that meet an edge of the image."), 3,
-       [](Row one) { return one.edge_share; }},
+       [](Row row) { return row.edge_share; }},
       {tr("S-/c-"), tr("Share of the template's empty pixels inside its mask that meet no edge."),
-       3, [](Row one) { return one.empty_share; }},
+       3, [](Row row) { return row.empty_share; }},
       {tr("Margin, %"),
        tr("Margin of the best score over the second peak, in per cent of the best; a small margin "
           "may be a wrong position."),
-       1, [](Row one) { return 100.0 * one.margin; }},
+       1, [](Row row) { return 100.0 * row.margin; }},
       {tr("Residual, px"),
        tr("Distance of the found position from the point's projection in the solved pose, in "
           "pixels of the full image."),
-       2, [](Row one) { return one.residual_px; }},
+       2, [](Row row) { return row.residual_px; }},
       {tr("Verdict"), tr("Whether the match agrees with the solved pose within the threshold."), -1,
-       [](Row one) { return TemplatesModel::verdictOf(one); },
-       [](Row one) {
-         return one.inlier ? 0 : one.solved ? 1 : one.searched ? 2 : 3;
+       [](Row row) { return TemplatesModel::verdictOf(row); },
+       [](Row row) {
+         return row.inlier ? 0 : row.solved ? 1 : row.searched ? 2 : 3;
        }},
       {tr("Border"),
        tr("The peak lies on the border of the search window: the true position may lie outside; "
           "the stated uncertainty may be too small."),
-       -1, [](Row one) { return one.at_border ? TemplatesModel::tr("at border") : QString(); },
-       [](Row one) { return one.at_border ? 0 : 1; }},
+       -1, [](Row row) { return row.at_border ? TemplatesModel::tr("at border") : QString(); },
+       [](Row row) { return row.at_border ? 0 : 1; }},
   };
 }
 

@@ -56,7 +56,7 @@ void PoseExport::addTo(QMenu& menu) {
   QAction* colmap = menu.addAction(tr("&COLMAP text model..."), this, &PoseExport::askForColmap);
   colmap->setStatusTip(tr("All poses as a COLMAP text model"));
   connect(&menu, &QMenu::aboutToShow, &menu, [this, pose, report, bop, colmap] {
-    for (QAction* one : {pose, report}) one->setEnabled(!caseId().empty());
+    for (QAction* q_action : {pose, report}) q_action->setEnabled(!caseId().empty());
     for (QAction* all : {bop, colmap}) all->setEnabled(!document_.session().cases.empty());
   });
 }
@@ -74,7 +74,7 @@ QString PoseExport::poseFileName() const {
 QString PoseExport::bopResultsFileName() const {
   const auto& cases = document_.session().cases;
   const bool all = std::all_of(cases.begin(), cases.end(),
-                               [this](const auto& one) { return isValidated(one->id); });
+                               [this](const auto& item) { return isValidated(item->id); });
   return all ? QStringLiteral("boresight_results.csv")
              : QStringLiteral("boresight_%1_results.csv")
                    .arg(QLatin1String(sessions::kNotValidatedName));

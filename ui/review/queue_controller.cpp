@@ -109,11 +109,11 @@ void QueueController::follow() {
   const sessions::Session& session = document_.session();
   Rows::Keys rows;
   Differences::Keys pairs;
-  for (const auto& one : session.cases) {
-    const std::string key = sessions::queueKey(session, one->id);
-    rows.emplace_back(one->id, key);
-    if (const auto pair = sessions::lastTwoRuns(session, one->id))
-      pairs.emplace_back(one->id, key + ' ' + pair->before->digest);
+  for (const auto& session_case : session.cases) {
+    const std::string key = sessions::queueKey(session, session_case->id);
+    rows.emplace_back(session_case->id, key);
+    if (const auto pair = sessions::lastTwoRuns(session, session_case->id))
+      pairs.emplace_back(session_case->id, key + ' ' + pair->before->digest);
   }
   rows_.follow(session, rows);
   differences_.follow(session, pairs);
@@ -127,19 +127,21 @@ QueueRow QueueController::rowOf(const Rows::Entry& entry) const {
 }
 
 std::vector<QueueEntry> QueueController::queue() const {
-  std::vector<QueueEntry> made;
+  std::vector<QueueEntry> queue_entries;
   for (const Rows::Entry& entry : rows_.entries())
-    made.push_back({rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
-  return made;
+    queue_entries.push_back(
+        {rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
+  return queue_entries;
 }
 
 std::vector<DifferenceEntry> QueueController::differences() const {
-  std::vector<DifferenceEntry> made;
+  std::vector<DifferenceEntry> difference_entries;
   for (const Differences::Entry& entry : differences_.entries()) {
-    DifferenceEntry& one = made.emplace_back(entry.value.value_or(DifferenceEntry{entry.id}));
-    one.current = entry.current;
+    DifferenceEntry& difference_entry =
+        difference_entries.emplace_back(entry.value.value_or(DifferenceEntry{entry.id}));
+    difference_entry.current = entry.current;
   }
-  return made;
+  return difference_entries;
 }
 
 int QueueController::doneCount() const {

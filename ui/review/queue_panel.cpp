@@ -29,13 +29,15 @@ QString signOf(RunChange change) {
                                        : DifferencesModel::tr("= same");
 }
 
-QString beforeAndNow(int before, int now) { return QStringLiteral("%1 → %2").arg(before).arg(now); }
+QString beforeAndNow(int before, int after) {
+  return QStringLiteral("%1 → %2").arg(before).arg(after);
+}
 
-QString apartText(const RunDifference& made) {
-  if (!made.before.converged || !made.after.converged) return {};
+QString apartText(const RunDifference& run_difference) {
+  if (!run_difference.before.converged || !run_difference.after.converged) return {};
   return DifferencesModel::tr("%1 mm, %2 mrad")
-      .arg(numberText(made.comparison.translation_mm, 3),
-           numberText(made.comparison.rotation_mrad, 3));
+      .arg(numberText(run_difference.comparison.translation_mm, 3),
+           numberText(run_difference.comparison.rotation_mrad, 3));
 }
 
 using Difference = const RunDifference&;
@@ -57,37 +59,44 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
       {tr("Change"),
        tr("Whether the last run is better than the previous run: by the truth if known, else by "
           "the checks."),
-       -1, ofDifference([](Difference made) { return signOf(made.change); }),
-       ofDifference([](Difference made) {
-         return made.change == RunChange::kWorse ? 0 : made.change == RunChange::kBetter ? 1 : 2;
+       -1, ofDifference([](Difference difference) { return signOf(difference.change); }),
+       ofDifference([](Difference difference) {
+         return difference.change == RunChange::kWorse    ? 0
+                : difference.change == RunChange::kBetter ? 1
+                                                          : 2;
        })},
       {tr("Failed checks"), tr("Number of failed checks: before and after."), 0,
-       ofDifference([](Difference made) {
-         return beforeAndNow(made.before.checks_failed, made.after.checks_failed);
+       ofDifference([](Difference difference) {
+         return beforeAndNow(difference.before.checks_failed, difference.after.checks_failed);
        }),
-       ofDifference(
-           [](Difference made) { return made.after.checks_failed - made.before.checks_failed; })},
+       ofDifference([](Difference difference) {
+         return difference.after.checks_failed - difference.before.checks_failed;
+       })},
       {tr("Inliers"), tr("Inliers of the last matching iteration: before and after."), 0,
-       ofDifference(
-           [](Difference made) { return beforeAndNow(made.before.inliers, made.after.inliers); }),
-       ofDifference([](Difference made) { return made.after.inliers - made.before.inliers; })},
+       ofDifference([](Difference difference) {
+         return beforeAndNow(difference.before.inliers, difference.after.inliers);
+       }),
+       ofDifference([](Difference difference) {
+         return difference.after.inliers - difference.before.inliers;
+       })},
       {tr("Poses apart"), tr("Distance of the two results at the camera, in mm and mrad."), 0,
        ofDifference(apartText),
-       ofDifference([](Difference made) { return made.comparison.translation_mm; })},
+       ofDifference([](Difference difference) { return difference.comparison.translation_mm; })},
       {tr("Reason and first difference"),
        tr("Basis of the verdict, and the first value in which the runs differ."), -1,
-       ofDifference([](Difference made) { return fromText(sessions::changeText(made)); })},
+       ofDifference(
+           [](Difference difference) { return fromText(sessions::changeText(difference)); })},
   };
 }
 
-QString tableHtml(const RunDifference& made) {
+QString tableHtml(const RunDifference& run_difference) {
   QVector<QStringList> rows = {
       {QString(), DifferencesModel::tr("before"), DifferencesModel::tr("now")}};
-  for (const sessions::DifferenceLine& line : sessions::differenceLines(made))
+  for (const sessions::DifferenceLine& line : sessions::differenceLines(run_difference))
     rows.append({fromText(line.label).toHtmlEscaped(), fromText(line.before).toHtmlEscaped(),
                  fromText(line.after).toHtmlEscaped()});
-  return htmlTable(rows) +
-         QStringLiteral("<p>%1</p>").arg(fromText(sessions::changeText(made)).toHtmlEscaped());
+  return htmlTable(rows) + QStringLiteral("<p>%1</p>")
+                               .arg(fromText(sessions::changeText(run_difference)).toHtmlEscaped());
 }
 
 }  // namespace
@@ -394,12 +403,12 @@ void QueuePanel::choose(const QString& id) {
 /// The undecided case that is listed next after the chosen one, from the top again at the end.
 QString QueuePanel::nextOpen() const {
   const int count = filter_.rowCount();
-  const int here = ui_.queue->currentIndex().row();
+  const int current = ui_.queue->currentIndex().row();
   for (int i = 1; i < count; ++i) {
-    const QModelIndex one = filter_.index((here + i) % count, 0);
-    const sessions::QueueRow& row = model_.at(filter_.mapToSource(one).row()).row;
+    const QModelIndex q_model_index = filter_.index((current + i) % count, 0);
+    const sessions::QueueRow& row = model_.at(filter_.mapToSource(q_model_index).row()).row;
     if (row.group == sessions::QueueGroup::kNoPose || row.group == sessions::QueueGroup::kOpen)
-      return one.data().toString();
+      return q_model_index.data().toString();
   }
   return {};
 }

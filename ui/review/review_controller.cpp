@@ -20,9 +20,9 @@ const QString kChecksKey = QStringLiteral("checks");
 const QString kConvergenceKey = QStringLiteral("convergence");
 
 /// Whether what was read is the case as the document has it; a nudge by hand is not judged.
-bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase now) {
-  now.camera_from_station_working = read.camera_from_station_working;
-  return read == now;
+bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase current) {
+  current.camera_from_station_working = read.camera_from_station_working;
+  return read == current;
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ void ReviewController::chooseSource() {
   const sessions::RunRecord* run = document_.session().lastRunOf(id);
   source_ = hasAnnotations() && (!run || run->status != "converged") ? PoseSource::kAnnotation
                                                                      : PoseSource::kRun;
-  const sessions::ReviewStatus now = reviewStatus();
-  if (now.holds() && now.decision->pose) source_ = now.decision->pose->source;
+  const sessions::ReviewStatus current = reviewStatus();
+  if (current.holds() && current.decision->pose) source_ = current.decision->pose->source;
   if (wanted_source_ == PoseSource::kRun && run) source_ = PoseSource::kRun;
   if (wanted_source_ == PoseSource::kAnnotation && hasAnnotations())
     source_ = PoseSource::kAnnotation;
@@ -87,23 +87,25 @@ QString ReviewController::missing() const {
 std::optional<ReviewController::Question> ReviewController::question() const {
   const std::string id = caseId();
   const sessions::Session& session = document_.session();
-  const sessions::SessionCase* one = session.findCase(id);
-  if (!one || !missing().isEmpty() || !isReadAs(state_.currentCase()->source, *one)) return {};
-  Question made;
-  made.loaded = state_.currentCase();
-  made.source = source_;
-  if (source_ == PoseSource::kRun) made.run_digest = runDigest();
-  made.input_fingerprint = sessions::inputFingerprint(session, id, made.run_digest);
-  return made;
+  const sessions::SessionCase* session_case = session.findCase(id);
+  if (!session_case || !missing().isEmpty() ||
+      !isReadAs(state_.currentCase()->source, *session_case))
+    return {};
+  Question question;
+  question.loaded = state_.currentCase();
+  question.source = source_;
+  if (source_ == PoseSource::kRun) question.run_digest = runDigest();
+  question.input_fingerprint = sessions::inputFingerprint(session, id, question.run_digest);
+  return question;
 }
 
 void ReviewController::follow() {
   chooseSource();
   problem_ = missing();
-  auto now = question();
-  if (!now || now != question_) {
+  auto current = question();
+  if (!current || current != question_) {
     drop();
-    question_ = std::move(now);
+    question_ = std::move(current);
     if (active_) ask();
   }
   Q_EMIT checksChanged();
@@ -164,13 +166,13 @@ void ReviewController::setReason(const std::string& check_id, const QString& rea
 }
 
 sessions::CheckWaivers ReviewController::waivers() const {
-  sessions::CheckWaivers made;
+  sessions::CheckWaivers check_waivers;
   for (const sessions::Check& check : checks_) {
     const QString reason = reasonFor(check);
     if (check.state == sessions::CheckState::kFailed && !reason.isEmpty())
-      made[check.id] = reason.toStdString();
+      check_waivers[check.id] = reason.toStdString();
   }
-  return made;
+  return check_waivers;
 }
 
 sessions::ReviewStatus ReviewController::reviewStatus() const {
@@ -178,12 +180,12 @@ sessions::ReviewStatus ReviewController::reviewStatus() const {
 }
 
 std::vector<const sessions::Decision*> ReviewController::history() const {
-  std::vector<const sessions::Decision*> made;
+  std::vector<const sessions::Decision*> decisions;
   const std::string id = caseId();
   const auto& all = document_.session().decisions;
-  for (auto one = all.rbegin(); one != all.rend(); ++one)
-    if (one->case_id == id) made.push_back(&*one);
-  return made;
+  for (auto item = all.rbegin(); item != all.rend(); ++item)
+    if (item->case_id == id) decisions.push_back(&*item);
+  return decisions;
 }
 
 sessions::Session ReviewController::after(Act act, const sessions::Signature& who) const {
@@ -207,12 +209,12 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
 /// What has been said and holds is not said again; a validation least of all, as it would put
 /// itself in the place of one that awaits its second person.
 QString ReviewController::settled(Act act) const {
-  const sessions::ReviewStatus now = reviewStatus();
-  if (!now.holds()) return {};
-  const QString by = fromText(now.decision->by);
-  if (act == Act::kValidate && now.decision->verdict == Verdict::kValidated)
+  const sessions::ReviewStatus current = reviewStatus();
+  if (!current.holds()) return {};
+  const QString by = fromText(current.decision->by);
+  if (act == Act::kValidate && current.decision->verdict == Verdict::kValidated)
     return tr("it is validated already, by %1").arg(by);
-  if (act == Act::kReject && now.decision->verdict == Verdict::kRejected)
+  if (act == Act::kReject && current.decision->verdict == Verdict::kRejected)
     return tr("it is rejected already, by %1").arg(by);
   return {};
 }

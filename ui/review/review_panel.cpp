@@ -46,11 +46,11 @@ QString verdictText(const Decision& decision) {
 /// Failed checks that were passed over, each with its reason.
 QString waiversHtml(const Decision& decision) {
   QString html;
-  for (const sessions::JudgedCheck& one : decision.checks)
-    if (!one.waiver_reason.empty())
+  for (const sessions::JudgedCheck& judged : decision.checks)
+    if (!judged.waiver_reason.empty())
       html += DecisionForm::tr("<br>✗ %1 waived: %2")
-                  .arg(fromText(one.check.title).toHtmlEscaped(),
-                       fromText(one.waiver_reason).toHtmlEscaped());
+                  .arg(fromText(judged.check.title).toHtmlEscaped(),
+                       fromText(judged.waiver_reason).toHtmlEscaped());
   return html;
 }
 

@@ -64,10 +64,10 @@ struct RunController::Job {
   }
 
   bool hasKept() const {
-    const auto& made = run->trace().iterations;
+    const auto& result = run->trace().iterations;
     const auto pose = [](const auto& iteration) { return iteration->camera_from_station; };
-    return made.size() >= inputs.kept.size() &&
-           std::ranges::equal(made | std::views::take(inputs.kept.size()), inputs.kept, {}, pose,
+    return result.size() >= inputs.kept.size() &&
+           std::ranges::equal(result | std::views::take(inputs.kept.size()), inputs.kept, {}, pose,
                               pose);
   }
 };

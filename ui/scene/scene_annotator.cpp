@@ -30,15 +30,15 @@ bool takesKey(const QKeyEvent& event) {
 
 Viewpoint magnifiedView(const Viewpoint& view, const QPointF& pixel, double magnification,
                         int side) {
-  Viewpoint made = view;
+  Viewpoint viewpoint = view;
   const double middle = 0.5 * (side - 1);
-  made.camera.width = made.camera.height = side;
-  made.camera.fx *= magnification;
-  made.camera.fy *= magnification;
-  made.camera.cx = (view.camera.cx - pixel.x()) * magnification + middle;
-  made.camera.cy = (view.camera.cy - pixel.y()) * magnification + middle;
-  if (prepareCamera(made.camera) != Status::kOk) made.camera.valid_radius = 0.0;
-  return made;
+  viewpoint.camera.width = viewpoint.camera.height = side;
+  viewpoint.camera.fx *= magnification;
+  viewpoint.camera.fy *= magnification;
+  viewpoint.camera.cx = (view.camera.cx - pixel.x()) * magnification + middle;
+  viewpoint.camera.cy = (view.camera.cy - pixel.y()) * magnification + middle;
+  if (prepareCamera(viewpoint.camera) != Status::kOk) viewpoint.camera.valid_radius = 0.0;
+  return viewpoint;
 }
 
 std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
@@ -280,15 +280,15 @@ void SceneAnnotator::placeAim() {
 }
 
 std::vector<Frustum> SceneAnnotator::rigFrusta(const Eigen::Vector3d& centre_m) const {
-  std::vector<Frustum> made;
+  std::vector<Frustum> frustums;
   const auto& solution = annotation_.solution();
-  if (!solution || !solution->result.solution) return made;
+  if (!solution || !solution->result.solution) return frustums;
   const auto& poses = solution->result.solution->camera_from_station;
   const auto& views = solution->annotations.views;
   for (std::size_t i = 1; i < std::min(views.size(), poses.size()); ++i)
-    made.push_back(frustumOf(PoseRole::kAnnotated, QString::fromStdString(views[i].name),
-                             views[i].camera, poses[i], centre_m));
-  return made;
+    frustums.push_back(frustumOf(PoseRole::kAnnotated, QString::fromStdString(views[i].name),
+                                 views[i].camera, poses[i], centre_m));
+  return frustums;
 }
 
 QString SceneAnnotator::place() const {

@@ -28,31 +28,31 @@ struct Entry {
 };
 
 std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, bool with_cameras) {
-  std::vector<Entry> made;
+  std::vector<Entry> result;
   if (look.shown.frusta && with_cameras)
     for (const Frustum& frustum : content.frusta)
-      made.push_back({Entry::kLine, frustum.role, frustum.label});
+      result.push_back({Entry::kLine, frustum.role, frustum.label});
   const auto has_part = [&](bool match) {
     const MeshView mesh = content.mesh();
     return std::any_of(mesh.parts.begin(), mesh.parts.end(),
                        [match](const ScenePart& part) { return part.match == match; });
   };
   if (look.shown.mesh && has_part(false)) {
-    made.push_back({Entry::kMatched, PoseRole::kSeed, overlayText("matched part")});
-    made.push_back({Entry::kOccluding, PoseRole::kSeed, overlayText("occluding part")});
+    result.push_back({Entry::kMatched, PoseRole::kSeed, overlayText("matched part")});
+    result.push_back({Entry::kOccluding, PoseRole::kSeed, overlayText("occluding part")});
   }
-  if (!look.shown.points) return made;
+  if (!look.shown.points) return result;
   const auto has = [&](ScenePointKind kind) {
     return std::any_of(content.points.begin(), content.points.end(),
                        [kind](const ScenePoint& point) { return point.kind == kind; });
   };
   if (has(ScenePointKind::kInlier))
-    made.push_back({Entry::kInlier, PoseRole::kSeed, overlayText("inlier")});
+    result.push_back({Entry::kInlier, PoseRole::kSeed, overlayText("inlier")});
   if (has(ScenePointKind::kOutlier))
-    made.push_back({Entry::kOutlier, PoseRole::kSeed, overlayText("outlier")});
+    result.push_back({Entry::kOutlier, PoseRole::kSeed, overlayText("outlier")});
   if (has(ScenePointKind::kUnmatched))
-    made.push_back({Entry::kUnmatched, PoseRole::kSeed, overlayText("not used")});
-  return made;
+    result.push_back({Entry::kUnmatched, PoseRole::kSeed, overlayText("not used")});
+  return result;
 }
 
 void paintSign(QPainter& painter, const Entry& entry, const QRectF& box) {

@@ -142,11 +142,11 @@ void SceneView::refreshSoon() {
 void SceneView::refresh() {
   refresh_pending_ = false;
   const std::shared_ptr<const SceneContent> before = content_;
-  SceneContent now = sceneContent(state_);
-  if (annotator_ && !now.empty())
-    for (Frustum& frustum : annotator_->rigFrusta(now.bounds.centre()))
-      now.frusta.push_back(std::move(frustum));
-  content_ = std::make_shared<const SceneContent>(std::move(now));
+  SceneContent after = sceneContent(state_);
+  if (annotator_ && !after.empty())
+    for (Frustum& frustum : annotator_->rigFrusta(after.bounds.centre()))
+      after.frusta.push_back(std::move(frustum));
+  content_ = std::make_shared<const SceneContent>(std::move(after));
   if (content_->one != before->one) {
     overlay_->setAnnotation(std::nullopt);
     backdrop_ = QImage();
@@ -215,21 +215,22 @@ void SceneView::updateView() {
 
 /// Taking out the distortion takes a while: it is done off the UI's thread, and once per case.
 void SceneView::orderBackdrop() {
-  const ViewState::CasePtr one = content_->one;
-  if (!one || backdrop_of_.lock() == one) return;
-  backdrop_of_ = one;
+  const ViewState::CasePtr loaded_case = content_->one;
+  if (!loaded_case || backdrop_of_.lock() == loaded_case) return;
+  backdrop_of_ = loaded_case;
   backdrop_ = QImage();
-  if (one->source.camera.model == CameraModel::kPinhole) {
-    backdrop_ = grayImage(one->image.view());
+  if (loaded_case->source.camera.model == CameraModel::kPinhole) {
+    backdrop_ = grayImage(loaded_case->image.view());
     return;
   }
   runner_.start(
       QStringLiteral("backdrop"),
-      [one](const std::stop_token&) {
-        return grayImage(sessions::undistort(one->source.camera, one->image.view()).view());
+      [loaded_case](const std::stop_token&) {
+        return grayImage(
+            sessions::undistort(loaded_case->source.camera, loaded_case->image.view()).view());
       },
-      [this, one](const QImage& gray) {
-        if (backdrop_of_.lock() != one) return;
+      [this, loaded_case](const QImage& gray) {
+        if (backdrop_of_.lock() != loaded_case) return;
         backdrop_ = gray;
         updateView();
       });

@@ -80,10 +80,10 @@ class ViewState : public QObject {
   /// it where the shown stage is earlier), else the seed. Identity without a case.
   Pose shownPose() const;
 
-  void setCase(CasePtr one);
+  void setCase(CasePtr loaded_case);
   /// The current case after an edit of its inputs: the shown run, now stale, the place in it and
   /// the nudged pose stay.
-  void replaceCase(CasePtr one);
+  void replaceCase(CasePtr loaded_case);
   /// Keeps the cursor where it was; at the last iteration it follows the run.
   void setSnapshot(SnapshotPtr snapshot);
   void setCursor(const RunCursor& cursor);
@@ -133,8 +133,8 @@ const sessions::SessionCase* shownCase(const Document& document, const ViewState
 std::string shownCaseId(const Document& document, const ViewState& state);
 
 /// "Competing pose 2", "Candidate 1", "Rolled by +5.0 deg".
-QString alternativeTitle(const sessions::Alternative& one);
+QString alternativeTitle(const sessions::Alternative& alternative);
 /// What it was weighed against: "Result of the run", "Chosen candidate", "Chosen roll".
-QString chosenTitle(const sessions::Alternative& one);
+QString chosenTitle(const sessions::Alternative& alternative);
 
 }  // namespace boresight::ui

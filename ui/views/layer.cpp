@@ -16,7 +16,7 @@ LayerStyle hidden(const QColor& color, double opacity) { return {false, color, o
 
 /// Colours that differ in lightness too, as red and green must not be the only difference.
 const std::array<LayerInfo, kLayerCount>& infos() {
-  static const std::array<LayerInfo, kLayerCount> made = {{
+  static const std::array<LayerInfo, kLayerCount> layer_infos = {{
       {LayerId::kIgnoreMask, "Ignore mask", "G", "Ignored pixels",
        shown(QColor(200, 60, 200), 0.35)},
       {LayerId::kTestEdges, "Test edges", "E", "Canny edges of the image, as used by the algorithm",
@@ -63,7 +63,7 @@ const std::array<LayerInfo, kLayerCount>& infos() {
       {LayerId::kPoints, "Annotations", "D", "Points and lines annotated by hand",
        shown(QColor(255, 210, 0), 1.0)},
   }};
-  return made;
+  return layer_infos;
 }
 
 }  // namespace
@@ -76,11 +76,11 @@ const QColor kSelected(255, 255, 255);
 const QColor kOutlier(255, 150, 60);
 
 LayerBits layerBits(std::shared_ptr<const void> owner, const BitImage& bits, int level) {
-  LayerBits made;
-  made.owner = std::move(owner);
-  made.bits = bits;
-  made.level = level;
-  return made;
+  LayerBits result;
+  result.owner = std::move(owner);
+  result.bits = bits;
+  result.level = level;
+  return result;
 }
 
 QRectF windowArea(const SearchWindow& window, int level) {
@@ -127,9 +127,9 @@ std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMa
   return {layerBits(edges, map.view(), level)};
 }
 
-std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one) {
-  if (!one || !one->ignore) return {};
-  return {layerBits(one, one->ignore_bits, 0)};
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& loaded_case) {
+  if (!loaded_case || !loaded_case->ignore) return {};
+  return {layerBits(loaded_case, loaded_case->ignore_bits, 0)};
 }
 
 std::vector<LayerBits> iterationBits(
@@ -143,12 +143,12 @@ std::vector<LayerBits> iterationBits(
 std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::AgreementMaps>& maps,
                                      int level) {
   if (!maps || maps->both.words.empty()) return {};
-  std::vector<LayerBits> made = {layerBits(maps, maps->only_image.view(), level),
+  std::vector<LayerBits> bits = {layerBits(maps, maps->only_image.view(), level),
                                  layerBits(maps, maps->only_rendered.view(), level),
                                  layerBits(maps, maps->both.view(), level)};
-  made[0].color = QColor(90, 160, 255);
-  made[1].color = QColor(255, 110, 80);
-  return made;
+  bits[0].color = QColor(90, 160, 255);
+  bits[1].color = QColor(255, 110, 80);
+  return bits;
 }
 
 std::vector<Mark> windowMarks(const sessions::IterationTrace& iteration, int selected_template) {

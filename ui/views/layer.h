@@ -117,7 +117,7 @@ std::vector<LayerBits> bitsOf(const std::shared_ptr<const sessions::RenderTrace>
                               bool mask);
 std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,
                                     int level);
-std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one);
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& loaded_case);
 /// Edges or mask of an iteration's render.
 std::vector<LayerBits> iterationBits(
     const std::shared_ptr<const sessions::IterationTrace>& iteration, bool mask);

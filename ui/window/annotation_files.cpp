@@ -133,12 +133,13 @@ void AnnotationFiles::openLandmarks() {
 }
 
 void AnnotationFiles::saveLandmarks() {
-  const sessions::SessionCase* one = shownCase(parts_.document, parts_.state);
-  const auto file = askForNewFile(
-      window_, tr("Save the annotations as landmarks"),
-      one && one->landmarks ? fromText(one->landmarks->string())
-                            : inSessionFolder(parts_.document, QStringLiteral("landmarks.json")),
-      tr("Landmarks (*.json)"));
+  const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
+  const auto file =
+      askForNewFile(window_, tr("Save the annotations as landmarks"),
+                    session_case && session_case->landmarks
+                        ? fromText(session_case->landmarks->string())
+                        : inSessionFolder(parts_.document, QStringLiteral("landmarks.json")),
+                    tr("Landmarks (*.json)"));
   if (file.empty()) return;
   attempt([&] {
     AnnotationController& annotation = parts_.annotation;

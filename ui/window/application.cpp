@@ -53,10 +53,10 @@ sessions::Session exampleSession() {
 
 std::string checkRuns() {
   const sessions::Session session = exampleSession();
-  for (const auto& one : session.cases) {
+  for (const auto& session_case : session.cases) {
     const sessions::LocalizationTrace trace =
-        sessions::runCase(session, one->id, sessions::RecordLevel::kSummary);
-    if (!trace.converged()) return one->id + " did not converge";
+        sessions::runCase(session, session_case->id, sessions::RecordLevel::kSummary);
+    if (!trace.converged()) return session_case->id + " did not converge";
   }
   return {};
 }

@@ -101,7 +101,7 @@ class CaseController : public QObject {
   void show(const QString& id);
   bool isLoaded() const;
   void load(const QString& id);
-  void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
+  void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> loaded_case);
   void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
   void prepareRun(RunInputs inputs);

@@ -112,8 +112,8 @@ void InputFindings::acceptChanged() {
       },
       [this](const std::vector<sessions::SessionCase>& accepted) {
         sessions::Session session = parts_.document.session();
-        for (const sessions::SessionCase& one : accepted)
-          session = sessions::withCase(session, one);
+        for (const sessions::SessionCase& session_case : accepted)
+          session = sessions::withCase(session, session_case);
         if (parts_.document.edit(session, tr("Accept changed files"))) check();
       });
 }

@@ -164,20 +164,20 @@ std::string DroppedFiles::keptNames(const DroppedFiles& earlier) const {
 
 DroppedFiles classify(const std::vector<std::filesystem::path>& files,
                       const DroppedFiles& earlier) {
-  DroppedFiles made;
-  made.one = earlier.one;
-  made.record = earlier.record;
-  made.label_camera_remark = earlier.label_camera_remark;
-  made.one.parts.clear();
+  DroppedFiles dropped_files;
+  dropped_files.one = earlier.one;
+  dropped_files.record = earlier.record;
+  dropped_files.label_camera_remark = earlier.label_camera_remark;
+  dropped_files.one.parts.clear();
   for (const std::filesystem::path& file : files) {
     try {
-      takeOf(file)(file, made);
+      takeOf(file)(file, dropped_files);
     } catch (const std::exception& error) {
-      made.problems.emplace_back(error.what());
+      dropped_files.problems.emplace_back(error.what());
     }
   }
-  if (made.one.parts.empty()) made.one.parts = earlier.one.parts;
-  return made;
+  if (dropped_files.one.parts.empty()) dropped_files.one.parts = earlier.one.parts;
+  return dropped_files;
 }
 
 namespace {
@@ -296,23 +296,23 @@ void SessionFiles::addCase(const QString& kept) {
   parts_.tasks.start(
       QStringLiteral("make session"),
       [files = collected_](const std::stop_token&) {
-        sessions::SessionCase made = sessions::makeCase(files.one).made;
+        sessions::SessionCase session_case = sessions::makeCase(files.one).made;
         if (files.record)
-          made.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
-        return made;
+          session_case.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
+        return session_case;
       },
-      [this, kept](sessions::SessionCase made) {
+      [this, kept](sessions::SessionCase session_case) {
         // Until now: whatever was wrong may be mended by a further file, e.g. a transform.
         collected_ = {};
         Q_EMIT noted(kept.isEmpty() ? QString() : tr("Also of earlier drops: %1").arg(kept));
-        takeCase(std::move(made));
+        takeCase(std::move(session_case));
       });
 }
 
-void SessionFiles::takeCase(sessions::SessionCase made) {
-  const QString id = QString::fromStdString(made.id);
+void SessionFiles::takeCase(sessions::SessionCase session_case) {
+  const QString id = QString::fromStdString(session_case.id);
   Document& document = parts_.document;
-  const sessions::Session session = sessions::withCase(document.session(), std::move(made));
+  const sessions::Session session = sessions::withCase(document.session(), std::move(session_case));
   if (!document.isEditable()) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {

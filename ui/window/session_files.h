@@ -92,7 +92,7 @@ class SessionFiles : public QObject {
  private:
   void makeFrom(const std::filesystem::path& file, bool results);
   void addCase(const QString& kept);
-  void takeCase(sessions::SessionCase made);
+  void takeCase(sessions::SessionCase session_case);
   bool askForUnits();
   bool mayLoseRuns();
 

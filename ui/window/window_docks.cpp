@@ -153,10 +153,10 @@ void WindowDocks::giveSizes() const {
 }
 
 void WindowDocks::add(const QString& name, const QString& title, QWidget* widget) {
-  auto* made = new QDockWidget(title, &window_);
-  made->setObjectName(name);
-  made->setWidget(widget);
-  docks_.push_back(made);
+  auto* result = new QDockWidget(title, &window_);
+  result->setObjectName(name);
+  result->setWidget(widget);
+  docks_.push_back(result);
 }
 
 }  // namespace boresight::ui

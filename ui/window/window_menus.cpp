@@ -166,7 +166,8 @@ void WindowMenus::connectRun() {
   on(ui_.reset, cases, &CaseController::reset);
   on(ui_.runAll, this, [this] {
     QStringList ids;
-    for (const auto& one : parts_.document.session().cases) ids << QString::fromStdString(one->id);
+    for (const auto& session_case : parts_.document.session().cases)
+      ids << QString::fromStdString(session_case->id);
     parts_.cases.runAll(ids);
   });
   parts_.state.onChange(ViewChange::kCursor, this, &WindowMenus::update);

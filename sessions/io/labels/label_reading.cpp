@@ -64,8 +64,8 @@ std::vector<LabelItem> elementIdentifiers(const json& tree) {
   if (const json* components =
           labelPath(area, {"Observing_System", "Observing_System_Component"})) {
     const json list = components->is_array() ? *components : json::array({*components});
-    for (const json& one : list)
-      if (const auto name = labelText(labelMember(&one, "name"))) system.push_back(*name);
+    for (const json& item : list)
+      if (const auto name = labelText(labelMember(&item, "name"))) system.push_back(*name);
   }
   if (!system.empty()) items.push_back({"Observing_System_Component", joined(system)});
   add("logical_identifier", labelPath(&tree, {"Identification_Area", "logical_identifier"}));

@@ -45,8 +45,9 @@ double halfDigit(double value) {
 }
 
 void add(double value, double tolerance, std::vector<InvalidValue>& values) {
-  const bool known = std::any_of(values.begin(), values.end(),
-                                 [value](const InvalidValue& one) { return one.value == value; });
+  const bool known = std::any_of(
+      values.begin(), values.end(),
+      [value](const InvalidValue& invalid_value) { return invalid_value.value == value; });
   if (std::isfinite(value) && values.size() < kMostDistinct && !known)
     values.push_back({value, tolerance});
 }
@@ -235,11 +236,11 @@ void addInvalidValues(const json* stated, bool floating, int sample_bits,
                       std::vector<InvalidValue>& values) {
   if (stated == nullptr) return;
   const json list = stated->is_array() ? *stated : json::array({*stated});
-  for (const json& one : list) {
-    if (const auto number = labelNumber(&one)) {
+  for (const json& item : list) {
+    if (const auto number = labelNumber(&item)) {
       const bool rounded = floating && std::abs(*number) >= kBeyondMeasurement;
       add(*number, rounded ? halfDigit(*number) : 0.0, values);
-    } else if (const auto pattern = bitPattern(labelText(&one).value_or(""))) {
+    } else if (const auto pattern = bitPattern(labelText(&item).value_or(""))) {
       addPattern(*pattern, floating, sample_bits, values);
     }
   }

@@ -36,11 +36,11 @@ std::string textOf(const fs::path& file) {
 /// Every page by its name.
 const std::map<std::string, std::string>& pages() {
   static const std::map<std::string, std::string> all = [] {
-    std::map<std::string, std::string> made;
+    std::map<std::string, std::string> result;
     for (const auto& entry : fs::directory_iterator(kManual))
       if (entry.path().extension() == ".md")
-        made[entry.path().filename().string()] = textOf(entry.path());
-    return made;
+        result[entry.path().filename().string()] = textOf(entry.path());
+    return result;
   }();
   return all;
 }
@@ -288,8 +288,8 @@ TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
   const sessions::ImageLabel label = sessions::readImageLabel(folder / "1F483288473.IMG");
   const sessions::FrameTransform stated =
       sessions::readFrameTransform(folder / "site_from_rover.json");
-  const auto told = std::find_if(label.frames.begin(), label.frames.end(), [&](const auto& one) {
-    return one.frame == stated.source && one.reference == stated.target;
+  const auto told = std::find_if(label.frames.begin(), label.frames.end(), [&](const auto& item) {
+    return item.frame == stated.source && item.reference == stated.target;
   });
   ASSERT_NE(told, label.frames.end());
   expectSamePose(stated.target_from_source, told->reference_from_frame);

@@ -258,8 +258,8 @@ TEST(SolveAnnotations, WithoutASpareMarkNothingIsDetermined) {
   ASSERT_TRUE(result.solution) << result.reason;
   EXPECT_EQ(result.solution->degrees_of_freedom, 0);
   EXPECT_EQ(result.solution->noise_factor, 1.0);
-  for (const LeftOut& one : leaveOneOut(scene.views(), *result.solution))
-    EXPECT_FALSE(one.determined);
+  for (const LeftOut& left_out : leaveOneOut(scene.views(), *result.solution))
+    EXPECT_FALSE(left_out.determined);
 }
 
 TEST(SolveAnnotations, ThatAreOffOrHalfMadeCountForNothing) {

@@ -351,10 +351,10 @@ TEST_F(MergeResults, RefusesRunsThatEndedOtherwise) {
 }
 
 TEST_F(MergeResults, ComparesPosesWhereAMethodHasNoDigest) {
-  RunResult one = sampleRun("bc-1", 0, 0);
-  one.digest.clear();
-  RunResult other = one;
-  write("a", {one});
+  RunResult run_result = sampleRun("bc-1", 0, 0);
+  run_result.digest.clear();
+  RunResult other = run_result;
+  write("a", {run_result});
   write("b", {other});
   EXPECT_EQ(merge({"a", "b"}).equal, 1);
   other.camera_from_station.translation_m.x() += 1e-6;

@@ -43,8 +43,9 @@ class AnnotationExchange : public testing::Test {
 };
 
 TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
-  const auto made = sessions::exportColmap(session_, folder_ / "model", annotated(session_, {bc_}));
-  EXPECT_THAT(made.case_ids, ElementsAre(bc_));
+  const auto result =
+      sessions::exportColmap(session_, folder_ / "model", annotated(session_, {bc_}));
+  EXPECT_THAT(result.case_ids, ElementsAre(bc_));
   const auto images = sessions::readColmapText(folder_ / "model");
   ASSERT_EQ(images.size(), 1u);
   EXPECT_EQ(images[0].name, "bc/image.png");
@@ -59,8 +60,8 @@ TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
 }
 
 TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
-  const auto made = sessions::exportBop(session_, folder_ / "scene", annotated(session_));
-  EXPECT_EQ(made.case_ids.size(), 2u);
+  const auto result = sessions::exportBop(session_, folder_ / "scene", annotated(session_));
+  EXPECT_EQ(result.case_ids.size(), 2u);
   const auto objects = sessions::readBopScene(folder_ / "scene");
   ASSERT_EQ(objects.size(), 2u);
   EXPECT_NE(objects[0].object_id, objects[1].object_id);
@@ -71,10 +72,10 @@ TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
     EXPECT_LT(perturbationBetween(solved(id), truth).norm(), 1e-12);
   }
   // A pinhole with BOP's numbers sees a corner where the undistorted image has it.
-  const auto& one = *session_.cases[0];
-  Camera camera = one.camera;
+  const auto& value = *session_.cases[0];
+  Camera camera = value.camera;
   ASSERT_EQ(prepareCamera(camera), Status::kOk);
-  const auto image = sessions::readImage(one.image.source.file);
+  const auto image = sessions::readImage(value.image.source.file);
   const auto gray = sessions::readImage(folder_ / "scene/gray/000001.png");
   EXPECT_EQ(gray.pixels, sessions::undistort(camera, image.view()).pixels);
 }
@@ -137,9 +138,9 @@ TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   auto few = *session_.annotations.at(os_);
   few.points.resize(2);
   const Session session = withAnnotations(session_, os_, few);
-  const auto made = sessions::exportBop(session, folder_ / "s", annotated(session));
-  EXPECT_THAT(made.case_ids, ElementsAre(bc_));
-  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
+  const auto result = sessions::exportBop(session, folder_ / "s", annotated(session));
+  EXPECT_THAT(result.case_ids, ElementsAre(bc_));
+  EXPECT_THAT(result.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
 }
 
 TEST_F(AnnotationExchange, SaysWhatCannotBeImported) {
@@ -171,9 +172,9 @@ TEST(ImageNames, AreRelativeToWhatHoldsAllImages) {
   Session session;
   Random random = randomFor("ImageNames");
   for (const char* file : {"/data/a/000012.png", "/data/b/7.png", "/data/b/c/3.png"}) {
-    sessions::SessionCase one = randomCase(random, file);
-    one.image.source.file = file;
-    session = withCase(session, one);
+    sessions::SessionCase session_case = randomCase(random, file);
+    session_case.image.source.file = file;
+    session = withCase(session, session_case);
   }
   EXPECT_THAT(sessions::imageNames(session), ElementsAre("a/000012.png", "b/7.png", "b/c/3.png"));
   EXPECT_THAT(sessions::imageNumbers(session), ElementsAre(12, 7, 3));

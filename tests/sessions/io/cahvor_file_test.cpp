@@ -88,11 +88,11 @@ TEST_F(CahvorText, OfEveryModelComesBackBitForBit) {
     EXPECT_EQ(again.cahv.v_px, camera.cahv.v_px);
     EXPECT_EQ(again.covariance, file.covariance) << camera.name;
     EXPECT_EQ(again.internal_covariance, file.internal_covariance);
-    const CameraFile made = readCahvorCamera(folder_ / "b.cahvore");
+    const CameraFile camera_file = readCahvorCamera(folder_ / "b.cahvore");
     for (const PlanetaryCamera::Sight& sight : camera.sights) {
       Eigen::Vector2d pixel;
-      ASSERT_TRUE(
-          project(made.camera, made.reference->camera_from_reference * sight.point_m, pixel));
+      ASSERT_TRUE(project(camera_file.camera,
+                          camera_file.reference->camera_from_reference * sight.point_m, pixel));
       EXPECT_LT((pixel - sight.pixel).norm(), 1e-9) << camera.name;
     }
   }

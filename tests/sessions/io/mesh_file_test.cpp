@@ -116,8 +116,8 @@ TEST_F(ReadMesh, TakesAFirstByteOfTenForData) {
   for (const bool after_carriage_return : {false, true}) {
     std::string bytes = binaryPly(mesh, false);
     if (after_carriage_return) bytes.insert(bytes.find("end_header") + 10, "\r");
-    const Mesh made = read("ten.ply", bytes);
-    EXPECT_THAT(made.vertices_m, UnorderedElementsAreArray(mesh.vertices));
+    const Mesh result = read("ten.ply", bytes);
+    EXPECT_THAT(result.vertices_m, UnorderedElementsAreArray(mesh.vertices));
   }
 }
 

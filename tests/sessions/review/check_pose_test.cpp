@@ -33,15 +33,16 @@ struct ExampleReview {
 /// A station's case, run, stored and read again.
 ExampleReview runExample(const std::string& station) {
   static const test::TemporaryFolder folder;
-  ExampleReview made;
-  made.session = makeSession(exampleFolder() / "dataset.json");
-  made.case_id = test::caseOfStation(made.session, station);
-  const auto loaded = loadCase(*made.session.findCase(made.case_id));
-  const LocalizationTrace trace = runCase(made.session, *loaded);
-  made.session = withRun(made.session,
-                         storeRun(made.session, made.case_id, trace, folder / "a.boresight.json"));
-  made.subject = reviewSubject(made.session, loaded, PoseSource::kRun);
-  return made;
+  ExampleReview example_review;
+  example_review.session = makeSession(exampleFolder() / "dataset.json");
+  example_review.case_id = test::caseOfStation(example_review.session, station);
+  const auto loaded = loadCase(*example_review.session.findCase(example_review.case_id));
+  const LocalizationTrace trace = runCase(example_review.session, *loaded);
+  example_review.session = withRun(
+      example_review.session,
+      storeRun(example_review.session, example_review.case_id, trace, folder / "a.boresight.json"));
+  example_review.subject = reviewSubject(example_review.session, loaded, PoseSource::kRun);
+  return example_review;
 }
 
 const ExampleReview& example(const std::string& station) {
@@ -107,17 +108,18 @@ struct Along {
 };
 
 Along alongOf(const std::string& station, const ReviewSubject& subject) {
-  const SessionCase& one = example(station).subject.loaded->source;
-  const auto sigma = poseSigma(subject.covariance.total(), one.camera_from_end_effector);
-  const PoseError error = poseError(*one.camera_from_station_truth, subject.camera_from_station,
-                                    one.camera_from_end_effector);
+  const SessionCase& session_case = example(station).subject.loaded->source;
+  const auto sigma = poseSigma(subject.covariance.total(), session_case.camera_from_end_effector);
+  const PoseError error =
+      poseError(*session_case.camera_from_station_truth, subject.camera_from_station,
+                session_case.camera_from_end_effector);
   return {sigma.value().normal_mm, std::abs(error.normal_mm)};
 }
 
 TEST(CheckPose, AMeshHalfAPercentTooLargeIsCoveredByItsStatedScaleAndFails) {
   for (const char* station : {"bc", "os"}) {
-    const auto subject =
-        runWith(station, 1.005, [](SessionCase& one) { one.mesh_scale_sigma = 0.005; });
+    const auto subject = runWith(
+        station, 1.005, [](SessionCase& session_case) { session_case.mesh_scale_sigma = 0.005; });
     const Along along = alongOf(station, subject);
     EXPECT_GT(along.error_mm, 1.5) << station;
     EXPECT_LT(along.error_mm, 1.2 * along.sigma_mm) << station;
@@ -130,8 +132,8 @@ TEST(CheckPose, AMeshHalfAPercentTooLargeIsCoveredByItsStatedScaleAndFails) {
 TEST(CheckPose, APrincipalPointTenPixelsOffIsFoundByTheEdges) {
   for (const char* station : {"bc", "os"})
     for (const double shift_px : {10.0, -10.0}) {
-      const auto subject =
-          runWith(station, 1.0, [&](SessionCase& one) { one.camera.cx += shift_px; });
+      const auto subject = runWith(
+          station, 1.0, [&](SessionCase& session_case) { session_case.camera.cx += shift_px; });
       const Check check = findCheck(checkPose(subject, presetLimits()), "camera_centre");
       EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
     }
@@ -139,9 +141,9 @@ TEST(CheckPose, APrincipalPointTenPixelsOffIsFoundByTheEdges) {
 
 TEST(CheckPose, AFocalLengthOffByOneAndAHalfPercentIsFoundByTheEdges) {
   for (const char* station : {"bc", "os"}) {
-    const auto subject = runWith(station, 1.0, [](SessionCase& one) {
-      one.camera.fx *= 1.015;
-      one.camera.fy *= 1.015;
+    const auto subject = runWith(station, 1.0, [](SessionCase& session_case) {
+      session_case.camera.fx *= 1.015;
+      session_case.camera.fy *= 1.015;
     });
     const Check check = findCheck(checkPose(subject, presetLimits()), "camera_focal");
     EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
@@ -207,16 +209,16 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
   RunRecord run = *review.session.lastRunOf(review.case_id);
   run.case_id = "second";
   review.session.runs.push_back(run);
-  SessionCase one = *review.session.findCase(review.case_id);
+  SessionCase session_case = *review.session.findCase(review.case_id);
   Pose camera_from_rig;
   camera_from_rig.rotation = rotationExp({0.1, 0.0, 0.0});
   camera_from_rig.translation_m = {0.1, 0.0, 0.0};
-  one.rig = Rig{"rig", camera_from_rig};
+  session_case.rig = Rig{"rig", camera_from_rig};
   second.rig = Rig{"rig", camera_from_rig};
-  review.session = withCase(withCase(review.session, one), second);
+  review.session = withCase(withCase(review.session, session_case), second);
   const auto agrees = reviewSubject(review.session, review.subject.loaded, PoseSource::kRun);
   EXPECT_TRUE(agrees.other_cameras.empty()) << "the loaded case is in no rig yet";
-  const auto loaded = reloadCase(*review.subject.loaded, one);
+  const auto loaded = reloadCase(*review.subject.loaded, session_case);
   const auto same = reviewSubject(review.session, loaded, PoseSource::kRun);
   ASSERT_EQ(same.other_cameras.size(), 1U);
   EXPECT_LT(perturbationBetween(same.other_cameras[0].camera_from_station, same.camera_from_station)

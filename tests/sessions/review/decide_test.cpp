@@ -106,21 +106,22 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
   using Edit = std::function<void(Session&, sessions::SessionCase&)>;
   const std::map<std::string, Edit> edits = {
       {"the image, camera, mesh, seed or mask has",
-       [](Session&, auto& one) { one.camera_from_station_seed.translation_m.x() += 1e-12; }},
-      {"the truth has", [&](Session&, auto& one) { one.camera_from_station_truth = Pose(); }},
+       [](Session&, auto& item) { item.camera_from_station_seed.translation_m.x() += 1e-12; }},
+      {"the truth has", [&](Session&, auto& item) { item.camera_from_station_truth = Pose(); }},
       {"the stated sigmas of mesh and camera have",
-       [](Session&, auto& one) { one.mesh_scale_sigma = 1e-3; }},
+       [](Session&, auto& item) { item.mesh_scale_sigma = 1e-3; }},
       {"the requirement has",
-       [](Session&, auto& one) {
-         one.requirement = {1.0, {}, {}, {}};
+       [](Session&, auto& item) {
+         item.requirement = {1.0, {}, {}, {}};
        }},
-      {"the end effector has", [](Session&, auto& one) { one.camera_from_end_effector = Pose(); }},
+      {"the end effector has",
+       [](Session&, auto& item) { item.camera_from_end_effector = Pose(); }},
       {"the rig has",
-       [](Session&, auto& one) {
-         one.rig = sessions::Rig{"r", Pose()};
+       [](Session&, auto& item) {
+         item.rig = sessions::Rig{"r", Pose()};
        }},
       {"the onboard record has",
-       [&](Session&, auto& one) { one.onboard_record = randomInput(random, ".whsr"); }},
+       [&](Session&, auto& item) { item.onboard_record = randomInput(random, ".whsr"); }},
       {"the limits of the checks have",
        [](Session& session, auto&) { session.review.preset = "photographs"; }},
       {"there is a later run",
@@ -130,16 +131,16 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
          session.runs.push_back(run);
        }},
       {"its run is missing", [](Session& session, auto&) { session.runs.clear(); }},
-      {"the annotations have", [&](Session& session, auto& one) {
+      {"the annotations have", [&](Session& session, auto& item) {
          sessions::Annotations annotations;
          while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
-         session = withAnnotations(session, one.id, annotations);
+         session = withAnnotations(session, item.id, annotations);
        }}};
   for (const auto& [text, edit] : edits) {
     Session after = before;
-    sessions::SessionCase one = *before.findCase("a");
-    edit(after, one);
-    after = withCase(after, one);
+    sessions::SessionCase session_case = *before.findCase("a");
+    edit(after, session_case);
+    after = withCase(after, session_case);
     const sessions::ReviewStatus status = reviewStatusOf(after, "a");
     EXPECT_NE(status.state, ReviewState::kValidated) << text;
     EXPECT_FALSE(status.holds()) << text;
@@ -151,11 +152,11 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
 TEST(Decide, ARunOfTheRigsOtherCameraDropsAValidation) {
   Random random = randomFor("Decide.OtherCamera");
   JudgedCase judged(random);
-  sessions::SessionCase one = *judged.session.findCase("a");
-  one.rig = sessions::Rig{"rig", Pose()};
-  sessions::SessionCase other = one;
+  sessions::SessionCase session_case = *judged.session.findCase("a");
+  session_case.rig = sessions::Rig{"rig", Pose()};
+  sessions::SessionCase other = session_case;
   other.id = "b";
-  judged.session = withCase(withCase(judged.session, one), other);
+  judged.session = withCase(withCase(judged.session, session_case), other);
   Session after = judged.validatedBy("Ada");
   EXPECT_TRUE(reviewStatusOf(after, "a").holds());
   sessions::RunRecord run = after.runs.back();
@@ -171,10 +172,10 @@ TEST(Decide, WhatIsNoInputChangesNothing) {
   Random random = randomFor("Decide.Stands");
   const JudgedCase judged(random);
   Session after = judged.validatedBy("Ada");
-  sessions::SessionCase one = *after.findCase("a");
-  one.tags.push_back("looked at");
-  one.camera_from_station_working = randomPose(random);
-  after = withCase(after, one);
+  sessions::SessionCase session_case = *after.findCase("a");
+  session_case.tags.push_back("looked at");
+  session_case.camera_from_station_working = randomPose(random);
+  after = withCase(after, session_case);
   after.review.second_person = false;
   after.options = {{"pnp.seed", std::int64_t{7}}};  // the run's own are part of its digest
   after.runs.push_back(after.runs.back());          // the same run once more

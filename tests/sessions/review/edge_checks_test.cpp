@@ -117,10 +117,10 @@ TEST_F(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
   double sum = 0.0;
   double squares = 0.0;
   double count = 0.0;
-  for (const LookedPlace& one : lookAt(image, edges.places)) {
-    if (!one.found || std::abs(one.found->offset_px) > 1.0) continue;
-    sum += one.found->offset_px;
-    squares += one.found->offset_px * one.found->offset_px;
+  for (const LookedPlace& looked_place : lookAt(image, edges.places)) {
+    if (!looked_place.found || std::abs(looked_place.found->offset_px) > 1.0) continue;
+    sum += looked_place.found->offset_px;
+    squares += looked_place.found->offset_px * looked_place.found->offset_px;
     count += 1.0;
   }
   ASSERT_GT(count, 500.0);
@@ -204,8 +204,8 @@ TEST_F(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
   const ReviewSubject subject = this->subject();
   const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
   double most = 0.0;
-  for (const FallOff& one : fallOffOf(image, parallel, box.camera_, box.camera_from_station_))
-    most = std::max(most, one.coverage);
+  for (const FallOff& fall_off : fallOffOf(image, parallel, box.camera_, box.camera_from_station_))
+    most = std::max(most, fall_off.coverage);
   EXPECT_GT(most, 0.85);
 }
 

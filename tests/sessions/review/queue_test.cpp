@@ -37,9 +37,9 @@ bool comesFirst(const QueueRow& a, const QueueRow& b) {
   if (a.margin.has_value() != b.margin.has_value())
     return a.failed > 0 ? !a.margin.has_value() : a.margin.has_value();
   if (a.margin && *a.margin != *b.margin) return *a.margin < *b.margin;
-  const double one = a.from_seed ? a.from_seed->share : 0.0;
+  const double value = a.from_seed ? a.from_seed->share : 0.0;
   const double other = b.from_seed ? b.from_seed->share : 0.0;
-  return one != other ? one > other : a.case_id < b.case_id;
+  return value != other ? value > other : a.case_id < b.case_id;
 }
 
 TEST(QueueOrder, IsTheDocumentedOneAndTotal) {
@@ -99,10 +99,11 @@ TEST(SeedDistanceTest, IsWhatThePoseWasDisplacedByAboutThePivot) {
     Vector6d offset;
     offset << 0.05, -0.02, 0.03, 0.004, 0.016, -0.002;
     const Pose pose = displacedAboutPivot(seed, offset, uncertainty.pivot_in_camera_m);
-    const SeedDistance made = seedDistance(seed, pose, uncertainty);
-    EXPECT_NEAR(made.rotation_mrad, 1e3 * std::sqrt(0.05 * 0.05 + 0.02 * 0.02 + 0.03 * 0.03), 1e-6);
-    EXPECT_NEAR(made.translation_mm, std::sqrt(16.0 + 256.0 + 4.0), 1e-6);
-    EXPECT_NEAR(made.share, 0.8, 1e-9);
+    const SeedDistance seed_distance = seedDistance(seed, pose, uncertainty);
+    EXPECT_NEAR(seed_distance.rotation_mrad,
+                1e3 * std::sqrt(0.05 * 0.05 + 0.02 * 0.02 + 0.03 * 0.03), 1e-6);
+    EXPECT_NEAR(seed_distance.translation_mm, std::sqrt(16.0 + 256.0 + 4.0), 1e-6);
+    EXPECT_NEAR(seed_distance.share, 0.8, 1e-9);
   }
 }
 

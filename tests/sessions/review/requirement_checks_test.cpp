@@ -240,8 +240,8 @@ TEST_F(PrecisionChecks, WithoutACovarianceThereIsNothingToAsk) {
 }
 
 TEST_F(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
-  const SessionCase& one = subject_.loaded->source;
-  subject_.covariance = poseCovariance(one, subject_.loaded->scene.view(),
+  const SessionCase& session_case = subject_.loaded->source;
+  subject_.covariance = poseCovariance(session_case, subject_.loaded->scene.view(),
                                        subject_.camera_from_station, 1e-12 * Matrix6d::Identity());
   // 0.02 % of half a metre twice over, less what the box's own depth tells of the focal length.
   const Check check = findCheck(checksOf(subject_, CheckLimits()), "covariance_normal");
@@ -255,12 +255,12 @@ TEST_F(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
 }
 
 TEST_F(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
-  SessionCase one = subject_.loaded->source;
+  SessionCase session_case = subject_.loaded->source;
   const auto figure = [&](double mesh_scale, const CalibrationSigma& calibration) {
-    one.mesh_scale_sigma = mesh_scale;
-    one.calibration_sigma = calibration;
+    session_case.mesh_scale_sigma = mesh_scale;
+    session_case.calibration_sigma = calibration;
     subject_.covariance =
-        poseCovariance(one, subject_.loaded->scene.view(), subject_.camera_from_station,
+        poseCovariance(session_case, subject_.loaded->scene.view(), subject_.camera_from_station,
                        1e-12 * Matrix6d::Identity());
     return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").figure.value();
   };

@@ -53,9 +53,9 @@ class ValidatedPose : public testing::Test {
     Random random = randomFor("ValidatedPose");
     session_ = withAnnotations(session_, id_,
                                annotationsOf(spreadCorners(ExampleCase("os"), 8), 0.1, random));
-    sessions::SessionCase one = *session_.findCase(id_);
-    one.camera_from_end_effector = randomPose(random);
-    session_ = withCase(session_, one);
+    sessions::SessionCase session_case = *session_.findCase(id_);
+    session_case.camera_from_end_effector = randomPose(random);
+    session_ = withCase(session_, session_case);
   }
 
   void run() {
@@ -193,9 +193,9 @@ Matrix6d matrixOf(const ordered_json& json) {
 }
 
 TEST_F(ValidatedPose, ItsCovarianceIsTheSumOfNamedTermsAndSaysByWhichSigmas) {
-  sessions::SessionCase one = *session_.findCase(id_);
-  one.mesh_scale_sigma = 0.001;
-  session_ = withCase(session_, one);
+  sessions::SessionCase session_case = *session_.findCase(id_);
+  session_case.mesh_scale_sigma = 0.001;
+  session_ = withCase(session_, session_case);
   run();
   validate();
   const ordered_json pose = read(write())["pose"];
@@ -487,9 +487,9 @@ TEST_F(ValidatedPose, AnInputThatIsMissingOrChangedIsNamed) {
 
 TEST_F(ValidatedPose, AStaleRunIsNotHandedOver) {
   run();
-  sessions::SessionCase one = *session_.findCase(id_);
-  one.camera_from_station_seed.translation_m.x() += 1e-3;
-  session_ = withCase(session_, one);
+  sessions::SessionCase session_case = *session_.findCase(id_);
+  session_case.camera_from_station_seed.translation_m.x() += 1e-3;
+  session_ = withCase(session_, session_case);
   EXPECT_THROW(handedPose(session_, id_), sessions::InputError);
   const sessions::HandedPoses all = sessions::handedPoses(session_, {});
   EXPECT_TRUE(all.poses.empty());

@@ -19,8 +19,8 @@ struct Runs {
 };
 
 const Runs& runs() {
-  static const Runs made;
-  return made;
+  static const Runs result;
+  return result;
 }
 
 TEST(Localize, RecordingDoesNotChangeTheRun) {

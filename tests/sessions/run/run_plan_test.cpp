@@ -14,8 +14,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const test::ExampleCase& example() {
-  static const test::ExampleCase made("os");
-  return made;
+  static const test::ExampleCase example_case("os");
+  return example_case;
 }
 
 LocalizerOptions withRenderAgain(double render_again_px) {

@@ -46,14 +46,14 @@ struct RigSession {
   }
 
   void addCase(Random& random, const std::string& id) {
-    sessions::SessionCase one = randomCase(random, id);
-    one.rig = sessions::Rig{id == "other" ? "another rig" : "rig", Pose()};
+    sessions::SessionCase session_case = randomCase(random, id);
+    session_case.rig = sessions::Rig{id == "other" ? "another rig" : "rig", Pose()};
     if (id == "left" || id == "right") {
       const AnnotatedView& view = views[id == "left" ? 0 : 1];
-      one.camera = view.camera;
-      one.rig->camera_from_rig = view.camera_from_rig;
+      session_case.camera = view.camera;
+      session_case.rig->camera_from_rig = view.camera_from_rig;
     }
-    session = withCase(session, one);
+    session = withCase(session, session_case);
   }
 };
 
@@ -86,31 +86,32 @@ TEST(CaseAnnotations, SolvesWithTheDigitsOfTheViewsThemselves) {
     options.robust = robust;
     options.rig_from_station_guess = rig.views[0].camera_from_rig.inverse() * guess;
     const auto direct = sessions::solveAnnotations(rig.views, options);
-    const auto made =
+    const auto result =
         sessions::solveCaseAnnotations(caseAnnotations(rig.session, "left"), guess, {}, robust);
-    ASSERT_TRUE(direct.solution && made.result.solution) << made.result.reason;
-    EXPECT_EQ(made.result.solution->rig_from_station, direct.solution->rig_from_station);
-    EXPECT_EQ(made.result.solution->covariance, direct.solution->covariance);
-    EXPECT_EQ(made.camera_from_station(), direct.solution->camera_from_station[0]);
-    EXPECT_EQ(made.result.solution->rms_px, direct.solution->rms_px);
+    ASSERT_TRUE(direct.solution && result.result.solution) << result.result.reason;
+    EXPECT_EQ(result.result.solution->rig_from_station, direct.solution->rig_from_station);
+    EXPECT_EQ(result.result.solution->covariance, direct.solution->covariance);
+    EXPECT_EQ(result.camera_from_station(), direct.solution->camera_from_station[0]);
+    EXPECT_EQ(result.result.solution->rms_px, direct.solution->rms_px);
     const auto left_out = sessions::leaveOneOut(rig.views, *direct.solution);
-    ASSERT_EQ(made.left_out.size(), left_out.size());
+    ASSERT_EQ(result.left_out.size(), left_out.size());
     for (std::size_t i = 0; i < left_out.size(); ++i)
-      EXPECT_EQ(made.left_out[i].translation_mm, left_out[i].translation_mm);
+      EXPECT_EQ(result.left_out[i].translation_mm, left_out[i].translation_mm);
     // Together they know the pose to a millimetre.
-    EXPECT_LT((made.camera_from_station()->translation_m - guess.translation_m).norm(), 1e-3);
+    EXPECT_LT((result.camera_from_station()->translation_m - guess.translation_m).norm(), 1e-3);
   }
 }
 
 TEST(CaseAnnotations, NamesItsOwnAnnotationsThatStandOut) {
   using sessions::AnnotationKind;
-  sessions::CaseAnnotationsSolution made;
-  EXPECT_TRUE(made.outlierAnnotations().empty()) << "without a solution";
-  made.annotations.views = RigSession().views;
-  made.result.solution.emplace();
+  sessions::CaseAnnotationsSolution case_annotations_solution;
+  EXPECT_TRUE(case_annotations_solution.outlierAnnotations().empty()) << "without a solution";
+  case_annotations_solution.annotations.views = RigSession().views;
+  case_annotations_solution.result.solution.emplace();
   const auto add = [&](const sessions::AnnotationAddress& address, bool projected,
                        double normalized) {
-    sessions::SolvedAnnotation& annotation = made.result.solution->annotations.emplace_back();
+    sessions::SolvedAnnotation& annotation =
+        case_annotations_solution.result.solution->annotations.emplace_back();
     annotation.address = address;
     annotation.projected = projected;
     annotation.normalized = normalized;
@@ -120,29 +121,29 @@ TEST(CaseAnnotations, NamesItsOwnAnnotationsThatStandOut) {
   add({0, AnnotationKind::kPoint, 2}, false, 9.0);
   add({0, AnnotationKind::kLine, 1}, true, 3.1);
   add({1, AnnotationKind::kPoint, 3}, true, 8.0);
-  const sessions::Annotations& own = made.annotations.views[0].annotations;
+  const sessions::Annotations& own = case_annotations_solution.annotations.views[0].annotations;
   const std::map<std::string, double> expected = {{own.points[1].id, 4.2}, {own.lines[1].id, 3.1}};
-  EXPECT_EQ(made.outlierAnnotations(), expected);
+  EXPECT_EQ(case_annotations_solution.outlierAnnotations(), expected);
 }
 
 TEST(CaseAnnotations, AnUnannotatedCaseGetsItsPoseFromTheRig) {
   const RigSession rig(0.0);
   Session session = withAnnotations(rig.session, "left", {});
-  const auto made =
+  const auto result =
       sessions::solveCaseAnnotations(caseAnnotations(session, "left"), Pose(), {}, false);
-  ASSERT_TRUE(made.camera_from_station()) << made.result.reason;
+  ASSERT_TRUE(result.camera_from_station()) << result.result.reason;
   const Pose truth = rig.views[0].camera_from_rig * rig.rig_from_station;
-  EXPECT_LT(perturbationBetween(truth, *made.camera_from_station()).norm(), 1e-6);
+  EXPECT_LT(perturbationBetween(truth, *result.camera_from_station()).norm(), 1e-6);
 }
 
 TEST(CaseAnnotations, SaysWhyThereIsNoPose) {
   const RigSession rig;
-  const auto made =
+  const auto result =
       sessions::solveCaseAnnotations(caseAnnotations(rig.session, "other"), Pose(), {}, false);
-  if (!made.result.solution) {
-    EXPECT_FALSE(made.result.reason.empty());
-    EXPECT_FALSE(made.camera_from_station());
-    EXPECT_TRUE(made.left_out.empty());
+  if (!result.result.solution) {
+    EXPECT_FALSE(result.result.reason.empty());
+    EXPECT_FALSE(result.camera_from_station());
+    EXPECT_TRUE(result.left_out.empty());
   }
   const auto none = sessions::solveCaseAnnotations(
       caseAnnotations(withAnnotations(rig.session, "other", {}), "other"), Pose(), {}, false);
@@ -156,18 +157,18 @@ TEST(CaseAnnotations, ASigmaBeyondTheRequirementIsCalledWeakAndByHowMuch) {
   const RigSession rig(3.0);
   Session session = rig.session;
   const auto warningsFor = [&](double required_mm) {
-    sessions::SessionCase one = *session.findCase("left");
-    one.requirement = {required_mm, {}, {}, {}};
-    one.camera_from_end_effector = Pose();
-    session = withCase(session, one);
+    sessions::SessionCase session_case = *session.findCase("left");
+    session_case.requirement = {required_mm, {}, {}, {}};
+    session_case.camera_from_end_effector = Pose();
+    session = withCase(session, session_case);
     const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
     return sessions::solveCaseAnnotations(caseAnnotations(session, "left", false), guess, {},
                                           false);
   };
-  const auto made = warningsFor(0.001);
-  ASSERT_TRUE(made.result.solution);
-  const double sigma_mm = 1e3 * std::sqrt((*made.covariance())(5, 5));
-  const auto& weak = made.warnings;
+  const auto result = warningsFor(0.001);
+  ASSERT_TRUE(result.result.solution);
+  const double sigma_mm = 1e3 * std::sqrt((*result.covariance())(5, 5));
+  const auto& weak = result.warnings;
   ASSERT_FALSE(weak.empty());
   EXPECT_EQ(weak.back().weakness, sessions::GeometryWeakness::kImprecise);
   EXPECT_FALSE(weak.back().prevents);

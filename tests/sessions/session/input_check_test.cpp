@@ -43,8 +43,8 @@ TEST(InputCheck, ReportsWhatIsMissingOrChanged) {
                           finding(FindingKind::kUnreadable, "image", "the file is empty")));
   std::filesystem::copy(stations / "os/model.ply", stations / "bc/model.ply",
                         std::filesystem::copy_options::overwrite_existing);
-  for (const auto& one : session.cases)
-    EXPECT_NE(folder.message([&] { (void)sessions::loadCase(*one); }), "(nothing)");
+  for (const auto& session_case : session.cases)
+    EXPECT_NE(folder.message([&] { (void)sessions::loadCase(*session_case); }), "(nothing)");
 }
 
 TEST(InputCheck, ACaseOfChangedInputsIsNotLoadedBeforeSomebodyAcceptsThem) {
@@ -110,9 +110,9 @@ class LabelledImage : public ::testing::Test {
            "END\r\n";
   }
   Session session() const {
-    Session made;
-    made.cases.push_back(one_);
-    return made;
+    Session next_session;
+    next_session.cases.push_back(one_);
+    return next_session;
   }
   TemporaryFolder folder_;
   std::filesystem::path label_;

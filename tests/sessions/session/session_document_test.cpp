@@ -78,9 +78,9 @@ TEST(SessionDocument, SavesWhatWasEditedAndLeavesNothingBeside) {
 TEST(SessionDocument, IsNotSavedOverAnInputAndMaySaveOverASession) {
   const TemporaryFolder folder;
   Random random = randomFor("inputs");
-  sessions::SessionCase one = randomCase(random, "a");
-  one.image.source.file = folder.write("image.png", "pixels");
-  SessionDocument document = SessionDocument::create(folder / "s.json", withCase({}, one));
+  sessions::SessionCase session_case = randomCase(random, "a");
+  session_case.image.source.file = folder.write("image.png", "pixels");
+  SessionDocument document = SessionDocument::create(folder / "s.json", withCase({}, session_case));
   EXPECT_THROW(document.saveAs(folder / "image.png"), sessions::OverwriteError);
   EXPECT_EQ(folder.read("image.png"), "pixels");
   document.saveAs(folder / "t.json");

@@ -33,8 +33,8 @@ class ViewsRunTest : public testing::Test {
   /// Run and noted.
   void run(const std::string& leader) {
     views_ = sessions::runViews(session_, leader);
-    for (const RunRecord& one : sessions::storeViews(session_, views_, file()))
-      session_ = withRun(session_, one);
+    for (const RunRecord& item : sessions::storeViews(session_, views_, file()))
+      session_ = withRun(session_, item);
   }
 
   TemporaryFolder folder_;
@@ -43,7 +43,7 @@ class ViewsRunTest : public testing::Test {
 };
 
 TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
-  const SessionCase& one = *session_.cases[0];
+  const SessionCase& session_case = *session_.cases[0];
   const SessionCase& other = *session_.cases[1];
   const ExampleCase example("os");
   const sessions::GrayImage turned = sessions::readImage(other.image.source.file);
@@ -59,7 +59,7 @@ TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   problem.rig_from_station_seed = example.seed.camera_from_station;
   problem.uncertainty = example.problem().uncertainty;
   LocalizerOptions options = defaultProfile();
-  options.templates.feature_size_m = one.feature_size_m.value();
+  options.templates.feature_size_m = session_case.feature_size_m.value();
   std::size_t bytes = 0;
   ASSERT_EQ(ViewsLocalizer::requiredBytes(problem, options, 1, Kernels::kPortable, bytes),
             Status::kOk);
@@ -155,7 +155,7 @@ TEST_F(ViewsRunTest, OldFilesHaveNoneOfIt) {
   sessions::writeSessionFile(file(), session_);
   std::string text = folder_.read("s.boresight.json");
   EXPECT_THAT(text, HasSubstr("\"together\""));
-  for (RunRecord& one : session_.runs) one.together.reset();
+  for (RunRecord& item : session_.runs) item.together.reset();
   sessions::writeSessionFile(file(), session_);
   text = folder_.read("s.boresight.json");
   EXPECT_THAT(text, testing::Not(HasSubstr("\"together\"")));
@@ -185,9 +185,9 @@ TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
   EXPECT_THAT(sessions::whyAlone(withCase(session_, elsewhere), first()), IsEmpty());
   Session many = session_;
   for (int i = 0; i < 7; ++i) {
-    SessionCase one = *session_.cases[1];
-    one.id += std::to_string(i);
-    many = withCase(many, one);
+    SessionCase session_case = *session_.cases[1];
+    session_case.id += std::to_string(i);
+    many = withCase(many, session_case);
   }
   EXPECT_THAT(sessions::whyAlone(many, first()), HasSubstr("has 9 views; at most 8"));
 }

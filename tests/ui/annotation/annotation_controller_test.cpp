@@ -172,10 +172,11 @@ TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithF
   ASSERT_EQ(said.size(), 2);
   EXPECT_TRUE(said[1].contains(QStringLiteral("Its one sigma is"))) << said[1].toStdString();
   EXPECT_TRUE(said[1].contains(QStringLiteral("required"))) << said[1].toStdString();
-  const sessions::SessionCase& one = *document_.session().findCase(source().id);
-  EXPECT_EQ(one.camera_from_station_truth, controller_.solvedPose()) << "the operator may go on";
-  EXPECT_EQ(one.truth_covariance, controller_.answer().covariance);
-  ASSERT_TRUE(one.truth_covariance);
+  const sessions::SessionCase& session_case = *document_.session().findCase(source().id);
+  EXPECT_EQ(session_case.camera_from_station_truth, controller_.solvedPose())
+      << "the operator may go on";
+  EXPECT_EQ(session_case.truth_covariance, controller_.answer().covariance);
+  ASSERT_TRUE(session_case.truth_covariance);
   ASSERT_TRUE(document_.undo());
   ASSERT_TRUE(document_.undo());
 }
@@ -197,8 +198,8 @@ TEST_F(AnnotationControllerTest, AnnotationsBelongToTheirCaseAndSurviveTheProgra
 
 class StationSnapperTest : public ::testing::Test {
  protected:
-  void takeCase(const ViewState::CasePtr& one) {
-    state_.setCase(one);
+  void takeCase(const ViewState::CasePtr& loaded_case) {
+    state_.setCase(loaded_case);
     ASSERT_TRUE(QTest::qWaitFor([this] { return snapper_.mesh() != nullptr; }, 60000));
   }
 
@@ -242,14 +243,14 @@ TEST_F(StationSnapperTest, AnotherCasesMeshIsNotGivenForThisOne) {
 }
 
 TEST_F(StationSnapperTest, AnEditOfTheMaskLeavesItAlone) {
-  const auto one = test::loadedExample("bc");
-  takeCase(one);
+  const auto value = test::loadedExample("bc");
+  takeCase(value);
   const auto before = snapper_.mesh();
-  sessions::SessionCase edited = one->source;
+  sessions::SessionCase edited = value->source;
   edited.ignore_strokes.emplace_back();
   edited.ignore_strokes.back().kind = sessions::StrokeKind::kSaturation;
   QSignalSpy changes(&snapper_, &StationSnapper::meshChanged);
-  state_.replaceCase(sessions::reloadCase(*one, edited));
+  state_.replaceCase(sessions::reloadCase(*value, edited));
   EXPECT_EQ(snapper_.mesh(), before);
   EXPECT_EQ(changes.count(), 0);
 }

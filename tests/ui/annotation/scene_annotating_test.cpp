@@ -29,13 +29,13 @@ class SceneAnnotatingTest : public AnnotationTest {
  protected:
   void SetUp() override {
     AnnotationTest::SetUp();
-    auto one = std::make_shared<sessions::LoadedCase>();
-    one->source = state_.currentCase()->source;
-    one->source.parts.clear();  // of another mesh
-    one->image.width = one->image.height = 64;
-    one->image.pixels.assign(64 * 64, 90);
-    one->scene = Box().scene();
-    state_.setCase(one);
+    auto value = std::make_shared<sessions::LoadedCase>();
+    value->source = state_.currentCase()->source;
+    value->source.parts.clear();  // of another mesh
+    value->image.width = value->image.height = 64;
+    value->image.pixels.assign(64 * 64, 90);
+    value->scene = Box().scene();
+    state_.setCase(value);
     view_.setAnnotation(controller_, snapper_);
     view_.resize(700, 620);
     view_.show();
@@ -330,9 +330,9 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
   const std::string other = session.cases.back()->id;
   ASSERT_NE(own, other);
   for (const std::string& id : {own, other}) {
-    sessions::SessionCase one = *session.findCase(id);
-    one.rig = sessions::Rig{"rig", id == own ? Pose() : other_from_own};
-    session = withCase(session, one);
+    sessions::SessionCase session_case = *session.findCase(id);
+    session_case.rig = sessions::Rig{"rig", id == own ? Pose() : other_from_own};
+    session = withCase(session, session_case);
   }
   sessions::Annotations annotations;  // of the other camera: one place, exactly where it is seen
   sessions::PointPair point;

@@ -39,7 +39,7 @@ class ScriptedAnnotator : public test::WindowTest,
 
   void openCase(const fs::path& dataset, const std::string& station) {
     sessions::Session session = sessions::makeSession(dataset);
-    session.cases.eraseIf([&](const auto& one) { return one->station != station; });
+    session.cases.eraseIf([&](const auto& item) { return item->station != station; });
     ASSERT_FALSE(session.cases.empty());
     session.cases.resize(1);
     ASSERT_TRUE(window_.document().create(file_, session));
@@ -130,12 +130,12 @@ class ScriptedAnnotator : public test::WindowTest,
   sessions::PoseError error() {
     const std::optional<Pose> solved = window_.annotation().solvedPose();
     EXPECT_TRUE(solved);
-    sessions::PoseError made =
+    sessions::PoseError pose_error =
         sessions::poseError(truth(), solved.value_or(Pose()), source().camera_from_end_effector);
     const auto vertices = sessions::matchedVertices(window_.state().currentCase()->scene.view());
-    made.projection_px =
+    pose_error.projection_px =
         sessions::projectionError(source().camera, truth(), solved.value_or(Pose()), vertices);
-    return made;
+    return pose_error;
   }
 
   /// A photograph of BORESIGHT_DATA is solved to its dataset's tolerance.

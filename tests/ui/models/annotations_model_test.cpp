@@ -34,9 +34,9 @@ Annotations someAnnotations() {
 
 /// p1 fits, the line is far out.
 AnnotationsModel::SolutionPtr someSolution(const Annotations& annotations) {
-  auto made = std::make_shared<sessions::CaseAnnotationsSolution>();
-  made->annotations.views.resize(1);
-  made->annotations.views[0].annotations = annotations;
+  auto result = std::make_shared<sessions::CaseAnnotationsSolution>();
+  result->annotations.views.resize(1);
+  result->annotations.views[0].annotations = annotations;
   sessions::AnnotationsSolution solution;
   sessions::SolvedAnnotation point;
   point.address = {0, sessions::AnnotationKind::kPoint, 0};
@@ -48,9 +48,9 @@ AnnotationsModel::SolutionPtr someSolution(const Annotations& annotations) {
   line.address = {0, sessions::AnnotationKind::kLine, 0};
   line.normalized = 7.0;
   solution.annotations = {point, line};
-  made->result.solution = solution;
-  made->left_out = {{point.address, true, 0.5, 1.5}, {line.address, false, 0.0, 0.0}};
-  return made;
+  result->result.solution = solution;
+  result->left_out = {{point.address, true, 0.5, 1.5}, {line.address, false, 0.0, 0.0}};
+  return result;
 }
 
 class AnnotationsModelTest : public ::testing::Test {

@@ -53,10 +53,10 @@ TEST_F(InputSheetPanelTest, ASheetsButtonAsksForWhatNoImageTells) {
 }
 
 TEST(InputSigmasDialogTest, ShowsWhatIsAssumedAndGivesWhatIsStated) {
-  sessions::SessionCase one;
-  one.camera.width = one.camera.height = 2048;
-  one.mesh_scale_sigma = 0.001;
-  InputSigmasDialog dialog(one, nullptr);
+  sessions::SessionCase session_case;
+  session_case.camera.width = session_case.camera.height = 2048;
+  session_case.mesh_scale_sigma = 0.001;
+  InputSigmasDialog dialog(session_case, nullptr);
   EXPECT_EQ(dialog.meshScaleSigma(), 0.001);
   EXPECT_FALSE(dialog.calibrationSigma());
   auto* focal = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"));

@@ -150,11 +150,11 @@ TEST(StageSteps, WalkThroughARunAndBackAgain) {
 }
 
 TEST(StageSteps, EndWhereAnIterationUnderWayIs) {
-  sessions::IterationTrace one = *test::exampleRun()->iterations.front();
-  one.reached = Stage::kTemplates;
-  EXPECT_EQ(stagesOf(one), (std::vector<Stage>{Stage::kRender, Stage::kTemplates}));
-  EXPECT_EQ(shownStage(stagesOf(one), Stage::kFinished), 1);
-  EXPECT_EQ(shownStage(stagesOf(one), Stage::kRender), 0);
+  sessions::IterationTrace iteration = *test::exampleRun()->iterations.front();
+  iteration.reached = Stage::kTemplates;
+  EXPECT_EQ(stagesOf(iteration), (std::vector<Stage>{Stage::kRender, Stage::kTemplates}));
+  EXPECT_EQ(shownStage(stagesOf(iteration), Stage::kFinished), 1);
+  EXPECT_EQ(shownStage(stagesOf(iteration), Stage::kRender), 0);
 }
 
 class IterationsModelTest : public testing::Test {
@@ -177,20 +177,20 @@ TEST_F(IterationsModelTest, HasARowForTheSeedAndOnePerIteration) {
 TEST_F(IterationsModelTest, ShowsTheFiguresOfTheRun) {
   model_.setSnapshot(run_);
   for (std::size_t i = 0; i < run_->iterations.size(); ++i) {
-    const sessions::IterationTrace& one = *run_->iterations[i];
+    const sessions::IterationTrace& iteration = *run_->iterations[i];
     const int index = static_cast<int>(i);
     EXPECT_EQ(model_.number(index, IterationsModel::kTranslation_mm),
-              1e3 * one.correction_translation_m);
+              1e3 * iteration.correction_translation_m);
     EXPECT_DOUBLE_EQ(model_.number(index, IterationsModel::kRotation_deg),
-                     one.correction_rotation_rad / kDegree_rad);
-    EXPECT_EQ(model_.number(index, IterationsModel::kInliers), one.support());
-    EXPECT_EQ(model_.number(index, IterationsModel::kRms_px), one.rms_px());
-    const bool matches = one.kind == IterationKind::kMatch;
+                     iteration.correction_rotation_rad / kDegree_rad);
+    EXPECT_EQ(model_.number(index, IterationsModel::kInliers), iteration.support());
+    EXPECT_EQ(model_.number(index, IterationsModel::kRms_px), iteration.rms_px());
+    const bool matches = iteration.kind == IterationKind::kMatch;
     EXPECT_EQ(text(index + 1, IterationsModel::kKind),
               matches ? QStringLiteral("match") : QStringLiteral("refine"));
     EXPECT_EQ(std::isnan(model_.number(index, IterationsModel::kBestScore)), !matches);
     EXPECT_EQ(text(index + 1, IterationsModel::kThreshold_px).toDouble(),
-              std::round(10.0 * one.threshold_px) / 10.0);
+              std::round(10.0 * iteration.threshold_px) / 10.0);
   }
   const int last = model_.rowCount() - 1;
   EXPECT_EQ(text(last, IterationsModel::kStatus), QStringLiteral("converged"));

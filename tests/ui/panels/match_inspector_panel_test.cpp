@@ -219,12 +219,12 @@ TEST_F(TemplatesModelTest, HasARowPerTemplate) {
   EXPECT_EQ(text(0, TemplatesModel::kNumber), QStringLiteral("1"));
   const auto details = sessions::matchDetails(firstIteration());
   for (int row = 0; row < model_.rowCount(); ++row) {
-    const auto& one = details[static_cast<std::size_t>(row)];
-    EXPECT_NEAR(text(row, TemplatesModel::kDepth_m).toDouble(), one.depth_m, 5.1e-4);
-    if (!one.searched) continue;
-    EXPECT_NEAR(text(row, TemplatesModel::kDx_px).toDouble(), one.moved_px().x(), 5.1e-3);
-    EXPECT_NEAR(text(row, TemplatesModel::kScore).toDouble(), one.score, 5.1e-4);
-    EXPECT_EQ(text(row, TemplatesModel::kVerdict) == QStringLiteral("inlier"), one.inlier);
+    const auto& value = details[static_cast<std::size_t>(row)];
+    EXPECT_NEAR(text(row, TemplatesModel::kDepth_m).toDouble(), value.depth_m, 5.1e-4);
+    if (!value.searched) continue;
+    EXPECT_NEAR(text(row, TemplatesModel::kDx_px).toDouble(), value.moved_px().x(), 5.1e-3);
+    EXPECT_NEAR(text(row, TemplatesModel::kScore).toDouble(), value.score, 5.1e-4);
+    EXPECT_EQ(text(row, TemplatesModel::kVerdict) == QStringLiteral("inlier"), value.inlier);
   }
   model_.setIteration(nullptr);
   EXPECT_EQ(model_.rowCount(), 0);

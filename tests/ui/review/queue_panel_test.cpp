@@ -26,14 +26,14 @@ struct RunExample {
     return example;
   }
   sessions::Session strictSession() const {
-    sessions::Session made = session;
-    made.options = {{"pnp.min_inliers", std::int64_t{100}}};
-    return made;
+    sessions::Session next_session = session;
+    next_session.options = {{"pnp.min_inliers", std::int64_t{100}}};
+    return next_session;
   }
   sessions::Session withRuns(const std::filesystem::path& file) const {
-    sessions::Session made = withRun(session, storeRun(session, good, of_good, file));
-    made = withRun(made, storeRun(made, bad, of_bad, file));
-    return withRun(made, storeRun(strict, bad, failed, file));
+    sessions::Session next_session = withRun(session, storeRun(session, good, of_good, file));
+    next_session = withRun(next_session, storeRun(next_session, bad, of_bad, file));
+    return withRun(next_session, storeRun(strict, bad, failed, file));
   }
 };
 

@@ -28,7 +28,7 @@ class TaskRunnerTest : public testing::Test {
   void startValue(const QString& key, int value) {
     runner_.start(
         key, [value](const std::stop_token&) { return value; },
-        [this](int made) { taken_.push_back(made); });
+        [this](int result) { taken_.push_back(result); });
   }
   /// A task that waits for the gate, then reports whether it was asked to stop.
   void startGated(const QString& key) {
@@ -38,7 +38,7 @@ class TaskRunnerTest : public testing::Test {
           gate.wait();
           return stop.stop_requested() ? 1000 : 2000;
         },
-        [this](int made) { taken_.push_back(made); });
+        [this](int result) { taken_.push_back(result); });
   }
 
   std::promise<void> gate_;
@@ -48,15 +48,17 @@ class TaskRunnerTest : public testing::Test {
 };
 
 TEST_F(TaskRunnerTest, TakesValuesInTheirOrderOnTheOwnersThread) {
-  const auto here = std::this_thread::get_id();
+  const auto current = std::this_thread::get_id();
   bool here_as_well = true;
   for (int i = 0; i < 20; ++i) {
     runner_.start(
         QString::number(i),
-        [i, here](const std::stop_token&) { return std::this_thread::get_id() == here ? -1 : i; },
-        [&](int made) {
-          here_as_well = here_as_well && std::this_thread::get_id() == here;
-          taken_.push_back(made);
+        [i, current](const std::stop_token&) {
+          return std::this_thread::get_id() == current ? -1 : i;
+        },
+        [&](int result) {
+          here_as_well = here_as_well && std::this_thread::get_id() == current;
+          taken_.push_back(result);
         });
   }
   ASSERT_TRUE(rests());
@@ -98,7 +100,7 @@ TEST_F(TaskRunnerTest, AStopReachesATaskThatStillWaits) {
   runner_.start(
       QStringLiteral("second"),
       [](const std::stop_token& stop) { return stop.stop_requested() ? 1 : 0; },
-      [this](int made) { taken_.push_back(made); });
+      [this](int result) { taken_.push_back(result); });
   runner_.stop(QStringLiteral("second"));
   gate_.set_value();
   ASSERT_TRUE(rests());
@@ -123,7 +125,7 @@ TEST_F(TaskRunnerTest, ReportsOnTheWayAndNothingMoreOnceCancelled) {
 
 TEST_F(TaskRunnerTest, SaysWhyATaskFailedAndGoesOn) {
   const auto throwing = [](const std::stop_token&) -> int { throw std::runtime_error("no luck"); };
-  runner_.start(QStringLiteral("bad"), throwing, [this](int made) { taken_.push_back(made); });
+  runner_.start(QStringLiteral("bad"), throwing, [this](int result) { taken_.push_back(result); });
   runner_.start(
       QStringLiteral("large"), [](const std::stop_token&) -> int { throw std::bad_alloc(); },
       [](int) {});

@@ -170,8 +170,8 @@ int main(int argc, char** argv) {
   if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
   EventClock clock(argc, argv);
   QStandardPaths::setTestModeEnabled(true);
-  const QTemporaryDir made;
-  const fs::path folder = made.path().toStdString();
+  const QTemporaryDir q_temporary_dir;
+  const fs::path folder = q_temporary_dir.path().toStdString();
   QTimer wake;  // so that waiting ends although nothing happens
   wake.start(5);
   ui::MainWindow window;

@@ -23,8 +23,8 @@ class MaskEditingTest : public test::WindowTest {
     return window_.document().session().findCase(id)->ignore_strokes;
   }
   bool ignored(int x, int y) {
-    const auto& one = window_.state().currentCase();
-    return one->ignore && one->ignore_bits.get(x, y);
+    const auto& value = window_.state().currentCase();
+    return value->ignore && value->ignore_bits.get(x, y);
   }
   /// Once the views have the document's mask.
   bool settled() {
@@ -122,11 +122,11 @@ TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
   find<QSpinBox>("saturationLevel").setValue(200);
   QTest::mouseClick(&find<QPushButton>("saturated"), Qt::LeftButton);
   ASSERT_TRUE(settled());
-  const auto& one = *window_.state().currentCase();
+  const auto& value = *window_.state().currentCase();
   std::int64_t bright = 0;
-  for (const std::uint8_t gray : one.image.pixels) bright += gray >= 200 ? 1 : 0;
+  for (const std::uint8_t gray : value.image.pixels) bright += gray >= 200 ? 1 : 0;
   ASSERT_GT(bright, 0);
-  EXPECT_EQ(one.ignore->ignored_count, bright);
+  EXPECT_EQ(value.ignore->ignored_count, bright);
   EXPECT_TRUE(
       find<QLabel>("maskSummary").text().startsWith(QString::number(bright) + QLatin1Char(' ')));
   QTest::mouseClick(&find<QPushButton>("clearMask"), Qt::LeftButton);

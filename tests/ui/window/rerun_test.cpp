@@ -45,14 +45,14 @@ TEST_F(RerunTest, KeepsWhatWasBeforeAndRecordsARunThatIsTheSameHeadless) {
   window_.cases().setOptions(QStringLiteral("default"), otherOptions());
   rerun();
   ASSERT_EQ(runs().size(), 2u);
-  const ViewState::SnapshotPtr now = window_.state().snapshot();
-  ASSERT_TRUE(now->finished);
+  const ViewState::SnapshotPtr current = window_.state().snapshot();
+  ASSERT_TRUE(current->finished);
   for (int i = 0; i < kFrom; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    EXPECT_EQ(now->iterations[at]->camera_from_station.translation_m,
+    EXPECT_EQ(current->iterations[at]->camera_from_station.translation_m,
               first_->iterations[at]->camera_from_station.translation_m);
   }
-  EXPECT_NE(now->iterations[kFrom + 1]->camera_from_station.translation_m,
+  EXPECT_NE(current->iterations[kFrom + 1]->camera_from_station.translation_m,
             first_->iterations[kFrom + 1]->camera_from_station.translation_m);
   EXPECT_EQ(window_.cases().staleness(), QString());
 
@@ -60,7 +60,7 @@ TEST_F(RerunTest, KeepsWhatWasBeforeAndRecordsARunThatIsTheSameHeadless) {
   ASSERT_TRUE(record.rerun.has_value());
   EXPECT_EQ(record.rerun->from, first_->digest);
   EXPECT_EQ(record.rerun->changes.front().iteration, kFrom);
-  EXPECT_EQ(record.digest, now->digest);
+  EXPECT_EQ(record.digest, current->digest);
   const auto plan = sessions::planOf(record, window_.document().session(), "session");
   EXPECT_EQ(sessions::runCase(*window_.state().currentCase(), plan).digest, record.digest);
 }

@@ -79,13 +79,14 @@ class Operator {
   }
 
   bool paintMask() {
-    sessions::SessionCase one = shownCase();
+    sessions::SessionCase session_case = shownCase();
     sessions::MaskStroke stroke;
     stroke.radius_px = random_.uniform(1.0, 9.0);
     stroke.points.emplace_back(random_.uniform(0.0, 900.0), random_.uniform(0.0, 900.0));
-    one.ignore_strokes.push_back(stroke);
-    return window_.document().edit(sessions::withCase(window_.document().session(), std::move(one)),
-                                   QStringLiteral("Paint"));
+    session_case.ignore_strokes.push_back(stroke);
+    return window_.document().edit(
+        sessions::withCase(window_.document().session(), std::move(session_case)),
+        QStringLiteral("Paint"));
   }
 
   /// Half-made pairs, whole ones, moves by keys, and now and then a pass that is put aside.

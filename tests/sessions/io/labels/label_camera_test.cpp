@@ -89,19 +89,19 @@ TEST(LabelCamera, PrincipalPointsNearTheMiddleOfTheDetectorFit) {
 
 TEST(LabelCamera, SeveralModelsMustAgree) {
   const TemporaryFolder folder;
-  const GroupItems one = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
+  const GroupItems group_items = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
   const GroupItems other = cameraItems(exampleModel(CameraModel::kCahvor, 61, 31, 24));
   const GroupItems none = {{"MODEL_TYPE", "\"NONE\""}};
   for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", one}, {"CAMERA_MODEL", one}}))
+       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", group_items}, {"CAMERA_MODEL", group_items}}))
     EXPECT_TRUE(label.camera) << label.camera_remark;
   for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", one}, {"CAMERA_MODEL", other}})) {
+       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", group_items}, {"CAMERA_MODEL", other}})) {
     EXPECT_FALSE(label.camera);
     EXPECT_THAT(label.camera_remark, HasSubstr("several camera models that differ"));
   }
   for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", none}, {"CAMERA_MODEL", one}}))
+       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", none}, {"CAMERA_MODEL", group_items}}))
     EXPECT_TRUE(label.camera) << label.camera_remark;
 }
 

@@ -23,8 +23,8 @@ using test::TemporaryFolder;
 bool takes(const nlohmann::json& stated, bool floating, int bits, double sample) {
   std::vector<InvalidValue> values;
   addInvalidValues(&stated, floating, bits, values);
-  return std::any_of(values.begin(), values.end(), [sample](const InvalidValue& one) {
-    return std::abs(sample - one.value) <= one.tolerance;
+  return std::any_of(values.begin(), values.end(), [sample](const InvalidValue& invalid_value) {
+    return std::abs(sample - invalid_value.value) <= invalid_value.tolerance;
   });
 }
 
