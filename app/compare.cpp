@@ -26,7 +26,7 @@ struct CompareArguments {
 
 enum class SideKind { kRecord, kTrace, kSession };
 
-/// By its first bytes. What is none of the three is refused by whoever reads it as a record.
+/// By its first bytes. Other files are refused by the reader of records.
 SideKind kindOf(const std::string& file) {
   const auto begin = sessions::readBeginning(file, 8);
   const std::string_view text = sessions::asText(begin);
@@ -59,7 +59,7 @@ class GroundSide {
     return sessions::readRecord(file->file);
   }
 
-  /// The run that was stored; run anew by the record's options when that is asked for.
+  /// The stored run, or with --rerun a new run with the record's options.
   OnboardRecord run(const OnboardRecord& onboard) const {
     const auto loaded = sessions::loadCase(one());
     const LocalizationProblem given = loaded->problem();

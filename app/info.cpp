@@ -210,7 +210,7 @@ void printPose(const Pose& pose, const char* name) {
   std::cout << sessions::poseText(pose, Matrix6d::Zero(), name);
 }
 
-/// What stands in a file beside the pose, in whatever frame that is.
+/// The other members of a pose file, in its frame.
 void describeSeed(const sessions::PoseFile& pose) {
   if (pose.uncertainty)
     line("uncertainty " + vectorText(pose.uncertainty->translation_m, 4) + " m, " +

@@ -84,7 +84,7 @@ int printOptions(const std::string& profile) {
   return kDone;
 }
 
-/// The manual's page of every option: of a run, of the methods beside WHS, and the limits of the
+/// The manual's page of every option: of a run, of the other methods, and the limits of the
 /// checks, as they are declared, with their values in each profile and preset.
 std::string optionsPage() {
   std::string text =

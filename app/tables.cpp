@@ -85,7 +85,7 @@ void write(const TablesArguments& arguments, const std::string& text) {
     sessions::writeFileAtomically(arguments.out, text);
 }
 
-/// What the runs are: nobody should have to guess which files and options a table is of.
+/// Files, machines and options of a table's runs.
 std::string provenanceText(const sessions::ResultsSet& set) {
   std::string text;
   for (const sessions::ResultsFacts& file : set.files)

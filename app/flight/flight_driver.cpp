@@ -27,7 +27,7 @@ static_assert(kArenaBytes % Arena::kAlignment == 0);
 /// own. The encoded problem is read behind what it decodes to, and overwritten after that.
 alignas(Arena::kAlignment) std::byte arena_block[kArenaBytes];
 
-/// What is wrong with an input, for people.
+/// Reason why an input is refused.
 struct Fault {
   const char* reason = nullptr;  ///< nullptr: nothing is
   const char* option = nullptr;  ///< the option that it is about, or nullptr

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What several people annotated in the same image without seeing each other's annotations.
+// Blind annotation rounds of several annotators over one image.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace boresight::sessions {
 
-/// The annotations that somebody ended with; kept beside the ones at work.
+/// Final annotations of one round; kept next to the current annotations.
 struct AnnotationRound {
   std::string by;    ///< who, not empty
   std::string time;  ///< UTC, when it was put aside
@@ -38,7 +38,7 @@ struct AnnotationDifference {
                                                             ///< distances of the ends across it
 };
 
-/// Differences of two people's annotations.
+/// Differences between the annotations of two annotators.
 struct Repeatability {
   std::vector<AnnotationDifference>
       annotations;  ///< of annotations that both have with both sides, by id

@@ -97,7 +97,7 @@ Annotations withMoved(Annotations annotations, const std::string& id, int end,
 /// The annotations of one camera of a rig. A camera alone is a rig of its own, and so is a rig that
 /// did not move between several images.
 struct AnnotatedView {
-  std::string name;  ///< for people
+  std::string name;  ///< for display
   Camera camera;     ///< after prepareCamera
   Pose camera_from_rig;
   Annotations annotations;

@@ -204,7 +204,7 @@ void sortByLikelihood(std::vector<Snap>& snaps, double radius_px) {
   });
 }
 
-/// Noise in a shadow makes corners too; beside an edge they are not what the operator clicked.
+/// Noise in a shadow makes corners, too; next to an edge the operator did not mean them.
 bool isFainter(const ImageView& image, const Eigen::Vector2d& corner,
                const std::optional<EdgeSnap>& edge) {
   if (!edge) return false;

@@ -52,7 +52,7 @@ class MeshSnapper {
   std::vector<MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
                              const Eigen::Vector2d& pixel, double radius_px) const;
 
-  /// The surface that a pixel shows; nothing beside the station.
+  /// The surface that a pixel shows; nothing outside the station.
   std::optional<Eigen::Vector3d> surfaceAt(const Camera& camera, const Pose& camera_from_station,
                                            const Eigen::Vector2d& pixel) const;
 

@@ -33,7 +33,7 @@ void writeSolution(const std::filesystem::path& file, std::span<const AnnotatedV
                    const AnnotationsResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust);
 
-/// A solution for people: one line per annotation (residuals in px and mm, how far the pose moves
+/// A solution as text: one line per annotation (residuals in px and mm, how far the pose moves
 /// without it), what is weak, the pose with one sigma (of several views the rig's and each
 /// camera's), and the other pose of an ambiguous plane. `left_out` by annotation, as `leaveOneOut`
 /// gives them.

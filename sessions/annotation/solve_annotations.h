@@ -33,7 +33,7 @@ struct SolvedAnnotation {
   /// reduced by what the annotation itself pulls.
   double normalized = 0.0;
 
-  /// The pose explains it so badly that somebody should look at it again.
+  /// The residual is so large that the annotator should check it.
   bool isOutlier() const { return projected && normalized > kOutlierSigmas; }
 };
 

@@ -151,7 +151,7 @@ void Batch::run(const std::stop_token& stop) {
       threads.emplace_back([this, stop] {
         try {
           workUntilDone(stop);
-        } catch (...) {  // for the caller's thread to report; nobody begins another run
+        } catch (...) {  // rethrown on the caller's thread; no other run starts
           const std::lock_guard lock(mutex_);
           if (!fault_) fault_ = std::current_exception();
           next_ = items_.size();

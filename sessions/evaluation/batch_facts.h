@@ -30,7 +30,7 @@ struct MethodFacts {
   double reseed_scale = 1.0;
   std::string mesh_of;  ///< deliberately wrong meshes: another station's,
   std::string mirror;   ///< or mirrored across this axis; empty: the right ones
-  std::string note;     ///< for people, e.g. which network took part
+  std::string note;     ///< display text, e.g. the network that was used
 };
 
 /// One process that ran cases into a results file.
@@ -62,7 +62,7 @@ void addMethodOptions(const OptionList& changed, MethodFacts& facts);
 
 DatasetFacts datasetFacts(const Dataset& dataset);
 
-/// In what the second cannot go on with the first: one clause for people ("its runs are of another
+/// In what the second cannot go on with the first: one readable clause ("its runs are of another
 /// dataset, ..."); nothing when it can.
 std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given);
 std::optional<std::string> contradiction(const MethodFacts& held, const MethodFacts& given);

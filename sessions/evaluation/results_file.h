@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading results files; README.md beside this has their tables.
+// Reading results files; their tables are in README.md.
 #pragma once
 
 #include <cstdint>

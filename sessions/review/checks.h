@@ -25,7 +25,7 @@ namespace boresight::sessions {
 struct LookedPlace;
 struct PredictedEdges;
 
-/// So many further seeds tell a second answer from none, and take a few seconds.
+/// Number of further seeds that detects a competing pose within a few seconds.
 inline constexpr int kConvergenceSeeds = 8;
 
 /// Another answer to the same image.
@@ -100,8 +100,9 @@ double medianOf(std::span<const double> values);
 void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
                     std::vector<Check>& checks);
 
-/// What the image's edges say of the final pose, measured anew and not by the run's own gate:
-/// coverage, clutter and fall-off kept apart, and whether they ask for another camera.
+/// What the image's edges say of the final pose, measured again, independent of the run's
+/// acceptance test: coverage, clutter and fall-off kept apart, and whether they ask for another
+/// camera.
 void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
                    const PredictedEdges& edges, std::vector<Check>& checks);
 

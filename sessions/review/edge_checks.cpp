@@ -169,8 +169,8 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 constexpr std::size_t kLeastFound = 60;
 constexpr int kRounds = 10;
 /// First the usual constant, so that what a wrong camera leaves does not count as outlying; then a
-/// tighter one: shadows and bevels beside an edge are many and off to one side, and precision is to
-/// spare.
+/// tighter one: shadows and bevels next to an edge are many and off to one side, and precision is
+/// to spare.
 constexpr double kWideTukey = 4.685;
 constexpr double kTightTukey = 2.0;
 /// Farther ones are mostly another edge.

@@ -7,7 +7,7 @@
 namespace boresight::sessions {
 namespace {
 
-/// So many places give the sums to a percent.
+/// This number of points gives the sums to a percent.
 constexpr std::size_t kPlaces = 4000;
 
 using ByCamera = Eigen::Matrix<double, 6, 3>;

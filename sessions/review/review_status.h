@@ -53,7 +53,7 @@ std::map<std::string, std::string> inputFingerprint(const Session& session,
 std::string changedInputsText(const std::map<std::string, std::string>& before,
                               const std::map<std::string, std::string>& after);
 
-/// A decision that is not allowed; `what()` is a sentence for people.
+/// A decision that is not allowed; `what()` is one readable sentence.
 class DecisionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

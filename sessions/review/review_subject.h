@@ -17,9 +17,9 @@
 
 namespace boresight::sessions {
 
-/// A pose of the same camera that somebody or something else came to.
+/// A pose of the same camera from another source.
 struct OtherPose {
-  std::string from;  ///< for people: "the annotation", "bc-right"
+  std::string from;  ///< for display: "the annotation", "bc-right"
   Pose camera_from_station;
   PoseCovariance covariance = {};  ///< of the annotation only the annotations' own part
 };

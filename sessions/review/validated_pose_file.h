@@ -34,7 +34,7 @@ struct HandedPose {
 };
 
 /// The pose of a decision that holds, else that of the last run if it converged, else the
-/// annotations'; without covariance and checks where nobody decided. InputError when there is none,
+/// annotations'; without covariance and checks without a decision. InputError when there is none,
 /// a run's trace cannot be read, or the decision states another pose than its run's trace (or the
 /// annotations).
 HandedPose handedPose(const Session& session, const std::string& case_id);
@@ -89,8 +89,8 @@ std::string checksDifference(const HandedPose& stated, const std::vector<Check>&
 /// InputError unless `difference` is empty.
 void requireAsMeasured(const std::string& case_id, const std::string& difference);
 
-/// The file as JSON (README.md beside this file tells its members). It holds a session of this one
-/// case and its rig, so that whoever has the inputs can run it again and look; paths are relative
+/// The file as JSON (README.md lists its members). It holds a session of this one
+/// case and its rig, so that the run can be repeated with the inputs; paths are relative
 /// to `file`. `run` is the pose's, for its matches; without it they are left out.
 /// A pose that is not validated says so in `state` and `review_status`.
 nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,

@@ -146,16 +146,16 @@ std::optional<MeasuredPose> measureAgain(const Document& document, int convergen
 void verifyMembers(const Document& document, const std::optional<MeasuredPose>& measured,
                    Findings& findings) {
   const auto run = measured ? measured->subject.run : std::nullopt;
-  const ordered_json anew = ordered_json::parse(
+  const ordered_json remeasured = ordered_json::parse(
       prettyJson(validatedPoseJson(document.session, document.pose, run, document.file)));
   std::string wrong;
-  for (const auto& [name, value] : anew.items()) {
+  for (const auto& [name, value] : remeasured.items()) {
     if (name == "written" || name == "signature") continue;
     if (!document.json.contains(name) || document.json[name] != value)
       wrong += (wrong.empty() ? "" : ", ") + name;
   }
   for (const auto& [name, value] : document.json.items())
-    if (!anew.contains(name) && (measured || name != "run"))
+    if (!remeasured.contains(name) && (measured || name != "run"))
       wrong += (wrong.empty() ? "" : ", ") + name;
   findings.push_back(
       {wrong.empty(), "contents",
@@ -171,7 +171,7 @@ void verifyRunStated(const Document& document, Findings& findings) {
     findings.push_back({false, "run", "the member run, with options and matches, is missing"});
 }
 
-/// What the session inside says of the pose; the document's own where nobody decided.
+/// What the session inside says of the pose; the document's own without a decision.
 void takeReviewStatus(Document& document, const ReviewStatus& status) {
   HandedPose& pose = document.pose;
   pose.validated = status.state == ReviewState::kValidated;

@@ -225,7 +225,7 @@ std::string failedText(const LocalizationTrace& trace) {
   return text;
 }
 
-/// An onboard run, so that nobody takes it for one of the ground.
+/// Labels an onboard run.
 std::string replayedText(const LocalizationTrace& trace) {
   const std::string begin = "Onboard record, replayed. ";
   if (trace.converged()) return begin + convergedText(trace);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run did, in words and tables for people.
+// Text and tables of a run.
 #pragma once
 
 #include <string>

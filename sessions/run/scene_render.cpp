@@ -17,7 +17,7 @@ RenderOptions optionsFor(const Camera& camera) {
 
 }  // namespace
 
-/// What renders need besides the mesh.
+/// Inputs of a render apart from the mesh.
 struct SceneRenderer::Equipment {
   std::unique_ptr<std::byte[]> memory;
   MeshAdjacency adjacency;

@@ -21,7 +21,7 @@ enum class Verdict { kValidated, kRejected, kReopened };
 /// Where a pose comes from that is checked, decided on or exported.
 enum class PoseSource { kRun, kAnnotation };
 
-/// A check as it was when somebody decided.
+/// A check at the time of the decision.
 struct JudgedCheck {
   Check check;
   std::string waiver_reason;  ///< why a failed one does not stand in the way, or empty
@@ -88,7 +88,7 @@ struct Decision {
 struct ReviewSettings {
   std::string preset = "sample_transfer";  ///< of limits (sessions/session/check_limits.h)
   OptionList limits;  ///< what differs from the preset, by name in the order of the alphabet
-  bool second_person = false;  ///< a validation counts once somebody else has approved it
+  bool second_person = false;  ///< a second person must approve a validation
 
   bool operator==(const ReviewSettings&) const = default;
 };

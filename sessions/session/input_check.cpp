@@ -51,7 +51,7 @@ std::vector<Dependency> dependenciesOf(const SessionCase& session_case) {
   return all;
 }
 
-/// The file, and the one beside it that is part of the same image.
+/// The file, and its companion file of the same image.
 std::string namesOf(const Dependency& dependency) {
   const std::string other =
       dependency.image != nullptr ? otherFileText(dependency.file) : std::string();

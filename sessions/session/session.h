@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operator's document: one plain value. What is done with it (files, journal, lock, undo) is in
-// the headers beside this one.
+// the other headers of this folder.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ struct ImageInput {
   bool operator==(const ImageInput&) const = default;
 };
 
-/// One part of the station. For glTF the hash includes the buffers beside the file.
+/// One part of the station. For glTF the hash includes the buffers next to the file.
 struct MeshInput {
   PartSource source;  ///< its path is absolute
   std::string sha256;
@@ -59,7 +59,7 @@ struct MeshInput {
 /// Everything that a run of one image is given, and what its result is judged by.
 struct SessionCase {
   std::string id;       ///< unique in the session, not empty
-  std::string station;  ///< a name for people, may be empty
+  std::string station;  ///< display name, may be empty
   ImageInput image;
   Camera camera;
   /// Of the CAHV family: where the camera model's frame is. No input of a run.
@@ -89,7 +89,7 @@ struct SessionCase {
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
   /// landmarks.json with the station's named points, absolute; may not be there yet. No input of a
-  /// run, and people add to it as they annotate: its bytes are not known to the session.
+  /// run, and annotators add to it: its bytes are not known to the session.
   std::optional<std::filesystem::path> landmarks;
 
   bool operator==(const SessionCase&) const = default;
@@ -125,7 +125,7 @@ struct Session {
   OptionList options;  ///< what differs from the profile, by name in the order of the alphabet
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
-  /// By case: what people annotated who are done, in that order; none is empty.
+  /// Completed annotation rounds by case, in order of completion; none is empty.
   std::map<std::string, SharedValue<AnnotationRounds>> rounds;
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
@@ -157,7 +157,7 @@ Session withCase(const Session& session, SessionCase changed);
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is taken away.
 Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation);
-/// The same session with the annotations that people ended with in a case; no rounds are taken
+/// The same session with the completed annotation rounds of a case; no rounds are taken
 /// away.
 Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds);
 

@@ -96,7 +96,7 @@ SessionDocument::SessionDocument(const fs::path& file)
 
 SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
-  // No lock file beside what is not there.
+  // No lock file without a session file.
   (void)readFileBytes(document.file_, SIZE_MAX, FileUse::kSession);
   if (access == Access::kEdit)
     document.takeLock();

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-fs::path beside(const fs::path& session_file, const char* extension) {
+fs::path companionFile(const fs::path& session_file, const char* extension) {
   fs::path name = session_file;
   if (name.extension() == ".json") name.replace_extension();
   name += extension;
@@ -47,7 +47,7 @@ void requireCase(const Session& session, const std::string& id, const JsonReader
   if (session.findCase(id) == nullptr) at.fail("there is no case '" + id + "'");
 }
 
-/// What people annotated, by case.
+/// Annotations by case.
 void readAnnotationsOf(const JsonReader& json, Session& session) {
   for (const auto& [id, annotation] : json.at("annotations").members()) {
     requireCase(session, id, annotation);
@@ -174,9 +174,11 @@ Session readMembers(const JsonReader& json) {
 
 }  // namespace
 
-fs::path journalFileOf(const fs::path& session_file) { return beside(session_file, ".journal"); }
-fs::path lockFileOf(const fs::path& session_file) { return beside(session_file, ".lock"); }
-fs::path runsFolderOf(const fs::path& session_file) { return beside(session_file, ".runs"); }
+fs::path journalFileOf(const fs::path& session_file) {
+  return companionFile(session_file, ".journal");
+}
+fs::path lockFileOf(const fs::path& session_file) { return companionFile(session_file, ".lock"); }
+fs::path runsFolderOf(const fs::path& session_file) { return companionFile(session_file, ".runs"); }
 
 fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
   return runsFolderOf(session_file) / (digest + ".trace");

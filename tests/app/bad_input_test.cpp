@@ -65,7 +65,7 @@ TEST_F(BadInput, NamesAFileThatIsMissing) {
   expectRefused({{"--truth", "/no/such/truth.json"}}, "/no/such/truth.json: ", "");
 }
 
-/// Whose other end nobody opens: reading would wait for ever.
+/// A pipe without a writer: reading would block for ever.
 TEST_F(BadInput, NamesAPipeAndADeviceWithoutReadingThem) {
   const std::filesystem::path pipe = inputs_ / "pipe.ply";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -175,7 +175,7 @@ TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
 
 TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
   // The label states where the rover is in the site; the transform that is given later lies 10 mm
-  // beside it.
+  // next to it.
   const Eigen::Quaterniond& turn = siteFromRover().rotation;
   folder_.write(
       "1F483288473.IMG",

@@ -202,7 +202,7 @@ TEST(WhsLocalize, SeesOnlyWhatTheIgnoreMaskLeaves) {
   EXPECT_EQ(run.errorLines(), 1) << run.err;
 }
 
-// Methods beside WHS, on the command line.
+// Other methods, on the command line.
 
 TEST(WhsMethods, ResultNamesTheMethodAndItsOptions) {
   const TemporaryFolder folder;

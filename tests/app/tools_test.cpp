@@ -198,7 +198,7 @@ TEST_F(WhsSolve, SaysWhyACaseHasNoPose) {
   EXPECT_EQ(json["solved"], false);
   EXPECT_THAT(run.err, HasSubstr(json["reason"].get<std::string>()));
   EXPECT_EQ(json["warnings"][0]["kind"], "too_few");
-  runWhs({"solve", "--session", file, "--case", "nobody"}, 3);
+  runWhs({"solve", "--session", file, "--case", "unknown"}, 3);
   runWhs({"solve", "--session", file}, 2);
   runWhs({"solve", "--session", file, "--case", kOsCase, "--seed", "x.json"}, 2);
   runWhs({"solve", "--alone"}, 2);
@@ -265,7 +265,7 @@ TEST(WhsInfo, TellsOfWhatIsInAnImageAndNotUsed) {
                     HasSubstr("the file holds further images (pages)")));
 }
 
-/// Whose other end nobody opens: reading would wait for ever.
+/// A pipe without a writer: reading would block for ever.
 TEST(Whs, RefusesPipesOfEveryKindOfInput) {
   const TemporaryFolder folder;
   const auto pipe = [&folder](const std::string& name) {

@@ -3,8 +3,8 @@
 //
 //   check_calibration measure DATASET OUT.jsonl [EVERY]   runs what OUT does not have yet; what is
 //   made wrong
-//                                                   only of every so many cases
-//   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses anew
+//                                                   only of every n-th case
+//   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses again
 //   check_calibration convergence DATASET OUT.jsonl NEW.jsonl SEEDS  adds the convergence test to
 //   what passes check_calibration judge OUT.jsonl ...                 by the limits as they are now
 #include <algorithm>
@@ -335,7 +335,7 @@ bool isOfEdges(const std::string& id) {
 
 bool isOfConvergence(const std::string& id) { return id.starts_with("convergence_"); }
 
-/// Measures anew what `which` names, of the lines for which `when`, and keeps the others.
+/// Measures the checks that `which` selects again, on lines that `when` selects; keeps the others.
 int measureAnew(const std::string& dataset, const std::string& from, const std::string& to,
                 const std::function<bool(const ordered_json&)>& when,
                 const std::function<bool(const std::string&)>& which, int convergence_seeds) {

@@ -56,7 +56,7 @@ for name in "$@"; do
   # The acceptance of the pose is part of the refinement.
   refine=$(($(inclusive "$folder/list" Pass::stepRefine) + $(inclusive "$folder/list" Pass::stepSupport) +
     $(inclusive "$folder/list" CompetingPoseTest::step)))
-  # What a step does besides the other stages is the edges of the image.
+  # The rest of a step is the computation of the image's edges.
   first=$((begin + step - search - render - match - pose - refine))
   echo "$name $first $search $render $match $pose $refine $((begin + step))"
 done | awk '

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many renders a second somebody who nudges a pose sees: nudge_rate DATASET CASE [SECONDS].
+// Renders per second while a pose is nudged: nudge_rate DATASET CASE [SECONDS].
 // Poses come at 60 a second, as a held key sends them at most.
 #include <QCoreApplication>
 #include <QElapsedTimer>

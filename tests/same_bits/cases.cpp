@@ -27,7 +27,7 @@ struct SameBitsCase {
   Vector6d seed_from_truth = Vector6d::Zero();  ///< (rotation rad, translation m) about the camera
   Arguments extra = {};
   bool ignore = false;
-  std::size_t triangles = 0;  ///< split the mesh into so many; 0: as it is
+  std::size_t triangles = 0;  ///< number of triangles after splitting; 0: not split
 };
 
 Camera cameraOf(CameraModel model, int width, int height, double focal_length_px,

@@ -58,7 +58,7 @@ ProcessFigures processFigures() {
           .heap_bytes = static_cast<std::int64_t>(heap.uordblks + heap.hblkhd)};
 }
 
-/// After so many runs everything has happened once: each seed of each station.
+/// Runs until every code path has run once: each seed of each station.
 constexpr int kSeeds = 4;
 constexpr int kStations = 2;
 constexpr int kRound = kSeeds * kStations;

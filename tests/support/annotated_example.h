@@ -48,7 +48,8 @@ inline std::vector<SeenCorner> spreadCorners(const ExampleCase& example, std::si
   return chosen;
 }
 
-/// These corners as somebody might annotate them: with noise, or as they are with the sigma 0.2 px.
+/// These corners as an annotator would place them: with noise, or as they are with the sigma 0.2
+/// px.
 inline sessions::Annotations annotationsOf(const std::vector<SeenCorner>& corners, double noise_px,
                                            Random& random) {
   sessions::Annotations annotations;

@@ -176,15 +176,15 @@ QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text,
   return box;
 }
 
-void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& beside,
+void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& anchor,
                const QString& text) {
   if (text.isEmpty()) return;
   const QFontMetricsF metrics(painter.font());
   const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kPadding, metrics.height() + 4.0);
-  QRectF box(beside + QPointF(kBeside, kBeside), size);
-  if (box.right() > area.right() || box.intersects(taken)) box.moveRight(beside.x() - kBeside);
-  if (box.left() < area.left()) box.moveTopLeft(QPointF(area.left(), beside.y() + 2.0 * kBeside));
-  if (box.bottom() > area.bottom()) box.moveBottom(beside.y() - kBeside);
+  QRectF box(anchor + QPointF(kBeside, kBeside), size);
+  if (box.right() > area.right() || box.intersects(taken)) box.moveRight(anchor.x() - kBeside);
+  if (box.left() < area.left()) box.moveTopLeft(QPointF(area.left(), anchor.y() + 2.0 * kBeside));
+  if (box.bottom() > area.bottom()) box.moveBottom(anchor.y() - kBeside);
   paintBox(painter, box.topLeft(), text);
 }
 

@@ -40,7 +40,8 @@ struct AimRules {
   int turn = 0;            ///< how often the operator asked for another one
 };
 
-/// Image pixels within which things are snapped to, at so many screen pixels to an image pixel.
+/// Image pixels within which things are snapped to, at this number of screen pixels per image
+/// pixel.
 double snapRadius_px(double scale);
 
 AnnotationAim aimAtImage(const sessions::LoadedCase& loaded_case, const Eigen::Vector2d& pointer,
@@ -60,9 +61,9 @@ void paintAim(QPainter& painter, const ViewTransform& transform, const Annotatio
 /// A sentence on a dark ground with room at its right; where it was drawn.
 QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text, double room = 0.0);
 
-/// A sentence beside a place of the widget, on a dark ground, kept inside `area` and clear of
+/// A sentence next to a position of the widget, on a dark ground, kept inside `area` and clear of
 /// `taken`.
-void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& beside,
+void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& anchor,
                const QString& text);
 
 }  // namespace boresight::ui

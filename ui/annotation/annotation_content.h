@@ -19,7 +19,7 @@ inline const QColor kChosenAnnotation(255, 255, 255);
 inline const QColor kDisabledAnnotation(175, 175, 175);
 inline const QColor kOutlierAnnotation(255, 130, 60);
 
-/// What the signs of annotations say besides the annotations.
+/// State that the marks of annotations show.
 struct AnnotationLook {
   std::string selected;
   std::map<std::string, double> outliers;  ///< normalized residual by id

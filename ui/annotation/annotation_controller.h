@@ -39,7 +39,7 @@ struct AnnotationQuestion {
   bool robust = false;
 };
 
-/// Somebody's earlier round over the same image beside the annotations at work.
+/// An earlier annotation round over the same image, next to the current annotations.
 struct RoundAnswer {
   std::string by;
   std::string time;

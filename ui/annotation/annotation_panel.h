@@ -32,7 +32,7 @@ QString solutionHeadline(const AnnotationAnswer& answer, bool stale);
 QString geometryMeterText(const AnnotationAnswer& answer);
 
 /// Everything else that an annotator reads of a solution: what is weak in the annotations, one
-/// sigma against the requirement, the second pose of a plane beside the first, residuals per
+/// sigma against the requirement, the second pose of a plane next to the first, residuals per
 /// camera, and how far the other poses (seed, run, truth) and rounds are. Colour never says
 /// anything alone.
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others);
@@ -90,7 +90,7 @@ class AnnotationPanel : public QWidget {
   /// The menu of annotations and poses from and to files; to be filled.
   QMenu& filesMenu() { return *files_menu_; }
   LandmarksMenu& landmarksMenu() { return *landmarks_menu_; }
-  /// Something beside the summary that shows itself when it has something to show.
+  /// A widget next to the summary, shown when it has contents.
   void addBeside(QWidget* widget);
   /// Asks whose annotations these are, and puts them aside.
   void askForName();

@@ -43,7 +43,7 @@ class InputSheetPanel : public QWidget {
   QString text() const;
 
  Q_SIGNALS:
-  /// Somebody wants to state how well mesh and camera are known.
+  /// The operator asks to state the uncertainty of mesh and camera.
   void sigmasRequested();
 
  private:

@@ -118,7 +118,7 @@ QString pairText(const Eigen::Vector2d& pixel, int decimals) {
                                       numberText(pixel.y(), decimals));
 }
 
-/// The score beside the second peak's.
+/// The score next to that of the second peak.
 QString scoreText(const MatchDetails& details) {
   const QString score = numberText(details.score, 3);
   if (std::isnan(details.margin)) return MatchView::tr("%1, no second peak").arg(score);

@@ -92,7 +92,7 @@ constexpr std::array<FormText, 3> kForms = {{
     {sessions::PoseForm::kMatrix, "copyMatrix", QT_TR_NOOP("Matrix")},
 }};
 
-/// The rotation beside the translation in metres, row by row.
+/// Rotation and translation in metres, row by row.
 QString matrixRows(const Pose& pose) {
   const Eigen::Matrix3d rotation = pose.matrix();
   QStringList rows;

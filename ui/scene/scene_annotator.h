@@ -79,8 +79,8 @@ class SceneLoupe : public QWidget {
 };
 
 /// Annotating in the scene. While the operator places annotations, a click gives the station's
-/// side: the corner, edge, circle centre or named point that is shown beside the pointer before, or
-/// with Alt held the surface itself; Tab goes on to another thing to snap to. In line mode it is
+/// side: the corner, edge, circle centre or named point that is shown next to the pointer before,
+/// or with Alt held the surface itself; Tab goes on to another thing to snap to. In line mode it is
 /// the edge that is lit. Otherwise a click on an annotation chooses it.
 class SceneAnnotator : public QObject {
   Q_OBJECT
@@ -94,7 +94,7 @@ class SceneAnnotator : public QObject {
   void setShot(const SceneShot& shot);
   /// True when the click was for an annotation. `at`: the canvas' coordinates.
   bool click(const QPointF& at, Qt::KeyboardModifiers modifiers);
-  /// What a click at a pixel of the canvas would snap to; nothing beside the station and until its
+  /// What a click at a pixel of the canvas would snap to; nothing off the station and until its
   /// corners and edges are found.
   std::optional<SceneAim> aimAt(const QPointF& pixel) const;
   /// Where a click would go; nothing where it would do nothing.

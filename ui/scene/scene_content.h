@@ -22,7 +22,7 @@ struct PoseRoleStyle {
   const char* name = "";
   QColor color;
   /// Lengths of dashes and gaps in turn, as shares of the line; empty: one whole line. The second
-  /// difference besides the colour.
+  /// difference in addition to the colour.
   std::vector<double> dashes;
   double width_px = 2.0;
 };

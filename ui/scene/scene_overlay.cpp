@@ -208,7 +208,7 @@ void SceneOverlay::paintMark(QPainter& painter) const {
 }
 
 void SceneOverlay::paintLegend(QPainter& painter) const {
-  // Cameras have their names beside them in the scene too.
+  // Cameras have their names next to them in the scene, too.
   const std::vector<Entry> lines = entries(*content_, look_, width() >= kLegendOfCameras_px);
   const bool bar = look_.shown.points && !content_->points.empty();
   if (lines.empty() && !bar) return;

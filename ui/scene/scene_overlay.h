@@ -28,7 +28,7 @@ struct SceneAnnotation {
   std::optional<sessions::ModelEdge> edge;
   AnnotationState state;
   bool locked = false;
-  bool proposed = false;  ///< a named point that nobody has annotated in this image
+  bool proposed = false;  ///< a named point without annotation in this image
 };
 
 /// Annotations that have a place on the station, the chosen one last, after the proposals.

@@ -74,7 +74,7 @@ class ViewState : public QObject {
   const std::optional<Pose>& nudgedPose() const { return nudged_; }
   /// The pose that solves the case's annotated annotations, if any.
   const std::optional<Pose>& annotatedPose() const { return annotated_; }
-  /// The pose that the run weighed and that is looked at beside the one it went on with, if any.
+  /// The hypothesis that is shown next to the chosen pose, if any.
   const std::optional<sessions::Alternative>& alternative() const { return alternative_; }
   /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
   /// it where the shown stage is earlier), else the seed. Identity without a case.

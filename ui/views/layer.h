@@ -95,7 +95,7 @@ struct Mark {
   QPolygonF outline;     ///< of a strip: along one side and back along the other
   double size_px = 9.0;  ///< on the screen, whatever the zoom
   QColor color;          ///< instead of the layer's, where valid
-  bool dashed = false;   ///< a second difference besides the colour
+  bool dashed = false;   ///< a second difference in addition to the colour
   bool cased = false;    ///< with a dark rim, to be seen on any image
   double width = 1.5;    ///< of its lines, on the screen
   int item = -1;         ///< what it belongs to (a template, a point), or -1: cannot be picked

@@ -38,7 +38,7 @@ struct ScreenshotOrder {
   int hypothesis = 0;  ///< row under Hypotheses to show, from 1; 0: none
 };
 
-/// Shows a session and what was not saved of it, without writing anything beside it: it goes on in
+/// Shows a session and what was not saved of it, without writing anything next to it: it goes on in
 /// `folder`, which must outlive the window's document. Returns "" or why it could not.
 QString openForPictures(MainWindow& window, const std::filesystem::path& session,
                         const std::filesystem::path& folder);

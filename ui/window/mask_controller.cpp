@@ -144,7 +144,7 @@ void MaskController::showPending(const sessions::SessionCase& edited) {
   panel_.setIgnored(loaded.ignore ? loaded.ignore->ignored_count : 0, pixels);
 }
 
-/// Nobody draws on a mask that does not show.
+/// A hidden mask cannot be drawn on.
 void MaskController::showTool() {
   if (editor_.tool() == MaskTool::kNone) return;
   LayerStyle style = image_.style(LayerId::kIgnoreMask);

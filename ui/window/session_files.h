@@ -70,7 +70,7 @@ class SessionFiles : public QObject {
   bool mayLeave();
   /// Offers the edits of a program that was killed, if there are any.
   void offerRecovery();
-  /// Offers the newest session without a name that a program has left and that nobody has open.
+  /// Offers the newest session without a name that a program has left and no other has open.
   void offerUntitled();
 
  public Q_SLOTS:

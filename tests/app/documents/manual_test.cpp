@@ -281,7 +281,7 @@ TEST(Manual, CommandsDoWhatTheyAreThereFor) {
   EXPECT_GE(run_pages, 7);
 }
 
-/// Whoever copies the example's transform gets that of the label, and both seeds are the same pose.
+/// The documented example's transform equals that of the label, and both seeds are the same pose.
 TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
   const TemporaryFolder folder;
   runPage("planetary.md", folder);
@@ -299,7 +299,7 @@ TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
   expectSamePose(seedOf("sol4000.boresight.json"), seedOf("sol4000_site.boresight.json"));
 }
 
-/// In tables of files, what is named beside a file is in it.
+/// In tables of files, the names next to a file occur in it.
 TEST(Manual, NamesFilesAndFunctionsThatAreThere) {
   int files = 0;
   for (const char* page : {"engineer.md", "engineer_add.md", "formats.md", "evaluate.md"}) {

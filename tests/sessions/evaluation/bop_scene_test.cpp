@@ -116,7 +116,7 @@ std::vector<std::string> splitAt(const std::string& text, char sign) {
   return parts;
 }
 
-/// What bop_toolkit's check_results_bop19.py and load_bop_results demand, written down anew.
+/// What bop_toolkit's check_results_bop19.py and load_bop_results demand, restated.
 TEST(BopResults, KeepsTheRulesOfTheFormat) {
   const TemporaryFolder folder;
   Random random = randomFor("BopResults.Rules");

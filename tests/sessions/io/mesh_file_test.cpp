@@ -203,7 +203,7 @@ TEST_F(ReadMesh, RefusesNodesInACircle) {
       "circle.glb: nodes[1]: is nested deeper than 256 nodes, or is its own ancestor");
 }
 
-/// Skins, images and animations made importers crash, and are of no use here.
+/// Skins, images and animations crash importers, and are not needed.
 TEST_F(ReadMesh, ReadsNothingButTheGeometryOfGltf) {
   const std::string rest =
       R"("skins":[{"joints":[1e-320]}],"animations":7,"images":[{"bufferView":99}],)"

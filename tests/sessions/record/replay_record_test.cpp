@@ -201,7 +201,7 @@ TEST(ReplayRecord, ShowsWhatIsLeftOfACutOrDamagedRecord) {
   }
 }
 
-/// Contents that nobody wrote, under checksums that hold: nothing crashes.
+/// Invalid contents under valid checksums do not crash.
 TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
   const ExampleRun& whole = exampleRun();
   Random random = randomFor("ReplayRecord.Nonsense");

@@ -79,7 +79,7 @@ TEST(CheckPose, TheExamplesPassAll) {
   }
 }
 
-/// The station's case with another mesh scale or camera, run anew from the same seed.
+/// The station's case with another mesh scale or camera, run again from the same seed.
 ReviewSubject runWith(const std::string& station, double mesh_scale,
                       const std::function<void(SessionCase&)>& change) {
   const ExampleReview& review = example(station);
@@ -201,8 +201,8 @@ TEST(CheckPose, AnnotationsOfThePoseAgreeAndArePosesOfTheirOwn) {
 
 TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
   ExampleReview review = example("bc");
-  // The same image again, said to be taken by a camera 10 cm beside and turned by 0.1 rad: the pose
-  // that it finds disagrees by as much.
+  // The same image again, declared as taken by a camera shifted by 10 cm and turned by 0.1 rad: the
+  // pose that it finds disagrees by as much.
   SessionCase second = *review.session.findCase(review.case_id);
   second.id = "second";
   review.session = withCase(review.session, second);

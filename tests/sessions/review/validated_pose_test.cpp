@@ -121,7 +121,7 @@ class ValidatedPose : public testing::Test {
     return ordered_json::parse(stream);
   }
 
-  /// Signed anew, as somebody who means harm would.
+  /// Signed again, as an attacker would.
   static void resign(ordered_json& json, const fs::path& file) {
     json["signature"] = sessions::signatureOf(ordered_json::parse(sessions::prettyJson(json)));
     sessions::writeJsonFile(file, json);

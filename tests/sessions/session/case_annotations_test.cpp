@@ -75,7 +75,7 @@ TEST(CaseAnnotations, PutsTheCaseFirstAndLeavesOutUnannotatedAndOtherRigs) {
   EXPECT_EQ(caseAnnotations(rig.session, "unmarked").case_ids,
             (std::vector<std::string>{"unmarked", "right", "left"}));
   EXPECT_FALSE(caseAnnotations(rig.session, "other").rigid);
-  EXPECT_THROW((void)caseAnnotations(rig.session, "nobody"), sessions::InputError);
+  EXPECT_THROW((void)caseAnnotations(rig.session, "unknown"), sessions::InputError);
 }
 
 TEST(CaseAnnotations, SolvesWithTheDigitsOfTheViewsThemselves) {

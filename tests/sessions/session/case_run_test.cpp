@@ -52,7 +52,7 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
               HasSubstr("options.pnp.nonsense: unknown option"));
 }
 
-/// Parsing what somebody put in the mesh's place is a risk without a use.
+/// An unknown file in place of the mesh is not parsed.
 TEST(CaseRun, AMeshWithAnotherHashIsNotParsed) {
   const TemporaryFolder folder;
   Session session = sessionOfOs(exampleFolder());

@@ -72,7 +72,8 @@ TEST(InputCheck, FindsMovedFilesByNameAndHash) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
   const Session session = sessions::makeSession(stations / "dataset.json");
-  // The session lies elsewhere now, its inputs partly in other folders, beside a false friend.
+  // The session lies elsewhere now, its inputs partly in other folders, next to a different file of
+  // the same name.
   const std::filesystem::path other = folder / "other";
   std::filesystem::create_directories(other / "deep/er");
   std::filesystem::rename(stations / "bc", other / "deep/er/bc");
@@ -89,7 +90,7 @@ TEST(InputCheck, FindsMovedFilesByNameAndHash) {
               ElementsAre(finding(FindingKind::kMissing, "parts[0]", "model.ply: no such file")));
 }
 
-/// The pixels of the example's picture as they are, and a PDS3 label beside them.
+/// The pixels of the example's picture as they are, and a PDS3 label next to them.
 class LabelledImage : public ::testing::Test {
  protected:
   LabelledImage() {

@@ -230,9 +230,9 @@ TEST(SessionDocument, DoesNotOverwriteWhatSomebodyElseChanged) {
   const TemporaryFolder folder;
   SessionDocument document = SessionDocument::create(folder / "s.json", sessionOf("first"));
   document.apply(edited(document.session(), 1), "Edit");
-  folder.write("s.json", "by somebody else");
+  folder.write("s.json", "by another program");
   EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("another program has changed"));
-  EXPECT_EQ(folder.read("s.json"), "by somebody else");
+  EXPECT_EQ(folder.read("s.json"), "by another program");
   document.saveAs(folder / "t.json");
   EXPECT_TRUE(SessionDocument::open(folder / "t.json", Access::kReadOnly).session() ==
               document.session());

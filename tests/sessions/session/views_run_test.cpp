@@ -162,7 +162,7 @@ TEST_F(ViewsRunTest, OldFilesHaveNoneOfIt) {
   const Session old = sessions::readSessionFile(file()).session;
   EXPECT_EQ(old, session_);
   EXPECT_TRUE(sessions::loadSnapshot(old.runs[0]).views.empty());
-  // A record that names nobody is refused.
+  // A record without a reviewer is refused.
   session_.runs[0].together =
       sessions::TogetherRecord{{{first(), "converged"}}, std::string(64, 'a')};
   sessions::writeSessionFile(file(), session_);

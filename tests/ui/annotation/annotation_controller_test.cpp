@@ -52,7 +52,7 @@ TEST_F(AnnotationControllerTest, LinesArePairedLikewise) {
 TEST_F(AnnotationControllerTest, SolvesAsSoonAsTheGeometryAllowsAndFollowsEveryEdit) {
   const auto ids = markCorners(8);
   ASSERT_EQ(ids.size(), 8u);
-  EXPECT_TRUE(controller_.stale()) << "until it has been solved anew";
+  EXPECT_TRUE(controller_.stale()) << "until it has been solved again";
   ASSERT_TRUE(solved());
   const auto pose = controller_.solvedPose();
   ASSERT_TRUE(pose);

@@ -121,7 +121,7 @@ TEST_F(AnnotationToolTest, TabGoesOnToTheNextThingFound) {
 
 TEST_F(AnnotationToolTest, ADragMovesAAnnotationWithoutAJumpAndIsUndoneByName) {
   const Eigen::Vector2d before = markMiddle();
-  // Taken hold of beside its middle.
+  // Grabbed off its centre.
   drag(before + Eigen::Vector2d(1.0, -0.7), before + Eigen::Vector2d(9.0, 3.3));
   EXPECT_LT((place("p1") - before - Eigen::Vector2d(8.0, 4.0)).norm(), 2.0 * screenPixel_px());
   EXPECT_EQ(annotations().points.size(), 1u);
@@ -215,18 +215,18 @@ TEST_F(AnnotationToolTest, PairsAreMadeInBothOrders) {
 TEST_F(AnnotationToolTest, WithoutSnappingTheStationsSurfaceIsAnnotated) {
   state_.setNudgedPose(truth());
   const auto corners = corners_m(3);
-  const Eigen::Vector2d beside = pixelOf(corners[1]);
-  zoom(beside, 6.0);
+  const Eigen::Vector2d corner_px = pixelOf(corners[1]);
+  zoom(corner_px, 6.0);
   tool().setSnaps(false);
   for (const Eigen::Vector2d& off : {Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1),
                                      Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)}) {
-    click(beside + off, Qt::ControlModifier);
+    click(corner_px + off, Qt::ControlModifier);
     if (!annotations().empty()) break;
   }
   ASSERT_EQ(annotations().points.size(), 1u);
   const Eigen::Vector3d placed = *annotations().points[0].point_in_station_m;
   EXPECT_NE(placed, corners[1]);
-  EXPECT_LT((pixelOf(placed) - beside).norm(), 2.0);
+  EXPECT_LT((pixelOf(placed) - corner_px).norm(), 2.0);
 }
 
 TEST_F(AnnotationToolTest, CtrlClickBesideTheStationIsRefusedWithASentence) {
@@ -263,12 +263,12 @@ TEST_F(AnnotationToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
   EXPECT_NEAR(annotations().lines[0].line->end.x(), line.end.x() + 6.0, 2.0 * screenPixel_px());
 }
 
-/// Otherwise Ctrl+Del would remove an annotation that nobody has just pointed at.
+/// Otherwise Ctrl+Del would remove an annotation that the operator did not point at.
 TEST_F(AnnotationToolTest, AClickThatBeginsALineDropsTheChoice) {
   markMiddle();
   ASSERT_EQ(controller_.selected(), "p1");
   controller_.setMode(PlaceMode::kLine);
-  click(kMiddle + Eigen::Vector2d(15.0 * screenPixel_px(), 0.0));  // just beside the point
+  click(kMiddle + Eigen::Vector2d(15.0 * screenPixel_px(), 0.0));  // just off the point
   EXPECT_EQ(controller_.selected(), "");
   EXPECT_EQ(annotations().points.size(), 1u);
 }
@@ -300,7 +300,7 @@ TEST_F(AnnotationToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
   QTest::keyClick(&view(), Qt::Key_Escape);
   EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
   click(kMiddle + Eigen::Vector2d(50.0, 20.0));
-  EXPECT_EQ(annotations().points.size(), 1u) << "nobody annotates";
+  EXPECT_EQ(annotations().points.size(), 1u) << "annotation mode is off";
 }
 
 TEST_F(AnnotationToolTest, APressOnAAnnotationChoosesItAndADoubleClickDoesNotFit) {

@@ -24,7 +24,7 @@ const Eigen::Vector3d kCorner_m = Eigen::Vector3f(0.1F, -0.1F, 0.0F).cast<double
 const Eigen::Vector3d kHiddenCorner_m = Eigen::Vector3f(-0.1F, 0.1F, -0.04F).cast<double>();
 const Eigen::Vector3d kCircle_m(0.03, 0.02, 0.02);
 
-/// A box with a cylinder on it (`BoxScene`) as a case, and a scene beside the controller.
+/// A box with a cylinder on it (`BoxScene`) as a case, and a scene next to the controller.
 class SceneAnnotatingTest : public AnnotationTest {
  protected:
   void SetUp() override {
@@ -55,7 +55,7 @@ class SceneAnnotatingTest : public AnnotationTest {
     const QPointF at = ratio() * (pixel + QPointF(0.5, 0.5));
     return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
   }
-  /// Pixel of the canvas at that screen pixel's centre: what somebody points at there.
+  /// Pixel of the canvas at that screen pixel's centre: what the operator points at.
   QPointF pointedAt(const QPoint& screen_pixel) const {
     return (QPointF(screen_pixel) + QPointF(0.5, 0.5)) / ratio() - QPointF(0.5, 0.5);
   }
@@ -181,7 +181,7 @@ TEST_F(SceneAnnotatingTest, WithoutAnEdgeALineIsRefusedWithAReason) {
   ASSERT_EQ(told.count(), 1);
   EXPECT_TRUE(told[0][0].toString().contains(QStringLiteral("edge")));
   controller_.setMode(PlaceMode::kPoint);
-  click({3.0, 3.0});  // beside the station
+  click({3.0, 3.0});  // off the station
   EXPECT_EQ(told.count(), 2);
   EXPECT_TRUE(controller_.annotations().empty());
 }
@@ -286,7 +286,7 @@ TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned)
 TEST_F(SceneAnnotatingTest, TheLoupeShowsThePlaceMagnifiedWhileSomebodyPlaces) {
   SceneLoupe& loupe = view_.annotator()->loupe();
   hover(pixelOf(kCorner_m));
-  EXPECT_FALSE(loupe.isVisible()) << "nobody places";
+  EXPECT_FALSE(loupe.isVisible()) << "placing mode is off";
   controller_.setMode(PlaceMode::kPoint);
   hover(pixelOf(kCorner_m));
   ASSERT_TRUE(loupe.isVisible());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Somebody who annotates with care, in the whole window: clicks on the image where corners of the
+// A careful annotator in the whole window: clicks on the image where corners of the
 // station are truly seen, give or take what a hand and an eye miss, and Ctrl+clicks on the drawn
 // edges. Run at a screen scaling of one and of one and a half.
 #include <gtest/gtest.h>

@@ -84,7 +84,7 @@ TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
   panel_.setRows(rows);
   EXPECT_NE(table_->viewport()->grab(QRect(0, 0, right(CasesModel::kCase), 44)).toImage(),
             annotated.copy(0, 0, right(CasesModel::kCase), 44))
-      << "the state is told beside the name";
+      << "the state is shown next to the name";
 }
 
 TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queue in the window, by the keys that people press; of a results file, too.
+// The queue in the window, by its keys; of a results file, too.
 #include "ui/review/queue_panel.h"
 
 #include "sessions/evaluation/batch.h"

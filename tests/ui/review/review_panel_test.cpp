@@ -187,7 +187,7 @@ TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
   hands().sign(QStringLiteral(" aDa "), QStringLiteral("me again"));
   EXPECT_FALSE(hands().button("approve")->isEnabled());
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "it would replace the first one";
-  EXPECT_TRUE(test::has(obstacle(), "somebody else"));
+  EXPECT_TRUE(test::has(obstacle(), "another person"));
   hands().type("decisionName", QStringLiteral("Grace"));
   ASSERT_TRUE(hands().button("approve")->isEnabled()) << obstacle().toStdString();
   hands().click("approve");

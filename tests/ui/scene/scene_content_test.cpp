@@ -157,7 +157,7 @@ TEST(PickTemplate, TakesTheNearestWithinReach) {
 TEST(PickTemplate, SeesNoneBehindAFace) {
   Stack stack;
   stack.addTemplate({0.0, 0.0, 0.1});   // behind the near square
-  stack.addTemplate({0.09, 0.0, 0.1});  // beside it
+  stack.addTemplate({0.09, 0.0, 0.1});  // next to it
   EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.0, 0.0, 0.1})), -1);
   EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.09, 0.0, 0.1})), 1);
 }

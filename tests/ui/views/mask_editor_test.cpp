@@ -75,7 +75,7 @@ TEST_F(MaskEditorTest, WhatIsDrawnShowsUntilTheMaskHasIt) {
   EXPECT_NE(at(40, 32), QColor(60, 60, 60));
   EXPECT_EQ(at(40, 34), QColor(60, 60, 60));
   send(QEvent::MouseButtonRelease, place(60, 30));
-  EXPECT_EQ(at(40, 32), QColor(60, 60, 60)) << "nobody took the stroke";
+  EXPECT_EQ(at(40, 32), QColor(60, 60, 60)) << "the stroke is not stored";
   editor_.setPending(strokes_);
   EXPECT_NE(at(40, 32), QColor(60, 60, 60));
   editor_.setPending({});

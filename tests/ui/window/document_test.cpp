@@ -117,7 +117,7 @@ TEST_F(UntitledDocument, IsOfferedUntilItIsDiscarded) {
   Document document;
   ASSERT_TRUE(document.createUntitled(sessions::Session()));
   const std::filesystem::path file = document.file();
-  EXPECT_FALSE(Document::leftUntitled().has_value()) << "somebody has it open";
+  EXPECT_FALSE(Document::leftUntitled().has_value()) << "another program has it open";
   document.close();
   ASSERT_TRUE(Document::leftUntitled().has_value());
   EXPECT_EQ(*Document::leftUntitled(), file);

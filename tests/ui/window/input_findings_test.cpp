@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A session whose inputs lie beside it, so that they can be moved and changed.
+/// A session whose inputs lie next to it, so that they can be moved and changed.
 class InputFindingsTest : public test::WindowTest {
  protected:
   InputFindingsTest() { fs::copy(test::exampleFolder(), inputs_, fs::copy_options::recursive); }

@@ -82,8 +82,8 @@ TEST_F(LayoutTest, ArrangedAnewEveryPanelIsBack) {
   QApplication::processEvents();
   EXPECT_FALSE(window.dock(QStringLiteral("scene"))->isHidden());
   EXPECT_FALSE(window.dock(QStringLiteral("pose"))->isFloating());
-  const auto beside = window.tabifiedDockWidgets(window.dock(QStringLiteral("layers")));
-  EXPECT_TRUE(beside.contains(window.dock(QStringLiteral("pose"))));
+  const auto tabs = window.tabifiedDockWidgets(window.dock(QStringLiteral("layers")));
+  EXPECT_TRUE(tabs.contains(window.dock(QStringLiteral("pose"))));
   EXPECT_GT(window.image().width(), 400) << "the image has the most room";
 }
 
@@ -106,7 +106,7 @@ TEST_F(LayoutTest, RecentFilesAreTheNewestFirstWithoutThoseThatAreGone) {
   EXPECT_EQ(recentFiles().size(), 10);
 }
 
-/// Beside the session nothing may be written, and what waits in its journal is shown too.
+/// The session's folder is read-only, and what waits in its journal is shown too.
 TEST_F(LayoutTest, APictureShowsWhatIsOnlyInTheJournalAndWritesNothingBesideTheSession) {
   const std::filesystem::path file = folder_.path() / "one.boresight.json";
   const sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");

@@ -125,7 +125,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   ASSERT_TRUE(rests());
   EXPECT_FALSE(one().onboard_record);
   EXPECT_EQ(window_.onboard().review(), nullptr);
-  EXPECT_FALSE(window_.state().snapshot()->replayed) << "nobody looks at a record that is gone";
+  EXPECT_FALSE(window_.state().snapshot()->replayed) << "a removed record is not shown";
 }
 
 TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another option, and the run from the shown iteration on anew.
+// Repeats the run from the shown iteration with other options.
 #include <algorithm>
 
 #include "sessions/session/case_run.h"

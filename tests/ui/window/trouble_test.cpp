@@ -13,7 +13,7 @@
 namespace boresight::ui {
 namespace {
 
-/// No file of this process may grow beyond so many bytes as long as it lives: a full disk.
+/// Limits the size of this process's files during its lifetime: a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -231,7 +231,7 @@ TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {
   const std::string second = run(2);
   ASSERT_NE(first, second);
   window_.document().close();  // as a kill does it
-  window_.setQuiet(true);      // nobody answers yet
+  window_.setQuiet(true);      // no answer yet
   ASSERT_TRUE(window_.openSession(file_));
   ASSERT_TRUE(shown(first));
   ASSERT_TRUE(window_.document().acceptRecovery());
