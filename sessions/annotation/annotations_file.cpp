@@ -108,7 +108,7 @@ Annotations readAnnotations(const JsonReader& json) {
 ordered_json toJson(const Annotations& annotations) { return fieldsJson(annotations); }
 
 Annotations readAnnotations(const std::filesystem::path& file) {
-  const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kAnnotations);
+  const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kMarks);
   if (isTable(file)) return parseAnnotationsCsv(file, asText(bytes));
   return JsonDocument(file, asText(bytes))
       .read(kAnnotationsFormat, kAnnotationsVersion,
@@ -117,12 +117,12 @@ Annotations readAnnotations(const std::filesystem::path& file) {
 
 void writeAnnotations(const std::filesystem::path& file, const Annotations& annotations) {
   if (isTable(file)) {
-    writeFileAtomically(file, annotationsCsv(annotations), FileUse::kAnnotations);
+    writeFileAtomically(file, annotationsCsv(annotations), FileUse::kMarks);
     return;
   }
   ordered_json json = {{"format", kAnnotationsFormat}, {"version", kAnnotationsVersion}};
   json.update(toJson(annotations));
-  writeFileAtomically(file, prettyJson(json), FileUse::kAnnotations);
+  writeFileAtomically(file, prettyJson(json), FileUse::kMarks);
 }
 
 std::vector<AnnotatedView> readRig(const std::filesystem::path& file) {

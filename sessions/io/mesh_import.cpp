@@ -73,32 +73,32 @@ using Json = nlohmann::json;
 using Keys = std::initializer_list<const char*>;
 
 Json kept(const Json& object, Keys keys) {
-  Json json = Json::object();
+  Json gltf = Json::object();
   for (const char* key : keys)
-    if (object.contains(key)) json[key] = object[key];
-  return json;
+    if (object.contains(key)) gltf[key] = object[key];
+  return gltf;
 }
 
 void keepInEach(Json& object, const char* list, Keys keys) {
   if (!object.contains(list)) return;
-  for (Json& json : object[list]) json = kept(json, keys);
+  for (Json& gltf : object[list]) gltf = kept(gltf, keys);
 }
 
 std::string geometryJson(std::string_view text) {
-  Json json = kept(Json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
+  Json gltf = kept(Json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
                                        "meshes", "accessors", "bufferViews", "buffers"});
-  keepInEach(json, "scenes", {"nodes"});
-  keepInEach(json, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
-  keepInEach(json, "meshes", {"primitives"});
-  for (Json& mesh : json["meshes"]) {
+  keepInEach(gltf, "scenes", {"nodes"});
+  keepInEach(gltf, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
+  keepInEach(gltf, "meshes", {"primitives"});
+  for (Json& mesh : gltf["meshes"]) {
     keepInEach(mesh, "primitives", {"attributes", "indices", "mode"});
     for (Json& primitive : mesh["primitives"])
       primitive["attributes"] = kept(primitive["attributes"], {"POSITION"});
   }
-  keepInEach(json, "accessors", {"bufferView", "byteOffset", "componentType", "count", "type"});
-  keepInEach(json, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
-  keepInEach(json, "buffers", {"uri", "byteLength"});
-  return json.dump();
+  keepInEach(gltf, "accessors", {"bufferView", "byteOffset", "componentType", "count", "type"});
+  keepInEach(gltf, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
+  keepInEach(gltf, "buffers", {"uri", "byteLength"});
+  return gltf.dump();
 }
 
 void appendNumber(std::vector<std::uint8_t>& bytes, std::size_t number) {

@@ -71,8 +71,8 @@ std::string inIteration(const IterationTrace& iteration) {
 
 Template templateAt(const RecordedTemplate& recorded, const RenderTrace& render,
                     const std::vector<Template>& chosen) {
-  for (const Template& template : chosen)
-    if (template.center_x == recorded.x && template.center_y == recorded.y) return template;
+  for (const Template& candidate : chosen)
+    if (candidate.center_x == recorded.x && candidate.center_y == recorded.y) return candidate;
   Template result;
   result.center_x = recorded.x;
   result.center_y = recorded.y;
