@@ -106,7 +106,7 @@ TEST_F(WhsBop, BecomesASession) {
   EXPECT_EQ(session.cases[0]->parts.at(0).source.mesh_unit, "mm");
 }
 
-TEST_F(WhsBop, RefusesWhatItCannotMean) {
+TEST_F(WhsBop, AmbiguousSelection_IsRefused) {
   const std::string out = folder_ / "r.sqlite";
   const std::string file = kRendered / "dataset.json";
   EXPECT_THAT(runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out}, 2).err,

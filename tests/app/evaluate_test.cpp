@@ -113,7 +113,7 @@ int killAfter(const Arguments& arguments, const std::filesystem::path& results, 
   return held();
 }
 
-TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
+TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
   const Arguments options = {"--reseed", "5", "--jobs", "2", "--set", "loop.max_iterations=1"};
   const Arguments arguments = evaluateArguments(dataset_, options);
   int held = 0;

@@ -288,7 +288,7 @@ TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
   EXPECT_TRUE(folder_.read("problem.bin") == std::string(expected.begin(), expected.end()));
 }
 
-TEST_F(WhsProblem, DriverDoesNotPassOverLostOutput) {
+TEST_F(WhsProblem, Driver_WithLostOutput_Fails) {
   runWhs(arguments(), 0);
   const std::string command = std::string(BORESIGHT_FLIGHT_DRIVER) + " '" + problem_ + "' '" +
                               image_ + "' >/dev/full 2>/dev/null";

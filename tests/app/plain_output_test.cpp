@@ -126,7 +126,7 @@ class LostOutput : public testing::Test {
   const TemporaryFolder folder_;
 };
 
-TEST_F(LostOutput, IsNotPassedOver) {
+TEST_F(LostOutput, FailsTheProgram) {
   const std::filesystem::path example = exampleFolder() / "os";
   for (const Arguments& arguments :
        {localizeArguments(), Arguments{"info", example / "image.png"}, Arguments{"options"},

@@ -53,7 +53,7 @@ TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
 }
 
 /// The other differences that are found: ValidatedPose.ASessionEditedByHandIsNotSigned and others.
-TEST_F(ReviewCommands, APoseThatIsNotAsMeasuredIsNeitherSignedNorReported) {
+TEST_F(ReviewCommands, PoseThatDiffersFromItsMeasurement_IsNeitherSignedNorReported) {
   EXPECT_EQ(decide({"--validate", "--by", "Ada", "--comment", "right"}).exit_code, 0);
   nlohmann::json session = nlohmann::json::parse(folder_.read("s.boresight.json"));
   session["decisions"][0]["pose"]["camera_from_station"]["translation_m"][2] = 0.5;
@@ -67,7 +67,7 @@ TEST_F(ReviewCommands, APoseThatIsNotAsMeasuredIsNeitherSignedNorReported) {
   }
 }
 
-TEST_F(ReviewCommands, WhatMayNotBeDecidedIsRefusedAndChangesNothing) {
+TEST_F(ReviewCommands, InvalidDecision_IsRefusedAndChangesNothing) {
   const std::string before = folder_.read("s.boresight.json");
   const ProgramRun approval = decide({"--approve", "--by", "Ada", "--comment", "yes"});
   EXPECT_EQ(approval.exit_code, 4);
@@ -82,7 +82,7 @@ TEST_F(ReviewCommands, WhatMayNotBeDecidedIsRefusedAndChangesNothing) {
   EXPECT_EQ(folder_.read("s.boresight.json"), before);
 }
 
-TEST_F(ReviewCommands, WhatNobodyValidatedIsReportedAsSuch) {
+TEST_F(ReviewCommands, UnvalidatedPose_IsReportedAsSuch) {
   const std::string pdf = folder_ / "report.pdf";
   const ProgramRun report = runWhs({"report", session_, "--case", kOsCase, "--out", pdf}, 0);
   EXPECT_THAT(report.out, HasSubstr("NOT VALIDATED: converged"));
@@ -125,7 +125,7 @@ TEST_F(ReviewCommands, DifferencesInTheQueueNeedTwoRuns) {
   EXPECT_THAT(run.out, HasSubstr("0 better, 0 worse, 0 the same"));
 }
 
-TEST_F(ReviewCommands, TheQueueSaysWhatIsNoSession) {
+TEST_F(ReviewCommands, Queue_OfAnotherFile_IsRefused) {
   const ProgramRun run = runWhs({"queue", folder_ / "none.json"}, 3);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
 }

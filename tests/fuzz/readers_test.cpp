@@ -150,7 +150,7 @@ TEST_P(Readers, SayWhatIsWrongWithEveryMutantAndNothingElse) {
 TEST_P(Readers, RefuseAnEmptyFile) { ASSERT_NO_THROW(feed(GetParam(), {}, folder_.path())); }
 
 /// A seal that were wrong would keep all mutants out.
-TEST(Seals, LeaveWholeFilesAsTheyAre) {
+TEST(Seals, ValidFiles_KeepTheirChecksums) {
   int sealed = 0;
   for (const FuzzedReader& reader : fuzzedReaders()) {
     if (reader.seal == nullptr) continue;

@@ -103,7 +103,7 @@ void expectSamePose(const Pose& a, const Pose& b) {
   EXPECT_LT(perturbationBetween(a, b).norm(), 1e-5);  // six digits of 84 m are shown
 }
 
-TEST(Manual, LinksLeadToPagesHeadingsAndPicturesThatAreThere) {
+TEST(Manual, Links_HaveTargets) {
   int links = 0;
   for (const auto& [name, page] : pages()) {
     for (const std::string& link : linksOf(page)) {
@@ -160,7 +160,7 @@ TEST(Manual, KnowsEveryOption) {
   expectOptions(sessions::CheckLimits());
 }
 
-TEST(Manual, NamesNoOptionThatThereIsNot) {
+TEST(Manual, NamedOptions_Exist) {
   std::set<std::string> known;
   std::set<std::string> groups;
   const auto add = [&](const auto& options) {
@@ -270,7 +270,7 @@ void runPage(const std::string& name, const TemporaryFolder& folder) {
 }
 
 /// Page by page, each in a folder of its own.
-TEST(Manual, CommandsDoWhatTheyAreThereFor) {
+TEST(Manual, CommandsOfPages_Succeed) {
   int run_pages = 0;
   for (const auto& [name, page] : pages()) {
     if (blocksOf(page).by_kind["sh run"].empty()) continue;
@@ -300,7 +300,7 @@ TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
 }
 
 /// In tables of files, the names next to a file occur in it.
-TEST(Manual, NamesFilesAndFunctionsThatAreThere) {
+TEST(Manual, NamedFilesAndFunctions_Exist) {
   int files = 0;
   for (const char* page : {"engineer.md", "engineer_add.md", "formats.md", "evaluate.md"}) {
     std::istringstream stream(blocksOf(pages().at(page)).text);

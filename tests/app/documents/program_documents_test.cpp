@@ -83,7 +83,7 @@ TEST(Completions, AreWhatOtherShellsRead) {
   }
 }
 
-TEST(ManualPages, AreOneForTheProgramAndOneForEachCommandThatRoffReads) {
+TEST(ManualPages, ProgramAndCommands_HavePagesThatRoffReads) {
   if (!hasProgram("help2man")) GTEST_SKIP() << "there is no help2man";
   const TemporaryFolder folder;
   const ProgramRun run =

@@ -14,7 +14,7 @@ namespace {
 using test::gaussian;
 using test::randomFor;
 
-TEST(BlindAnnotations, KeepTheStationAndNothingOfTheImage) {
+TEST(BlindAnnotations, BlindRound_KeepsStationPointsWithoutPixels) {
   Random random = randomFor("BlindMarks");
   const Annotations annotations = test::randomAnnotations(random, 12, 12);
   const Annotations blind = blindAnnotations(annotations);
@@ -71,7 +71,7 @@ LinePair line(const std::string& id, const Eigen::Vector2d& start, const Eigen::
   return line_pair;
 }
 
-TEST(Repeatability, ComparesWhatBothHave) {
+TEST(Repeatability, ComparesCommonAnnotations) {
   Annotations first, second;
   first.points = {point("b", {10, 20}), point("a", {1, 2}), point("half", {1, 1}),
                   point("alone", {1, 1})};

@@ -26,7 +26,7 @@ TEST(AnnotationsFile, RoundTripIsExact) {
   EXPECT_TRUE(readAnnotations(folder / "none.json").empty());
 }
 
-TEST(AnnotationsFile, FillsInWhatMayBeLeftOut) {
+TEST(AnnotationsFile, OptionalMembers_HaveDefaults) {
   const TemporaryFolder folder;
   const Annotations annotations =
       readAnnotations(folder.write("points.json", R"({"format": "boresight-points",
@@ -39,7 +39,7 @@ TEST(AnnotationsFile, FillsInWhatMayBeLeftOut) {
   EXPECT_TRUE(annotations.lines.empty());
 }
 
-TEST(AnnotationsFile, NamesWhatIsWrong) {
+TEST(AnnotationsFile, InvalidFile_IsReportedWithTheMember) {
   const TemporaryFolder folder;
   const auto error = [&folder](const std::string& points, const std::string& lines = "[]") {
     return folder.message([&] {
@@ -97,7 +97,7 @@ TEST(AnnotationsCsv, LinesMayEndWithALineFeedAlone) {
   EXPECT_EQ(parseAnnotationsCsv("marks.csv", text), annotations);
 }
 
-TEST(AnnotationsCsv, NamesLineAndColumnOfWhatIsWrong) {
+TEST(AnnotationsCsv, InvalidCsv_IsReportedWithLineAndColumn) {
   const test::TemporaryFolder folder;
   const auto error = [&folder](const std::string& rows) {
     return folder.message(

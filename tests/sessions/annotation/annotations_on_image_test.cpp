@@ -44,7 +44,7 @@ TEST(IsInImage, EachPixelIsOneWideAboutItsCentre) {
 
 class AnnotationsOnImageTest : public testing::TestWithParam<CameraModel> {};
 
-TEST_P(AnnotationsOnImageTest, AVectorLeadsFromWhereThePosePutsTheAnnotationToWhereItIs) {
+TEST_P(AnnotationsOnImageTest, ResidualVector_PointsFromProjectionToAnnotation) {
   Random random = test::randomFor("MarksOnImage");
   AnnotatedView view;
   view.camera = test::annotatedCamera(GetParam());
@@ -78,7 +78,7 @@ TEST_P(AnnotationsOnImageTest, AVectorLeadsFromWhereThePosePutsTheAnnotationToWh
   }
 }
 
-TEST_P(AnnotationsOnImageTest, AnEdgeIsDrawnAsTheCameraBendsIt) {
+TEST_P(AnnotationsOnImageTest, Edge_IsDrawnWithLensDistortion) {
   const Camera camera = test::annotatedCamera(GetParam());
   Pose pose;
   pose.translation_m = {0.0, 0.0, 0.5};
@@ -179,7 +179,7 @@ TEST(AnnotationEquations, TheAdjointMovesARigsPerturbationToItsCamera) {
   }
 }
 
-TEST(AnnotationEquations, WhatDoesNotProjectCountsAsMissing) {
+TEST(AnnotationEquations, UnprojectedAnnotation_IsLeftOut) {
   Random random = randomFor("MarkEquations.Missing");
   const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 4, 2, 0.0);
   Pose behind = scene.camera_from_station;

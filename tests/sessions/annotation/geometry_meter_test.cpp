@@ -62,7 +62,7 @@ TEST(GeometryMeter, KnowsLinesAndPlanes) {
                       GeometryWeakness::kCoplanar, false));
 }
 
-TEST(GeometryMeter, KnowsAnnotationsAtOneDepthAndInOnePlace) {
+TEST(GeometryMeter, OneDepthOrOneCorner_IsReported) {
   const std::vector<Eigen::Vector3d> station = {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}};
   const AnnotatedScene flat =
       sceneOf({{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0}, {-0.1, 0.1, 0.001}});
@@ -75,13 +75,13 @@ TEST(GeometryMeter, KnowsAnnotationsAtOneDepthAndInOnePlace) {
                       GeometryWeakness::kClustered, false));
 }
 
-TEST(GeometryMeter, IsContentWithAnnotationsAllOver) {
+TEST(GeometryMeter, SpreadAnnotations_GiveNoWarning) {
   Random random = randomFor("GeometryMeter.Content");
   const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 20, 0, 0.0);
   EXPECT_TRUE(geometryWarnings(scene.views(), &scene.camera_from_station, {}).empty());
 }
 
-TEST(GeometryMeter, CountsOnlyWhatIsOnAndWhole) {
+TEST(GeometryMeter, Count_IncludesOnlyEnabledCompletePairs) {
   AnnotatedScene scene = sceneOf({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0.05}, {0.1, 0.1, 0.02}});
   scene.view.annotations.points[0].enabled = false;
   scene.view.annotations.points[1].pixel.reset();

@@ -143,7 +143,7 @@ TEST(ProposalFeature, IsTheCornerNearThePrediction) {
   EXPECT_FALSE(featureIn(pixels, {60.0, 50.0}, 100.0)) << "the search has an end";
 }
 
-TEST(ProposalFeature, NothingButACornerOrAnEllipseIsAMeasurement) {
+TEST(ProposalFeature, OnlyCornersAndEllipses_AreMeasurements) {
   const auto flat = picture([](int, int) { return true; });
   EXPECT_FALSE(featureIn(flat, {50.0, 50.0}, 2.0));
   const auto edge = picture([](int x, int) { return x >= 50; });

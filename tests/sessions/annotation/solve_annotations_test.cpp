@@ -38,7 +38,7 @@ TEST(SolveAnnotations, FindsTheTruthWithEveryCamera) {
   }
 }
 
-TEST(SolveAnnotations, LinesAloneDoFromAGuess) {
+TEST(SolveAnnotations, LinesAlone_FromAnInitialPose_AreSolved) {
   Random random = randomFor("SolveMarks.Lines");
   for (int trial = 0; trial < 30; ++trial) {
     const AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 0, 8, 0.0);
@@ -150,7 +150,7 @@ TEST(SolveAnnotations, ShowsBothPosesOfAPlaneAsIppeDoes) {
   EXPECT_GT(ambiguous, 5);
 }
 
-TEST(SolveAnnotations, RobustlyIgnoresAnnotationsThatAreFarOut) {
+TEST(SolveAnnotations, Robust_IgnoresFarOutliers) {
   Random random = randomFor("SolveMarks.Robust");
   SolveAnnotationsOptions robust;
   robust.robust = true;
@@ -176,7 +176,7 @@ TEST(SolveAnnotations, RobustlyIgnoresAnnotationsThatAreFarOut) {
   }
 }
 
-TEST(SolveAnnotations, ARigIsSolvedAsOne) {
+TEST(SolveAnnotations, Rig_IsSolvedTogether) {
   Random random = randomFor("SolveMarks.Rig");
   double single = 0.0;
   double together = 0.0;
@@ -212,7 +212,7 @@ TEST(SolveAnnotations, ARigIsSolvedAsOne) {
   EXPECT_LT(together, 0.7 * single);
 }
 
-TEST(SolveAnnotations, TheFrameOfARigChangesNothing) {
+TEST(SolveAnnotations, RigFrame_DoesNotChangeTheSolution) {
   Random random = randomFor("SolveMarks.RigFrame");
   AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 8, 0, 0.5);
   const AnnotationsResult plain = solveAnnotations(scene.views(), {});
@@ -249,7 +249,7 @@ TEST(SolveAnnotations, LeavingOneOutIsSolvingWithoutIt) {
   }
 }
 
-TEST(SolveAnnotations, WithoutASpareMarkNothingIsDetermined) {
+TEST(SolveAnnotations, LeaveOneOut_WithoutRedundancy_IsUndetermined) {
   Random random = randomFor("SolveMarks.Exact");
   const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
   SolveAnnotationsOptions options;
@@ -262,7 +262,7 @@ TEST(SolveAnnotations, WithoutASpareMarkNothingIsDetermined) {
     EXPECT_FALSE(left_out.determined);
 }
 
-TEST(SolveAnnotations, ThatAreOffOrHalfMadeCountForNothing) {
+TEST(SolveAnnotations, DisabledOrIncompletePairs_AreNotUsed) {
   Random random = randomFor("SolveMarks.Off");
   AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 6, 0, 0.4);
   const AnnotationsResult before = solveAnnotations(scene.views(), {});

@@ -146,7 +146,7 @@ TEST(RunBatch, StopsBetweenRuns) {
   EXPECT_EQ(results.size(), 2u);
 }
 
-TEST(RunBatch, KeepsNothingOfAPlanAndEndsWhenNobodyListens) {
+TEST(RunBatch, Batch_WithoutReceiver_EndsAndKeepsNoPlan) {
   const Dataset dataset = exampleDataset();
   BatchOptions options = quick();
   options.reseeds = 20;

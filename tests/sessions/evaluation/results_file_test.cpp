@@ -188,7 +188,7 @@ TEST_F(ResultsFile, TriesRefusedInputsAgain) {
   EXPECT_EQ(query(file_, "SELECT count(*) FROM tag"), "2|");
 }
 
-TEST_F(ResultsFile, RefusesToGoOnWithSomethingElse) {
+TEST_F(ResultsFile, OtherDatasetOrOptions_AreRefused) {
   write({sampleRun()});
   DatasetFacts other = sampleDataset();
   other.dataset_sha256 = "d2";
@@ -340,7 +340,7 @@ TEST_F(MergeResults, TakesEqualRunsOnceAndMayBeRepeated) {
   EXPECT_EQ(folder_.fileCount(), 3u);
 }
 
-TEST_F(MergeResults, RefusesRunsThatEndedOtherwise) {
+TEST_F(MergeResults, RunsWithDifferentResults_AreRefused) {
   RunResult other = sampleRun("bc-1", 0, 0);
   other.digest = "abd";
   write("a", {sampleRun("bc-1", 0, 0)});
@@ -388,7 +388,7 @@ TEST_F(MergeResults, PrefersARunToARefusedInput) {
   EXPECT_EQ(readResults(folder_ / "out").runs.front().status, "converged");
 }
 
-TEST_F(MergeResults, SaysWhatIsNoResultsFile) {
+TEST_F(MergeResults, OtherFiles_AreReported) {
   folder_.write("a", "no");
   EXPECT_THAT(refusal({"a"}), HasSubstr("a: "));
   EXPECT_THAT(refusal({"none"}), HasSubstr("none: there is no such file"));

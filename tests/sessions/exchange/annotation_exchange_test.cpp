@@ -42,7 +42,7 @@ class AnnotationExchange : public testing::Test {
   std::string os_ = caseOfStation(session_, "os");
 };
 
-TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
+TEST_F(AnnotationExchange, Colmap_ExportAndImport_IsEqualToTheBit) {
   const auto result =
       sessions::exportColmap(session_, folder_ / "model", annotated(session_, {bc_}));
   EXPECT_THAT(result.case_ids, ElementsAre(bc_));
@@ -59,7 +59,7 @@ TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
   EXPECT_TRUE(read.session == withCase(session_, before));
 }
 
-TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
+TEST_F(AnnotationExchange, Bop_ExportAndImport_UsesUndistortedImages) {
   const auto result = sessions::exportBop(session_, folder_ / "scene", annotated(session_));
   EXPECT_EQ(result.case_ids.size(), 2u);
   const auto objects = sessions::readBopScene(folder_ / "scene");
@@ -80,7 +80,7 @@ TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
   EXPECT_EQ(gray.pixels, sessions::undistort(camera, image.view()).pixels);
 }
 
-TEST_F(AnnotationExchange, AnnotationsComeBackAsTheyWere) {
+TEST_F(AnnotationExchange, Points_ExportAndImport_AreEqual) {
   for (const char* name : {"points.json", "points.csv"}) {
     sessions::exportAnnotations(session_, bc_, folder_ / name);
     const Session without = withAnnotations(session_, bc_, {});
@@ -113,7 +113,7 @@ TEST_F(AnnotationExchange, LandmarksAreAddedToThoseOfTheFile) {
   EXPECT_EQ(folder_.read("broken.json"), "{");
 }
 
-TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
+TEST_F(AnnotationExchange, Export_OfUnsupportedCases_ReportsTheReason) {
   const auto colmap = [&](const Session& session, const std::vector<std::string>& ids) {
     return message(
         [&] { (void)sessions::exportColmap(session, folder_ / "m", annotated(session, ids)); });
@@ -143,7 +143,7 @@ TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   EXPECT_THAT(result.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
 }
 
-TEST_F(AnnotationExchange, SaysWhatCannotBeImported) {
+TEST_F(AnnotationExchange, Import_OfUnsupportedFiles_ReportsTheReason) {
   sessions::PosedImage image{1, "bc/image.png", session_.findCase(bc_)->camera, Pose()};
   ASSERT_EQ(prepareCamera(image.camera), Status::kOk);
   image.camera_from_station.translation_m.z() = 0.5;
@@ -208,7 +208,7 @@ class PoseExchange : public testing::Test {
   std::string bc_ = caseOfStation(session_, "bc");
 };
 
-TEST_F(PoseExchange, EveryFileSaysWhoValidatedAndWhatIsNotValidated) {
+TEST_F(PoseExchange, EveryFile_StatesTheReviewStatus) {
   exportColmap(session_, folder_ / "os", posesToHandOver(session_, {os_}));
   exportColmap(session_, folder_ / "bc", posesToHandOver(session_, {bc_}));
   EXPECT_THAT(folder_.read("os/images.txt"), HasSubstr("image.png: validated by Ada"));
@@ -230,7 +230,7 @@ TEST_F(PoseExchange, ResultsThatAreNotValidatedNeedANameThatSaysSo) {
   EXPECT_NE(read[0].object_id, read[1].object_id);
 }
 
-TEST_F(PoseExchange, APoseThatItsAnnotationsDoNotGiveIsLeftOut) {
+TEST_F(PoseExchange, PoseThatItsAnnotationsContradict_IsLeftOut) {
   session_.decisions.back().pose->camera_from_station.translation_m.z() = 0.5;
   EXPECT_THROW(posesToHandOver(session_, {os_}), sessions::InputError);
   const sessions::CasePoses others = posesToHandOver(session_, {});

@@ -111,7 +111,7 @@ TEST(WriteFileAtomically, RespectsReadOnlyFoldersAndFiles) {
   EXPECT_EQ(folder.read("locked/out"), "old");
 }
 
-TEST(RequireWritable, TellsBeforehand) {
+TEST(RequireWritable, FailsBeforeTheRun) {
   const TemporaryFolder folder;
   EXPECT_EQ(folder.message([&] { requireWritable(folder / "out"); }), "(nothing)");
   EXPECT_EQ(folder.message([&] { requireWritable(folder / "no/out"); }),
@@ -132,7 +132,7 @@ TEST(ReadFileBytes, ReadsWhatIsThere) {
   EXPECT_EQ(asText(bytes), text);
 }
 
-TEST(ReadFileBytes, SaysWhyItCannot) {
+TEST(ReadFileBytes, UnreadableFile_IsReportedWithTheReason) {
   const TemporaryFolder folder;
   folder.write("empty", "");
   folder.write("large", std::string(1001, 'x'));
@@ -176,7 +176,7 @@ TEST(AtomicFolder, AppearsWithAllItsFiles) {
   EXPECT_EQ(folder.read("empty/a"), "1");
 }
 
-TEST(AtomicFolder, LeavesNothingWhereWritingFails) {
+TEST(AtomicFolder, FailedWrite_LeavesNoFolder) {
   const TemporaryFolder folder;
   const auto failing = [](const std::filesystem::path& to) {
     fill(to);

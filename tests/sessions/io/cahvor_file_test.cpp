@@ -52,7 +52,7 @@ class CahvorText : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(CahvorText, IsReadAsItIsLaidOut) {
+TEST_F(CahvorText, Layout_IsRead) {
   const CahvorFile read = readCahvorFile(folder_.write("a.cahvor", kText));
   EXPECT_EQ(read.cahv.model, CameraModel::kCahvore);
   EXPECT_EQ(read.cahv.type, 3);
@@ -69,7 +69,7 @@ TEST_F(CahvorText, IsReadAsItIsLaidOut) {
   EXPECT_EQ(camera.reference->frame.name, "");
 }
 
-TEST_F(CahvorText, OfEveryModelComesBackBitForBit) {
+TEST_F(CahvorText, EveryModel_RoundTrip_IsEqualToTheBit) {
   for (const PlanetaryCamera& camera : planetaryCameras()) {
     CahvorFile file{camera.cahv, camera.width, camera.height, {}, {}};
     const int size = camera.cahv.model == CameraModel::kCahv     ? 12
@@ -109,7 +109,7 @@ TEST_F(CahvorText, StatesScalesAndCentres) {
   EXPECT_THAT(text, HasSubstr("Theta = -1.57079632679"));
 }
 
-TEST_F(CahvorText, StatesHowWellItIsCalibratedWhereItHasAnInternalCovariance) {
+TEST_F(CahvorText, InternalCovariance_SetsTheCalibrationSigma) {
   const auto sigma = [this](const std::string& text) {
     return readCahvorCamera(folder_.write("a.cahvor", text)).calibration_sigma;
   };

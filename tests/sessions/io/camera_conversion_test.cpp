@@ -177,7 +177,7 @@ TEST(CameraConversion, OfAnEquidistantCameraIsWithinTwoPixelsUpToEightyDegrees) 
   }
 }
 
-TEST(CameraConversion, RefusesWhatCannotBe) {
+TEST(CameraConversion, ImpossibleFit_IsRefused) {
   Camera mirrored = cahvor(Eigen::Vector3d::UnitZ());
   mirrored.fy = -mirrored.fy;
   ASSERT_EQ(prepareCamera(mirrored), Status::kOk);

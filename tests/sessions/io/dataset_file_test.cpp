@@ -132,7 +132,7 @@ TEST_F(ReadDataset, GivesACaseWhatItsStationAndTheDatasetSay) {
   EXPECT_EQ(a.camera_from_end_effector->translation_m.z(), 0.39);
 }
 
-TEST_F(ReadDataset, TakesHowWellMeshAndCameraAndATruthAreKnown) {
+TEST_F(ReadDataset, SigmasOfMeshCameraAndTruth_AreRead) {
   const Dataset unstated = readSample();
   EXPECT_FALSE(unstated.stations.at("bc").mesh_scale_sigma);
   EXPECT_TRUE(unstated.calibration_sigmas.empty());
@@ -155,7 +155,7 @@ TEST_F(ReadDataset, TakesHowWellMeshAndCameraAndATruthAreKnown) {
               HasSubstr("stations.bc.mesh_scale_sigma"));
 }
 
-TEST_F(ReadDataset, LetsACaseOverride) {
+TEST_F(ReadDataset, CaseMembers_OverrideThoseOfTheStation) {
   const Dataset dataset = readSample();
   const Case& b = *dataset.findCase("b");
   EXPECT_EQ(dataset.findCase("c"), nullptr);
@@ -260,7 +260,7 @@ TEST_F(ReadDataset, NotesMatricesThatWereProjected) {
               StartsWith("cases[0].seed.camera_from_station: the matrix is not quite a rotation"));
 }
 
-TEST_F(ReadDataset, FindsMissingFilesBeforehand) {
+TEST_F(ReadDataset, MissingFiles_AreFoundBeforeARun) {
   const Dataset dataset = readSample();
   EXPECT_EQ(folder_.message([&] { requireFiles(dataset); }),
             "dataset.json: stations.bc: no such file: bc/model.ply");

@@ -204,7 +204,7 @@ TEST_F(ReadMesh, RefusesNodesInACircle) {
 }
 
 /// Skins, images and animations crash importers, and are not needed.
-TEST_F(ReadMesh, ReadsNothingButTheGeometryOfGltf) {
+TEST_F(ReadMesh, Gltf_OnlyTheGeometryIsRead) {
   const std::string rest =
       R"("skins":[{"joints":[1e-320]}],"animations":7,"images":[{"bufferView":99}],)"
       R"("materials":[{"extensions":{"KHR_none":[{}]}}],"asset":)";

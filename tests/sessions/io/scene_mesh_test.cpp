@@ -31,7 +31,7 @@ class SceneMeshTest : public ::testing::Test {
   Mesh cube_;
 };
 
-TEST_F(SceneMeshTest, PutsPartsBesideEachOther) {
+TEST_F(SceneMeshTest, Parts_ArePlacedByTheirTransforms) {
   SceneMesh scene;
   ScenePart matched;
   matched.depth_threshold_m = 0.001;

@@ -177,7 +177,7 @@ TEST(OnboardRecord, FlippedBitsAreNeverTaken) {
   }
 }
 
-TEST(OnboardRecord, SaysWhatFoundNoRoom) {
+TEST(OnboardRecord, MissingBlocks_AreListed) {
   const RecordedRun& whole = exampleRun().run;
   const OnboardRecord read =
       recordRun(exampleRun().problem, recordedOptions(), whole.bytes.size() / 2).record;
@@ -187,7 +187,7 @@ TEST(OnboardRecord, SaysWhatFoundNoRoom) {
   EXPECT_THAT(read.missing, testing::Contains(HasSubstr("found no room on board")));
 }
 
-TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
+TEST(OnboardRecord, ChangedOptions_AreRecordedWithTheirIteration) {
   LocalizerOptions other = recordedOptions();
   other.loop.render_again_px = 5.0;
   const RecordedRun changed = recordRun(exampleRun().problem, {recordedOptions(), {{2, other}}});

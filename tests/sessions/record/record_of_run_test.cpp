@@ -94,7 +94,7 @@ std::array<std::int32_t, 7> countsOf(const EdgeSupport& support) {
           support.displaced_explained};
 }
 
-TEST(RecordOfRun, IsWhatTheFlightSideWrote) {
+TEST(RecordOfRun, EqualsTheRecordOfTheFlightSide) {
   const LocalizationProblem& problem = exampleRun().problem;
   const RecordedRun& run = exampleRun().run;
   const OnboardRecord record = recordOf(run.trace, &problem);

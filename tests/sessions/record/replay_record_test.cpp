@@ -108,7 +108,7 @@ void expectSameScores(const IterationTrace& a, const IterationTrace& b) {
   }
 }
 
-TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
+TEST(ReplayRecord, EqualsTheGroundRunInCommonFields) {
   const LocalizationTrace& a = replayed();
   const LocalizationTrace& b = exampleRun().run.trace;
   EXPECT_TRUE(a.replayed && a.finished);
@@ -224,7 +224,7 @@ TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
   }
 }
 
-TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
+TEST(ReplayRecord, DifferencesFromTheRunOnBoard_AreReported) {
   const ExampleRun& whole = exampleRun();
   const auto remarks = [&](const OnboardRecord& record, const LocalizationProblem& ground) {
     return replayRecord(record, ground).remarks;

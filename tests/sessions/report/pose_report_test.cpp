@@ -71,7 +71,7 @@ class PoseReportTest : public testing::Test {
   std::string id_;
 };
 
-TEST_F(PoseReportTest, EveryPageSaysThatNobodyValidatedIt) {
+TEST_F(PoseReportTest, UnvalidatedPose_IsLabelledOnEveryPage) {
   run();
   const std::filesystem::path file = write();
   if (pageText(file, 1).empty()) GTEST_SKIP() << "pdftotext is not installed";
@@ -121,7 +121,7 @@ TEST_F(PoseReportTest, ADamagedOrLostTraceIsNotReported) {
   EXPECT_THROW(sessions::poseReport(session_, id_), sessions::InputError);
 }
 
-TEST_F(PoseReportTest, ACheckThatIsNotAsMeasuredIsNotReported) {
+TEST_F(PoseReportTest, CheckThatDiffersFromItsMeasurement_IsRefused) {
   run();
   (void)validate({"Ada", "right"});
   for (sessions::JudgedCheck& judged : session_.decisions.back().checks)

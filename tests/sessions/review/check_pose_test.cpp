@@ -70,7 +70,7 @@ ReviewSubject displaced(const ReviewSubject& subject, const Vector6d& xi) {
   return moved;
 }
 
-TEST(CheckPose, TheExamplesPassAll) {
+TEST(CheckPose, Examples_PassAllChecks) {
   for (const char* station : {"bc", "os"}) {
     const auto checks = checkPose(example(station).subject, presetLimits());
     EXPECT_TRUE(allPassed(checks)) << station << "\n" << checksText(checks, true);
@@ -199,7 +199,7 @@ TEST(CheckPose, AnnotationsOfThePoseAgreeAndArePosesOfTheirOwn) {
   EXPECT_EQ(findCheck(checks, "converged").state, CheckState::kNotApplicable);
 }
 
-TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
+TEST(CheckPose, OtherCamera_IsComparedThroughTheRig) {
   ExampleReview review = example("bc");
   // The same image again, declared as taken by a camera shifted by 10 cm and turned by 0.1 rad: the
   // pose that it finds disagrees by as much.
@@ -233,14 +233,14 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
             CheckState::kFailed);
 }
 
-TEST(CheckPose, WithoutAPoseThereIsASentence) {
+TEST(CheckPose, CaseWithoutPose_IsReportedInOneSentence) {
   const Session session = makeSession(exampleFolder() / "dataset.json");
   const auto loaded = loadCase(*session.cases.front());
   EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kRun), InputError);
   EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kAnnotation), InputError);
 }
 
-TEST(CheckPose, OtherSeedsLeadBackAndAStopLeavesWhatWasDone) {
+TEST(CheckPose, OtherSeeds_ReturnToThePoseAndAStopKeepsPartialCounts) {
   const ReviewSubject& subject = example("os").subject;
   const ConvergenceResult convergence = convergenceTest(subject, 2);
   EXPECT_EQ(convergence.seeds, 2);
@@ -258,7 +258,7 @@ TEST(CheckPose, OtherSeedsLeadBackAndAStopLeavesWhatWasDone) {
   EXPECT_EQ(findCheck(checks, "convergence_competing").state, CheckState::kPassed);
 }
 
-TEST(CheckPose, AMirroredStationIsToldByTheRightOneThatFitsBetter) {
+TEST(CheckPose, MirroredStation_FailsAsTheRightOneFitsBetter) {
   // What a mesh mirrored by mistake makes of an image: its own mirror image is the right station.
   const ExampleReview review = example("os");
   ReviewSubject subject = review.subject;
@@ -287,7 +287,7 @@ TEST(CheckPresets, ArePickedByWhatTheRequirementNames) {
   EXPECT_EQ(presetFor(Requirement()).name, kDefaultCheckPreset);
 }
 
-TEST(ChecksText, FailedOnesSayWhy) {
+TEST(ChecksText, FailedChecks_StateTheReason) {
   const auto moved = displaced(example("bc").subject, 0.02 * Vector6d::Unit(3));
   const std::string text = checksText(checkPose(moved, presetLimits()));
   EXPECT_THAT(text, testing::HasSubstr("FAIL  Predicted edges that are seen"));
@@ -295,7 +295,7 @@ TEST(ChecksText, FailedOnesSayWhy) {
   EXPECT_THAT(text, testing::HasSubstr(" failed, "));
 }
 
-TEST(ChecksText, OnesThatAreNotApplicableSayWhyNot) {
+TEST(ChecksText, NotApplicableChecks_StateTheReason) {
   Check check;
   check.title = "Convergence from other seeds";
   check.state = CheckState::kNotApplicable;
@@ -334,7 +334,7 @@ TEST(MirrorImage, KeepsTheBoxAndTheOutwardSide) {
   }
 }
 
-TEST(MirrorImage, MirrorsOneCoordinateAndTwiceIsNothing) {
+TEST(MirrorImage, MirroredTwice_IsTheOriginal) {
   const auto loaded = example("bc").subject.loaded;
   const double middle_m = matchedBounds(loaded->scene.view()).centre()(1);
   const auto image = mirrorImageOf(*loaded, 1);

@@ -28,7 +28,7 @@ std::string refusal(const std::function<void()>& act) {
   return "";
 }
 
-TEST(Decide, AValidationNeedsANameACommentAndAnswersToAllChecks) {
+TEST(Decide, Validation_NeedsNameCommentAndWaivers) {
   Random random = randomFor("Decide.Validation");
   JudgedCase judged(random);
   const auto refused = [&judged](const sessions::CheckWaivers& waivers,
@@ -59,7 +59,7 @@ TEST(Decide, NothingIsValidatedWithoutAnyCheck) {
   EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("no check has been made"));
 }
 
-TEST(Decide, AValidationHoldsItsPoseItsChecksAndTheirReasons) {
+TEST(Decide, Validation_StoresPoseChecksAndWaivers) {
   Random random = randomFor("Decide.Holds");
   JudgedCase judged(random);
   judged.checks[1].state = CheckState::kFailed;
@@ -99,7 +99,7 @@ TEST(Decide, OnlyTheLastConvergedRunOfTheseInputsCanBeValidated) {
   EXPECT_THAT(refused(), HasSubstr("no case 'a'"));
 }
 
-TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
+TEST(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
   Random random = randomFor("Decide.Dropped");
   const JudgedCase judged(random);
   const Session before = judged.validatedBy("Ada");
@@ -149,7 +149,7 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
   }
 }
 
-TEST(Decide, ARunOfTheRigsOtherCameraDropsAValidation) {
+TEST(Decide, NewRunOfTheRigsOtherCamera_InvalidatesAValidation) {
   Random random = randomFor("Decide.OtherCamera");
   JudgedCase judged(random);
   sessions::SessionCase session_case = *judged.session.findCase("a");
@@ -168,7 +168,7 @@ TEST(Decide, ARunOfTheRigsOtherCameraDropsAValidation) {
   EXPECT_TRUE(reviewStatusOf(after, "a").holds()) << "a run in which it had a part is no witness";
 }
 
-TEST(Decide, WhatIsNoInputChangesNothing) {
+TEST(Decide, ChangeOfNonInputs_KeepsADecision) {
   Random random = randomFor("Decide.Stands");
   const JudgedCase judged(random);
   Session after = judged.validatedBy("Ada");
@@ -182,7 +182,7 @@ TEST(Decide, WhatIsNoInputChangesNothing) {
   EXPECT_EQ(reviewStatusOf(after, "a").state, ReviewState::kValidated);
 }
 
-TEST(Decide, ASecondPersonIsSomebodyElse) {
+TEST(Decide, Approval_ByTheSamePerson_IsRefused) {
   Random random = randomFor("Decide.Approval");
   JudgedCase judged(random);
   judged.session.review.second_person = true;
@@ -209,7 +209,7 @@ TEST(Decide, ASecondPersonIsSomebodyElse) {
   EXPECT_THAT(refusal([&] { approved(other, "a", {"Bob", "yes"}); }), HasSubstr("no longer holds"));
 }
 
-TEST(Decide, ARejectionNeedsNoPoseAndIsTakenBackByName) {
+TEST(Decide, Rejection_NeedsNoPoseAndCanBeWithdrawn) {
   Random random = randomFor("Decide.Rejection");
   JudgedCase judged(random);
   judged.session.runs.clear();

@@ -175,7 +175,7 @@ TEST_F(EdgeChecks, WhatIsHiddenIsNotSeen) {
   EXPECT_LT(seen, 65.0);
 }
 
-TEST_F(EdgeChecks, IgnoredPixelsCountNeitherWay) {
+TEST_F(EdgeChecks, IgnoredPixels_DoNotCount) {
   hideLeftHalf();
   ReviewSubject subject = this->subject();
   const auto masked = copyOf(*subject.loaded);
@@ -192,7 +192,7 @@ TEST_F(EdgeChecks, IgnoredPixelsCountNeitherWay) {
   EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
 }
 
-TEST_F(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
+TEST_F(EdgeChecks, UndeterminedDirection_IsReported) {
   // Half of the image hidden so that parallel lines of one edge remain: it slides along itself.
   const PredictedEdges edges = this->edges();
   std::vector<EdgePlace> parallel;
@@ -230,7 +230,7 @@ TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   EXPECT_LT(fit->focal_sigma_px, 5.0);
 }
 
-TEST_F(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
+TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
   ReviewSubject subject = this->subject();
   const PredictedEdges edges = this->edges();
   const auto focalCheck = [&](const CheckLimits& limits) {

@@ -112,7 +112,7 @@ TEST(PoseUncertainty, APoseThatShowsNoEdgeIsStillOffByItsCalibration) {
   EXPECT_NEAR(std::sqrt(covariance.calibration(3, 3)), 0.5e-3, 1e-5) << "1 px at f = 1000 px";
 }
 
-TEST(PoseUncertainty, WithoutWhatThePictureSaysThereIsNoCovariance) {
+TEST(PoseUncertainty, WithoutImageCovariance_IsUnknown) {
   const DrawnBox box;
   const PoseCovariance covariance = poseCovariance(scaleCase(box, 0.001), box.scene_.view(),
                                                    box.camera_from_station_, Matrix6d::Zero());
@@ -142,7 +142,7 @@ TEST(EndEffectorPose, ARightSeedNeedsNoCorrection) {
   EXPECT_LT(perturbationBetween(Pose(), correction).norm(), 1e-14);
 }
 
-TEST(EndEffectorPose, ApointOfTheStationIsWhereBothWaysLead) {
+TEST(EndEffectorPose, StationPoint_IsEqualThroughBothChains) {
   Random random = randomFor("EndEffectorPose.Chain");
   for (int i = 0; i < 100; ++i) {
     const Pose seed = randomPose(random);

@@ -79,7 +79,7 @@ Check figure(double value, double limit, LimitSide side) {
   return check;
 }
 
-TEST(CheckMargin, IsAPartOfTheLimitAndNegativeBeyondIt) {
+TEST(CheckMargin, IsRelativeToTheLimitAndNegativeBeyondIt) {
   EXPECT_DOUBLE_EQ(*checkMargin(figure(3.0, 4.0, LimitSide::kAtMost)), 0.25);
   EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtMost)), -0.5);
   EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtLeast)), 0.5);
@@ -107,7 +107,7 @@ TEST(SeedDistanceTest, IsWhatThePoseWasDisplacedByAboutThePivot) {
   }
 }
 
-TEST(QueueRowTest, TellsADecisionThatHoldsAndOneThatDoesNot) {
+TEST(QueueRowTest, Row_SeparatesValidFromInvalidDecisions) {
   Random random(5);
   test::JudgedCase judged(random);
   QueueRow row;
@@ -128,7 +128,7 @@ TEST(QueueRowTest, TellsADecisionThatHoldsAndOneThatDoesNot) {
   EXPECT_EQ(row.group, QueueGroup::kOpen) << "there is a later run";
 }
 
-TEST(QueueRowTest, HasAnotherKeyAfterWhateverItRestsOn) {
+TEST(QueueRowTest, RowKey_ChangesWithEveryInput) {
   Random random(6);
   test::JudgedCase judged(random);
   const std::string before = queueKey(judged.session, "a");

@@ -43,12 +43,12 @@ class AgreementChecks : public testing::Test {
   ReviewSubject subject_ = someSubject();
 };
 
-TEST_F(AgreementChecks, NothingToCompareWithIsNotApplicable) {
+TEST_F(AgreementChecks, NoOtherPose_IsNotApplicable) {
   for (const char* id : {"agreement_annotation", "agreement_truth", "agreement_camera"})
     EXPECT_EQ(checkOf(id).state, CheckState::kNotApplicable) << id;
 }
 
-TEST_F(AgreementChecks, TheTruthIsHeldToTheRequirement) {
+TEST_F(AgreementChecks, ExactTruth_IsComparedWithTheRequirement) {
   one_.camera_from_station_truth = movedBy(0.1, -0.3);
   EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 75.0, 1e-6);
   EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kPassed);
@@ -57,7 +57,7 @@ TEST_F(AgreementChecks, TheTruthIsHeldToTheRequirement) {
   EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kFailed);
 }
 
-TEST_F(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+TEST_F(AgreementChecks, CoarseTruthFromAnnotations_IsComparedWithinItsSigmasAndReportedAsWeak) {
   setTruth(one_, movedBy(0.0, 8.0));
   EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
   // 3 sigma of 10 mm along the view axis, of the truth and of the pose together.
@@ -87,7 +87,7 @@ TEST_F(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
               100.0 * 0.8 / std::hypot(0.4, 0.3 * std::sqrt(2.0)), 0.1);
 }
 
-TEST_F(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
+TEST_F(AgreementChecks, Sentence_StatesWhereThePosesDiffer) {
   setTruth(one_, movedBy(0.1, -0.3));
   const auto sentence = [&] { return checkOf("agreement_truth").sentence; };
   EXPECT_THAT(sentence(), testing::HasSubstr("across the view axis at the camera"));
@@ -95,7 +95,7 @@ TEST_F(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
   EXPECT_THAT(sentence(), testing::HasSubstr("at the end effector"));
 }
 
-TEST_F(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+TEST_F(AgreementChecks, CoarseAnnotation_IsComparedWithinItsSigmasAndReportedAsWeak) {
   subject_.annotated.emplace();
   subject_.annotated->camera_from_station = movedBy(0.6, 0.0);
   EXPECT_EQ(checkOf("agreement_annotation").state, CheckState::kFailed);
@@ -107,7 +107,7 @@ TEST_F(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLit
   EXPECT_THAT(check.sentence, testing::HasSubstr("says little"));
 }
 
-TEST_F(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
+TEST_F(AgreementChecks, SeveralCameras_UseTheLargestDistance) {
   const PoseCovariance unknown;
   subject_.other_cameras = {{"left", movedBy(0.1, 0.0), unknown},
                             {"top", movedBy(0.0, 0.8), unknown},
@@ -117,7 +117,7 @@ TEST_F(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
   EXPECT_THAT(check.sentence, testing::HasSubstr("top"));
 }
 
-TEST_F(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
+TEST_F(AgreementChecks, WithinRequirement_NeedsEveryMember) {
   EXPECT_TRUE(withinRequirement(subject_, movedBy(0.3, 0.3)));
   EXPECT_FALSE(withinRequirement(subject_, movedBy(0.3, 0.5)));
   Pose turned = subject_.camera_from_station;
@@ -131,7 +131,7 @@ std::vector<Check> convergenceChecks(const std::optional<ConvergenceResult>& con
   return checks;
 }
 
-TEST(ConvergenceChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
+TEST(ConvergenceChecks, TooFewReturningSeeds_Fail) {
   EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_returned").state,
             CheckState::kNotApplicable);
   EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_competing").state,
@@ -147,7 +147,7 @@ TEST(ConvergenceChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
             CheckState::kPassed);
 }
 
-TEST(ConvergenceChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) {
+TEST(ConvergenceChecks, NoConvergedSeed_IsNotApplicable) {
   const ConvergenceResult convergence{10, 10, 0, 0.5, {}};
   EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
             CheckState::kFailed);
@@ -155,7 +155,7 @@ TEST(ConvergenceChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) 
             CheckState::kNotApplicable);
 }
 
-TEST(ConvergenceChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
+TEST(ConvergenceChecks, CompetingPose_FailsOnlyIfItFitsBetter) {
   ConvergenceResult convergence{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
   EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
             CheckState::kPassed);
@@ -179,7 +179,7 @@ Check onboardCheck(const ReviewSubject& subject) {
   return findCheck(checks, "agreement_onboard");
 }
 
-TEST(OnboardCheck, SaysWhatTheComparisonFound) {
+TEST(OnboardCheck, States_FollowTheComparison) {
   ReviewSubject subject = someSubject();
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kNotApplicable);
   subject.onboard.emplace();
@@ -234,12 +234,12 @@ TEST_F(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
   EXPECT_EQ(check.state, CheckState::kPassed);
 }
 
-TEST_F(PrecisionChecks, WithoutACovarianceThereIsNothingToAsk) {
+TEST_F(PrecisionChecks, WithoutCovariance_IsNotApplicable) {
   EXPECT_EQ(findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").state,
             CheckState::kNotApplicable);
 }
 
-TEST_F(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
+TEST_F(PrecisionChecks, UnstatedScaleAndCalibration_UseDefaults) {
   const SessionCase& session_case = subject_.loaded->source;
   subject_.covariance = poseCovariance(session_case, subject_.loaded->scene.view(),
                                        subject_.camera_from_station, 1e-12 * Matrix6d::Identity());
@@ -254,7 +254,7 @@ TEST_F(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
   EXPECT_THAT(check.sentence, testing::HasSubstr("state how well"));
 }
 
-TEST_F(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
+TEST_F(PrecisionChecks, StatedSigmas_ReplaceDefaults) {
   SessionCase session_case = subject_.loaded->source;
   const auto figure = [&](double mesh_scale, const CalibrationSigma& calibration) {
     session_case.mesh_scale_sigma = mesh_scale;
@@ -269,7 +269,7 @@ TEST_F(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
   EXPECT_NEAR(figure(0.0, {0.001, 0.0}), 3.0 * 0.5, 0.15);
 }
 
-TEST_F(PrecisionChecks, TheSentenceSaysWhere) {
+TEST_F(PrecisionChecks, Sentence_StatesTheReferencePoint) {
   subject_.covariance.picture = someCovariance();
   const auto sentence = [&] {
     return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").sentence;

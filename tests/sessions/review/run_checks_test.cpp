@@ -99,7 +99,7 @@ TEST(RunChecks, ARunThatDidNotConvergeFailsAndSaysHowItEnded) {
       << check.sentence;
 }
 
-TEST(RunChecks, CorrectionsOfARunWhoseLastIterationFailedAreNotPraised) {
+TEST(RunChecks, CorrectionsWithFailedLastIteration_AreNotApplicable) {
   ReviewSubject subject = subjectOf({});
   subject.run->status = LocalizationStatus::kPnpFailed;
   auto failed = std::make_shared<IterationTrace>();
@@ -135,7 +135,7 @@ TEST(RunChecks, InliersAreCountedAndSetAgainstTheMatches) {
   EXPECT_NE(findCheck(checks, "inlier_ratio").sentence.find("10 of 40"), std::string::npos);
 }
 
-TEST(RunChecks, InliersThatHoldOneEndOfTheStationFail) {
+TEST(RunChecks, InliersAtOneEndOfTheStation_Fail) {
   EXPECT_NEAR(
       findCheck(checksOf(subjectOf({.count = 20, .inliers = 20})), "inlier_spread").figure.value(),
       100.0, 1e-6);
@@ -189,7 +189,7 @@ TEST(RunChecks, APoseFromAnnotationsHasTheSameChecksNotApplicable) {
   EXPECT_EQ(ids.size(), of_run.size());
 }
 
-TEST(RunChecks, ARunThatNeverMatchedIsNoReasonToCrash) {
+TEST(RunChecks, RunWithoutMatching_IsNotApplicable) {
   ReviewSubject subject;
   subject.run.emplace();
   subject.run->status = LocalizationStatus::kTooFewMatches;

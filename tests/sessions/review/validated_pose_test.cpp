@@ -214,7 +214,7 @@ TEST_F(ValidatedPose, ItsCovarianceIsTheSumOfNamedTermsAndSaysByWhichSigmas) {
   EXPECT_EQ(pose["one_sigma"]["of"], "end effector");
 }
 
-TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {
+TEST_F(ValidatedPose, UnvalidatedPose_IsLabelledAndVerifies) {
   run();
   const fs::path file = write();
   EXPECT_EQ(read(file)["state"], "NOT VALIDATED");
@@ -252,7 +252,7 @@ void alter(ordered_json& leaf) {
     leaf = "x";
 }
 
-TEST_F(ValidatedPose, NoLeafCanBeAlteredUnseen) {
+TEST_F(ValidatedPose, AlteredMember_IsAlwaysDetected) {
   const fs::path file = writeValidated();
   ordered_json json = read(file);
   int leaves = 0;
@@ -273,7 +273,7 @@ TEST_F(ValidatedPose, NoLeafCanBeAlteredUnseen) {
   EXPECT_GT(place, 300);
 }
 
-TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
+TEST_F(ValidatedPose, ForgedPoseWithNewSignature_IsDetected) {
   const fs::path file = writeValidated();
   const auto forged = forging(file);
   EXPECT_EQ(forged([](ordered_json&) {}, true), "");

@@ -41,7 +41,7 @@ LocalizationTrace runWith(Random& random) {
   return run;
 }
 
-TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
+TEST(Alternatives, RolledHypotheses_AreListedPerIteration) {
   Random random = test::randomFor("Alternatives 1");
   const LocalizationTrace run = runWith(random);
   const std::vector<Alternative> all = alternativesOf(run);
@@ -120,7 +120,7 @@ TEST(Alternatives, OfASearch_AreItsCandidates) {
   EXPECT_EQ(chosen, 1);
 }
 
-TEST(Alternatives, ResultFromALaterCandidate_AnnotationsThatOneAsChosen) {
+TEST(Alternatives, ResultFromALaterCandidate_MarksThatCandidateAsChosen) {
   LocalizationTrace run = *test::runOfExample("os", defaultProfile());
   run.candidates.resize(1);
   PoseCandidate elsewhere = run.candidates.front();

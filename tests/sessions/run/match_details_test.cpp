@@ -18,7 +18,7 @@ TEST(FullImagePixel, IsTheCentreOfTheBlockThatAPixelCovers) {
   EXPECT_EQ(fullImagePixel(0.0, 1.0, 2), Eigen::Vector2d(1.5, 5.5));
 }
 
-TEST(MatchDetails, SayWhatTheIterationRecorded) {
+TEST(MatchDetails, EqualTheRecordedIteration) {
   const IterationTrace& first = *exampleTrace().iterations.front();
   const std::vector<MatchDetails> all = matchDetails(first);
   ASSERT_EQ(all.size(), first.templates.size());
@@ -57,7 +57,7 @@ TEST(MatchDetails, PlaceAMatchWhereItsCorrespondenceIs) {
   }
 }
 
-TEST(MatchDetails, KnowNothingOfWhatWasNotReached) {
+TEST(MatchDetails, StagesNotReached_AreUnknown) {
   IterationTrace early = *exampleTrace().iterations.front();
   early.reached = Stage::kTemplates;
   early.matches.clear();

@@ -164,7 +164,7 @@ TEST(RunStatusText, ExplainsARunThatFailed) {
                     testing::EndsWith(".")));
 }
 
-TEST(RunStatusText, SaysWhatSpeaksForAPose) {
+TEST(RunStatusText, ConvergedRun_StatesItsEvidence) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.covariance(3, 3) = 4e-10;  // 0.02 mm
   trace.support.rendered = trace.support.covered = 10;

@@ -80,7 +80,7 @@ TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
   EXPECT_FALSE(run.trace().iterations[0]->pnp.inlier.empty());
 }
 
-TEST(Runner, ASnapshotStaysWhatItWas) {
+TEST(Runner, Snapshot_IsImmutable) {
   Runner run(example().problem(), defaultProfile());
   run.advance(StepUntil::kIteration);
   const LocalizationTrace before = run.trace();

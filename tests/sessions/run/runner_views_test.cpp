@@ -144,7 +144,7 @@ TEST_F(RunnerViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
   EXPECT_LT(perturbationBetween(pose, last.camera_from_station).norm(), 1e-12);
 }
 
-TEST_F(RunnerViewsTest, ABlackFirstViewLeadsAllTheSame) {
+TEST_F(RunnerViewsTest, BlackFirstView_StillGivesTheSeed) {
   blacken(0);
   const std::vector<LocalizationTrace> views = watched();
   EXPECT_EQ(views[0].status, LocalizationStatus::kTooFewMatches);

@@ -57,7 +57,7 @@ struct RigSession {
   }
 };
 
-TEST(CaseAnnotations, PutsTheCaseFirstAndLeavesOutUnannotatedAndOtherRigs) {
+TEST(CaseAnnotations, Views_StartWithTheCaseAndOmitUnannotatedAndOtherRigs) {
   const RigSession rig;
   const auto together = caseAnnotations(rig.session, "left");
   EXPECT_EQ(together.case_ids, (std::vector<std::string>{"left", "right"}));
@@ -78,7 +78,7 @@ TEST(CaseAnnotations, PutsTheCaseFirstAndLeavesOutUnannotatedAndOtherRigs) {
   EXPECT_THROW((void)caseAnnotations(rig.session, "unknown"), sessions::InputError);
 }
 
-TEST(CaseAnnotations, SolvesWithTheDigitsOfTheViewsThemselves) {
+TEST(CaseAnnotations, SolveCase_EqualsSolvingItsViews) {
   const RigSession rig;
   const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
   for (const bool robust : {false, true}) {
@@ -102,7 +102,7 @@ TEST(CaseAnnotations, SolvesWithTheDigitsOfTheViewsThemselves) {
   }
 }
 
-TEST(CaseAnnotations, NamesItsOwnAnnotationsThatStandOut) {
+TEST(CaseAnnotations, Outliers_OfTheCase_AreNamed) {
   using sessions::AnnotationKind;
   sessions::CaseAnnotationsSolution case_annotations_solution;
   EXPECT_TRUE(case_annotations_solution.outlierAnnotations().empty()) << "without a solution";
@@ -153,7 +153,7 @@ TEST(CaseAnnotations, SaysWhyThereIsNoPose) {
   EXPECT_EQ(none.result.reason, none.warnings[0].text);
 }
 
-TEST(CaseAnnotations, ASigmaBeyondTheRequirementIsCalledWeakAndByHowMuch) {
+TEST(CaseAnnotations, SigmaBeyondRequirement_IsReportedAsWeakWithItsExcess) {
   const RigSession rig(3.0);
   Session session = rig.session;
   const auto warningsFor = [&](double required_mm) {

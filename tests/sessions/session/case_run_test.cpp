@@ -87,7 +87,7 @@ TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
               HasSubstr("m.png: its bytes are not those"));
 }
 
-TEST(CaseRun, ARunThatTookUpOptionsIsRunAgainFromItsRecordAlone) {
+TEST(CaseRun, RunWithChangedOptions_IsRepeatedFromItsRecord) {
   const TemporaryFolder folder;
   Session session = sessionOfOs(exampleFolder());
   const std::string id = session.cases[0]->id;
@@ -126,7 +126,7 @@ TEST(CaseRun, ARunThatTookUpOptionsIsRunAgainFromItsRecordAlone) {
               HasSubstr("are no longer its own"));
 }
 
-TEST(CaseRun, IsTheRunOfItsInputsAndIsKeptByItsDigest) {
+TEST(CaseRun, StoredRun_IsNamedByItsDigestAndInputs) {
   const TemporaryFolder folder;
   const Session session = sessionOfOs(exampleFolder());
   const std::string id = session.cases[0]->id;
@@ -221,7 +221,7 @@ TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
   EXPECT_EQ(sessions::runCase(again, id).digest, trace.digest);
 }
 
-TEST(SessionPack, RefusesWhatWouldNotBeTheSession) {
+TEST(SessionPack, ChangedOrOutsideFiles_AreRefused) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
   Session session = sessions::makeSession(stations / "dataset.json");
@@ -335,7 +335,7 @@ TEST_F(PackedMembers, AnInputThatIsALinkToElsewhereIsRefused) {
   EXPECT_EQ(refusal(session_), "(nothing)") << "a link within the session's folder";
 }
 
-TEST_F(PackedMembers, BuffersOfAMeshAreThoseThatItStatesAndLieBesideIt) {
+TEST_F(PackedMembers, MeshBuffers_AreStatedAndInTheMeshsFolder) {
   namespace mesh = sessions::test;
   const mesh::PolygonMesh cube = mesh::cube();
   std::size_t index_count = 0;

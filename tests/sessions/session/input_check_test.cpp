@@ -47,7 +47,7 @@ TEST(InputCheck, ReportsWhatIsMissingOrChanged) {
     EXPECT_NE(folder.message([&] { (void)sessions::loadCase(*session_case); }), "(nothing)");
 }
 
-TEST(InputCheck, ACaseOfChangedInputsIsNotLoadedBeforeSomebodyAcceptsThem) {
+TEST(InputCheck, ChangedInputs_AreLoadedOnlyAfterAcceptance) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
   const Session session = sessions::makeSession(stations / "dataset.json");
@@ -157,7 +157,7 @@ TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
               HasSubstr("sol12.img, or its label sol12.lbl, is not the file"));
 }
 
-TEST_F(LabelledImage, SaysThatItIsTheLabelThatIsGone) {
+TEST_F(LabelledImage, MissingLabel_IsReported) {
   one_.image.source.file = folder_ / "in/sol12.img";
   std::filesystem::remove(label_);
   const std::string wanted = "no longer there: put sol12.lbl (or sol12.xml) back next to it";

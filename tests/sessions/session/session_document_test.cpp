@@ -55,7 +55,7 @@ void leaveUnsaved(const std::filesystem::path& file, int edits) {
   ASSERT_EQ(said, "the child did not end by itself");
 }
 
-TEST(SessionDocument, SavesWhatWasEditedAndLeavesNothingBeside) {
+TEST(SessionDocument, Save_WritesTheEditsAndRemovesTheJournal) {
   const TemporaryFolder folder;
   const Session first = sessionOf("first");
   {
@@ -97,7 +97,7 @@ TEST(SessionDocument, CreateTouchesNoFileThatIsThere) {
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
-TEST(SessionDocument, OffersWhatAKilledProgramLeft) {
+TEST(SessionDocument, JournalOfAKilledProgram_IsOffered) {
   const TemporaryFolder folder;
   const Session first = sessionOf("first");
   { SessionDocument::create(folder / "s.json", first); }
@@ -226,7 +226,7 @@ TEST(SessionDocument, RefusesEditsThatCouldNotBeOpenedAgain) {
   EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
 }
 
-TEST(SessionDocument, DoesNotOverwriteWhatSomebodyElseChanged) {
+TEST(SessionDocument, Save_AfterAChangeByAnotherProgram_IsRefused) {
   const TemporaryFolder folder;
   SessionDocument document = SessionDocument::create(folder / "s.json", sessionOf("first"));
   document.apply(edited(document.session(), 1), "Edit");

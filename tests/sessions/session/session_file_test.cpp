@@ -68,7 +68,7 @@ TEST(SessionFile, NamesFilesRelativeToItself) {
   EXPECT_EQ(moved.cases[0]->image.source.file, folder / "deep/images/1.png");
 }
 
-TEST(SessionFile, NamesWhatLiesBesideIt) {
+TEST(SessionFile, CompanionFiles_HaveTheirNames) {
   EXPECT_EQ(sessions::journalFileOf("/a/x.boresight.json"), "/a/x.boresight.journal");
   EXPECT_EQ(sessions::lockFileOf("/a/x.json"), "/a/x.lock");
   EXPECT_EQ(sessions::runsFolderOf("/a/x.sol12"), "/a/x.sol12.runs");
@@ -175,7 +175,7 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
   for (const auto& [spoil, expected] : spoilt) EXPECT_THAT(message(spoil), HasSubstr(expected));
 }
 
-TEST(SessionFile, ReadsFilesFromBeforePassesAndLandmarks) {
+TEST(SessionFile, FileWithoutRoundsAndLandmarks_IsRead) {
   const TemporaryFolder folder;
   json old = goodSession();
   old.erase("rounds");

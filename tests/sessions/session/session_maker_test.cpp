@@ -63,7 +63,7 @@ TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
   EXPECT_TRUE(only.cases[0] == session.cases[1]);
 }
 
-TEST(SessionMaker, TheChecksAreThoseOfWhatTheDatasetAsksFor) {
+TEST(SessionMaker, RequirementOfTheDataset_SelectsTheCheckPreset) {
   const TemporaryFolder folder;
   const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
   EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer");
@@ -77,7 +77,7 @@ TEST(SessionMaker, TheChecksAreThoseOfWhatTheDatasetAsksFor) {
   EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer") << "they differ";
 }
 
-TEST(SessionMaker, WhatIsStatedOfMeshCameraAndTruthComesAlong) {
+TEST(SessionMaker, SigmasAndTruth_OfTheDataset_AreKept) {
   const TemporaryFolder folder;
   const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
   auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));

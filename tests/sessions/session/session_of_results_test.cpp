@@ -55,7 +55,7 @@ class SessionOfResults : public testing::Test {
   std::vector<RunResult> runs_;
 };
 
-TEST_F(SessionOfResults, ListsTheMostTroubledFirstAndSoDoesTheQueue) {
+TEST_F(SessionOfResults, WorstRuns_AreListedFirstAsInTheQueue) {
   write();
   const Session session = sessionOfResults(file_);
   std::vector<std::string> expected;

@@ -21,7 +21,7 @@ using sessions::Session;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(ChangedCases, NamesThoseThatSomebodyEdited) {
+TEST(ChangedCases, ListsEditedCases) {
   Random random = randomFor("ChangedCases");
   Session before;
   for (const char* id : {"a", "b", "c"}) before = withCase(before, randomCase(random, id));

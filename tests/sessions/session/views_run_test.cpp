@@ -150,7 +150,7 @@ TEST_F(ViewsRunTest, ABlackViewIsLeftOutAndSaysWhy) {
               HasSubstr("left out: too few of its templates meet edges"));
 }
 
-TEST_F(ViewsRunTest, OldFilesHaveNoneOfIt) {
+TEST_F(ViewsRunTest, FileWithoutViews_IsRead) {
   run(first());
   sessions::writeSessionFile(file(), session_);
   std::string text = folder_.read("s.boresight.json");
@@ -234,7 +234,7 @@ TEST_F(ViewsRunTest, AnOutcomeOfAViewThatIsStatedOtherwiseIsRefused) {
 }
 
 /// Poses that were solved for as one say nothing of each other.
-TEST_F(ViewsRunTest, TheOtherCameraIsAWitnessOnlyByARunOfItsOwn) {
+TEST_F(ViewsRunTest, OtherCamera_IsComparedOnlyByItsOwnRun) {
   run(first());
   const auto witnesses = [this] {
     return sessions::reviewSubject(session_, sessions::loadCase(*session_.cases[0]),

@@ -40,7 +40,7 @@ class AnnotationContentTest : public testing::Test {
   AnnotationLook look_;
 };
 
-TEST_F(AnnotationContentTest, EveryStateOfAPointHasAShapeOrWordsOfItsOwn) {
+TEST_F(AnnotationContentTest, PointStates_DifferInShapeOrLabel) {
   std::vector<sessions::PointPair> points(6, complete("p1"));
   points[1].point_in_station_m.reset();
   points[2].pixel.reset();
@@ -61,7 +61,7 @@ TEST_F(AnnotationContentTest, EveryStateOfAPointHasAShapeOrWordsOfItsOwn) {
   EXPECT_EQ(looks.size(), points.size());
 }
 
-TEST_F(AnnotationContentTest, WhatIsNotInTheImageYetStandsWhereThePosePredictsIt) {
+TEST_F(AnnotationContentTest, PointWithoutPixel_IsDrawnAtItsProjection) {
   sessions::PointPair point = complete("p1");
   point.pixel.reset();
   const Mark mark = signOf(point);
@@ -72,7 +72,7 @@ TEST_F(AnnotationContentTest, WhatIsNotInTheImageYetStandsWhereThePosePredictsIt
   EXPECT_TRUE(signOf(point).label.isEmpty()) << "behind the camera it stands nowhere";
 }
 
-TEST_F(AnnotationContentTest, TheChosenAnnotationHasARingAndItsItemTellsItsId) {
+TEST_F(AnnotationContentTest, SelectedAnnotation_HasARingAndAnItemId) {
   sessions::Annotations annotations;
   annotations.points = {complete("p1"), complete("p2")};
   sessions::LinePair line;
@@ -90,7 +90,7 @@ TEST_F(AnnotationContentTest, TheChosenAnnotationHasARingAndItsItemTellsItsId) {
   EXPECT_EQ(idOfSign(annotations, 3), "");
 }
 
-TEST_F(AnnotationContentTest, ResidualsAreMagnifiedFromWhereThePosePutsTheAnnotation) {
+TEST_F(AnnotationContentTest, Residuals_AreMagnifiedFromTheProjection) {
   const std::vector<sessions::AnnotationVector> vectors = {{"p1", {100.0, 50.0}, {100.25, 49.5}}};
   for (const double factor : {1.0, 40.0}) {
     const auto signs = residualSigns(vectors, look_, factor, false);

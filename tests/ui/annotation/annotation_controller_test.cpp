@@ -14,7 +14,7 @@ namespace {
 
 class AnnotationControllerTest : public AnnotationTest {};
 
-TEST_F(AnnotationControllerTest, APairIsMadeInEitherOrderAndStaysHalfMadeUntilThen) {
+TEST_F(AnnotationControllerTest, Pair_AnySideFirst_StaysIncompleteUntilTheOther) {
   const Eigen::Vector3d corner_m = corners_m(1).front();
   const std::string first = controller_.placeInImage({10.25, 20.5});
   EXPECT_EQ(first, "p1");
@@ -37,7 +37,7 @@ TEST_F(AnnotationControllerTest, APairIsMadeInEitherOrderAndStaysHalfMadeUntilTh
   EXPECT_TRUE(controller_.annotations().points[1].complete());
 }
 
-TEST_F(AnnotationControllerTest, LinesArePairedLikewise) {
+TEST_F(AnnotationControllerTest, LinePair_AnySideFirst_IsCompleted) {
   const sessions::ModelEdge edge{{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}};
   const std::string id = controller_.placeEdgeOnStation(edge);
   EXPECT_EQ(id, "l1");
@@ -83,7 +83,7 @@ TEST_F(AnnotationControllerTest, AGestureIsOneStepOfUndo) {
   EXPECT_NEAR(controller_.annotations().points[0].pixel->x(), 100.0, 1e-9);
 }
 
-TEST_F(AnnotationControllerTest, LockedAnnotationsAndPlacesOutsideAreRefusedWithAReason) {
+TEST_F(AnnotationControllerTest, LockedOrOutsideEdit_IsRefusedWithAReason) {
   const std::string id = controller_.placeInImage({100.0, 100.0});
   sessions::PointPair locked = *controller_.selectedPoint();
   locked.locked = true;
@@ -101,7 +101,7 @@ TEST_F(AnnotationControllerTest, LockedAnnotationsAndPlacesOutsideAreRefusedWith
   EXPECT_FALSE(controller_.replacePoint(id, renamed, QStringLiteral("Rename")));
 }
 
-TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHowPeopleDiffer) {
+TEST_F(AnnotationControllerTest, BlindRound_KeepsStationPointsAndReportsRepeatability) {
   const auto ids = markCorners(6);
   const sessions::Annotations first = controller_.annotations();
   controller_.putAside(QStringLiteral(" Ada "));
@@ -129,7 +129,7 @@ TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHow
   EXPECT_TRUE(document_.session().rounds.empty());
 }
 
-TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeArePlaced) {
+TEST_F(AnnotationControllerTest, Landmarks_AfterThreeAnnotations_AreProposedAtTheirProjection) {
   openLandmarks(corners_m(8), {0, 3, 7});
   ASSERT_TRUE(solved());
   ASSERT_EQ(controller_.answer().proposals.size(), 5u);
@@ -143,7 +143,7 @@ TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeA
   EXPECT_EQ(controller_.seenProposals(), 4) << "all are corners that are seen";
 }
 
-TEST_F(AnnotationControllerTest, TheSolvedPoseBecomesTheTruthAndUndoTakesItBack) {
+TEST_F(AnnotationControllerTest, UseAsTruth_SetsTheTruthAndUndoRestoresIt) {
   const Pose before = truth();
   controller_.useAsTruth();
   EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
@@ -156,7 +156,7 @@ TEST_F(AnnotationControllerTest, TheSolvedPoseBecomesTheTruthAndUndoTakesItBack)
   EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
 }
 
-TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithFigures) {
+TEST_F(AnnotationControllerTest, TruthFromAnnotations_KeepsItsCovarianceAndWarnsIfCoarse) {
   QStringList said;
   QObject::connect(&controller_, &AnnotationController::told,
                    [&said](const QString& sentence) { said << sentence; });
@@ -181,7 +181,7 @@ TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithF
   ASSERT_TRUE(document_.undo());
 }
 
-TEST_F(AnnotationControllerTest, AnnotationsBelongToTheirCaseAndSurviveTheProgram) {
+TEST_F(AnnotationControllerTest, Annotations_AreStoredPerCaseAndReloaded) {
   controller_.placeInImage({12.0, 34.0});
   const std::string id = source().id;
   const auto other = document_.session().cases.back()->id;

@@ -50,7 +50,7 @@ class AnnotationPanelTest : public AnnotationTest {
   std::unique_ptr<AnnotationPanel> panel_;
 };
 
-TEST_F(AnnotationPanelTest, SaysWhatIsMissingThenWhatWasSolvedAndWhenThatIsOutOfDate) {
+TEST_F(AnnotationPanelTest, Headline_ReportsMissingPairsSolutionAndStaleness) {
   EXPECT_FALSE(headline().isEmpty());
   controller_.placeInImage({100.0, 100.0});
   ASSERT_TRUE(solved());
@@ -66,7 +66,7 @@ TEST_F(AnnotationPanelTest, SaysWhatIsMissingThenWhatWasSolvedAndWhenThatIsOutOf
     EXPECT_TRUE(summary().contains(QString::fromLatin1(said))) << said;
 }
 
-TEST_F(AnnotationPanelTest, TellsTheCamerasOwnSigmaOnlyBesideTheEndEffectors) {
+TEST_F(AnnotationPanelTest, CameraSigma_IsShownOnlyWithAnEndEffector) {
   markCorners(8);
   ASSERT_TRUE(solved());
   const auto htmlWith = [this](const std::optional<Pose>& camera_from_end_effector) {
@@ -156,7 +156,7 @@ TEST_F(AnnotationPanelTest, ButtonsSetModeWeightsAndTruth) {
             controller_.solvedPose());
 }
 
-TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
+TEST_F(AnnotationPanelTest, CoplanarAnnotations_ShowBothPosesSideBySide) {
   StationSnapper snapper(state_);
   auto* ambiguity = new AmbiguityView(controller_, state_, snapper);
   panel_->addBeside(ambiguity);
@@ -180,7 +180,7 @@ TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
   EXPECT_EQ(asked, *controller_.solution()->ambiguous_camera_from_station());
 }
 
-TEST_F(AnnotationPanelTest, CasesThatAreLinkedAreSolvedAsOne) {
+TEST_F(AnnotationPanelTest, LinkedCases_AreSolvedTogether) {
   const std::string first = source().id;
   sessions::SessionCase second = source();
   second.id = "second image";

@@ -43,7 +43,7 @@ double covered(int x, int y, const Inside& inside) {
 
 class PlacingTest : public AnnotationToolTest, public testing::WithParamInterface<double> {};
 
-TEST_P(PlacingTest, AClickAnnotationsThePlaceUnderThePointer) {
+TEST_P(PlacingTest, Click_AnnotatesThePointUnderThePointer) {
   tool().setSnaps(false);
   int count = 0;
   for (const Eigen::Vector2d& off :
@@ -59,7 +59,7 @@ TEST_P(PlacingTest, AClickAnnotationsThePlaceUnderThePointer) {
 
 INSTANTIATE_TEST_SUITE_P(Zooms, PlacingTest, testing::Values(1.0, 3.7, 16.0));
 
-TEST_F(AnnotationToolTest, SnapsToACornerAnEllipseAndAnEdgeAndIsRefused) {
+TEST_F(AnnotationToolTest, Snapping_FindsCornerEllipseAndEdgeAndCanBeDisabled) {
   const Eigen::Vector2d corner(120.25, 90.6), centre(260.4, 150.3);
   const double edge_x = 60.35;
   paintImage([&](int x, int y) {
@@ -99,7 +99,7 @@ TEST_F(AnnotationToolTest, SnapsToACornerAnEllipseAndAnEdgeAndIsRefused) {
   EXPECT_NEAR(place("p3").x(), edge_x + 3.0, screenPixel_px());
 }
 
-TEST_F(AnnotationToolTest, TabGoesOnToTheNextThingFound) {
+TEST_F(AnnotationToolTest, Tab_SelectsTheNextSnapTarget) {
   const Eigen::Vector2d corner(120.25, 90.6);
   paintImage([&](int x, int y) {
     return covered(
@@ -119,7 +119,7 @@ TEST_F(AnnotationToolTest, TabGoesOnToTheNextThingFound) {
   EXPECT_EQ(tool().aim().snap->kind, sessions::ImageSnapKind::kCorner) << "a new annotation starts";
 }
 
-TEST_F(AnnotationToolTest, ADragMovesAAnnotationWithoutAJumpAndIsUndoneByName) {
+TEST_F(AnnotationToolTest, Drag_MovesAnAnnotationWithoutAJumpAndIsOneUndoStep) {
   const Eigen::Vector2d before = markMiddle();
   // Grabbed off its centre.
   drag(before + Eigen::Vector2d(1.0, -0.7), before + Eigen::Vector2d(9.0, 3.3));
@@ -135,7 +135,7 @@ TEST_F(AnnotationToolTest, ADragMovesAAnnotationWithoutAJumpAndIsUndoneByName) {
   EXPECT_EQ(place("p1"), before);
 }
 
-TEST_F(AnnotationToolTest, EscapeWhileDraggingPutsTheAnnotationBack) {
+TEST_F(AnnotationToolTest, EscapeWhileDragging_RestoresTheAnnotation) {
   const Eigen::Vector2d before = markMiddle();
   send(QEvent::MouseButtonPress, before);
   send(QEvent::MouseMove, before + Eigen::Vector2d(20.0, 0.0), Qt::NoModifier, Qt::LeftButton,
@@ -147,7 +147,7 @@ TEST_F(AnnotationToolTest, EscapeWhileDraggingPutsTheAnnotationBack) {
   EXPECT_EQ(annotations().points.size(), 1u);
 }
 
-TEST_F(AnnotationToolTest, ALockedAnnotationStaysAndSaysSo) {
+TEST_F(AnnotationToolTest, LockedAnnotation_IsNotMovedAndReported) {
   const Eigen::Vector2d before = markMiddle();
   sessions::PointPair locked = *sessions::findPoint(annotations(), "p1");
   locked.locked = true;
@@ -158,7 +158,7 @@ TEST_F(AnnotationToolTest, ALockedAnnotationStaysAndSaysSo) {
   EXPECT_EQ(document_.undoText(), QStringLiteral("Lock p1"));
 }
 
-TEST_F(AnnotationToolTest, ADragElsewherePansAndAnnotationsNothing) {
+TEST_F(AnnotationToolTest, DragOffAnnotations_PansOnly) {
   zoom(kMiddle, 3.7);
   const QPointF before = view().transform().toWidget(QPointF(0.0, 0.0));
   drag(kMiddle, kMiddle + Eigen::Vector2d(30.0, 10.0));
@@ -169,7 +169,7 @@ TEST_F(AnnotationToolTest, ADragElsewherePansAndAnnotationsNothing) {
   EXPECT_EQ(annotations().points.size(), 1u);
 }
 
-TEST_F(AnnotationToolTest, ArrowsMoveTheChosenAnnotationByATenthOrAWholePixel) {
+TEST_F(AnnotationToolTest, Arrows_MoveTheSelectedAnnotationByATenthOrAWholePixel) {
   const Eigen::Vector2d before = markMiddle();
   for (const int key : {Qt::Key_Right, Qt::Key_Right, Qt::Key_Down})
     QTest::keyClick(&view(), static_cast<Qt::Key>(key));
@@ -229,7 +229,7 @@ TEST_F(AnnotationToolTest, WithoutSnappingTheStationsSurfaceIsAnnotated) {
   EXPECT_LT((pixelOf(placed) - corner_px).norm(), 2.0);
 }
 
-TEST_F(AnnotationToolTest, CtrlClickBesideTheStationIsRefusedWithASentence) {
+TEST_F(AnnotationToolTest, CtrlClickOffTheStation_IsRefusedWithAReason) {
   click({1.0, 1.0}, Qt::ControlModifier);
   EXPECT_TRUE(annotations().empty());
   EXPECT_TRUE(told_.contains(QStringLiteral("no station"))) << told_.toStdString();
@@ -264,7 +264,7 @@ TEST_F(AnnotationToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
 }
 
 /// Otherwise Ctrl+Del would remove an annotation that the operator did not point at.
-TEST_F(AnnotationToolTest, AClickThatBeginsALineDropsTheChoice) {
+TEST_F(AnnotationToolTest, ClickThatStartsALine_ClearsTheSelection) {
   markMiddle();
   ASSERT_EQ(controller_.selected(), "p1");
   controller_.setMode(PlaceMode::kLine);
@@ -273,7 +273,7 @@ TEST_F(AnnotationToolTest, AClickThatBeginsALineDropsTheChoice) {
   EXPECT_EQ(annotations().points.size(), 1u);
 }
 
-TEST_F(AnnotationToolTest, ALineThatWaitsForItsPlaceStaysChosenWhileItIsDrawn) {
+TEST_F(AnnotationToolTest, IncompleteLine_StaysSelectedWhileDrawn) {
   state_.setNudgedPose(truth());
   controller_.setMode(PlaceMode::kLine);
   tool().setSnaps(false);
@@ -303,7 +303,7 @@ TEST_F(AnnotationToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
   EXPECT_EQ(annotations().points.size(), 1u) << "annotation mode is off";
 }
 
-TEST_F(AnnotationToolTest, APressOnAAnnotationChoosesItAndADoubleClickDoesNotFit) {
+TEST_F(AnnotationToolTest, PressOnAnAnnotation_SelectsItAndDoubleClickDoesNotFit) {
   markMiddle();
   click(kMiddle + Eigen::Vector2d(30.0, 0.0));
   EXPECT_EQ(controller_.selected(), "p2");
@@ -318,7 +318,7 @@ TEST_F(AnnotationToolTest, APressOnAAnnotationChoosesItAndADoubleClickDoesNotFit
 
 /// With three named points annotated, the others are proposed: a click annotates one there, the
 /// right button begins it and the next click is its place.
-TEST_F(AnnotationToolTest, ProposalsAreConfirmedOrBegun) {
+TEST_F(AnnotationToolTest, ProposalClick_ConfirmsOrStartsAPair) {
   const auto corners = corners_m(8);
   ASSERT_GE(corners.size(), 6u);
   openLandmarks(corners, {0, 2, 5});
@@ -382,7 +382,7 @@ TEST_F(ImageAnnotationLayersTest, TheStationIsPickedOnTheEdgesThatShow) {
   EXPECT_EQ(tool().stationPose(), state_.shownPose());
 }
 
-TEST_F(ImageAnnotationLayersTest, TheBandIsThatOfTheAnnotationsAsTheyAreNow) {
+TEST_F(ImageAnnotationLayersTest, Band_FollowsTheCurrentAnnotations) {
   annotateAndSolve();
   EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "it is not switched on";
   show(LayerId::kAnnotationBand, true);
@@ -426,7 +426,7 @@ TEST_F(ImageAnnotationLayersTest, ResidualsAreDrawnAsLongAsTheyAreMagnified) {
   }
 }
 
-TEST_F(ImageAnnotationLayersTest, AClickOnAAnnotationChoosesItAlsoWhenNobodyAnnotates) {
+TEST_F(ImageAnnotationLayersTest, ClickOnAnAnnotation_SelectsItOutsideAnnotationMode) {
   markCorners(3);
   controller_.select({});
   const auto& point = annotations().points[1];

@@ -108,7 +108,7 @@ TEST_F(LoupeTest, FollowsThePointerInTheCornerThatItIsNotIn) {
   EXPECT_FALSE(loupe().isVisible());
 }
 
-TEST_F(LoupeTest, IsSwitchedOffAndIsNotThereWhereNobodyAnnotates) {
+TEST_F(LoupeTest, Loupe_SwitchedOffOrOutsideAnnotationMode_IsHidden) {
   moveTo({500.0, 500.0});
   ASSERT_TRUE(loupe().isVisible());
   loupe().setSwitchedOn(false);

@@ -186,7 +186,7 @@ TEST_F(SceneAnnotatingTest, WithoutAnEdgeALineIsRefusedWithAReason) {
   EXPECT_TRUE(controller_.annotations().empty());
 }
 
-TEST_F(SceneAnnotatingTest, TabGoesOnToOtherThingsAndComesBack) {
+TEST_F(SceneAnnotatingTest, Tab_CyclesThroughSnapTargets) {
   controller_.setMode(PlaceMode::kPoint);
   hover(pixelOf(kCorner_m) + QPointF(2.0, 1.0));
   ASSERT_EQ(aimText(), QStringLiteral("corner"));
@@ -222,7 +222,7 @@ TEST_F(SceneAnnotatingTest, APairIsCompletedFromTheSceneInEitherOrder) {
   EXPECT_EQ(controller_.annotations().points.size(), 1u);
 }
 
-TEST_F(SceneAnnotatingTest, AClickOnAAnnotationChoosesItUnlessSomebodyPlaces) {
+TEST_F(SceneAnnotatingTest, ClickOnAnAnnotation_OutsidePlacingMode_SelectsIt) {
   const std::string corner = controller_.placeOnStation(kCorner_m);
   controller_.select({});
   const std::string hidden = controller_.placeOnStation(kHiddenCorner_m);
@@ -255,7 +255,7 @@ TEST_F(SceneAnnotatingTest, EscapeDropsTheChoiceThenTheMode) {
   EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
 }
 
-TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndAnnotationsNothing) {
+TEST_F(SceneAnnotatingTest, Drag_TurnsTheViewOnly) {
   controller_.setMode(PlaceMode::kPoint);
   const double azimuth_rad = view_.navigation().orbit().azimuth_rad();
   const QPoint from = screenPixel(pixelOf(kCorner_m));
@@ -268,7 +268,7 @@ TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndAnnotationsNothing) {
   EXPECT_TRUE(controller_.annotations().empty());
 }
 
-TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned) {
+TEST_F(SceneAnnotatingTest, AnnotationMode_EnlargesTheStationUntilTheViewIsTurned) {
   const double all_m = view_.navigation().orbit().distance_m();
   controller_.setMode(PlaceMode::kPoint);
   EXPECT_LT(view_.navigation().orbit().distance_m(), all_m) << "without the cameras";
@@ -283,7 +283,7 @@ TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned)
       << figures.toStdString();
 }
 
-TEST_F(SceneAnnotatingTest, TheLoupeShowsThePlaceMagnifiedWhileSomebodyPlaces) {
+TEST_F(SceneAnnotatingTest, Loupe_InPlacingMode_ShowsTheMagnifiedPoint) {
   SceneLoupe& loupe = view_.annotator()->loupe();
   hover(pixelOf(kCorner_m));
   EXPECT_FALSE(loupe.isVisible()) << "placing mode is off";
@@ -362,7 +362,7 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
   EXPECT_EQ(shown, 1);
 }
 
-TEST_F(SceneAnnotatingTest, AnnotationsAreDrawnByWhatTheyAre) {
+TEST_F(SceneAnnotatingTest, Annotations_AreDrawnByTheirState) {
   const auto drawn = [this] { return view_.grab().toImage(); };
   const auto differing = [](const QImage& a, const QImage& b) {
     int count = 0;

@@ -82,7 +82,7 @@ TEST_F(AnnotationsModelTest, HasARowPerAnnotationPointsFirst) {
   EXPECT_EQ(model_.rowOf("none"), -1);
 }
 
-TEST_F(AnnotationsModelTest, ShowsWhatTheSolutionSaysOfEachAnnotation) {
+TEST_F(AnnotationsModelTest, Solution_FillsTheRowsOfItsAnnotations) {
   model_.setSolution(someSolution(model_.annotations()), false);
   EXPECT_EQ(text(0, AnnotationsModel::kResidualX_px), QStringLiteral("0.24"));
   EXPECT_EQ(text(0, AnnotationsModel::kWithout_mm), QStringLiteral("0.500"));
@@ -98,7 +98,7 @@ TEST_F(AnnotationsModelTest, ShowsWhatTheSolutionSaysOfEachAnnotation) {
   EXPECT_TRUE(text(1, AnnotationsModel::kNormalized).contains(QLatin1Char('!')));
 }
 
-TEST_F(AnnotationsModelTest, TellsEditsAndDoesNotMakeThem) {
+TEST_F(AnnotationsModelTest, Edits_AreSignalledNotApplied) {
   PointPair edited;
   QString name;
   QObject::connect(&model_, &AnnotationsModel::pointEdited, &model_,
@@ -119,7 +119,7 @@ TEST_F(AnnotationsModelTest, TellsEditsAndDoesNotMakeThem) {
   EXPECT_EQ(edited.comment, "left screw");
 }
 
-TEST_F(AnnotationsModelTest, RefusesWhatIsNoValue) {
+TEST_F(AnnotationsModelTest, InvalidValue_IsRefused) {
   int told = 0;
   QObject::connect(&model_, &AnnotationsModel::pointEdited, &model_, [&] { ++told; });
   for (const char* wrong : {"", "abc", "nan", "inf", "-1", "0"})

@@ -42,7 +42,7 @@ TEST_F(InputSheetPanelTest, RedFlagsComeFirstInPlainSentences) {
   EXPECT_TRUE(panel_.text().startsWith(flags()));
 }
 
-TEST_F(InputSheetPanelTest, ASheetsButtonAsksForWhatNoImageTells) {
+TEST_F(InputSheetPanelTest, UncertaintyButton_OpensTheDialog) {
   auto* button = panel_.findChild<QPushButton*>(QStringLiteral("inputSigmas"));
   EXPECT_FALSE(button->isEnabled());
   panel_.setSheet(someSheet());
@@ -52,7 +52,7 @@ TEST_F(InputSheetPanelTest, ASheetsButtonAsksForWhatNoImageTells) {
   EXPECT_EQ(asked, 1);
 }
 
-TEST(InputSigmasDialogTest, ShowsWhatIsAssumedAndGivesWhatIsStated) {
+TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
   sessions::SessionCase session_case;
   session_case.camera.width = session_case.camera.height = 2048;
   session_case.mesh_scale_sigma = 0.001;

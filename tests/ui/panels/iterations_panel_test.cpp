@@ -249,7 +249,7 @@ TEST_F(IterationsModelTest, TheIterationUnderWayChangesInPlace) {
   EXPECT_NE(text(2, IterationsModel::kInliers), QString());
 }
 
-TEST_F(IterationsModelTest, LeavesBlankWhatIsNotThereYet) {
+TEST_F(IterationsModelTest, MissingValues_AreBlank) {
   auto run = std::make_shared<sessions::LocalizationTrace>(*test::firstIterations(*run_, 1));
   auto early = std::make_shared<sessions::IterationTrace>(*run->iterations.front());
   early->reached = Stage::kTemplates;

@@ -64,7 +64,7 @@ TEST_F(MatchInspectorPanelTest, AClickChoosesATemplate) {
   }
 }
 
-TEST_F(MatchInspectorPanelTest, AChoiceElsewhereShowsHere) {
+TEST_F(MatchInspectorPanelTest, SelectionInAnotherView_IsShown) {
   view_.selectTemplate(7);
   EXPECT_EQ(panel_.filter().mapToSource(table_->currentIndex()).row(), 7);
   choose(TemplatesModel::Show::kNotSearched);
@@ -100,7 +100,7 @@ TEST_F(MatchInspectorPanelTest, ThePeakIsTheBrightestPlaceOfTheMap) {
   EXPECT_TRUE(map_->textAt({0.0, 0.0}).isEmpty());
 }
 
-TEST_F(MatchInspectorPanelTest, ADestroyedPanelDropsWhatItAskedFor) {
+TEST_F(MatchInspectorPanelTest, DestroyedPanel_DropsItsTasks) {
   auto other = std::make_unique<MatchInspectorPanel>(view_);
   view_.selectTemplate(8);
   other.reset();
@@ -117,7 +117,7 @@ TEST_F(MatchInspectorPanelTest, ARefinementShowsItsEdges) {
   EXPECT_EQ(table->item(0, 1)->text(), QString::number(view_.iteration()->refinement.sample_count));
 }
 
-TEST_F(MatchInspectorPanelTest, SaysWhyThereIsNothing) {
+TEST_F(MatchInspectorPanelTest, WithoutMatches_ReportsTheReason) {
   view_.setCursor({-1, Stage::kFinished});
   EXPECT_FALSE(table_->isVisible());
   view_.setCase(nullptr);
@@ -156,7 +156,7 @@ TEST(PatchPictures, ShowEdgesOverMask) {
   EXPECT_EQ(picture.pixel(1, 3), patch_colors::kGround);
 }
 
-TEST(PatchPictures, TellApartWhoSawWhat) {
+TEST(PatchPictures, Colours_SeparateRenderedAndSeenEdges) {
   // The template's centre (2, 2) lies at (3, 3) of what was seen.
   const QImage picture =
       agreementPicture(edges.view(), mask.view(), {2, 2, 4}, seen.view(), {3, 3, 4});
@@ -181,7 +181,7 @@ TEST(PixelPlace, EnlargesByWholeDevicePixelsWhereItCan) {
   EXPECT_EQ(pixelPlace({100, 10}, {0, 0, 50, 50}, 1.0), QRectF(0, 23, 50, 5));
 }
 
-TEST(HeatColors, GetLighterAllTheWay) {
+TEST(HeatColors, LightnessIncreasesMonotonically) {
   double before = -1.0;
   for (int i = 0; i <= 100; ++i) {
     const QRgb color = heatColor(0.01 * i).rgb();

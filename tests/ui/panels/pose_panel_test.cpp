@@ -97,7 +97,7 @@ TEST_F(PosePanelTest, ZeroHasNoSign) {
   EXPECT_EQ(cell(kX, PoseRole::kNudged), QStringLiteral("0.0000"));
 }
 
-TEST_F(PosePanelTest, CopiesWhatCanBeReadBack) {
+TEST_F(PosePanelTest, CopiedPose_CanBePasted) {
   const Pose truth = *state_.currentCase()->source.camera_from_station_truth;
   find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kTruth));
   for (const char* button : {"copyRotationVector", "copyQuaternion", "copyMatrix"}) {
@@ -191,7 +191,7 @@ TEST_F(PosePanelTest, StepsOfASpinBoxInOneGoAreOneGesture) {
   EXPECT_NEAR(box.value(), 1.0, 1e-9);
 }
 
-TEST_F(PosePanelTest, GoesBackAndDrops) {
+TEST_F(PosePanelTest, BackAndDiscard_ResetTheNudgedPose) {
   const Pose estimate = state_.shownPose();
   QTest::keyClick(&pad(), Qt::Key_Left);
   QTest::mouseClick(&find<QPushButton>("backToEstimate"), Qt::LeftButton);
@@ -274,7 +274,7 @@ TEST(PastePoseDialog, RefusesWhatIsNoRotationInASentence) {
     EXPECT_NE(button->isEnabled(), button->text().startsWith(QStringLiteral("Nudge")));
 }
 
-TEST(PastePoseDialog, GuessesAndLetsPeopleCorrect) {
+TEST(PastePoseDialog, Guess_CanBeCorrected) {
   PastePoseDialog dialog(QStringLiteral("0 1 0 0  -1 0 0 0  0 0 1 0  0.1 0.2 0.3 1"));
   ASSERT_TRUE(dialog.parsed().valid);
   EXPECT_EQ(dialog.parsed().camera_from_station.translation_m, Eigen::Vector3d(0.1, 0.2, 0.3));

@@ -75,7 +75,7 @@ class QueuePanelTest : public test::WindowTest {
   QString bad_ = QString::fromStdString(RunExample::get().bad);
 };
 
-TEST_F(QueuePanelTest, IsFilledInTheBackgroundWithTheMostTroubledFirst) {
+TEST_F(QueuePanelTest, Queue_IsFilledInTheBackgroundWorstFirst) {
   ASSERT_TRUE(table_->hasFocus()) << "the key leads into the list";
   ASSERT_TRUE(filled());
   EXPECT_EQ(listed(), QStringList({bad_, good_}));
@@ -106,7 +106,7 @@ TEST_F(QueuePanelTest, EnterOpensTheIterationThatFailed) {
       << "also when the case is shown already";
 }
 
-TEST_F(QueuePanelTest, AcceptAsksWhoAndWhyValidatesAndGoesOn) {
+TEST_F(QueuePanelTest, Accept_AsksNameAndReasonThenValidatesAndContinues) {
   ASSERT_TRUE(filled());
   press(Qt::Key_J);
   ASSERT_EQ(panel_->chosenCase(), good_);
@@ -163,7 +163,7 @@ TEST_F(QueuePanelTest, EscapeLeavesTheQuestion) {
   EXPECT_TRUE(decisions().empty()) << "nothing was asked";
 }
 
-TEST_F(QueuePanelTest, ChecksAnewWhatARowRestsOn) {
+TEST_F(QueuePanelTest, ChangedInputs_ChecksTheRowAgain) {
   ASSERT_TRUE(filled());
   sessions::Session changed = window_.document().session();
   changed.review.limits = {{"check.inlier_count", 9999.0}};
@@ -283,7 +283,7 @@ TEST_F(ResultsQueueTest, RunsAreListedChosenAndRepeatedToTheBit) {
   }
 }
 
-TEST_F(ResultsQueueTest, WhatIsNoResultsFileIsToldAndNothingIsLost) {
+TEST_F(ResultsQueueTest, OtherFile_IsReportedAndTheSessionStays) {
   folder_.write("no.sqlite", "no");
   drop(folder_.path() / "no.sqlite");
   ASSERT_TRUE(wait([&] { return resting() && !window_.lastMessage().isEmpty(); }));

@@ -73,7 +73,7 @@ class ReviewPanelTest : public ::testing::Test {
   std::unique_ptr<ReviewPanel> panel_;
 };
 
-TEST_F(ReviewPanelTest, WithoutASessionItSaysSo) {
+TEST_F(ReviewPanelTest, WithoutSession_ReportsIt) {
   EXPECT_EQ(hands().table().model()->rowCount(), 0);
   EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "No session"));
   EXPECT_FALSE(hands().button("validate")->isEnabled());
@@ -103,7 +103,7 @@ TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
   EXPECT_TRUE(test::has(banner(), "NOT VALIDATED"));
 }
 
-TEST_F(ReviewPanelTest, NothingIsCheckedWhileNobodyLooks) {
+TEST_F(ReviewPanelTest, HiddenPanel_ChecksNothing) {
   panel_->hide();
   open(RunExample::get().withItsRun(file()), RunExample::get().id);
   EXPECT_FALSE(controller().isBusy());
@@ -178,7 +178,7 @@ TEST_F(ReviewPanelTest, TheNameIsRememberedAndTheCommentIsNot) {
             QStringLiteral("Ada"));
 }
 
-TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
+TEST_F(ReviewPanelTest, Approval_NeedsAnotherPerson) {
   openRun();
   controller().setSecondPerson(true);
   validateAs(QStringLiteral("Ada"));
@@ -209,7 +209,7 @@ TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
   EXPECT_TRUE(history().contains(QStringLiteral("Taken back by Grace"))) << "the newest first";
 }
 
-TEST_F(ReviewPanelTest, AnnotationsCanBeJudgedInsteadAndTheirChangeIsTold) {
+TEST_F(ReviewPanelTest, AnnotatedPose_CanBeJudgedAndItsChangeIsReported) {
   sessions::Session session = RunExample::get().withItsRun(file());
   const std::string id = RunExample::get().id;
   session = withAnnotations(session, id, *test::annotatedExample(0.2).annotations.at(id));
@@ -334,7 +334,7 @@ class PoseExportTest : public ReviewPanelTest {
   QString said_;
 };
 
-TEST_F(PoseExportTest, WhatIsNotValidatedIsCalledSoInTheFile) {
+TEST_F(PoseExportTest, UnvalidatedPose_IsLabelledInTheFile) {
   EXPECT_TRUE(test::has(exporter_.poseFileName(), "NOT_VALIDATED"));
   exporter_.exportPose(folder_.path() / "pose.json");
   ASSERT_TRUE(rests());
@@ -344,7 +344,7 @@ TEST_F(PoseExportTest, WhatIsNotValidatedIsCalledSoInTheFile) {
   EXPECT_EQ(exporter_.poseFileName(), QStringLiteral("validated_pose.json"));
 }
 
-TEST_F(PoseExportTest, AReportIsWrittenOfWhatIsShown) {
+TEST_F(PoseExportTest, Report_IsOfTheShownCase) {
   const std::filesystem::path file = folder_.path() / "report.pdf";
   exporter_.exportReport(file);
   ASSERT_TRUE(rests());
@@ -352,7 +352,7 @@ TEST_F(PoseExportTest, AReportIsWrittenOfWhatIsShown) {
   EXPECT_GT(std::filesystem::file_size(file), 10000u);
 }
 
-TEST_F(PoseExportTest, AResultsFileOfPosesThatNobodyValidatedHasToSaySo) {
+TEST_F(PoseExportTest, ResultsOfUnvalidatedPoses_NeedANameThatSaysSo) {
   exporter_.exportBopResults(folder_.path() / "results.csv", 1);
   ASSERT_TRUE(rests());
   EXPECT_TRUE(test::has(said_, "NOT-VALIDATED"));
@@ -412,7 +412,7 @@ TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
   EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
 }
 
-TEST_F(ReviewWindowTest, AnotherSeedDropsTheValidationAndItIsSaidWhy) {
+TEST_F(ReviewWindowTest, NewSeed_InvalidatesTheValidationWithTheReason) {
   runAndValidate();
   moveSeed(0.001);
   EXPECT_FALSE(panel().controller().isCurrent()) << "stale at once";

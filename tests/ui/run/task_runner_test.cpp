@@ -76,7 +76,7 @@ TEST_F(TaskRunnerTest, OfOneKindOnlyTheNewestCounts) {
   EXPECT_EQ(taken_, (std::vector<int>{4, 7}));
 }
 
-TEST_F(TaskRunnerTest, WhatIsCancelledIsNotTaken) {
+TEST_F(TaskRunnerTest, CancelledTask_IsNotDelivered) {
   startGated(QStringLiteral("gated"));
   startValue(QStringLiteral("value"), 1);
   startValue(QStringLiteral("other"), 2);
@@ -87,7 +87,7 @@ TEST_F(TaskRunnerTest, WhatIsCancelledIsNotTaken) {
   EXPECT_EQ(taken_, std::vector<int>{2});
 }
 
-TEST_F(TaskRunnerTest, WhatIsStoppedIsStillTaken) {
+TEST_F(TaskRunnerTest, StoppedTask_IsDelivered) {
   startGated(QStringLiteral("gated"));
   runner_.stop(QStringLiteral("gated"));
   gate_.set_value();
@@ -139,7 +139,7 @@ TEST_F(TaskRunnerTest, SaysWhyATaskFailedAndGoesOn) {
   EXPECT_TRUE(failures_[1].contains(QStringLiteral("not enough memory")));
 }
 
-TEST(TaskRunner, GoesWhileItWorks) {
+TEST(TaskRunner, Destruction_WhileATaskRuns_IsSafe) {
   std::promise<void> begun;
   TaskRunner runner;
   runner.run(QStringLiteral("endless"),

@@ -90,7 +90,7 @@ TEST_F(ImagePanelTest, TheStationPointUnderThePointerIsTold) {
   }
 }
 
-TEST_F(ImagePanelTest, BesideTheStationOnlyThePixelIsTold) {
+TEST_F(ImagePanelTest, PointerOffTheStation_ShowsOnlyThePixel) {
   pointAt({3.0, 5.0});
   EXPECT_TRUE(text_.contains(QStringLiteral("gray ")));
   EXPECT_FALSE(pointInText());
@@ -188,7 +188,7 @@ TEST_F(LayersPanelTest, ABoxShowsAndHidesItsLayer) {
   }
 }
 
-TEST_F(LayersPanelTest, FollowsWhatAKeyHasDone) {
+TEST_F(LayersPanelTest, LayerKey_UpdatesThePanel) {
   LayerStyle style = image_.style(LayerId::kTruthEdges);
   style.visible = !style.visible;
   style.opacity = 0.25;

@@ -66,7 +66,7 @@ TEST_F(MaskEditorTest, ADragWithTheBrushIsOneStrokeThroughThePointersPlaces) {
   EXPECT_EQ(view_.transform().toWidget(QPointF(0.0, 0.0)), before) << "the image does not move";
 }
 
-TEST_F(MaskEditorTest, WhatIsDrawnShowsUntilTheMaskHasIt) {
+TEST_F(MaskEditorTest, DrawnStroke_ShowsUntilTheMaskContainsIt) {
   editor_.setTool(MaskTool::kBrush);
   editor_.setRadius(3.0);
   send(QEvent::MouseButtonPress, place(20, 30));

@@ -34,7 +34,7 @@ class InputFindingsTest : public test::WindowTest {
   fs::path inputs_ = folder_.path() / "inputs";
 };
 
-TEST_F(InputFindingsTest, SaysNothingOfASessionThatIsWhole) {
+TEST_F(InputFindingsTest, CompleteSession_HasNoFindings) {
   open();
   EXPECT_TRUE(window_.findings().findings().empty());
 }
@@ -54,7 +54,7 @@ TEST_F(InputFindingsTest, AMovedImageIsMissedAtOnceAndFoundAgain) {
   EXPECT_TRUE(window_.document().canUndo());
 }
 
-TEST_F(InputFindingsTest, AMissingImageThatIsNowhereIsSaidToBe) {
+TEST_F(InputFindingsTest, MissingImage_NotFoundBelowTheFolder_IsReported) {
   open();
   fs::remove(image());
   reopen();
@@ -98,7 +98,7 @@ TEST_F(InputFindingsTest, AnotherCasesImageIsNotShownUnderTheNameOfOneThatIsMiss
   EXPECT_NE(window_.state().currentCase(), nullptr);
 }
 
-TEST_F(InputFindingsTest, AChangedFileIsTakenAsItIsWhenSomebodySaysSo) {
+TEST_F(InputFindingsTest, ChangedFile_AfterAcceptance_IsUsed) {
   open();
   const std::string id = window_.cases().caseId().toStdString();
   const auto hash = [&] { return window_.document().session().findCase(id)->image.source.sha256; };

@@ -59,7 +59,7 @@ TEST_F(LayoutTest, IsRememberedByTheNextWindow) {
   EXPECT_FALSE(next.dock(QStringLiteral("cases"))->isHidden());
 }
 
-TEST_F(LayoutTest, PicturesAndTestsNeitherTakeNorLeaveOne) {
+TEST_F(LayoutTest, PicturesAndTests_NeitherReadNorStoreALayout) {
   {
     MainWindow window;
     window.show();
@@ -69,7 +69,7 @@ TEST_F(LayoutTest, PicturesAndTestsNeitherTakeNorLeaveOne) {
   EXPECT_TRUE(QSettings().allKeys().isEmpty());
 }
 
-TEST_F(LayoutTest, ArrangedAnewEveryPanelIsBack) {
+TEST_F(LayoutTest, ArrangePanels_RestoresEveryPanel) {
   MainWindow window;
   window.resize(1600, 1000);
   window.show();
@@ -107,7 +107,7 @@ TEST_F(LayoutTest, RecentFilesAreTheNewestFirstWithoutThoseThatAreGone) {
 }
 
 /// The session's folder is read-only, and what waits in its journal is shown too.
-TEST_F(LayoutTest, APictureShowsWhatIsOnlyInTheJournalAndWritesNothingBesideTheSession) {
+TEST_F(LayoutTest, Picture_ShowsJournalledEditsAndWritesNothingElse) {
   const std::filesystem::path file = folder_.path() / "one.boresight.json";
   const sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
   {

@@ -105,7 +105,7 @@ TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
   EXPECT_EQ(session.runs[1].digest, headless.digest);
 }
 
-TEST_F(MaskEditingTest, AnEditLeavesTheShownPlaceOfTheRunAlone) {
+TEST_F(MaskEditingTest, Edit_KeepsTheShownIteration) {
   ASSERT_TRUE(runToTheEnd(1));
   window_.state().setCursor({0, Stage::kMatch});
   window_.state().selectTemplate(2);
@@ -168,7 +168,7 @@ TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
   EXPECT_EQ(strokes("second"), strokes(id_));
 }
 
-TEST_F(MaskEditingTest, NothingIsDrawnInASessionThatCannotBeEdited) {
+TEST_F(MaskEditingTest, ReadOnlySession_CannotBeDrawnOn) {
   ASSERT_TRUE(window_.document().save());
   const auto file = folder_.path() / "one.boresight.json";
   window_.document().close();

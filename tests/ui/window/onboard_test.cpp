@@ -163,7 +163,7 @@ TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
   EXPECT_TRUE(test::has(table->item(table->rowCount() - 1, 1)->text(), "sigmas"));
 }
 
-TEST_F(OnboardTest, WhatCannotBeReadIsTold) {
+TEST_F(OnboardTest, UnreadableRecord_IsReported) {
   openExample();
   drop(folder_.write("not.whsr", "something else"));
   EXPECT_TRUE(test::has(window_.lastMessage(), "is not an onboard record"));

@@ -40,7 +40,7 @@ class RerunTest : public test::WindowTest {
   ViewState::SnapshotPtr first_;
 };
 
-TEST_F(RerunTest, KeepsWhatWasBeforeAndRecordsARunThatIsTheSameHeadless) {
+TEST_F(RerunTest, Rerun_KeepsEarlierIterationsAndEqualsTheHeadlessRun) {
   openAndRun();
   window_.cases().setOptions(QStringLiteral("default"), otherOptions());
   rerun();
@@ -213,7 +213,7 @@ TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
             sessions::runViews(session(), session().cases[0]->id)[0].digest);
 }
 
-TEST_F(ViewsRunWindowTest, ItIsNotGoneOnFromAnIteration) {
+TEST_F(ViewsRunWindowTest, ViewsRun_CannotContinueFromAnIteration) {
   open(test::sessionOfTwoViews(folder_.path()));
   together()->trigger();
   ASSERT_TRUE(wait([&] { return session().runs.size() == 2 && resting(); }));

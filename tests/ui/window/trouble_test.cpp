@@ -193,7 +193,7 @@ TEST_F(TroubleTest, AReadOnlyFolderIsToldAndTheSessionIsSavedElsewhere) {
   std::filesystem::permissions(folder_.path(), std::filesystem::perms::owner_all);
 }
 
-TEST_F(TroubleTest, EditsOfAKilledProgramAreOfferedAndTaken) {
+TEST_F(TroubleTest, EditsOfAKilledProgram_AreOfferedAndRecovered) {
   openExample();
   setSeed(0.25);
   window_.document().close();  // as a kill does it: nothing is saved

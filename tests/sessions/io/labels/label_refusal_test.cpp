@@ -16,7 +16,7 @@ namespace {
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
 
-TEST(LabelRefusal, WhatIsNoPictureIsRefusedInOneSentence) {
+TEST(LabelRefusal, NonImageProducts_AreRefusedInOneSentence) {
   const TemporaryFolder folder;
   VicarFile vicar;
   const auto message = [&](const auto& bytes) {
@@ -119,7 +119,7 @@ TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
             "x.img: RECORD_BYTES: 4294967424" + reason);
 }
 
-TEST(LabelRefusal, LabelsThatLieOfTheirPixelsAreRefused) {
+TEST(LabelRefusal, LabelsThatContradictTheirPixels_AreRefused) {
   const TemporaryFolder folder;
   Pds3File pds;
   const Raster raster = Raster::counting(8, 8);

@@ -308,7 +308,7 @@ TEST(LabelOutliers, AFewAreClippedAndCounted) {
   }
 }
 
-TEST(LabelOutliers, RangeStaysWholeWhereNothingIsFarOff) {
+TEST(LabelOutliers, NoOutliers_KeepTheFullRange) {
   const TemporaryFolder folder;
   std::vector<double> bright;  // a small thing, 70 pixels of 8000
   for (int i = 0; i < 70; ++i) bright.push_back(40.0 + 0.01 * i);
