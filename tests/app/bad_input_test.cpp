@@ -126,7 +126,7 @@ TEST_F(BadInput, RefusesAMeshOfManyFacesBehindEachOther) {
            {"--seed", seedWith("[[1,0,0,0],[0,-1,0,0],[0,0,-1,1.0],[0,0,0,1]]")}});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_THAT(refused.err, HasSubstr("layers.ply"));
-  EXPECT_THAT(refused.err, HasSubstr("behind each other"));
+  EXPECT_THAT(refused.err, HasSubstr("overlap in an image row"));
 }
 
 TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
@@ -137,8 +137,8 @@ TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
 }
 
 TEST_F(BadInput, DoubtsTheUnitOfAMeshAThousandTimesTooSmallOrTooLarge) {
-  expectRefused({{"--mesh-unit", "mm"}}, "model.ply: mesh_unit", "is the unit right?");
-  expectRefused({{"--mesh-unit", "km"}}, "model.ply: mesh_unit", "is the unit right?");
+  expectRefused({{"--mesh-unit", "mm"}}, "model.ply: mesh_unit", "check the unit");
+  expectRefused({{"--mesh-unit", "km"}}, "model.ply: mesh_unit", "check the unit");
 }
 
 TEST_F(BadInput, RefusesASeedThatIsNoRigidTransform) {
@@ -169,7 +169,7 @@ TEST_F(BadInput, NamesAnOptionThatIsOutOfRangeOrUnknown) {
   expectRefused({{"--config", config(R"("templates.count": 0)")}},
                 "config.json: options.templates.count", "");
   expectRefused({{"--config", config(R"("templates.colour": 1)")}},
-                "config.json: options.templates.colour", "no such option");
+                "config.json: options.templates.colour", "unknown option");
 }
 
 TEST_F(BadInput, NamesAnOutputThatCannotBeWritten) {
@@ -257,7 +257,7 @@ class Overwrite : public testing::Test {
     const ProgramRun run = runWhs(arguments);
     EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.err;
     EXPECT_EQ(run.errorLines(), 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("which would be lost; name another file"));
+    EXPECT_THAT(run.err, HasSubstr("which would be overwritten; give another file"));
     for (const std::string& word : words) EXPECT_THAT(run.err, HasSubstr(word)) << arguments[0];
     EXPECT_TRUE(contents() == before) << arguments[0] << " changed a file";
   }

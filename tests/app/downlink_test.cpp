@@ -268,7 +268,7 @@ TEST_F(Downlink, OfADataSetIsEvaluated) {
 
 TEST_F(Downlink, WithoutALabelACameraIsAskedFor) {
   EXPECT_THAT(runWhs(localizeArguments({{"--camera", ""}}), 3).err,
-              HasSubstr("the image has no label that could tell it"));
+              HasSubstr("the image has no label with a camera model"));
 }
 
 TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {

@@ -125,7 +125,7 @@ TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
   }
   ASSERT_GE(held, 1);
   EXPECT_THAT(runWhs(arguments, 0).err,
-              HasSubstr("going on, " + std::to_string(held) + " of 12 runs are there"));
+              HasSubstr("resumed, " + std::to_string(held) + " of 12 runs are done"));
   const sessions::Results results = sessions::readResults(folder_ / "r.sqlite");
   ASSERT_EQ(results.runs.size(), 12u);
   std::int64_t done = 0;
@@ -295,7 +295,7 @@ TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {
       const ProgramRun run = runWhs(arguments);
       EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.out;
       EXPECT_EQ(run.errorLines(), 1) << run.err;
-      EXPECT_THAT(run.err, AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not one that whs "
+      EXPECT_THAT(run.err, AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not from whs "
                                                                         "evaluate makes")));
       EXPECT_EQ(run.out, "");
     }

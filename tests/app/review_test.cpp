@@ -62,7 +62,7 @@ TEST_F(ReviewCommands, PoseThatDiffersFromItsMeasurement_IsNeitherSignedNorRepor
                               Arguments{"report", "--out", folder_ / "pose.pdf"}}) {
     const ProgramRun run = runWhs({to[0], session_, "--case", kOsCase, to[1], to[2]}, 3);
     EXPECT_EQ(run.errorLines(), 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("another pose comes out"));
+    EXPECT_THAT(run.err, HasSubstr("the pose differs"));
     EXPECT_FALSE(std::filesystem::exists(to[2]));
   }
 }

@@ -46,7 +46,7 @@ TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
   alone = sessions::withoutRigLink(alone, session.cases[0]->id);
   sessions::writeSessionFile(file, alone);
   EXPECT_THAT(runWhs({"run", file, "--views", "--case", session.cases[0]->id}, 3).err,
-              HasSubstr("of no rig"));
+              HasSubstr("has no rig"));
 }
 
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
@@ -173,7 +173,7 @@ TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
   EXPECT_EQ(folder.read("s.zip").substr(0, 2), "PK");
   folder.write("stations/os/model.ply", folder.read("stations/bc/model.ply"));
   EXPECT_THAT(runWhs({"pack", file, "--out", folder / "t.zip"}, 3).err,
-              HasSubstr("stations/os/model.ply: it is not the file"));
+              HasSubstr("stations/os/model.ply: it differs from the session's file"));
   EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
   const ProgramRun run = runWhs({"run", file, "--case", kOsCase}, 3);
   EXPECT_THAT(run.err, HasSubstr("its bytes are not those that the session was made with"));
@@ -246,7 +246,8 @@ TEST_F(WhsExchange, TakesPosesOutAndInAgain) {
     EXPECT_EQ(out.out, bc_ + "\n");
     // Another folder of this name is not touched.
     runWhs({"export", file_, form, folder, "--case", bc_}, 3);
-    EXPECT_THAT(runWhs({"import", file_, form, folder}, 3).err, HasSubstr("another truth already"));
+    EXPECT_THAT(runWhs({"import", file_, form, folder}, 3).err,
+                HasSubstr("already has another truth"));
     const ProgramRun in = runWhs({"import", file_, form, folder, "--replace"}, 0);
     EXPECT_EQ(in.out, bc_ + "\n");
     const auto error = perturbationBetween(*saved().findCase(bc_)->camera_from_station_truth,

@@ -118,7 +118,7 @@ TEST_F(WhsSolve, SaysWhereItsSigmasAreAndKeepsTheCovarianceWithThePose) {
   *annotations.points[3].pixel += Eigen::Vector2d(1.0, -1.0);
   EXPECT_THAT(solve(annotations, 0, {"--out", folder_ / "pose.json"}).out,
               AllOf(HasSubstr("1 sigma at the camera"),
-                    HasSubstr("without: how far the middle of the marked places moves")));
+                    HasSubstr("without: change of the annotations' centre")));
   const auto covariance = sessions::readPose(folder_ / "pose.json").covariance;
   ASSERT_TRUE(covariance);
   EXPECT_GT(covariance->diagonal().minCoeff(), 0.0);

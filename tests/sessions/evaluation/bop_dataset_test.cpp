@@ -178,7 +178,7 @@ TEST_F(BopDataset, SaysWhatIsMissing) {
                 R"({"0": {"cam_model": {"projection_params": []}}, "3": {}})");
   EXPECT_THAT(errorOf(), HasSubstr("only pinhole cameras (cam_K)"));
   std::filesystem::remove(folder_ / "test/000002/scene_gt.json");
-  EXPECT_THAT(errorOf(), HasSubstr("without true poses"));
+  EXPECT_THAT(errorOf(), HasSubstr("seeds are drawn about true poses"));
 }
 
 TEST_F(BopDataset, ResultsAreOfCompletedRunsAndShareAnImagesTime) {

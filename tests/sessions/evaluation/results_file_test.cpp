@@ -345,7 +345,8 @@ TEST_F(MergeResults, RunsWithDifferentResults_AreRefused) {
   other.digest = "abd";
   write("a", {sampleRun("bc-1", 0, 0)});
   write("b", {other, sampleRun("os-2", 1, 0)});
-  EXPECT_THAT(refusal({"a", "b"}), HasSubstr("b: run of bc-1: seed 0, method whs ended otherwise"));
+  EXPECT_THAT(refusal({"a", "b"}),
+              HasSubstr("b: run of bc-1: seed 0, method whs has another result"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
   EXPECT_EQ(folder_.fileCount(), 2u);
 }
@@ -359,7 +360,7 @@ TEST_F(MergeResults, ComparesPosesWhereAMethodHasNoDigest) {
   EXPECT_EQ(merge({"a", "b"}).equal, 1);
   other.camera_from_station.translation_m.x() += 1e-6;
   write("c", {other});
-  EXPECT_THAT(refusal({"a", "c"}), HasSubstr("ended otherwise"));
+  EXPECT_THAT(refusal({"a", "c"}), HasSubstr("has another result"));
 }
 
 TEST_F(MergeResults, RefusesOtherOptionsAndDatasets) {

@@ -118,7 +118,7 @@ TEST_F(AnnotationExchange, Export_OfUnsupportedCases_ReportsTheReason) {
     return message(
         [&] { (void)sessions::exportColmap(session, folder_ / "m", annotated(session, ids)); });
   };
-  EXPECT_THAT(colmap(session_, {}), HasSubstr("are of different stations"));
+  EXPECT_THAT(colmap(session_, {}), HasSubstr("have different stations"));
   EXPECT_THAT(colmap(session_, {"x"}), HasSubstr("there is no case 'x'"));
   const Session none = withAnnotations(withAnnotations(session_, bc_, {}), os_, {});
   EXPECT_THAT(colmap(none, {}), HasSubstr("no case has annotations"));
@@ -152,7 +152,7 @@ TEST_F(AnnotationExchange, Import_OfUnsupportedFiles_ReportsTheReason) {
     return message([&] { (void)sessions::importColmap(session_, folder_ / "", replace); });
   };
   EXPECT_EQ(read({image}, true), "(nothing)");
-  EXPECT_THAT(read({image}, false), HasSubstr("has another truth already"));
+  EXPECT_THAT(read({image}, false), HasSubstr("already has another truth"));
   sessions::PosedImage other = image;
   other.id = 2;
   EXPECT_THAT(read({image, other}, true), HasSubstr("two of the poses"));
@@ -235,14 +235,15 @@ TEST_F(PoseExchange, PoseThatItsAnnotationsContradict_IsLeftOut) {
   EXPECT_THROW(posesToHandOver(session_, {os_}), sessions::InputError);
   const sessions::CasePoses others = posesToHandOver(session_, {});
   EXPECT_EQ(others.poses.size(), 1u);
-  EXPECT_THAT(others.notes, testing::ElementsAre(HasSubstr("another pose comes out")));
+  EXPECT_THAT(others.notes, testing::ElementsAre(HasSubstr("the pose differs")));
 }
 
 TEST_F(PoseExchange, AnotherPoseOfAValidatedCaseIsNotTheValidatedOne) {
   sessions::CasePoses poses = posesToHandOver(session_, {os_});
   poses.poses[0].camera_from_station.translation_m.x() += 1e-9;
   exportColmap(session_, folder_ / "os", poses);
-  EXPECT_THAT(folder_.read("os/images.txt"), HasSubstr("NOT VALIDATED: another pose"));
+  EXPECT_THAT(folder_.read("os/images.txt"),
+              HasSubstr("NOT VALIDATED: the validation is of another pose"));
 }
 
 }  // namespace

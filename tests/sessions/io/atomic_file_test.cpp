@@ -192,8 +192,8 @@ TEST(AtomicFolder, ReplacesNothing) {
   const auto message = [&](const char* name) {
     return folder.message([&] { writeFolderAtomically(folder / name, fill); });
   };
-  EXPECT_THAT(message("full"), HasSubstr("something of this name already"));
-  EXPECT_THAT(message("full/a"), HasSubstr("something of this name already"));
+  EXPECT_THAT(message("full"), HasSubstr("the name exists"));
+  EXPECT_THAT(message("full/a"), HasSubstr("the name exists"));
   EXPECT_THAT(message("none/new"), HasSubstr("cannot write"));
   EXPECT_THROW(writeFolderAtomically("", fill), OutputError);
   EXPECT_EQ(folder.read("full/a"), "mine");

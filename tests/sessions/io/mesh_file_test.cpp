@@ -335,7 +335,7 @@ TEST_F(ReadMesh, CountsSliversAndRefusesNothingButSlivers) {
   mesh.vertices[8] = Eigen::Vector3f(0.0F, 0.0F, 9.0F);
   EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("slivers"));
   mesh.polygons = {{8, 8, 9}};
-  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("no surface"));
+  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("no area"));
 }
 
 TEST_F(ReadMesh, TriangulatesConcavePolygons) {

@@ -184,7 +184,7 @@ TEST(OnboardRecord, MissingBlocks_AreListed) {
   EXPECT_FALSE(read.whole());
   ASSERT_TRUE(read.end);
   EXPECT_EQ(read.end->digest, whole.trace.digest);
-  EXPECT_THAT(read.missing, testing::Contains(HasSubstr("found no room on board")));
+  EXPECT_THAT(read.missing, testing::Contains(HasSubstr("did not fit on board")));
 }
 
 TEST(OnboardRecord, ChangedOptions_AreRecordedWithTheirIteration) {

@@ -139,7 +139,7 @@ TEST(ReplayRecord, EqualsTheGroundRunInCommonFields) {
     expectSamePairs(iteration, *b.iterations[i]);
     expectSameScores(iteration, *b.iterations[i]);
   }
-  EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
+  EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge points of refinements")));
   EXPECT_THAT(runStatusText(a), testing::StartsWith("Onboard record, replayed. Converged"));
 }
 
@@ -163,7 +163,7 @@ TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
     expectSameRender(replay.iterations[i]->render, run.trace.iterations[i]->render);
     expectSameTemplates(*replay.iterations[i], *run.trace.iterations[i]);
   }
-  EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
+  EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge points of refinements")));
 }
 
 /// What a replay shows is the whole record's, as far as it goes.
@@ -180,7 +180,7 @@ void expectBeginning(const LocalizationTrace& part, const LocalizationTrace& who
   } else {
     EXPECT_FALSE(part.converged());
     EXPECT_TRUE(part.digest.empty());
-    EXPECT_THAT(part.remarks, Contains(HasSubstr("The record lacks something")));
+    EXPECT_THAT(part.remarks, Contains(HasSubstr("The record is incomplete")));
   }
 }
 
@@ -233,13 +233,13 @@ TEST(ReplayRecord, DifferencesFromTheRunOnBoard_AreReported) {
   for (auto& value : other.image.pixels) value = static_cast<std::uint8_t>(255 - value / 2);
   EXPECT_THAT(remarks(whole.run.record, other.problem()),
               testing::AllOf(Contains(HasSubstr("other pixels")),
-                             Contains(HasSubstr("edges here are not those"))));
+                             Contains(HasSubstr("image edges differ"))));
   const ExampleCase bc("bc");
   EXPECT_THAT(
       remarks(whole.run.record, bc.problem()),
-      testing::AllOf(Contains(HasSubstr("another mesh")),
+      testing::AllOf(Contains(HasSubstr("mesh differs")),
                      Contains(HasSubstr("not rendered here as it was on board in iteration 1")),
-                     Contains(HasSubstr("their points are not known"))));
+                     Contains(HasSubstr("their points are unknown"))));
   OnboardRecord larger = whole.run.record;
   larger.inputs->width *= 2;
   const LocalizationTrace poses = replayRecord(larger, whole.problem);
@@ -254,7 +254,7 @@ TEST(ReplayRecord, ColorOfTheImage_CountsOnlyWhereTheRunLookedAtIt) {
   const std::vector<std::uint8_t> color = colorOf(gray.image);
   LocalizationProblem colored = gray;
   colored.color = {color.data(), gray.image.width, gray.image.height, 3 * gray.image.width};
-  const auto other_pixels = Contains(HasSubstr("saw other pixels"));
+  const auto other_pixels = Contains(HasSubstr("pixels differ"));
 
   const RecordedRun& of_gray = exampleRun().run;
   EXPECT_THAT(replayRecord(of_gray.record, colored).remarks, testing::Not(other_pixels));

@@ -80,7 +80,7 @@ TEST_F(PoseReportTest, UnvalidatedPose_IsLabelledOnEveryPage) {
     EXPECT_THAT(pageText(file, page), HasSubstr("page " + std::to_string(page) + " of 2"));
   }
   EXPECT_EQ(pageText(file, 3), "");
-  EXPECT_THAT(pageText(file, 2), HasSubstr("as they are now"));
+  EXPECT_THAT(pageText(file, 2), HasSubstr(", current"));
 }
 
 TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
@@ -98,7 +98,7 @@ TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
                       1e3 * subject.camera_from_station.translation_m.z());
   EXPECT_THAT(first, HasSubstr(translation));
   const std::string second = pageText(file, 2);
-  EXPECT_THAT(second, HasSubstr("as they were when it was decided"));
+  EXPECT_THAT(second, HasSubstr("at the time of the decision"));
   EXPECT_THAT(second, HasSubstr("the hose is known"));
 }
 

@@ -291,7 +291,7 @@ TEST(ChecksText, FailedChecks_StateTheReason) {
   const auto moved = displaced(example("bc").subject, 0.02 * Vector6d::Unit(3));
   const std::string text = checksText(checkPose(moved, presetLimits()));
   EXPECT_THAT(text, testing::HasSubstr("FAIL  Predicted edges that are seen"));
-  EXPECT_THAT(text, testing::HasSubstr("Look at the overlay"));
+  EXPECT_THAT(text, testing::HasSubstr("Check the overlay"));
   EXPECT_THAT(text, testing::HasSubstr(" failed, "));
 }
 

@@ -104,7 +104,7 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   far.camera_from_station.translation_m.x() += 0.02;
   far.margin_nats = 2.5;
   trace.competing_poses = {near, far};
-  EXPECT_THAT(explanation(trace), HasSubstr("a pose 40.0 mm away, turned by 0.00 deg"));
+  EXPECT_THAT(explanation(trace), HasSubstr("a competing pose, 40.0 mm and 0.00 deg away"));
   EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 3.0"));
   trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better, by 7.5 nats of evidence"));
@@ -182,7 +182,7 @@ TEST(RunStatusText, SaysHowFarARunIs) {
   trace = endedWith(LocalizationStatus::kRunning);
   EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
   trace.last_under_way = true;
-  EXPECT_THAT(runStatusText(trace), AllOf(HasSubstr("under way"), HasSubstr("render")));
+  EXPECT_THAT(runStatusText(trace), AllOf(HasSubstr("last complete stage"), HasSubstr("render")));
 }
 
 TEST(RunStatusText, NamesTheOtherViews) {

@@ -236,7 +236,7 @@ TEST(SessionPack, ChangedOrOutsideFiles_AreRefused) {
       HasSubstr("cannot write none/t.zip: no such folder"));
   folder.write("stations/bc/image.png", "another image");
   EXPECT_THAT(folder.message([&] { (void)pack(session, folder / "s.json", folder / "t.zip"); }),
-              HasSubstr("bc/image.png: it is not the file that the session was made with"));
+              HasSubstr("bc/image.png: it differs from the session's file"));
   EXPECT_EQ(folder.fileCount(), files);
 }
 

@@ -37,10 +37,11 @@ TEST(InputCheck, ReportsWhatIsMissingOrChanged) {
   std::filesystem::remove(stations / "bc/image.png");
   std::ofstream(stations / "bc/model.ply", std::ios::app) << "\n";
   folder.write("stations/os/image.png", "");
-  EXPECT_THAT(sessions::checkInputs(session),
-              ElementsAre(finding(FindingKind::kMissing, "image", "image.png: no such file"),
-                          finding(FindingKind::kChanged, "parts[0]", "is not the file"),
-                          finding(FindingKind::kUnreadable, "image", "the file is empty")));
+  EXPECT_THAT(
+      sessions::checkInputs(session),
+      ElementsAre(finding(FindingKind::kMissing, "image", "image.png: no such file"),
+                  finding(FindingKind::kChanged, "parts[0]", "differs from the session's file"),
+                  finding(FindingKind::kUnreadable, "image", "the file is empty")));
   std::filesystem::copy(stations / "os/model.ply", stations / "bc/model.ply",
                         std::filesystem::copy_options::overwrite_existing);
   for (const auto& session_case : session.cases)
@@ -138,7 +139,7 @@ TEST_F(LabelledImage, HasChangedWhenEitherFileHas) {
   EXPECT_THAT(sessions::checkInputs(session()), SizeIs(1));
   EXPECT_THAT(
       folder_.message([&] { (void)sessions::planPack(session(), folder_ / "s.boresight.json"); }),
-      HasSubstr("it is not the file that the session was made with"));
+      HasSubstr("it differs from the session's file"));
 }
 
 /// Whichever of the two files the session names, the other is named too.
@@ -147,14 +148,14 @@ TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
   folder_.write("in/sol12.lbl", labelText("B"));
   EXPECT_THAT(folder_.message(load), HasSubstr("sol12.lbl: its bytes or its pixels sol12.img are"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
-              HasSubstr("sol12.lbl, or its pixels sol12.img, is not the file"));
+              HasSubstr("sol12.lbl, or its pixels sol12.img, differs from the session's file"));
   folder_.write("in/sol12.lbl", labelText("A"));
   one_.image.source.file = folder_ / "in/sol12.img";
   EXPECT_EQ(folder_.message(load), "(nothing)");
   folder_.write("in/sol12.lbl", labelText("B"));
   EXPECT_THAT(folder_.message(load), HasSubstr("sol12.img: its bytes or its label sol12.lbl are"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
-              HasSubstr("sol12.img, or its label sol12.lbl, is not the file"));
+              HasSubstr("sol12.img, or its label sol12.lbl, differs from the session's file"));
 }
 
 TEST_F(LabelledImage, MissingLabel_IsReported) {

@@ -110,8 +110,8 @@ TEST(SessionDocument, JournalOfAKilledProgram_IsOffered) {
     EXPECT_TRUE(document.recovery()->session == edited(first, 3));
     EXPECT_THAT(document.recovery()->edits, ElementsAre("Edit 1", "Edit 2", "Edit 3"));
     EXPECT_THAT(folder.message([&] { document.apply(edited(first, 9), "x"); }),
-                HasSubstr("wait to be recovered or declined"));
-    EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("wait to be recovered"));
+                HasSubstr("must be recovered or declined"));
+    EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("must be recovered"));
   }
   // Neither accepted nor declined: they still wait. Accepted but not saved: they are kept.
   {

@@ -173,7 +173,7 @@ TEST_F(ViewsRunTest, FileWithoutViews_IsRead) {
 TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
   EXPECT_THAT(sessions::whyAlone(session_, first()), IsEmpty());
   EXPECT_THAT(sessions::whyAlone(withoutRigLink(session_, second()), first()),
-              HasSubstr("of no rig"));
+              HasSubstr("has no rig"));
   EXPECT_THAT(sessions::whyAlone(withoutCase(session_, second()), first()),
               HasSubstr("no other view of rig"));
   SessionCase coarser = *session_.cases[1];
@@ -223,7 +223,7 @@ TEST_F(ViewsRunTest, AHandedPoseTakesTheRunOfTheOtherCameraAlong) {
   const sessions::VerifyReport report = sessions::verifyPose(handed, true);
   for (const auto& finding : report.findings)
     EXPECT_TRUE(finding.good) << finding.what << ": " << finding.text;
-  EXPECT_THAT(folder_.read("pose.json"), HasSubstr("The pose and " + second() + " are apart by"));
+  EXPECT_THAT(folder_.read("pose.json"), HasSubstr("The pose and " + second() + " differ by"));
 }
 
 TEST_F(ViewsRunTest, AnOutcomeOfAViewThatIsStatedOtherwiseIsRefused) {

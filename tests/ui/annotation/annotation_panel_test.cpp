@@ -166,7 +166,7 @@ TEST_F(AnnotationPanelTest, CoplanarAnnotations_ShowBothPosesSideBySide) {
   ASSERT_TRUE(controller_.solution()->ambiguous_camera_from_station())
       << "the case is not ambiguous";
   EXPECT_TRUE(ambiguity->isVisibleTo(panel_.get()));
-  EXPECT_TRUE(summary().contains(QStringLiteral("Two poses explain")));
+  EXPECT_TRUE(summary().contains(QStringLiteral("fit two poses")));
   const auto edges = [this](const char* view) -> const std::vector<Mark>& {
     return find<ImageView>(view).layer(LayerId::kAnnotationBand).marks;
   };

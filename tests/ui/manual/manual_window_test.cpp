@@ -116,7 +116,7 @@ TEST_F(ManualWindowTest, TablesHaveLines) {
 TEST(ManualWindow, WithoutPages_ReportsTheMissingManual) {
   ManualWindow window{QString()};
   window.showPage(QStringLiteral("index.md"));
-  EXPECT_TRUE(window.browser().toPlainText().startsWith(QStringLiteral("The manual is not there")));
+  EXPECT_TRUE(window.browser().toPlainText().startsWith(QStringLiteral("The manual is missing")));
   auto* find = window.findChild<QLineEdit*>(QStringLiteral("manualFind"));
   find->setText(QStringLiteral("x"));
   QTest::keyClick(find, Qt::Key_Return);

@@ -106,7 +106,7 @@ TEST_F(InputFindingsTest, ChangedFile_AfterAcceptance_IsUsed) {
   fs::copy_file(inputs_ / "os" / "image.png", image(), fs::copy_options::overwrite_existing);
   reopen();
   ASSERT_EQ(window_.state().currentCase(), nullptr);
-  EXPECT_TRUE(test::has(window_.image().view().hint(), "take it as it is"));
+  EXPECT_TRUE(test::has(window_.image().view().hint(), "accept"));
   QTimer yes;
   QObject::connect(&yes, &QTimer::timeout, &yes, [] {
     if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))

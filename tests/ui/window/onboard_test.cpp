@@ -179,14 +179,14 @@ TEST_F(OnboardTest, UnreadableRecord_IsReported) {
   drop(folder_.write("cut.whsr", cut));
   ASSERT_NE(window_.onboard().review(), nullptr);
   EXPECT_FALSE(window_.onboard().review()->record.whole());
-  EXPECT_TRUE(test::has(label("recordRemarks"), "lacks something"));
+  EXPECT_TRUE(test::has(label("recordRemarks"), "is incomplete"));
   // One that is another than it was attached as is not shown.
   folder_.write("cut.whsr", bytes);
   window_.document().save();
   ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
   ASSERT_TRUE(wait([&] { return !window_.onboard().problem().isEmpty(); }));
   EXPECT_EQ(window_.onboard().review(), nullptr);
-  EXPECT_TRUE(test::has(label("recordSheet"), "not those of the record"));
+  EXPECT_TRUE(test::has(label("recordSheet"), "differs from the attached record"));
 }
 
 }  // namespace

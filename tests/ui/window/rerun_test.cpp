@@ -196,10 +196,10 @@ TEST_F(ViewsRunWindowTest, WithoutOthersItSaysWhy) {
   const sessions::Session two = test::sessionOfTwoViews(folder_.path());
   open(sessions::withoutRigLink(two, two.cases[0]->id));
   EXPECT_FALSE(together()->isEnabled());
-  EXPECT_TRUE(test::has(together()->toolTip(), "of no rig"));
+  EXPECT_TRUE(test::has(together()->toolTip(), "has no rig"));
   window_.document().edit(two, QStringLiteral("Link"));
   EXPECT_TRUE(together()->isEnabled());
-  EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("of no rig")));
+  EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("has no rig")));
 }
 
 TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {

@@ -109,7 +109,7 @@ TEST_F(TroubleTest, AFullDiskIsToldAndTheEditIsSavedElsewhere) {
   RoomElsewhere room(elsewhere_);
   setSeed(0.123);
   EXPECT_TRUE(test::has(room.answers.text(), "one.boresight.journal"));
-  EXPECT_TRUE(test::has(room.answers.text(), "nothing is lost"));
+  EXPECT_TRUE(test::has(room.answers.text(), "all changes are still in this window"));
   EXPECT_EQ(savedBytes(), before) << "the old file is as it was";
   ASSERT_TRUE(std::filesystem::exists(elsewhere_));
   EXPECT_EQ(window_.document().file(), elsewhere_);
@@ -141,7 +141,7 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
     Answers answers(QStringLiteral("Close"), {});
     QTest::keyClick(&window_, Qt::Key_F5);
     ASSERT_TRUE(wait([this] { return !window_.cases().unstoredRuns().isEmpty(); }));
-    EXPECT_TRUE(test::has(answers.text(), "nothing is lost"));
+    EXPECT_TRUE(test::has(answers.text(), "all changes are still in this window"));
     EXPECT_TRUE(window_.document().session().runs.empty());
   }
   {

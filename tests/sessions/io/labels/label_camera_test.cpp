@@ -131,10 +131,10 @@ TEST(LabelCamera, MirroredAndSkewedModelsAreNoCameras) {
   EXPECT_EQ(misfit(good), "");
   CahvModel swapped = good;
   std::swap(swapped.h_px, swapped.v_px);
-  EXPECT_THAT(misfit(swapped), HasSubstr("of a mirrored image"));
+  EXPECT_THAT(misfit(swapped), HasSubstr("mirrors the image"));
   CahvModel reversed = good;
   reversed.v_px -= 2 * (good.v_px - 24 * good.a);
-  EXPECT_THAT(misfit(reversed), HasSubstr("of a mirrored image"));
+  EXPECT_THAT(misfit(reversed), HasSubstr("mirrors the image"));
   CahvModel skewed = good;
   skewed.v_px += std::tan(10 * kDegree_rad) * (good.h_px - 31 * good.a);
   EXPECT_THAT(misfit(skewed), HasSubstr("H and V are 10.0 deg off square"));

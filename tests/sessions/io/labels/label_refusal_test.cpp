@@ -50,10 +50,10 @@ TEST(LabelRefusal, NonImageProducts_AreRefusedInOneSentence) {
   };
   EXPECT_THAT(refusal("  NL=8  ", "  NL=0  "),
               HasSubstr("NL: 0 is not a whole number from 1 to 16384"));
-  EXPECT_THAT(refusal("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is no whole"));
-  EXPECT_THAT(refusal("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is no whole"));
+  EXPECT_THAT(refusal("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is not a whole"));
+  EXPECT_THAT(refusal("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is not a whole"));
   EXPECT_THAT(refusal("  NS=8  ", "  NS=9999  "), HasSubstr("x.vic"));
-  EXPECT_THAT(refusal("  NB=1  ", "  NB=1000000  "), HasSubstr("NB: 1000000 is no whole"));
+  EXPECT_THAT(refusal("  NB=1  ", "  NB=1000000  "), HasSubstr("NB: 1000000 is not a whole"));
   EXPECT_THAT(refusal("FORMAT='BYTE'", "FORMAT='COMP'"), HasSubstr("x.vic: "));
   vicar.organization = "BIP";
   vicar.prefix_bytes = 4;
