@@ -136,7 +136,7 @@ TEST_F(RunDifferenceTest, ARunWithOtherInputsSaysSo) {
   const RunDifference run_difference = compare();
   EXPECT_TRUE(run_difference.inputs_differ);
   EXPECT_TRUE(run_difference.options.empty());
-  EXPECT_THAT(changeText(run_difference), ::testing::HasSubstr("other inputs"));
+  EXPECT_THAT(changeText(run_difference), ::testing::HasSubstr("The inputs of the runs differ"));
 }
 
 TEST_F(RunDifferenceTest, RefusesRunsThatTheCaseDoesNotHave) {

@@ -45,7 +45,7 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
   EXPECT_THAT(message([](auto& c) { c.parts[0].source.mesh_unit = "km"; }),
               HasSubstr("mesh_unit: the mesh measures"));
   EXPECT_THAT(message([](auto& c) { c.image.pixels_sha256 = std::string(64, '0'); }),
-              HasSubstr("its 8-bit pixels are not those"));
+              HasSubstr("its 8-bit pixels differ from those"));
   Session options = session;
   options.options.emplace_back("pnp.nonsense", 1.0);
   EXPECT_THAT(folder.message([&] { (void)sessions::runCase(options, os.id); }),
@@ -84,7 +84,7 @@ TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
   EXPECT_TRUE(loaded->problem().ignore->get(7, 0));
   session_case.ignore->sha256[0] = session_case.ignore->sha256[0] == '0' ? '1' : '0';
   EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(session_case); }),
-              HasSubstr("m.png: its bytes are not those"));
+              HasSubstr("m.png: its bytes differ from those"));
 }
 
 TEST(CaseRun, RunWithChangedOptions_IsRepeatedFromItsRecord) {
@@ -373,7 +373,7 @@ TEST_F(PackedMembers, AFileThatChangesWhileItIsPackedIsRefused) {
   const sessions::SessionPack plan = sessions::planPack(session_, file());
   folder_.write("stations/os/image.png", "root:x:0:0");
   EXPECT_THAT(folder_.message([&] { writePack(plan, folder_ / "s.zip"); }),
-              HasSubstr("stations/os/image.png: it has changed while it was packed"));
+              HasSubstr("stations/os/image.png: it changed during packing"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.zip"));
 }
 
