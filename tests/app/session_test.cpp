@@ -176,7 +176,7 @@ TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
               HasSubstr("stations/os/model.ply: it differs from the session's file"));
   EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
   const ProgramRun run = runWhs({"run", file, "--case", kOsCase}, 3);
-  EXPECT_THAT(run.err, HasSubstr("its bytes differ from those that the session was made with"));
+  EXPECT_THAT(run.err, HasSubstr("its bytes differ from those of the session"));
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("! "));
 }
 

@@ -58,7 +58,7 @@ TEST(InputCheck, ChangedInputs_AreLoadedOnlyAfterAcceptance) {
   std::filesystem::copy(stations / "os/model.ply", stations / "bc/model.ply",
                         std::filesystem::copy_options::overwrite_existing);
   EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(bc); }),
-              HasSubstr("bc/image.png: its bytes differ from those that the session was made with"));
+              HasSubstr("bc/image.png: its bytes differ from those of the session"));
   const Session accepted = sessions::acceptingInputs(session, bc.id);
   EXPECT_THAT(sessions::checkInputs(accepted), IsEmpty());
   EXPECT_NO_THROW((void)sessions::loadCase(*accepted.cases[0]));
