@@ -146,14 +146,14 @@ TEST_F(LabelledImage, HasChangedWhenEitherFileHas) {
 TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
   const auto load = [this] { (void)sessions::loadCase(one_); };
   folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.lbl: its bytes or its pixels sol12.img are"));
+  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.lbl: its bytes or its pixels sol12.img differ"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
               HasSubstr("sol12.lbl, or its pixels sol12.img, differs from the session's file"));
   folder_.write("in/sol12.lbl", labelText("A"));
   one_.image.source.file = folder_ / "in/sol12.img";
   EXPECT_EQ(folder_.message(load), "(nothing)");
   folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.img: its bytes or its label sol12.lbl are"));
+  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.img: its bytes or its label sol12.lbl differ"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
               HasSubstr("sol12.img, or its label sol12.lbl, differs from the session's file"));
 }
@@ -161,7 +161,7 @@ TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
 TEST_F(LabelledImage, MissingLabel_IsReported) {
   one_.image.source.file = folder_ / "in/sol12.img";
   std::filesystem::remove(label_);
-  const std::string wanted = "no longer there: put sol12.lbl (or sol12.xml) back next to it";
+  const std::string wanted = "former label is missing: put sol12.lbl (or sol12.xml) back next to it";
   EXPECT_THAT(folder_.message([this] { (void)sessions::loadCase(one_); }), HasSubstr(wanted));
   const auto findings = sessions::checkInputs(session());
   ASSERT_THAT(findings, SizeIs(1));
