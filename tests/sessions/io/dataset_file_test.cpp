@@ -257,7 +257,7 @@ TEST_F(ReadDataset, NotesMatricesThatWereProjected) {
   const Dataset dataset = read(content);
   ASSERT_EQ(dataset.notes.size(), 1u);
   EXPECT_THAT(dataset.notes[0],
-              StartsWith("cases[0].seed.camera_from_station: the matrix is not quite a rotation"));
+              StartsWith("cases[0].seed.camera_from_station: the matrix is slightly off a rotation"));
 }
 
 TEST_F(ReadDataset, MissingFiles_AreFoundBeforeARun) {

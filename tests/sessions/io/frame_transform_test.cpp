@@ -143,7 +143,7 @@ TEST_F(FrameTransforms, PoseIsGivenInOneOfTheTwoWays) {
   EXPECT_THAT(folder_.message([&] {
     (void)readPose(file, {roverCamera(), {}});
   }),
-              HasSubstr("reference_from_station: given together with camera_from_station"));
+              HasSubstr("reference_from_station: cannot be combined with camera_from_station"));
 }
 
 TEST_F(FrameTransforms, AreNotAskedForInTheCamerasOwnFrame) {

@@ -59,11 +59,11 @@ TEST(Explanation, IsEmptyForAConvergedRun) {
 
 TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewEdges)),
-              AllOf(HasSubstr("7 salient edge pixels"), HasSubstr("needed 12")));
+              AllOf(HasSubstr("has 7 edge pixels"), HasSubstr("needed 12")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewTemplates)),
-              AllOf(HasSubstr("5 templates of 64 px"), HasSubstr("needed 6")));
+              AllOf(HasSubstr("5 of 64 px"), HasSubstr("needed 6")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewMatches)),
-              AllOf(HasSubstr("4 of 5 templates"), HasSubstr("needed 6")));
+              AllOf(HasSubstr("4 of 5"), HasSubstr("needed 6")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kPnpFailed)),
               AllOf(HasSubstr("4 matches"), HasSubstr("3 inliers at 8.0 px")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kIterationLimit)),
@@ -160,7 +160,7 @@ TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
 
 TEST(RunStatusText, ExplainsARunThatFailed) {
   EXPECT_THAT(runStatusText(endedWith(LocalizationStatus::kTooFewEdges)),
-              AllOf(HasSubstr("Did not converge. The render shows 7 salient edge pixels"),
+              AllOf(HasSubstr("Did not converge. Too few salient edges: the render has 7"),
                     testing::EndsWith(".")));
 }
 
