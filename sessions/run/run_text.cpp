@@ -164,7 +164,7 @@ std::string cameraMismatchText(const LocalizationTrace& trace) {
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
   const LoopOptions& loop = trace.lastOptions().loop;
   return format(
-      "not converged after %d iterations: the last correction is %.3f mm and %.3f deg, needed "
+      "the iteration limit of %d is reached: the last correction is %.3f mm and %.3f deg, needed "
       "under %.3f mm and %.3f deg %d times in a row; raise loop.max_iterations if corrections "
       "still shrink",
       loop.max_iterations, toMillimetres(last.correction_translation_m),

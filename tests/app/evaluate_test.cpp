@@ -295,8 +295,8 @@ TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {
       const ProgramRun run = runWhs(arguments);
       EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.out;
       EXPECT_EQ(run.errorLines(), 1) << run.err;
-      EXPECT_THAT(run.err, AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not from whs "
-                                                                        "evaluate makes")));
+      EXPECT_THAT(run.err,
+                  AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not from whs evaluate")));
       EXPECT_EQ(run.out, "");
     }
     EXPECT_FALSE(std::filesystem::exists(file("m.sqlite")));

@@ -238,7 +238,7 @@ TEST(ReplayRecord, DifferencesFromTheRunOnBoard_AreReported) {
   EXPECT_THAT(
       remarks(whole.run.record, bc.problem()),
       testing::AllOf(Contains(HasSubstr("mesh differs")),
-                     Contains(HasSubstr("not rendered here as it was on board in iteration 1")),
+                     Contains(HasSubstr("render differs from that on board in iteration 1")),
                      Contains(HasSubstr("their points are unknown"))));
   OnboardRecord larger = whole.run.record;
   larger.inputs->width *= 2;

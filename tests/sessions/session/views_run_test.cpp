@@ -147,7 +147,7 @@ TEST_F(ViewsRunTest, ABlackViewIsLeftOutAndSaysWhy) {
   EXPECT_NE(session_.runs[0].digest, alone) << "it says that there was another";
   EXPECT_EQ(session_.runs[1].status, "too_few_matches");
   EXPECT_THAT(sessions::togetherText(session_.runs[0].together->views, first()),
-              HasSubstr("left out: too few of its templates meet edges"));
+              HasSubstr("left out: too few of its templates match edges"));
 }
 
 TEST_F(ViewsRunTest, FileWithoutViews_IsRead) {

@@ -80,7 +80,7 @@ TEST_F(AnnotationPanelTest, CameraSigma_IsShownOnlyWithAnEndEffector) {
   const QString without = htmlWith({});
   EXPECT_FALSE(without.contains(at_camera)) << "said once";
   EXPECT_TRUE(without.contains(QStringLiteral("One sigma at the camera")));
-  EXPECT_TRUE(without.contains(QStringLiteral("The annotated pose is from, at the camera")));
+  EXPECT_TRUE(without.contains(QStringLiteral("Distance of the annotated pose at the camera")));
   Pose camera_from_end_effector;
   camera_from_end_effector.translation_m = {0.0, 0.1, 0.2};
   const QString with = htmlWith(camera_from_end_effector);

@@ -123,8 +123,9 @@ TEST_F(IterationsPanelTest, SaysWhyARunFailed) {
   auto failed = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
   failed->status = LocalizationStatus::kIterationLimit;
   view_.setSnapshot(failed);
-  EXPECT_TRUE(
-      child<Banner>("runStatus")->text().startsWith(QStringLiteral("Did not converge. After")));
+  EXPECT_TRUE(child<Banner>("runStatus")
+                  ->text()
+                  .startsWith(QStringLiteral("Did not converge. The iteration limit")));
 }
 
 TEST(StageSteps, WalkThroughARunAndBackAgain) {

@@ -206,7 +206,7 @@ TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
   hands().click("takeBack");
   EXPECT_EQ(reviewState(), ReviewState::kConverged);
   EXPECT_TRUE(test::has(history(), "the gripper hides it"));
-  EXPECT_TRUE(history().contains(QStringLiteral("Taken back by Grace"))) << "the newest first";
+  EXPECT_TRUE(history().contains(QStringLiteral("Withdrawn by Grace"))) << "the newest first";
 }
 
 TEST_F(ReviewPanelTest, AnnotatedPose_CanBeJudgedAndItsChangeIsReported) {
