@@ -366,7 +366,7 @@ TEST(WhsCompare, DoesNotTakeARunOfOtherInputsForTheCases) {
     session_case.camera_from_station_seed.translation_m.x() += 1e-4;
   });
   EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase}, 3).err,
-              HasSubstr("no longer its own"));
+              HasSubstr("have changed since the run"));
   EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase, "--rerun"}, 6).out,
               HasSubstr("first difference: seed"));
 }

@@ -128,7 +128,7 @@ TEST_F(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
   sessions::Annotations annotations = trueAnnotations(5);
   annotations.points[0].enabled = false;
   annotations.points[1].enabled = false;
-  EXPECT_THAT(solve(annotations, 4).err, HasSubstr("one image needs 4"));
+  EXPECT_THAT(solve(annotations, 4).err, HasSubstr("one image needs at least 4"));
   // Three do where there is a first guess.
   solve(annotations, 0, {"--seed", kExample / "seed.json"});
 }
@@ -211,7 +211,7 @@ TEST(WhsInfo, DescribesEveryKindOfFile) {
              0)
           .out,
       AllOf(HasSubstr("PNG, 1024 x 1024 px"), HasSubstr("brown_conrady"),
-            HasSubstr("field of view"), HasSubstr("faces"), HasSubstr("does not state"),
+            HasSubstr("field of view"), HasSubstr("faces"), HasSubstr("is not stated"),
             HasSubstr("uncertainty"), HasSubstr("2 cases, 2 stations")));
 }
 
