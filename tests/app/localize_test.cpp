@@ -147,7 +147,7 @@ TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
       localizeArguments({{"--profile", "flight"}, {"--set", "render.max_edge_pixels=1000000"}}), 4);
   EXPECT_EQ(asking.errorLines(), 1) << asking.err;
   EXPECT_THAT(asking.err, AllOf(HasSubstr("arena_too_small"), HasSubstr("bytes"),
-                                HasSubstr("10000000 in all"), HasSubstr("lower")));
+                                HasSubstr("of 10000000"), HasSubstr("lower")));
   EXPECT_THAT(asking.out, Not(HasSubstr("digest")));
 }
 

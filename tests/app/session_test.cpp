@@ -158,7 +158,7 @@ TEST(WhsRun, RefusesWhatItMustNotTouch) {
     document.apply(next, "Look at it");
   }
   EXPECT_THAT(runWhs({"run", file}, 3).err, HasSubstr("1 edits were never saved"));
-  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 edits are in its journal"));
+  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 unsaved edits are in its journal"));
   runWhs({"pack", file, "--out", folder / "p.zip"}, 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "p.zip"));
 }
