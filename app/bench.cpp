@@ -42,8 +42,8 @@ using Loaded = std::shared_ptr<const sessions::LoadedCase>;
 std::vector<Loaded> readCases(const sessions::Dataset& dataset, std::vector<std::string> ids) {
   if (ids.empty()) {
     std::set<std::string> stations;
-    for (const sessions::Case& one : dataset.cases)
-      if (stations.insert(one.station).second) ids.push_back(one.id);
+    for (const sessions::Case& dataset_case : dataset.cases)
+      if (stations.insert(dataset_case.station).second) ids.push_back(dataset_case.id);
   }
   const sessions::Session session = sessions::makeSession(dataset, ids);
   std::vector<Loaded> cases;
@@ -84,13 +84,13 @@ struct BenchArguments {
 };
 
 std::vector<sessions::RunSettings> BenchArguments::settings() const {
-  std::vector<sessions::RunSettings> made(2, {.threads = 1});
-  made[0].kernels = Kernels::kPortable;
+  std::vector<sessions::RunSettings> run_settings(2, {.threads = 1});
+  run_settings[0].kernels = Kernels::kPortable;
   for (const int threads : {2, 4, 8}) {
     if (quick || threads > static_cast<int>(std::thread::hardware_concurrency())) break;
-    made.emplace_back().threads = threads;
+    run_settings.emplace_back().threads = threads;
   }
-  return made;
+  return run_settings;
 }
 
 void BenchArguments::addTo(CLI::App& command) {
@@ -110,8 +110,8 @@ std::vector<LocalizationFigure> measure(const BenchArguments& arguments) {
   const std::vector<Loaded> cases = readCases(dataset, arguments.cases);
   std::vector<LocalizationFigure> figures;
   for (const sessions::RunSettings& settings : arguments.settings())
-    for (const Loaded& one : cases)
-      figures.push_back(measureCase(*one, options, arguments.quick ? 1 : 5, settings));
+    for (const Loaded& loaded : cases)
+      figures.push_back(measureCase(*loaded, options, arguments.quick ? 1 : 5, settings));
   return figures;
 }
 
@@ -129,15 +129,19 @@ void printFigures(const std::vector<LocalizationFigure>& figures) {
   sessions::TextTable runs({"case", "kernels", "threads", "size", "runs", "converged", "init",
                             "render", "match", "pose", "refine", "total", "per s", "arena kB",
                             "digest"});
-  for (const LocalizationFigure& one : figures) {
-    const sessions::StageSeconds& s = one.mean_seconds;
-    runs.add({one.name, kernelsName(one.kernels), std::to_string(one.threads),
-              std::to_string(one.width) + "x" + std::to_string(one.height),
-              std::to_string(one.runs), std::to_string(one.converged),
-              milliseconds(s.initialization), milliseconds(s.rendering), milliseconds(s.matching),
-              milliseconds(s.pose), milliseconds(s.refinement), milliseconds(s.total()),
-              sessions::fixedText(one.perSecond(), 1), std::to_string(one.arena_bytes / 1000),
-              one.digest.substr(0, 16)});
+  for (const LocalizationFigure& localization_figure : figures) {
+    const sessions::StageSeconds& s = localization_figure.mean_seconds;
+    runs.add({localization_figure.name, kernelsName(localization_figure.kernels),
+              std::to_string(localization_figure.threads),
+              std::to_string(localization_figure.width) + "x" +
+                  std::to_string(localization_figure.height),
+              std::to_string(localization_figure.runs),
+              std::to_string(localization_figure.converged), milliseconds(s.initialization),
+              milliseconds(s.rendering), milliseconds(s.matching), milliseconds(s.pose),
+              milliseconds(s.refinement), milliseconds(s.total()),
+              sessions::fixedText(localization_figure.perSecond(), 1),
+              std::to_string(localization_figure.arena_bytes / 1000),
+              localization_figure.digest.substr(0, 16)});
   }
   std::cout << runs.text() << std::flush;
 }
@@ -148,18 +152,19 @@ nlohmann::ordered_json toJson(const std::vector<LocalizationFigure>& figures) {
                                  {"whs", sessions::kVersion},
                                  {"sha_instructions", sha256Instructions() != nullptr}};
   json["localizations"] = nlohmann::ordered_json::array();
-  for (const LocalizationFigure& one : figures) {
-    json["localizations"].push_back({{"name", one.name},
-                                     {"kernels", kernelsName(one.kernels)},
-                                     {"threads", one.threads},
-                                     {"width", one.width},
-                                     {"height", one.height},
-                                     {"runs", one.runs},
-                                     {"converged", one.converged},
-                                     {"mean_seconds", sessions::toJson(one.mean_seconds)},
-                                     {"per_second", one.perSecond()},
-                                     {"arena_bytes", one.arena_bytes},
-                                     {"digest", one.digest}});
+  for (const LocalizationFigure& localization_figure : figures) {
+    json["localizations"].push_back(
+        {{"name", localization_figure.name},
+         {"kernels", kernelsName(localization_figure.kernels)},
+         {"threads", localization_figure.threads},
+         {"width", localization_figure.width},
+         {"height", localization_figure.height},
+         {"runs", localization_figure.runs},
+         {"converged", localization_figure.converged},
+         {"mean_seconds", sessions::toJson(localization_figure.mean_seconds)},
+         {"per_second", localization_figure.perSecond()},
+         {"arena_bytes", localization_figure.arena_bytes},
+         {"digest", localization_figure.digest}});
   }
   return json;
 }

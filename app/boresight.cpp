@@ -34,7 +34,7 @@ struct Arguments {
   bool self_test = false;
   ui::ScreenshotOrder screenshot;
   bool dark = false;
-  std::string out, view, size = "1600x1000", mark;  ///< of the screenshot
+  std::string out, view, size = "1600x1000", annotation;  ///< of the screenshot
   std::string documents;  ///< where pages of the manual are written, or empty
   std::vector<std::string> files;
 
@@ -53,20 +53,20 @@ void Arguments::addTo(CLI::App& app) {
                "Test the program itself without a display and print N passed, N failed");
   app.add_option("--screenshot", out, "Write a picture of the session's case and its run, and exit")
       ->type_name("FILE");
-  app.add_option("--view", view, "What the picture shows: window, image, or a dock")
+  app.add_option("--view", view, "Content of the picture: window, image, or a dock")
       ->type_name("NAME");
   app.add_option("--size", size, "Size of the window in the picture")
       ->capture_default_str()
       ->type_name("WxH");
   app.add_option("--iteration", screenshot.iteration,
-                 "Iteration that the picture shows, from 0; -1: the seed")
+                 "Iteration in the picture, from 0; -1: the seed")
       ->check(CLI::Range(-1, kMostRows))
       ->type_name("N");
   app.add_option("--hypothesis", screenshot.hypothesis,
-                 "Row under Hypotheses that the picture shows, from 1")
+                 "Row under Hypotheses in the picture, from 1")
       ->check(CLI::Range(1, kMostRows))
       ->type_name("N");
-  app.add_option("--mark", mark, "Mark that is edited in the picture, as when placing it")
+  app.add_option("--annotation", annotation, "Annotation that is edited in the picture")
       ->type_name("ID");
   app.add_flag("--dark", dark, "Dark colours");
   app.add_option("--documents", documents, "Write pages of the manual")->group("");
@@ -82,11 +82,11 @@ void Arguments::check() {
   screenshot.size = {width, height};
   screenshot.out = out;
   screenshot.view = QString::fromStdString(view);
-  screenshot.mark = QString::fromStdString(mark);
+  screenshot.annotation = QString::fromStdString(annotation);
   if (!out.empty() && files.size() > 1)
-    throw CLI::ValidationError("--screenshot",
-                               "takes one session (whs new makes one of files), or none for an "
-                               "empty window");
+    throw CLI::ValidationError(
+        "--screenshot",
+        "takes one session (whs new makes one from files), or none for an empty window");
 }
 
 /// Whether the command line asks for something that needs no display, so that it runs anywhere.

@@ -25,17 +25,15 @@ CameraModel modelNamed(const std::string& name) {
   for (const CameraModel model :
        {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt})
     if (name == sessions::cameraModelName(model)) return model;
-  throw CLI::ValidationError("--as", "'" + name + "' is no model that is fitted");
+  throw CLI::ValidationError("--as", "'" + name + "' cannot be fitted");
 }
 
 /// A text file's ending is read as the kind of its model by many programs, though not by this one.
 void noteEnding(const path& out, CameraModel model) {
   const std::string needed = std::string(".") + sessions::cameraModelName(model);
   if (out.extension() != needed)
-    note("the vectors are those of a " + needed.substr(1) +
-         " model: programs that go by a file's "
-         "ending want " +
-         needed);
+    note("the vectors belong to a " + needed.substr(1) +
+         " model; other programs expect the file ending " + needed);
 }
 
 /// What camera.json has no place for.
@@ -43,7 +41,7 @@ void noteLost(const CameraArguments& arguments) {
   if (!sessions::isCahvorFile(path(arguments.file))) return;
   if (sessions::readCahvorFile(arguments.file).covariance.size() > 0)
     note("the covariance of " + path(arguments.file).filename().string() +
-         " stays behind: a camera.json has no place for it");
+         " is not written: camera.json cannot hold it");
 }
 
 /// Vectors as text, with the covariance where the given file had one.
@@ -51,19 +49,19 @@ void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& 
   if (!isCahvFamily(given.camera.model))
     throw sessions::InputError(arguments.file, "model",
                                std::string("a ") + sessions::cameraModelName(given.camera.model) +
-                                   " camera has no vectors: write a .json");
+                                   " camera has no vectors; write a .json file");
   noteEnding(arguments.out, given.camera.model);
   if (sessions::isCahvorFile(path(arguments.file)))
     return sessions::writeCahvorFile(arguments.out, sessions::readCahvorFile(arguments.file));
-  sessions::CahvorFile made;
-  made.cahv = cahvFromCamera(given.camera,
-                             given.reference ? given.reference->camera_from_reference : Pose());
-  made.width = given.camera.width;
-  made.height = given.camera.height;
-  sessions::writeCahvorFile(arguments.out, made);
+  sessions::CahvorFile cahvor_file;
+  cahvor_file.cahv = cahvFromCamera(
+      given.camera, given.reference ? given.reference->camera_from_reference : Pose());
+  cahvor_file.width = given.camera.width;
+  cahvor_file.height = given.camera.height;
+  sessions::writeCahvorFile(arguments.out, cahvor_file);
   if (given.reference)
     note("the vectors are in " + frameText(given.reference->frame) +
-         ", which a text file has no place for");
+         "; a text file cannot state this frame");
 }
 
 void convertAs(const CameraArguments& arguments, const sessions::CameraFile& given) {
@@ -78,7 +76,7 @@ void convertAs(const CameraArguments& arguments, const sessions::CameraFile& giv
     std::cout << "points " << arguments.distance_m << " m from the camera; of far ones the worst "
               << "error is " << fitted.worst_error_far_px << " px\n";
   else if (pupilMoves(given.camera))
-    note("the entrance pupil moves: nearby points are seen elsewhere; state --distance");
+    note("the entrance pupil moves, which shifts nearby points; state --distance");
   if (!arguments.out.empty())
     sessions::writeFittedCamera(arguments.out, fitted, given.camera,
                                 path(arguments.file).filename().string(), arguments.distance_m);
@@ -87,7 +85,8 @@ void convertAs(const CameraArguments& arguments, const sessions::CameraFile& giv
 int convert(const CameraArguments& arguments) {
   const sessions::CameraFile given = sessions::readCameraFile(path(arguments.file));
   if (!arguments.model.empty() && sessions::isCahvorFile(path(arguments.out)))
-    throw CLI::ValidationError("--out", "a text file holds vectors, not a fitted model: .json");
+    throw CLI::ValidationError("--out",
+                               "a text file holds vectors only; write a fitted model as .json");
   if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
   if (!arguments.model.empty()) {
     convertAs(arguments, given);
@@ -108,17 +107,17 @@ int convert(const CameraArguments& arguments) {
 void addCamera(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "camera",
-      "Writes a camera as another kind of file, or as another model with the error that it makes",
+      "Converts a camera to another file format, or fits another model and prints its error",
       convert);
   addFile(*command, "file", arguments->file, kCameraHelp)->required();
   command
       ->add_option("--as", arguments->model,
-                   "Fits this model, in the same camera frame, and says its worst error in pixels")
+                   "Fits this model in the same camera frame and prints its worst error in pixels")
       ->check(CLI::IsMember({"pinhole", "brown_conrady", "kannala_brandt"}));
   command
       ->add_option("--distance", arguments->distance_m,
-                   "Distance from the camera that the fit is made for, where the entrance pupil "
-                   "moves (cahvore), m")
+                   "Distance from the camera at which the model is fitted, where the entrance "
+                   "pupil moves (cahvore), m")
       ->check(numberIn(1e-3, 1e6))
       ->type_name("M");
   addFile(*command, "--out", arguments->out,

@@ -20,19 +20,18 @@ void CaseArguments::addTo(CLI::App& command) {
                   "Size of the station's features (sleeves, screws), m; 0: from the mesh's size")
       ->check(numberIn(0.0, 100.0))
       ->type_name("M");
-  addFile(command, "--ignore", ignore,
-          "Mask image of the same size: nonzero pixels are not trusted");
+  addFile(command, "--ignore", ignore, "Mask image of the same size: nonzero pixels are ignored");
   command
       .add_option("--bit-depth", bit_depth,
-                  "Bits that the image's samples use, e.g. 12 in a 16-bit file")
+                  "Bit depth of the image's samples, e.g. 12 in a 16-bit file")
       ->check(CLI::Range(1, 16))
       ->type_name("N");
 }
 
 void CaseArguments::addUncertaintyTo(CLI::App& command) {
   addUncertainty(command, uncertainty,
-                 "How far the seed may be off along and about x, y, z of the camera: three "
-                 "lengths in m, three angles in deg (instead of those in the seed's file)");
+                 "Largest error of the seed along and about x, y, z of the camera: three lengths "
+                 "in m, three angles in deg (default: those in the seed's file)");
   command
       .add_option("--pivot", pivot,
                   "Centre of the seed's rotation uncertainty: camera (an arm camera) or station")
@@ -63,18 +62,18 @@ sessions::CaseFiles CaseArguments::files() const {
   return files;
 }
 
-LocalizerOptions CaseArguments::optionsOf(const sessions::SessionCase& one) const {
-  LocalizerOptions made = options.read();
-  double& size_m = made.templates.feature_size_m;
+LocalizerOptions CaseArguments::optionsOf(const sessions::SessionCase& session_case) const {
+  LocalizerOptions result = options.read();
+  double& size_m = result.templates.feature_size_m;
   if (feature_size_m > 0.0) size_m = feature_size_m;
-  if (size_m == 0.0) size_m = one.feature_size_m.value_or(0.0);
-  return made;
+  if (size_m == 0.0) size_m = session_case.feature_size_m.value_or(0.0);
+  return result;
 }
 
 ReadCase readCase(const CaseArguments& arguments) {
   (void)arguments.options.read();  // options that do not exist are refused before files are read
-  sessions::MadeCase made = sessions::makeCase(arguments.files());
-  ReadCase read{sessions::loadCase(made.made), std::move(made.notes)};
+  sessions::MadeCase new_case = sessions::makeCase(arguments.files());
+  ReadCase read{sessions::loadCase(new_case.made), std::move(new_case.notes)};
   for (std::string& warning : sessions::labelWarnings(read.loaded->source))
     read.notes.push_back(std::move(warning));
   return read;
@@ -82,10 +81,11 @@ ReadCase readCase(const CaseArguments& arguments) {
 
 void requireRunnable(const sessions::LoadedCase& loaded, const std::string& camera_file,
                      const std::string& seed_file) {
-  const sessions::SessionCase& one = loaded.source;
-  sessions::requireSameSize(loaded.image, one.camera);
-  sessions::requireField(camera_file, "distortion", one.camera);
-  sessions::requireSensibleSeed(one.camera, loaded.scene, one.camera_from_station_seed, seed_file,
+  const sessions::SessionCase& session_case = loaded.source;
+  sessions::requireSameSize(loaded.image, session_case.camera);
+  sessions::requireField(camera_file, "distortion", session_case.camera);
+  sessions::requireSensibleSeed(session_case.camera, loaded.scene,
+                                session_case.camera_from_station_seed, seed_file,
                                 "camera_from_station");
 }
 

@@ -30,7 +30,7 @@ struct CaseArguments {
   /// CLI::ValidationError.
   sessions::CaseFiles files() const;
   /// The options of a run: --feature-size, else --set or --config, else the case's feature size.
-  LocalizerOptions optionsOf(const sessions::SessionCase& one) const;
+  LocalizerOptions optionsOf(const sessions::SessionCase& session_case) const;
 };
 
 /// A case that is ready to run, and notes for the operator.

@@ -24,7 +24,7 @@ struct CheckArguments {
   std::string source = "run";
   std::string preset;
   std::string json;
-  int basin = sessions::kBasinSeeds;
+  int convergence = sessions::kConvergenceSeeds;
   bool sentences = false;
 
   PoseSource poseSource() const {
@@ -51,9 +51,10 @@ CheckedCase checkCase(const sessions::Session& session, const std::string& id,
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
   const auto subject = sessions::reviewSubject(session, sessions::loadCase(*session.findCase(id)),
                                                arguments.poseSource());
-  std::optional<sessions::BasinResult> basin;
-  if (arguments.basin > 0) basin = sessions::basinTest(subject, arguments.basin);
-  return {id, sessions::checkPose(subject, limits, basin), ""};
+  std::optional<sessions::ConvergenceResult> convergence;
+  if (arguments.convergence > 0)
+    convergence = sessions::convergenceTest(subject, arguments.convergence);
+  return {id, sessions::checkPose(subject, limits, convergence), ""};
 }
 
 void writeJson(const CheckArguments& arguments, const std::string& preset,
@@ -62,13 +63,14 @@ void writeJson(const CheckArguments& arguments, const std::string& preset,
   json["preset"] = preset;
   json["source"] = arguments.source;
   json["cases"] = nlohmann::ordered_json::array();
-  for (const CheckedCase& one : cases) {
-    nlohmann::ordered_json made = {{"id", one.id}, {"passed", sessions::allPassed(one.checks)}};
-    if (!one.reason.empty()) made["reason"] = one.reason;
-    made["checks"] = nlohmann::ordered_json::array();
-    for (const sessions::Check& check : one.checks)
-      made["checks"].push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
-    json["cases"].push_back(std::move(made));
+  for (const CheckedCase& checked_case : cases) {
+    nlohmann::ordered_json result = {{"id", checked_case.id},
+                                     {"passed", sessions::allPassed(checked_case.checks)}};
+    if (!checked_case.reason.empty()) result["reason"] = checked_case.reason;
+    result["checks"] = nlohmann::ordered_json::array();
+    for (const sessions::Check& check : checked_case.checks)
+      result["checks"].push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
+    json["cases"].push_back(std::move(result));
   }
   sessions::writeJsonFile(arguments.json, json);
 }
@@ -80,16 +82,17 @@ int checkSession(const CheckArguments& arguments) {
   std::vector<std::string> ids = arguments.cases;
   for (const std::string& id : ids) (void)requireCase(document, id);
   if (ids.empty())
-    for (const auto& one : session.cases) ids.push_back(one->id);
+    for (const auto& session_case : session.cases) ids.push_back(session_case->id);
   int exit_code = kDone;
   std::vector<CheckedCase> checked;
   for (const std::string& id : ids) {
     try {
       checked.push_back(checkCase(session, id, arguments));
-      const CheckedCase& one = checked.back();
+      const CheckedCase& checked_case = checked.back();
       print(id);
-      std::cout << sessions::checksText(one.checks, arguments.sentences) << std::endl;
-      if (exit_code == kDone && !sessions::allPassed(one.checks)) exit_code = kNotConverged;
+      std::cout << sessions::checksText(checked_case.checks, arguments.sentences) << std::endl;
+      if (exit_code == kDone && !sessions::allPassed(checked_case.checks))
+        exit_code = kNotConverged;
     } catch (const sessions::InputError& error) {
       std::cerr << error.what() << std::endl;
       checked.push_back({id, {}, error.what()});
@@ -109,32 +112,33 @@ std::vector<std::string> presetNames() {
 }  // namespace
 
 void addCheck(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "check",
-      "Checks the poses of a session before somebody vouches for them, also by running from other "
-      "seeds. Exit status 0 when all checks pass, 4 when some fail, 3 where there is no pose "
-      "to check",
-      checkSession);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "check",
+                 "Checks the poses of a session, with --convergence-test also from further seeds. "
+                 "Exit status: 0 all checks pass, 4 a check fails, 3 no pose to check",
+                 checkSession);
   addFile(*command, "session", arguments->session, "Session file")->required();
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
-  command->add_option("--source", arguments->source, "Which pose: of the last run, or of the marks")
+  command
+      ->add_option("--source", arguments->source,
+                   "Pose to check: that of the last run, or that of the annotations")
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command
-      ->add_option("--basin", arguments->basin,
-                   "Run so many further seeds and see where they lead; 0: none, which is quick")
+      ->add_option("--convergence-test", arguments->convergence,
+                   "Number of further seeds of the convergence test; 0: no such test")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str()
       ->type_name("N");
   command
       ->add_option("--preset", arguments->preset,
-                   "Limits and requirement instead of the session's own")
+                   "Preset of limits and requirement that replaces the session's own")
       ->check(CLI::IsMember(presetNames()))
       ->type_name("NAME");
   addFile(*command, "--json", arguments->json, "Write the checks to this file");
   command->add_flag("--sentences", arguments->sentences,
-                    "Say what was found of checks that passed, too");
+                    "Print the findings of passed checks, too");
 }
 
 }  // namespace boresight::app

@@ -26,11 +26,10 @@ sessions::PoseFrames FrameArguments::of(const sessions::CameraFile& camera) cons
 }
 
 void MethodArguments::addTo(CLI::App& command, bool several) {
-  CLI::Option* option =
-      command.add_option("--method", methods,
-                         std::string(several ? "How to localize, one after the other; there are: "
-                                             : "How to localize; there are: ") +
-                             sessions::methodNames());
+  CLI::Option* option = command.add_option(
+      "--method", methods,
+      std::string(several ? "Methods to run, one after the other: " : "Method to run: ") +
+          sessions::methodNames());
   option->type_name("M")->default_str(sessions::kWhs)->check([](const std::string& name) {
     return sessions::isMethod(name)
                ? std::string()
@@ -39,8 +38,8 @@ void MethodArguments::addTo(CLI::App& command, bool several) {
   if (!several) option->expected(1);
   command
       .add_option("--matcher", matcher,
-                  "Command of the external matcher of the methods external, loftr-r and loftr-s, "
-                  "e.g. \"node resources/matchers/loftr/loftr.js --model M.onnx\"")
+                  "Command of the external matcher (methods external, loftr-r, loftr-s), e.g. "
+                  "\"node resources/matchers/loftr/loftr.js --model M.onnx\"")
       ->type_name("COMMAND");
 }
 
@@ -54,10 +53,10 @@ sessions::MethodSetup MethodArguments::setup(const OptionArguments& options) con
     if (sessions::needsMatcher(name) && matcher.empty())
       throw CLI::ValidationError("--matcher",
                                  "the method " + name + " needs its matcher's command");
-  sessions::MethodSetup made;
-  made.matcher = matcher;
-  made.options = options.readMethodOptions();
-  return made;
+  sessions::MethodSetup method_setup;
+  method_setup.matcher = matcher;
+  method_setup.options = options.readMethodOptions();
+  return method_setup;
 }
 
 sessions::OptionList MethodArguments::changedOptions(const sessions::MethodOptions& options) const {
@@ -73,7 +72,9 @@ constexpr const char* kFlightProfile = "flight";
 bool isMethodOption(const std::string& name) {
   const auto all = sessions::listOptions(sessions::MethodOptions());
   return std::any_of(all.begin(), all.end(),
-                     [&name](const sessions::OptionDescription& one) { return one.name == name; });
+                     [&name](const sessions::OptionDescription& option_description) {
+                       return option_description.name == name;
+                     });
 }
 
 /// Sets what the config, then the assignments name: options of methods, or all others.
@@ -83,7 +84,7 @@ void applyTo(Options& options, const std::string& config, const std::vector<std:
   if (!config.empty()) {
     sessions::Config read = sessions::readConfig(config);
     std::erase_if(read.options,
-                  [=](const auto& one) { return isMethodOption(one.first) != of_methods; });
+                  [=](const auto& item) { return isMethodOption(item.first) != of_methods; });
     sessions::applyConfig(options, read);
   }
   for (const std::string& assignment : set) {
@@ -166,9 +167,9 @@ std::vector<Kernels> availableKernels() {
 void addKernels(CLI::App& command, Kernels& kernels) {
   std::map<std::string, Kernels> named = {{"best", bestKernels()}};
   std::string names = "best";
-  for (const Kernels one : availableKernels()) {
-    named.emplace(kernelsName(one), one);
-    names += std::string(", ") + kernelsName(one);
+  for (const Kernels item : availableKernels()) {
+    named.emplace(kernelsName(item), item);
+    names += std::string(", ") + kernelsName(item);
   }
   command
       .add_option_function<std::string>(
@@ -179,7 +180,7 @@ void addKernels(CLI::App& command, Kernels& kernels) {
               throw CLI::ValidationError("--kernels", "this machine has " + names);
             kernels = found->second;
           },
-          "What to use of the processor; the result is the same")
+          "Instruction set that is used; the result is the same")
       ->group("");
 }
 
@@ -195,16 +196,13 @@ sessions::MethodOptions methodProfile(const std::string& name) {
 
 void OptionArguments::addTo(CLI::App& command) {
   command
-      .add_option(
-          "--profile", profile,
-          "Set of parameters: default (recommended settings), paper (as published), or flight "
-          "(the default's on gray images, within 10,000,000 bytes of memory, image and mesh "
-          "included)")
+      .add_option("--profile", profile,
+                  "Set of options: default (recommended settings), paper (as published), or flight "
+                  "(default for gray images, within 10,000,000 bytes including image and mesh)")
       ->check(CLI::IsMember({"default", "paper", "flight"}));
-  addFile(command, "--config", config, "config.json: a profile and the options that differ");
+  addFile(command, "--config", config, "config.json: a profile and options that differ from it");
   command
-      .add_option("--set", assignments,
-                  "Option that differs, e.g. pnp.seed=7; `whs options` lists them all")
+      .add_option("--set", assignments, "Sets an option, e.g. pnp.seed=7; `whs options` lists all")
       ->type_name("NAME=VALUE");
 }
 
@@ -238,7 +236,8 @@ std::size_t OptionArguments::memoryLimit() const {
 void DatasetArguments::addTo(CLI::App& command) {
   const char* group = "Of a BOP folder";
   command
-      .add_option("--split", selection.split, "Its split, e.g. val (else test, or the only one)")
+      .add_option("--split", selection.split,
+                  "Split of a BOP folder, e.g. val (default: test, or the only one)")
       ->type_name("NAME")
       ->group(group);
   command.add_option("--scene", selection.scenes, "Only these scenes")
@@ -247,20 +246,21 @@ void DatasetArguments::addTo(CLI::App& command) {
   command.add_option("--obj", selection.objects, "Only these objects")
       ->type_name("N")
       ->group(group);
-  command.add_option("--sensor", selection.sensor, "Which of several: scene_camera_NAME.json")
+  command
+      .add_option("--sensor", selection.sensor,
+                  "Sensor of a BOP folder with several: scene_camera_NAME.json")
       ->type_name("NAME")
       ->group(group);
   command
       .add_flag("--every-instance", selection.every_instance,
-                "Also instances that the challenge does not ask for, or that are hardly visible")
+                "Includes instances that the challenge leaves out or that are hardly visible")
       ->group(group);
   addUncertainty(command, uncertainty,
-                 "Seeds are drawn about the truth within this along and about x, y, z of the "
-                 "camera: three lengths in m, three angles in deg (else 0.03 m and 10 deg)")
+                 "Largest error of the drawn seeds along and about x, y, z of the camera: three "
+                 "lengths in m, three angles in deg (default: 0.03 m, 10 deg)")
       ->group(group);
   command
-      .add_option("--pivot", pivot,
-                  "What the seed's rotation is uncertain about (else the station)")
+      .add_option("--pivot", pivot, "Centre of the seed's rotation uncertainty (default: station)")
       ->check(CLI::IsMember({"camera", "station"}))
       ->group(group);
 }
@@ -306,8 +306,7 @@ sessions::SessionDocument openToEdit(const std::string& file, bool recover) {
   sayNotices(document);
   if (document.recovery() && !recover)
     failForEdits(document,
-                 "were never saved; take them with --recover, or open the session in the desktop "
-                 "program");
+                 "were never saved; recover them with --recover or in the desktop program");
   document.acceptRecovery();
   return document;
 }

@@ -53,7 +53,7 @@ CLI::Option* addFile(CLI::App& command, const std::string& name, Value& value,
   return command.add_option(name, value, help)->type_name("FILE");
 }
 
-/// A line to stderr for people, and one to stdout. What text from outside has in it does not break
+/// A readable line to stderr, and one to stdout. What text from outside has in it does not break
 /// the line.
 void note(const std::string& line);
 void print(const std::string& line);
@@ -93,7 +93,7 @@ struct OptionArguments {
   void addTo(CLI::App& command);
   /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
   LocalizerOptions read() const;
-  /// The same for the methods beside WHS, whose options stand in the same places.
+  /// The same for the other methods, whose options stand in the same places.
   sessions::MethodOptions readMethodOptions() const;
   /// "paper", "default" or "flight": the one asked for, else the config's.
   std::string profileName() const;
@@ -151,7 +151,7 @@ struct DatasetArguments {
 sessions::SessionDocument openToRead(const std::string& file);
 
 /// Opens a session that is changed. InputError as above unless they are to be taken up; OutputError
-/// when somebody else has it open or it cannot be written.
+/// when another program has it open or it cannot be written.
 sessions::SessionDocument openToEdit(const std::string& file, bool recover = false);
 
 /// InputError when the session has no such case.
@@ -163,10 +163,10 @@ const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document
                                        const std::string& beginning);
 
 LocalizerOptions profileOptions(const std::string& name);
-/// The same for the methods beside WHS: `paper` as published, else the tuned ones.
+/// The same for the other methods: `paper` as published, else the tuned ones.
 sessions::MethodOptions methodProfile(const std::string& name);
 
-/// "12.3 mm" for people.
+/// "12.3 mm", for display.
 std::string millimetresText(double length_m);
 
 }  // namespace boresight::app

@@ -26,7 +26,7 @@ struct CompareArguments {
 
 enum class SideKind { kRecord, kTrace, kSession };
 
-/// By its first bytes. What is none of the three is refused by whoever reads it as a record.
+/// By its first bytes. Other files are refused by the reader of records.
 SideKind kindOf(const std::string& file) {
   const auto begin = sessions::readBeginning(file, 8);
   const std::string_view text = sessions::asText(begin);
@@ -53,13 +53,13 @@ class GroundSide {
   OnboardRecord attached() const {
     const auto& file = one().onboard_record;
     if (!file)
-      throw InputError(document_.file(), "case " + one().id,
-                       "no onboard record is attached: name one, or attach it in the desktop "
-                       "program");
+      throw InputError(
+          document_.file(), "case " + one().id,
+          "no onboard record is attached; give one, or attach it in the desktop program");
     return sessions::readRecord(file->file);
   }
 
-  /// The run that was stored; run anew by the record's options when that is asked for.
+  /// The stored run, or with --rerun a new run with the record's options.
   OnboardRecord run(const OnboardRecord& onboard) const {
     const auto loaded = sessions::loadCase(one());
     const LocalizationProblem given = loaded->problem();
@@ -81,7 +81,7 @@ class GroundSide {
     const sessions::RunRecord* last = document_.session().lastRunOf(one().id);
     if (last == nullptr)
       throw InputError(document_.file(), "case " + one().id,
-                       "it has no run: run it, or run it by the record's options with --rerun");
+                       "it has no run; run it, or use --rerun to run it with the record's options");
     return *last;
   }
 
@@ -93,8 +93,8 @@ class GroundSide {
     if (run.inputs_sha256 != sessions::inputsDigest(one()))
       throw InputError(document_.file(), "run " + run.digest,
                        "the inputs of case " + one().id +
-                           " are no longer its own: run it anew, or by the record's options with "
-                           "--rerun");
+                           " have changed since the run; run it again, or use --rerun to run it "
+                           "with the record's options");
     return sessions::loadRun(run);
   }
 
@@ -131,21 +131,24 @@ int compare(const CompareArguments& arguments) {
 
 void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
   command
-      .add_option("--found-px", limits.found_px,
-                  "Templates found this near each other count as found alike, px at their level")
+      .add_option(
+          "--found-px", limits.found_px,
+          "Largest distance of two template positions that count as equal, px at their level")
       ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
-  command.add_option("--found-share", limits.found_share, "Least share of these, 0 to 1")
+  command
+      .add_option("--found-share", limits.found_share,
+                  "Required share of equal template positions, 0 to 1")
       ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
   command
       .add_option("--inlier-share", limits.inlier_share,
-                  "Least share of the inliers of either that both have, 0 to 1")
+                  "Required share of the inliers of either run that both have, 0 to 1")
       ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
   command
       .add_option("--sigmas", limits.pose_sigmas,
-                  "Most that the final poses may be apart, in sigmas of A's covariance")
+                  "Largest distance of the final poses, in sigmas of A's covariance")
       ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
 }
@@ -153,24 +156,24 @@ void addLimits(CLI::App& command, sessions::ComparisonLimits& limits) {
 }  // namespace
 
 void addCompare(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "compare",
-      "Compares two runs: equal to the bit (exit 0), within limits where the pixels differ or a "
-      "record was cut (5), or different (6), and where they differ first. Each is an onboard "
-      "record (run.whsr), a trace, or a run of a case of a session (with --case)",
-      compare);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "compare",
+                 "Compares two runs and prints their first difference. Exit status: 0 equal to the "
+                 "bit, 5 within the limits for other pixels or a cut record, 6 different. A run is "
+                 "an onboard record (run.whsr), a trace, or a run of a session's case (--case)",
+                 compare);
   addFile(*command, "A", arguments->one, "Record, trace or session")->required();
   addFile(*command, "B", arguments->other,
-          "The same; without it, A is a session, whose case's onboard record is compared "
-          "with the case's run");
+          "Record, trace or session; without it, the onboard record of A's case is compared with "
+          "the case's run");
   command->add_option("--case", arguments->case_id, "Case of the session")->type_name("ID");
-  auto* run = command->add_option("--run", arguments->digest,
-                                  "Run of the case whose digest begins like this; without it the "
-                                  "last one");
+  auto* run =
+      command->add_option("--run", arguments->digest,
+                          "First digits of the digest of the case's run (default: the last run)");
   run->type_name("DIGEST");
   command
       ->add_flag("--rerun", arguments->rerun,
-                 "Run the case now by the options of the onboard record, without storing the run")
+                 "Run the case with the options of the onboard record, without storing the run")
       ->excludes(run);
   addLimits(*command, arguments->limits);
 }

@@ -16,8 +16,8 @@ struct DecideArguments {
   std::string by;
   std::string comment;
   std::string source = "run";
-  std::vector<std::string> overrides;
-  int basin = sessions::kBasinSeeds;
+  std::vector<std::string> waivers;
+  int convergence = sessions::kConvergenceSeeds;
   bool validate = false;
   bool reject = false;
   bool approve = false;
@@ -28,15 +28,15 @@ struct DecideArguments {
 };
 
 /// "coverage=half of it is dark" and the like.
-sessions::CheckOverrides readOverrides(const DecideArguments& arguments) {
-  sessions::CheckOverrides made;
-  for (const std::string& text : arguments.overrides) {
+sessions::CheckWaivers readWaivers(const DecideArguments& arguments) {
+  sessions::CheckWaivers check_waivers;
+  for (const std::string& text : arguments.waivers) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0)
-      throw CLI::ValidationError("--pass-over", "'" + text + "' is not CHECK=REASON");
-    made[text.substr(0, sign)] = text.substr(sign + 1);
+      throw CLI::ValidationError("--waive", "'" + text + "' is not CHECK=REASON");
+    check_waivers[text.substr(0, sign)] = text.substr(sign + 1);
   }
-  return made;
+  return check_waivers;
 }
 
 Session validatedCase(const Session& session, const DecideArguments& arguments) {
@@ -44,14 +44,15 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
   const auto subject = sessions::reviewSubject(
       session, sessions::loadCase(*session.findCase(arguments.case_id)), source);
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-  const sessions::CheckOverrides overrides = readOverrides(arguments);
+  const sessions::CheckWaivers waivers = readWaivers(arguments);
   // What is refused anyway is refused at once.
   const std::string concern = sessions::validationConcern(session, subject);
   if (!concern.empty()) throw sessions::DecisionError(concern);
-  std::optional<sessions::BasinResult> basin;
-  if (arguments.basin > 0) basin = sessions::basinTest(subject, arguments.basin);
-  return sessions::validated(session, subject, sessions::checkPose(subject, limits, basin),
-                             overrides, arguments.signature(), basin ? basin->seeds : 0);
+  std::optional<sessions::ConvergenceResult> convergence;
+  if (arguments.convergence > 0)
+    convergence = sessions::convergenceTest(subject, arguments.convergence);
+  return sessions::validated(session, subject, sessions::checkPose(subject, limits, convergence),
+                             waivers, arguments.signature(), convergence ? convergence->seeds : 0);
 }
 
 Session decided(const Session& session, const DecideArguments& arguments) {
@@ -81,42 +82,44 @@ int decide(const DecideArguments& arguments) {
 }  // namespace
 
 void addDecide(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "decide",
-      "Validates, rejects or approves the pose of a case, by name and with a comment. Exit status "
-      "4 when the pose cannot be validated: a check failed that is not passed over",
-      decide);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "decide",
+                 "Validates, rejects or approves the pose of a case, with name and comment. Exit "
+                 "status 4: the pose cannot be validated, as a failed check is not waived",
+                 decide);
   addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->case_id, "The case")->required()->type_name("ID");
+  command->add_option("--case", arguments->case_id, "Case")->required()->type_name("ID");
   CLI::Option_group* what = command->add_option_group("What");
-  what->add_flag("--validate", arguments->validate, "Vouch for its pose");
-  what->add_flag("--reject", arguments->reject, "Refuse its result");
-  what->add_flag("--approve", arguments->approve,
-                 "Approve, as a second person, what was validated");
-  what->add_flag("--reopen", arguments->reopen, "Take the last decision back");
+  what->add_flag("--validate", arguments->validate, "Validate the pose");
+  what->add_flag("--reject", arguments->reject, "Reject the result");
+  what->add_flag("--approve", arguments->approve, "Approve a validation as the second person");
+  what->add_flag("--reopen", arguments->reopen, "Withdraw the last decision");
   what->require_option(1);
-  command->add_option("--by", arguments->by, "Who decides")->required()->type_name("NAME");
+  command->add_option("--by", arguments->by, "Name of the person who decides")
+      ->required()
+      ->type_name("NAME");
   command->add_option("--comment", arguments->comment, "Reason of the decision")
       ->required()
       ->type_name("TEXT");
   command
-      ->add_option("--pass-over", arguments->overrides,
-                   "A failed check that does not stand in the way, and why; may be repeated. `whs "
-                   "check --json` names the checks")
+      ->add_option("--waive", arguments->waivers,
+                   "Waives a failed check for this reason; may be repeated. `whs check --json` "
+                   "lists the names of the checks")
       ->type_name("CHECK=REASON");
   command
       ->add_option("--source", arguments->source,
-                   "Which pose is validated: of the last run, or of the marks")
+                   "Pose to decide on: that of the last run, or that of the annotations")
       ->check(CLI::IsMember({"run", "annotation"}))
       ->capture_default_str();
   command
-      ->add_option("--basin", arguments->basin,
-                   "To validate, run so many further seeds and see where they lead; 0: none")
+      ->add_option(
+          "--convergence-test", arguments->convergence,
+          "Number of further seeds of the convergence test before a validation; 0: no such test")
       ->check(CLI::Range(0, 1000))
       ->type_name("N")
       ->capture_default_str();
   command->add_flag("--recover", arguments->recover,
-                    "Take edits that a killed program left in the session's journal");
+                    "Recover edits that a killed program left in the session's journal");
 }
 
 }  // namespace boresight::app

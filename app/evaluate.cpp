@@ -68,42 +68,42 @@ void EvaluateArguments::addTo(CLI::App& command) {
   method.addTo(command, true);
   addKernels(command, batch.kernels);
   options.addTo(command);
-  command.add_option("--jobs", batch.jobs, "Runs at a time")
+  command.add_option("--jobs", batch.jobs, "Number of runs in parallel")
       ->check(CLI::Range(1, 256))
       ->capture_default_str()
       ->type_name("N");
   addThreads(command, batch.threads);
   command
       .add_option("--reseed", batch.reseeds,
-                  "Further seeds per case, uniform in the ellipsoids inscribed in its uncertainty")
+                  "Number of further seeds per case, uniform in the ellipsoids inscribed in its "
+                  "uncertainty")
       ->check(CLI::Range(0, 1000000))
       ->type_name("N");
   command
       .add_option("--reseed-scale", batch.reseed_scale,
-                  "Draws further seeds this many times as far; the declared uncertainty stays")
+                  "Factor on the errors of further seeds; the declared uncertainty does not change")
       ->check(numberIn(0.0, 1000.0))
       ->capture_default_str()
       ->type_name("S");
   command
       .add_option("--mesh-of", batch.mesh_of,
-                  "Deliberately wrong: this station's mesh for all others' cases; every completed "
-                  "run counts as a gross false positive")
+                  "Negative test: uses this station's mesh for the cases of all others; a "
+                  "completed run is a gross false positive")
       ->type_name("STATION");
-  command.add_option("--mirror", mirror, "Deliberately wrong: the mesh mirrored across this axis")
+  command.add_option("--mirror", mirror, "Negative test: mirrors the mesh across this axis")
       ->check(CLI::IsMember({"x", "y", "z"}));
   command
       .add_option("--shard", shard,
-                  "Only the I-th of N shares of the cases, e.g. 2/8; `whs merge` joins the results")
+                  "Runs share I of N of the cases, e.g. 2/8; `whs merge` joins the results")
       ->check(CLI::Validator(shardProblem, "I/N"))
       ->type_name("I/N");
   command.add_flag("--keep-matches", batch.keep_matches,
-                   "Keeps every template of every iteration in the results");
-  addFile(command, "--out", out,
-          "Results as an SQLite file, run by run; one that is there is gone on with")
+                   "Stores every template of every iteration in the results");
+  addFile(command, "--out", out, "Results as an SQLite file; an existing file is continued")
       ->required();
   addFile(command, "--jsonl", jsonl, "Results as JSON lines");
   addFile(command, "--bop-csv", bop_csv,
-          "Results of a BOP dataset as the challenge takes them (METHOD_SET-SPLIT.csv)");
+          "Results of a BOP dataset in the challenge's format (METHOD_SET-SPLIT.csv)");
 }
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -173,16 +173,16 @@ std::string commandText() {
   return text;
 }
 
-sessions::Sitting sittingOf(const EvaluateArguments& arguments) {
-  sessions::Sitting sitting = sessions::sittingHere();
-  sitting.command = commandText();
-  sitting.jobs = arguments.batch.jobs;
-  sitting.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.memory_limit,
-                                        arguments.batch.jobs);
-  sitting.kernels = kernelsName(arguments.batch.kernels);
-  sitting.shard = arguments.shard;
-  sitting.reseeds = arguments.batch.reseeds;
-  return sitting;
+sessions::BatchRun batchRunOf(const EvaluateArguments& arguments) {
+  sessions::BatchRun batch_run = sessions::thisBatchRun();
+  batch_run.command = commandText();
+  batch_run.jobs = arguments.batch.jobs;
+  batch_run.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.memory_limit,
+                                          arguments.batch.jobs);
+  batch_run.kernels = kernelsName(arguments.batch.kernels);
+  batch_run.shard = arguments.shard;
+  batch_run.reseeds = arguments.batch.reseeds;
+  return batch_run;
 }
 
 sessions::MethodFacts factsOf(const EvaluateArguments& arguments, const std::string& method) {
@@ -214,8 +214,8 @@ Work workLeft(const EvaluateArguments& arguments, const std::vector<sessions::Pl
   }
   const std::size_t all = plan.size() * arguments.method.methods.size();
   if (left < all)
-    note(arguments.out + ": going on, " + std::to_string(all - left) + " of " +
-         std::to_string(all) + " runs are there already");
+    note(arguments.out + ": resumed, " + std::to_string(all - left) + " of " + std::to_string(all) +
+         " runs are done");
   return work;
 }
 
@@ -224,7 +224,7 @@ void runAll(EvaluateArguments& arguments, const sessions::Dataset& dataset, cons
   std::size_t total = 0;
   for (const auto& [method, runs] : work) total += runs.size();
   if (total == 0) return;
-  writer.begin(sittingOf(arguments));
+  writer.begin(batchRunOf(arguments));
   Progress progress(total);
   for (const auto& [method, runs] : work) {
     arguments.batch.method = method;
@@ -304,7 +304,7 @@ int evaluate(EvaluateArguments& arguments) {
   if (!arguments.bop_csv.empty()) writeBopCsv(arguments, dataset, results);
   printSummary(results);
   const bool whole = !stop.stop_requested();
-  if (!whole) note("interrupted: the same command goes on with what is left");
+  if (!whole) note("interrupted; run the same command again to continue");
   for (const sessions::RunResult& result : results)
     if (result.inputFailed()) return kBadInput;
   return whole ? kDone : kInternalFault;
@@ -315,7 +315,7 @@ int evaluate(EvaluateArguments& arguments) {
 void addEvaluate(CLI::App& app, int& exit_code) {
   const auto [command, arguments] =
       addCommand(app, exit_code, "evaluate",
-                 "Localizes the cases of a dataset and sums up the errors", evaluate);
+                 "Localizes the cases of a dataset and prints a summary of the errors", evaluate);
   arguments->addTo(*command);
 }
 

@@ -17,16 +17,16 @@ struct ExchangeArguments {
   std::string landmarks;
   std::string pose;
   std::string bop_results;
-  std::string poses = "marks";
+  std::string poses = "annotations";
   int scene = 1;
   std::vector<std::string> cases;
   bool robust = false;
   bool replace = false;
   bool recover = false;
 
-  /// Marks are those of one case.
+  /// Annotations are those of one case.
   const std::string& onlyCase() const {
-    if (cases.size() != 1) throw CLI::ValidationError("--case", "name the one case");
+    if (cases.size() != 1) throw CLI::ValidationError("--case", "give exactly one case");
     return cases.front();
   }
 };
@@ -49,7 +49,7 @@ sessions::ExportReport exportPoses(const sessions::Session& session,
     return sessions::exportBopResults(session, arguments.bop_results, arguments.cases,
                                       arguments.scene);
   const sessions::CasePoses poses =
-      arguments.poses == "marks"
+      arguments.poses == "annotations"
           ? sessions::annotatedPoses(session, arguments.cases, arguments.robust)
           : sessions::posesToHandOver(session, arguments.cases);
   return arguments.colmap.empty() ? sessions::exportBop(session, arguments.bop, poses)
@@ -61,7 +61,7 @@ int exportFrom(const ExchangeArguments& arguments) {
   const sessions::Session& session = document.session();
   for (const std::string& id : arguments.cases) (void)requireCase(document, id);
   if (!arguments.points.empty()) {
-    sessions::exportMarks(session, arguments.onlyCase(), arguments.points);
+    sessions::exportAnnotations(session, arguments.onlyCase(), arguments.points);
     tell(arguments.cases, {});
   } else if (!arguments.landmarks.empty()) {
     sessions::exportLandmarks(session, arguments.onlyCase(), arguments.landmarks);
@@ -82,9 +82,9 @@ int importInto(const ExchangeArguments& arguments) {
   sessions::ImportReport report;
   std::string text = "Import poses";
   if (!arguments.points.empty()) {
-    text = "Import marks of " + arguments.onlyCase();
-    report =
-        sessions::importMarks(session, arguments.onlyCase(), arguments.points, arguments.replace);
+    text = "Import annotations of " + arguments.onlyCase();
+    report = sessions::importAnnotations(session, arguments.onlyCase(), arguments.points,
+                                         arguments.replace);
   } else if (!arguments.colmap.empty()) {
     report = sessions::importColmap(session, arguments.colmap, arguments.replace);
   } else {
@@ -101,7 +101,7 @@ int importInto(const ExchangeArguments& arguments) {
 void addExport(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "export",
-      "Writes poses of a session, or what people marked, for other programs; says which cases",
+      "Exports poses or annotations of a session for other programs and prints the cases",
       exportFrom);
   addFile(*command, "session", arguments->session, "Session file")->required();
   CLI::Option_group* what = command->add_option_group("What");
@@ -114,36 +114,38 @@ void addExport(CLI::App& app, int& exit_code) {
           "undistorted images in gray/")
       ->type_name("DIR");
   addFile(*what, "--pose", arguments->pose,
-          "The pose of one case with its checks, hashes and decision: validated_pose.json. "
-          "Pose, covariance and checks are measured again; a decision that states others "
-          "is refused");
+          "Pose of one case with its checks, hashes and decision (validated_pose.json). Pose, "
+          "covariance and checks are measured again; a decision on other values is refused");
   what->add_option("--bop-results", arguments->bop_results,
-                   "The poses that cases are handed over with, as a BOP19 results file")
+                   "Poses for hand-over as a BOP19 results file")
       ->type_name("CSV");
-  addFile(*what, "--points", arguments->points, "Marks of one case as points.json or points.csv");
+  addFile(*what, "--points", arguments->points,
+          "Annotations of one case as points.json or points.csv");
   addFile(*what, "--landmarks", arguments->landmarks,
-          "Points of one case as landmarks.json; added to those that the file has");
+          "Points of one case as landmarks.json; added to an existing file");
   what->require_option(1);
   command
       ->add_option("--case", arguments->cases,
-                   "This case; may be repeated for poses, which else are of all that solve")
+                   "Case to export; may be repeated for poses (default: all cases with a pose)")
       ->type_name("ID");
   command
       ->add_option("--poses", arguments->poses,
-                   "Which poses --colmap and --bop write: those of the marks, or those that cases "
-                   "are handed over with (validated, else of the last run, else of the marks)")
-      ->check(CLI::IsMember({"marks", "handed-over"}))
+                   "Poses that --colmap and --bop write: annotations, or handed-over (validated, "
+                   "else of the last run, else of the annotations)")
+      ->check(CLI::IsMember({"annotations", "handed-over"}))
       ->capture_default_str();
   command->add_option("--scene", arguments->scene, "Number of the scene in --bop-results")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
+  command->add_flag("--robust", arguments->robust,
+                    "Give annotations far from their projection less weight");
 }
 
 void addImport(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "import",
-      "Takes marks, or poses as the cases' truth, into a session; says which cases", importInto);
+      "Imports annotations, or poses as the cases' truth, into a session and prints the cases",
+      importInto);
   addFile(*command, "session", arguments->session, "Session file")->required();
   CLI::Option_group* what = command->add_option_group("What");
   addFile(*what, "--points", arguments->points, "points.json or points.csv of one case");
@@ -154,11 +156,11 @@ void addImport(CLI::App& app, int& exit_code) {
                    "Folder with a BOP scene; images are known by their numbers")
       ->type_name("DIR");
   what->require_option(1);
-  command->add_option("--case", arguments->cases, "The case of the marks")->type_name("ID");
+  command->add_option("--case", arguments->cases, "Case of the annotations")->type_name("ID");
   command->add_flag("--replace", arguments->replace,
-                    "Marks or truths that a case has already are replaced");
+                    "Replace annotations or truths that a case already has");
   command->add_flag("--recover", arguments->recover,
-                    "Take edits that a killed program left in the session's journal");
+                    "Recover edits that a killed program left in the session's journal");
 }
 
 }  // namespace boresight::app

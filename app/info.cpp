@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/dataset_file.h"
@@ -47,8 +47,8 @@ std::string vectorText(const Eigen::Vector3d& vector, int decimals) {
 }
 
 /// "1 case", "2 cases".
-std::string countText(std::size_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+std::string countText(std::size_t count, const std::string& text) {
+  return std::to_string(count) + " " + text + (count == 1 ? "" : "s");
 }
 
 std::string sizeText(int width, int height) {
@@ -56,7 +56,7 @@ std::string sizeText(int width, int height) {
 }
 
 void flagAll(const std::vector<sessions::RedFlag>& flags) {
-  for (const sessions::RedFlag& one : flags) flag(one.text);
+  for (const sessions::RedFlag& red_flag : flags) flag(red_flag.text);
 }
 
 void describeCamera(const sessions::CameraFile& file) {
@@ -93,7 +93,7 @@ void describeDataset(const sessions::Dataset& dataset) {
        countText(dataset.stations.size(), "station") + ", " +
        countText(dataset.cameras.size(), "camera"));
   std::map<std::string, std::size_t> cases_of;
-  for (const sessions::Case& one : dataset.cases) ++cases_of[one.station];
+  for (const sessions::Case& dataset_case : dataset.cases) ++cases_of[dataset_case.station];
   for (const auto& [id, station] : dataset.stations)
     line("station " + id + ": " + countText(cases_of[id], "case") + ", " +
          countText(station.parts.size(), "part") +
@@ -109,25 +109,28 @@ void describeDataset(const sessions::Dataset& dataset) {
     describeCamera(described);
   }
   std::set<std::string> tags;
-  for (const sessions::Case& one : dataset.cases) tags.insert(one.tags.begin(), one.tags.end());
+  for (const sessions::Case& dataset_case : dataset.cases)
+    tags.insert(dataset_case.tags.begin(), dataset_case.tags.end());
   std::string list;
   for (const std::string& tag : tags) list += " " + tag;
   if (!list.empty()) line("tags:" + list);
-  const auto blind = std::count_if(dataset.cases.begin(), dataset.cases.end(),
-                                   [](const auto& one) { return !one.truth_camera_from_station; });
+  const auto blind =
+      std::count_if(dataset.cases.begin(), dataset.cases.end(),
+                    [](const auto& item) { return !item.truth_camera_from_station; });
   if (blind > 0) flag(std::to_string(blind) + " cases have no truth");
   for (const std::string& text : dataset.notes) flag(text);
   sessions::requireFiles(dataset);
 }
 
-void describeMarks(const sessions::Marks& marks) {
+void describeAnnotations(const sessions::Annotations& annotations) {
   const auto used = [](const auto& pairs) {
     return std::count_if(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.used(); });
   };
-  line(std::to_string(marks.points.size()) + " points, " + std::to_string(used(marks.points)) +
-       " of them whole and on; " + std::to_string(marks.lines.size()) + " lines, " +
-       std::to_string(used(marks.lines)));
-  if (used(marks.points) < 4) flag("without a seed a pose needs at least 4 points");
+  line(std::to_string(annotations.points.size()) + " points, " +
+       std::to_string(used(annotations.points)) + " of them complete and enabled; " +
+       std::to_string(annotations.lines.size()) + " lines, " +
+       std::to_string(used(annotations.lines)));
+  if (used(annotations.points) < 4) flag("without a seed a pose needs at least 4 points");
 }
 
 std::string stalenessText(const sessions::Staleness& staleness) {
@@ -142,7 +145,7 @@ std::string rerunText(const sessions::RunRecord& run) {
   if (run.rerun->changes.empty()) return ", with options of its own";
   const int from_iteration = run.rerun->changes.back().iteration + 1;
   return ", with other options from its iteration " + std::to_string(from_iteration) + " on" +
-         (run.rerun->from.empty() ? "" : ", going on from run " + run.rerun->from);
+         (run.rerun->from.empty() ? "" : ", continued from run " + run.rerun->from);
 }
 
 /// Of a session's cases: the files that a case shares with the one before are not read again.
@@ -153,11 +156,13 @@ struct CaseSources {
   std::multimap<std::string, const sessions::RunRecord*> runs = {};  ///< by case, in their order
 };
 
-void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
+void describeCase(const sessions::SessionCase& session_case, CaseSources& sources) {
   const auto& session = sources.session;
-  line("case " + one.id + (one.station.empty() ? "" : ", station " + one.station));
+  line("case " + session_case.id +
+       (session_case.station.empty() ? "" : ", station " + session_case.station));
   try {
-    sources.before = sources.before ? reloadCase(*sources.before, one) : sessions::loadCase(one);
+    sources.before = sources.before ? reloadCase(*sources.before, session_case)
+                                    : sessions::loadCase(session_case);
     const sessions::InputSheet sheet = sessions::inputSheet(*sources.before);
     for (const sessions::SheetLine& entry : sheet.lines)
       line("  " + entry.label + ": " + entry.value);
@@ -165,14 +170,14 @@ void describeCase(const sessions::SessionCase& one, CaseSources& sources) {
   } catch (const sessions::InputError& error) {
     flag(error.what());
   }
-  const auto [first, last] = sources.runs.equal_range(one.id);
+  const auto [first, last] = sources.runs.equal_range(session_case.id);
   for (auto place = first; place != last; ++place) {
     const sessions::RunRecord& run = *place->second;
     line("  run " + run.digest + ": " + run.status + ", " + run.time + ", whs " + run.version +
          stalenessText(sessions::stalenessOf(run, session, sources.file)) + rerunText(run) +
-         (run.together ? ", " + togetherText(run.together->views, one.id) : ""));
+         (run.together ? ", " + togetherText(run.together->views, session_case.id) : ""));
   }
-  const sessions::ReviewStatus status = sessions::reviewStatusOf(session, one.id);
+  const sessions::ReviewStatus status = sessions::reviewStatusOf(session, session_case.id);
   if (status.decision != nullptr)
     line("  " + reviewStatusText(status) + ", " + status.decision->time +
          (status.decision->comment.empty() ? "" : ": " + status.decision->comment));
@@ -189,7 +194,7 @@ void describeSession(const path& file) {
   for (const std::string& text : document.notices()) flag(text);
   if (document.recovery())
     flag(std::to_string(document.recovery()->edits.size()) +
-         " edits are in its journal and not in the file, the last of " + document.recovery()->time);
+         " unsaved edits are in its journal, the last of " + document.recovery()->time);
   CaseSources sources{session, file};
   for (const sessions::RunRecord& run : session.runs) sources.runs.emplace(run.case_id, &run);
   const std::size_t described = std::min(session.cases.size(), kDescribedCases);
@@ -205,7 +210,7 @@ void printPose(const Pose& pose, const char* name) {
   std::cout << sessions::poseText(pose, Matrix6d::Zero(), name);
 }
 
-/// What stands in a file beside the pose, in whatever frame that is.
+/// The other members of a pose file, in its frame.
 void describeSeed(const sessions::PoseFile& pose) {
   if (pose.uncertainty)
     line("uncertainty " + vectorText(pose.uncertainty->translation_m, 4) + " m, " +
@@ -268,11 +273,11 @@ void describeValidatedPose(const sessions::JsonReader& root) {
 
 /// rig.json, with the cameras and points that it names.
 void describeRig(const path& file) {
-  for (const sessions::MarkedView& view : sessions::readRig(file)) {
+  for (const sessions::AnnotatedView& view : sessions::readRig(file)) {
     line("view " + view.name + ": camera of " + std::to_string(view.camera.width) + " x " +
          std::to_string(view.camera.height) + " px, " +
-         countText(view.marks.points.size(), "point") + ", " +
-         countText(view.marks.lines.size(), "line"));
+         countText(view.annotations.points.size(), "point") + ", " +
+         countText(view.annotations.lines.size(), "line"));
     printPose(view.camera_from_rig, "camera_from_rig");
   }
 }
@@ -290,7 +295,7 @@ void describeJson(const path& file) {
   } else if (format == "boresight-dataset") {
     describeDataset(sessions::readDataset(file));
   } else if (format == "boresight-points") {
-    describeMarks(sessions::readMarks(file));
+    describeAnnotations(sessions::readAnnotations(file));
   } else if (format == sessions::kSessionFormat) {
     describeSession(file);
   } else if (format == "boresight-config") {
@@ -322,9 +327,9 @@ void describeMesh(const path& file, const std::string& unit) {
     line("extent " + vectorText(extent, 4) + " m, from " + vectorText(info.minimum_m, 4) + " to " +
          vectorText(info.maximum_m, 4) + " m");
   } else {
-    line("extent " + vectorText(extent, 4) +
-         " in the file's unit, which it does not state: with m " + fixedText(extent.norm(), 3) +
-         " m across, with mm " + fixedText(extent.norm() * 1e-3, 6) + " m");
+    line("extent " + vectorText(extent, 4) + " in the file's unit, which is not stated: in m " +
+         fixedText(extent.norm(), 3) + " m across, in mm " + fixedText(extent.norm() * 1e-3, 6) +
+         " m");
     if (extent.norm() > 20.0) flag("over 20 m across if in m: probably in mm");
   }
   for (const std::string& text : info.notes()) flag(text);
@@ -431,14 +436,14 @@ int describeAll(const InfoArguments& arguments) {
 }  // namespace
 
 void addInfo(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "info",
-      "Says what files are: sizes, units, camera model, field of view, red flags", describeAll);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "info",
+                 "Describes files: size, unit, camera model, field of view, warnings", describeAll);
   addFile(*command, "files", arguments->files,
           "Images, cameras, meshes, poses (validated ones, too), transforms, datasets, sessions, "
           "configs, points, rigs, landmarks, traces, onboard records; folders of BOP datasets")
       ->required();
-  addMeshUnit(*command, arguments->mesh_unit, "Unit of meshes that state none");
+  addMeshUnit(*command, arguments->mesh_unit, "Unit of meshes without one");
   arguments->choice.addTo(*command);
 }
 

@@ -48,48 +48,51 @@ void LocalizeArguments::addTo(CLI::App& command) {
 
 sessions::RunProvenance provenance(const LocalizeArguments& arguments, const ReadCase& input,
                                    const LocalizerOptions& options) {
-  sessions::RunProvenance made;
-  made.method = arguments.method.methods.front();
-  made.profile = arguments.options.profileName();
-  made.changed_options = sessions::changedOptions(options, profileOptions(made.profile));
+  sessions::RunProvenance run_provenance;
+  run_provenance.method = arguments.method.methods.front();
+  run_provenance.profile = arguments.options.profileName();
+  run_provenance.changed_options =
+      sessions::changedOptions(options, profileOptions(run_provenance.profile));
   for (auto& option : arguments.method.changedOptions(arguments.options.readMethodOptions()))
-    made.changed_options.push_back(std::move(option));
-  made.loaded = input.loaded.get();
-  made.camera_file = arguments.cameraFile();
-  made.seed_file = arguments.seed;
-  made.truth_file = arguments.truth;
-  made.config_file = arguments.options.config;
-  made.warnings = input.notes;
-  return made;
+    run_provenance.changed_options.push_back(std::move(option));
+  run_provenance.loaded = input.loaded.get();
+  run_provenance.camera_file = arguments.cameraFile();
+  run_provenance.seed_file = arguments.seed;
+  run_provenance.truth_file = arguments.truth;
+  run_provenance.config_file = arguments.options.config;
+  run_provenance.warnings = input.notes;
+  return run_provenance;
 }
 
 void writeOverlay(const std::string& file, const sessions::LoadedCase& loaded,
                   const sessions::LocalizationTrace& trace) {
-  const sessions::SessionCase& one = loaded.source;
+  const sessions::SessionCase& session_case = loaded.source;
   std::vector<sessions::OverlayLayer> layers = {
-      {"seed", one.camera_from_station_seed, sessions::kSeedColor}};
+      {"seed", session_case.camera_from_station_seed, sessions::kSeedColor}};
   if (trace.converged()) {
     layers.push_back({"result", trace.camera_from_station, sessions::kResultColor});
   } else if (!trace.iterations.empty()) {
     layers.push_back({std::string("last hypothesis, ") + localizationStatusText(trace.status),
                       trace.iterations.back()->camera_from_station, sessions::kResultColor});
   }
-  if (one.camera_from_station_truth)
-    layers.push_back({"truth", *one.camera_from_station_truth, sessions::kTruthColor, true});
-  sessions::writeColorPng(
-      file, sessions::drawOverlay(loaded.image.view(), one.camera, loaded.scene.view(), layers));
+  if (session_case.camera_from_station_truth)
+    layers.push_back(
+        {"truth", *session_case.camera_from_station_truth, sessions::kTruthColor, true});
+  sessions::writeColorPng(file, sessions::drawOverlay(loaded.image.view(), session_case.camera,
+                                                      loaded.scene.view(), layers));
 }
 
 /// The pose in the frames that have names.
-void printNamedPoses(const sessions::SessionCase& one, const Pose& camera_from_station) {
-  for (const sessions::NamedPose& pose :
-       sessions::namedPoses(one.camera_reference, one.station_frame, camera_from_station))
+void printNamedPoses(const sessions::SessionCase& session_case, const Pose& camera_from_station) {
+  for (const sessions::NamedPose& pose : sessions::namedPoses(
+           session_case.camera_reference, session_case.station_frame, camera_from_station))
     std::cout << "\n"
               << sessions::poseText(pose.reference_from_station, Matrix6d::Zero(),
                                     sessions::namedPoseTitle(pose));
 }
 
-void printResult(const sessions::LocalizationTrace& trace, const sessions::SessionCase& one,
+void printResult(const sessions::LocalizationTrace& trace,
+                 const sessions::SessionCase& session_case,
                  const std::optional<sessions::ImageQuality>& quality,
                  const std::optional<sessions::PoseError>& error) {
   using sessions::fixedText;
@@ -101,9 +104,9 @@ void printResult(const sessions::LocalizationTrace& trace, const sessions::Sessi
               << fixedText(trace.seconds.total(), 2) << " s\n"
               << sessions::acceptanceText(trace) << "\n\n"
               << sessions::poseText(trace.camera_from_station, trace.covariance)
-              << "(by the picture alone: errors of the mesh's scale and of the calibration are not "
-                 "in it)\n";
-    printNamedPoses(one, trace.camera_from_station);
+              << "(from the image only; errors of the mesh's scale and of the calibration are not "
+                 "included)\n";
+    printNamedPoses(session_case, trace.camera_from_station);
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)
               << "; the best estimate remains the seed\n";
@@ -136,13 +139,13 @@ constexpr std::size_t kRecordRoomBytes = 64000;
 
 void writeRecord(const std::string& file, const RecordWriter& record) {
   if (!record.complete())
-    note("the onboard record has no room for some of the run; it says what is missing");
+    note("the onboard record is too small for the whole run; it lists the missing parts");
   sessions::writeFileAtomically(file, record.bytes());
 }
 
 int localizeImage(const LocalizeArguments& arguments) {
   if (!arguments.record.empty() && arguments.method.needsSetup())
-    throw CLI::ValidationError("--record", "the onboard record is of runs with --method whs alone");
+    throw CLI::ValidationError("--record", "onboard records exist only for --method whs");
   const ReadCase input = readCase(arguments);
   const sessions::LoadedCase& loaded = *input.loaded;
   const LocalizerOptions options = arguments.optionsOf(loaded.source);

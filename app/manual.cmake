@@ -11,7 +11,7 @@ set(taken
   sessions/evaluation/README.md results_files.md
   sessions/tables/README.md tables.md
   sessions/review/README.md validated_pose.md
-  sessions/annotation/README.md marks.md
+  sessions/annotation/README.md annotations.md
   sessions/exchange/README.md exchange.md
   sessions/examples/README.md examples.md
   sessions/record/README.md replay.md

@@ -15,22 +15,19 @@ int merge(const MergeArguments& arguments) {
   const sessions::MergeCounts counts =
       sessions::mergeResults(arguments.out, {arguments.inputs.begin(), arguments.inputs.end()});
   print(arguments.out + ": " + std::to_string(counts.runs) + " runs" +
-        (counts.equal > 0
-             ? "; " + std::to_string(counts.equal) + " were there more than once, alike"
-             : ""));
+        (counts.equal > 0 ? "; " + std::to_string(counts.equal) + " were duplicates" : ""));
   return kDone;
 }
 
 }  // namespace
 
 void addMerge(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "merge",
-      "Joins results of `whs evaluate`, e.g. of shards, into one file; refuses runs that "
-      "contradict each other",
-      merge);
-  addFile(*command, "OUT", arguments->out,
-          "The file to make; what is in one that is there already stays")
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "merge",
+                 "Merges results of `whs evaluate`, e.g. of shards, into one file; runs that "
+                 "contradict each other are refused",
+                 merge);
+  addFile(*command, "OUT", arguments->out, "Output file; runs in an existing file are kept")
       ->required();
   addFile(*command, "IN", arguments->inputs, "Results files")->required();
 }

@@ -26,21 +26,20 @@ struct NewArguments : CaseArguments {
 void NewArguments::addTo(CLI::App& command) {
   CLI::Option* from_dataset =
       addFile(command, "--dataset", dataset.path,
-              "dataset.json or the folder of a BOP dataset: its cases become the session's");
+              "dataset.json or folder of a BOP dataset with the session's cases");
   command.add_option("--case", cases, "Only this case of the dataset; may be repeated")
       ->needs(from_dataset)
       ->type_name("ID");
-  addFile(
-      command, "--results", results,
-      "Results of `whs evaluate`: its runs become cases, the most troubled first, with the seeds "
-      "and the options that they had")
+  addFile(command, "--results", results,
+          "Results of `whs evaluate`: each run becomes a case with its seed and options, the worst "
+          "first")
       ->excludes(from_dataset);
   CaseArguments::addTo(command);
   addTruthTo(command);
-  command.add_option("--id", id, "Name of the case (else the image's)");
+  command.add_option("--id", id, "Name of the case (default: the image's)");
   command
       .add_option("--mesh-scale-sigma", mesh_scale_sigma,
-                  "One sigma of the mesh's scale, relative: 0.0002 where it is not stated")
+                  "One sigma of the mesh's scale, relative (default: 0.0002)")
       ->check(numberIn(0.0, sessions::kMaxScaleSigma))
       ->type_name("S");
   CLI::Option* from_image = command.get_option("--image")->excludes(from_dataset);
@@ -50,20 +49,19 @@ void NewArguments::addTo(CLI::App& command) {
     command.get_option(name)->needs(from_image);
   addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
   dataset.addTo(command);
-  addFile(command, "--out", out, "The session file that is made, e.g. sol12.boresight.json")
-      ->required();
+  addFile(command, "--out", out, "Session file to create, e.g. sol12.boresight.json")->required();
 }
 
 /// What no edit mends is refused: sizes that do not fit, a camera that folds. A seed can be moved.
-void requireUsable(const sessions::SessionCase& one) {
-  const auto loaded = sessions::loadCase(one);
-  sessions::requireSameSize(loaded->image, one.camera);
-  sessions::requireField("case " + one.id, "camera", one.camera);
+void requireUsable(const sessions::SessionCase& session_case) {
+  const auto loaded = sessions::loadCase(session_case);
+  sessions::requireSameSize(loaded->image, session_case.camera);
+  sessions::requireField("case " + session_case.id, "camera", session_case.camera);
   try {
     sessions::requireRunnable(*loaded);
   } catch (const sessions::InputError& refusal) {
-    note(std::string("no run begins like this: ") + refusal.what() +
-         "; move the seed in the desktop program, or make the session anew with another");
+    note(std::string("a run cannot start from this seed: ") + refusal.what() +
+         "; move the seed in the desktop program, or create the session with another seed");
   }
 }
 
@@ -78,29 +76,29 @@ sessions::Session sessionOf(const NewArguments& arguments) {
   sessions::CaseFiles case_files = arguments.files();
   case_files.id = arguments.id;
   case_files.mesh_scale_sigma = arguments.mesh_scale_sigma;
-  const sessions::MadeCase made = sessions::makeCase(case_files);
-  for (const std::string& text : made.notes) note(text);
-  requireUsable(made.made);
-  return withCase({}, made.made);
+  const sessions::MadeCase new_case = sessions::makeCase(case_files);
+  for (const std::string& text : new_case.notes) note(text);
+  requireUsable(new_case.made);
+  return withCase({}, new_case.made);
 }
 
 /// The session with the record attached to its case.
 sessions::Session withRecord(const sessions::Session& session, const std::string& file) {
   if (session.cases.size() != 1)
-    throw CLI::ValidationError("--record", "is of one case: choose it with --case");
+    throw CLI::ValidationError("--record", "belongs to one case; choose it with --case");
   (void)sessions::readRecord(file);  // that it is one
-  sessions::SessionCase one = *session.cases.front();
-  one.onboard_record = sessions::InputFile{std::filesystem::absolute(file).lexically_normal(),
-                                           sessions::inputSha256(file)};
-  return withCase(session, std::move(one));
+  sessions::SessionCase session_case = *session.cases.front();
+  session_case.onboard_record = sessions::InputFile{
+      std::filesystem::absolute(file).lexically_normal(), sessions::inputSha256(file)};
+  return withCase(session, std::move(session_case));
 }
 
 int makeNew(const NewArguments& arguments) {
   sessions::Session session = sessionOf(arguments);
   if (!arguments.record.empty()) session = withRecord(session, arguments.record);
-  for (const auto& one : session.cases)
-    for (const std::string& warning : sessions::labelWarnings(*one))
-      note("case " + one->id + ": " + warning);
+  for (const auto& session_case : session.cases)
+    for (const std::string& warning : sessions::labelWarnings(*session_case))
+      note("case " + session_case->id + ": " + warning);
   if (arguments.results.empty())
     session = withOptions(session, arguments.options.profileName(), arguments.options.read());
   const auto document = sessions::SessionDocument::create(arguments.out, session);
@@ -114,7 +112,7 @@ int makeNew(const NewArguments& arguments) {
 void addNew(CLI::App& app, int& exit_code) {
   const auto [command, arguments] =
       addCommand(app, exit_code, "new",
-                 "Makes a session from a dataset or from the files of one case", makeNew);
+                 "Creates a session from a dataset or from the files of one case", makeNew);
   arguments->addTo(*command);
 }
 

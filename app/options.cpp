@@ -79,12 +79,12 @@ void printList(const std::vector<OptionDescription>& options) {
 
 int printOptions(const std::string& profile) {
   printList(sessions::listOptions(profileOptions(profile)));
-  std::cout << "\nOf the methods beside whs (" << sessions::methodNames() << "):\n";
+  std::cout << "\nOptions of the other methods (" << sessions::methodNames() << "):\n";
   printList(sessions::listOptions(methodProfile(profile)));
   return kDone;
 }
 
-/// The manual's page of every option: of a run, of the methods beside WHS, and the limits of the
+/// The manual's page of every option: of a run, of the other methods, and the limits of the
 /// checks, as they are declared, with their values in each profile and preset.
 std::string optionsPage() {
   std::string text =
@@ -97,16 +97,13 @@ std::string optionsPage() {
   text += tables({{"default", sessions::listOptions(profileOptions("default"))},
                   {"paper", sessions::listOptions(profileOptions("paper"))}},
                  "###");
-  text +=
-      "\n## Options of the methods beside WHS\n\nFor `--method`; see "
-      "[Methods beside WHS](methods.md).\n";
+  text += "\n## Options of the other methods\n\nFor `--method`; see [Other methods](methods.md).\n";
   text += tables({{"default", sessions::listOptions(methodProfile("default"))},
                   {"paper", sessions::listOptions(methodProfile("paper"))}},
                  "###");
   text +=
-      "\n## Limits of the checks\n\nBy what poses are judged: *Limits* under *Review*, or `whs "
-      "check "
-      "--preset`. What each check asks: [What each check means](checks.md).\n";
+      "\n## Limits of the checks\n\nSet by *Limits* under *Review*, or by `whs check --preset`; "
+      "see [What each check means](checks.md).\n";
   std::vector<Column> presets;
   for (const sessions::CheckPreset& preset : sessions::checkPresets())
     presets.push_back({preset.name, sessions::listOptions(preset.limits)});
@@ -126,9 +123,9 @@ std::string commandsPage(const CLI::App& app) {
 }  // namespace
 
 void addOptions(CLI::App& app, int& exit_code) {
-  const auto [command, profile] = addCommand(
-      app, exit_code, "options",
-      "Lists every parameter of a run: value in a profile, range, meaning", printOptions);
+  const auto [command, profile] =
+      addCommand(app, exit_code, "options",
+                 "Lists every option of a run: value in a profile, range, meaning", printOptions);
   *profile = "default";
   command->add_option("--profile", *profile, "default or paper")
       ->check(CLI::IsMember({"default", "paper"}))
@@ -140,7 +137,7 @@ void addDocuments(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("documents", "Writes pages of the manual");
   command->group("");
   auto folder = std::make_shared<std::string>();
-  command->add_option("folder", *folder, "Where to")->required()->type_name("DIR");
+  command->add_option("folder", *folder, "Folder of the pages")->required()->type_name("DIR");
   command->callback([folder, &app, &exit_code] {
     exit_code = writePages(*folder, {{"options.md", optionsPage()}, {"whs.md", commandsPage(app)}});
   });

@@ -17,7 +17,8 @@ int writePack(const PackArguments& arguments) {
   const sessions::SessionDocument document = openToRead(arguments.session);
   const sessions::SessionPack pack = sessions::planPack(document.session(), document.file());
   for (const std::string& text : pack.notes) note(text);
-  for (const sessions::PackedFile& one : pack.files) print(one.name + " from " + one.file.string());
+  for (const sessions::PackedFile& packed_file : pack.files)
+    print(packed_file.name + " from " + packed_file.file.string());
   sessions::writePack(pack, arguments.out);
   print(arguments.out);
   return kDone;
@@ -26,14 +27,14 @@ int writePack(const PackArguments& arguments) {
 }  // namespace
 
 void addPack(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "pack",
-      "Makes one archive of a session, its inputs and its runs, which opens elsewhere. Lists each "
-      "file first; a file that is not what the session says it is, or lies outside the folders of "
-      "session and inputs, is refused",
-      writePack);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "pack",
+                 "Packs a session, its inputs and its runs into one archive for another machine. "
+                 "Prints each file first. Refuses a file whose hash differs from the session's, or "
+                 "that lies outside the folders of session and inputs",
+                 writePack);
   addFile(*command, "session", arguments->session, "Session file")->required();
-  addFile(*command, "--out", arguments->out, "The zip archive that is made")->required();
+  addFile(*command, "--out", arguments->out, "Zip archive to create")->required();
 }
 
 }  // namespace boresight::app

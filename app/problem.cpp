@@ -19,15 +19,15 @@ struct ProblemArguments : CaseArguments {
 void ProblemArguments::addTo(CLI::App& command) {
   CaseArguments::addTo(command);
   addUncertaintyTo(command);
-  addFile(command, "--dataset", dataset, "dataset.json with the case, instead of the files above");
-  command.add_option("--case", case_id, "Which of its cases")->type_name("ID");
+  addFile(command, "--dataset", dataset, "dataset.json with the case (replaces the files above)");
+  command.add_option("--case", case_id, "Case of the dataset")->type_name("ID");
   for (const char* name : {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore",
                            "--uncertainty", "--pivot", "--bit-depth"})
     command.get_option(name)->excludes("--dataset");
   command.get_option("--dataset")->needs("--case");
   command.get_option("--case")->needs("--dataset");
-  addFile(command, "--out", out, "Writes the problem: everything but the pixels")->required();
-  addFile(command, "--image-out", image_out, "Writes the 8-bit gray pixels as a binary PGM")
+  addFile(command, "--out", out, "Problem file: all inputs except the pixels")->required();
+  addFile(command, "--image-out", image_out, "Image file: the 8-bit gray pixels as a binary PGM")
       ->required();
 }
 
@@ -80,10 +80,9 @@ int writeProblem(const ProblemArguments& arguments) {
 }  // namespace
 
 void addProblem(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "problem",
-                 "Writes one localization as the flight driver reads it: binary problem and pixels",
-                 writeProblem);
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "problem",
+      "Writes one localization for the flight driver: binary problem and pixels", writeProblem);
   arguments->addTo(*command);
 }
 

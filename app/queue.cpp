@@ -31,17 +31,17 @@ int listQueue(const sessions::Session& session, const QueueArguments& arguments)
 int listDifferences(const sessions::Session& session) {
   int exit_code = kDone;
   int counts[3] = {};
-  for (const auto& one : session.cases) {
-    const auto pair = sessions::lastTwoRuns(session, one->id);
+  for (const auto& session_case : session.cases) {
+    const auto pair = sessions::lastTwoRuns(session, session_case->id);
     if (!pair) {
-      note("case " + one->id + ": it has no two runs to compare");
+      note("case " + session_case->id + ": fewer than two runs to compare");
       continue;
     }
     try {
-      const auto made = sessions::compareRuns(session, pair->before->digest, pair->after->digest,
-                                              sessions::loadCase(*one));
-      ++counts[static_cast<int>(made.change)];
-      std::cout << sessions::differenceText(made) << std::endl;
+      const auto result = sessions::compareRuns(session, pair->before->digest, pair->after->digest,
+                                                sessions::loadCase(*session_case));
+      ++counts[static_cast<int>(result.change)];
+      std::cout << sessions::differenceText(result) << std::endl;
     } catch (const sessions::InputError& error) {
       note(error.what());
       exit_code = kBadInput;
@@ -63,20 +63,19 @@ int queue(const QueueArguments& arguments) {
 void addQueue(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "queue",
-      "Checks the last runs of a session's cases and lists them with the most trouble first: runs "
-      "that failed, then failed checks, the margin to a check's limit, the distance from the seed; "
-      "what is decided comes last",
+      "Checks the last runs of a session's cases and lists the worst first: failed runs, failed "
+      "checks, smallest margin to a limit, largest distance from the seed. Decided cases come last",
       queue);
   addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--jobs", arguments->jobs, "Cases that are checked at a time")
+  command->add_option("--jobs", arguments->jobs, "Number of cases that are checked in parallel")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   auto* csv = command->add_option("--csv", arguments->csv, "Write the list to this file");
   csv->type_name("FILE");
   command
       ->add_flag("--differences", arguments->differences,
-                 "Instead: compare each case's last run with the one before it, and say whether it "
-                 "is better or worse, by the truth where it is known, else by the checks")
+                 "Compare each case's last run with the previous run instead: better or worse by "
+                 "the truth, or by the checks without truth")
       ->excludes(csv);
 }
 

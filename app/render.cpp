@@ -33,18 +33,19 @@ int render(const RenderArguments& arguments) {
   sessions::requireWritable(arguments.out);
   sessions::requireSensibleSeed(camera, scene, pose.camera_from_station, arguments.pose,
                                 "camera_from_station");
-  sessions::RenderTrace made;
-  const Status status = sessions::renderScene(camera, scene.view(), pose.camera_from_station, made);
+  sessions::RenderTrace render_trace;
+  const Status status =
+      sessions::renderScene(camera, scene.view(), pose.camera_from_station, render_trace);
   if (status != Status::kOk)
     throw sessions::InputError(arguments.mesh,
                                std::string("cannot be rendered: ") + statusText(status));
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(camera.width) *
                                    static_cast<std::size_t>(camera.height));
-  for (const EdgePixel& pixel : made.pixels)
+  for (const EdgePixel& pixel : render_trace.pixels)
     pixels[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(camera.width) +
            static_cast<std::size_t>(pixel.x)] = 255;
   sessions::writePng(arguments.out, pixels, camera.width, camera.height, 1);
-  std::cout << made.pixels.size() << " edge pixels\n";
+  std::cout << render_trace.pixels.size() << " edge pixels\n";
   return kDone;
 }
 

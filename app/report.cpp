@@ -19,24 +19,24 @@ int report(const ReportArguments& arguments) {
   const sessions::Session& session = document.session();
   std::string id = arguments.case_id;
   if (id.empty() && session.cases.size() == 1) id = session.cases.front()->id;
-  if (id.empty()) throw CLI::ValidationError("--case", "the session has several: name one");
+  if (id.empty()) throw CLI::ValidationError("--case", "the session has several cases; give one");
   (void)requireCase(document, id);
-  const sessions::PoseReport made = sessions::poseReport(session, id);
-  sessions::writePoseReport(arguments.out, made);
-  print(id + ": " + made.pose.review_status);
+  const sessions::PoseReport pose_report = sessions::poseReport(session, id);
+  sessions::writePoseReport(arguments.out, pose_report);
+  print(id + ": " + pose_report.pose.review_status);
   return kDone;
 }
 
 }  // namespace
 
 void addReport(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "report",
-      "Writes a report of a case's pose as PDF: overlay, pose, inputs, decision, checks, residuals "
-      "and the run's course, on two pages",
-      report);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "report",
+                 "Writes a two-page PDF report of a case's pose: overlay, pose, inputs, decision, "
+                 "checks, residuals, iterations",
+                 report);
   addFile(*command, "session", arguments->session, "Session file")->required();
-  command->add_option("--case", arguments->case_id, "The case; needed where there are several")
+  command->add_option("--case", arguments->case_id, "Case; required if the session has several")
       ->type_name("ID");
   addFile(*command, "--out", arguments->out, "PDF file")->required();
 }

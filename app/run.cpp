@@ -25,7 +25,7 @@ std::vector<std::string> selectedCases(const sessions::SessionDocument& document
   for (const std::string& id : asked) (void)requireCase(document, id);
   if (!asked.empty()) return asked;
   std::vector<std::string> all;
-  for (const auto& one : document.session().cases) all.push_back(one->id);
+  for (const auto& session_case : document.session().cases) all.push_back(session_case->id);
   return all;
 }
 
@@ -60,8 +60,8 @@ int runTogether(sessions::SessionDocument& document, const std::string& id) {
 /// Each rig once, by the first of its cases that was asked for; cases without other views alone.
 bool rigHasRun(const sessions::Session& session, const std::string& id,
                const std::vector<std::string>& led) {
-  const auto rigOf = [&session](const std::string& one) {
-    const auto& rig = session.findCase(one)->rig;
+  const auto rigOf = [&session](const std::string& text) {
+    const auto& rig = session.findCase(text)->rig;
     return rig ? rig->id : std::string();
   };
   return std::any_of(led.begin(), led.end(), [&](const std::string& leader) {
@@ -114,19 +114,18 @@ void addRun(CLI::App& app, int& exit_code) {
   command->add_option("--case", arguments->cases, "Only this case; may be repeated")
       ->type_name("ID");
   command
-      ->add_option(
-          "--again", arguments->again,
-          "Instead: run a recorded run once more, with the options that it had and took up "
-          "on its way, and compare; the beginning of its digest")
+      ->add_option("--again", arguments->again,
+                   "Repeat the recorded run whose digest begins with these digits, with its "
+                   "options, and compare the digests")
       ->type_name("DIGEST")
       ->excludes("--case");
   command
       ->add_flag("--views", arguments->views,
-                 "Each case together with the other views of its rig, as one pose; the case of a "
-                 "rig that comes first leads: seed and uncertainty are its")
+                 "Run each case together with the other views of its rig as one pose; the first "
+                 "case of a rig gives seed and uncertainty")
       ->excludes("--again");
   command->add_flag("--recover", arguments->recover,
-                    "Take edits that a killed program left in the session's journal");
+                    "Recover edits that a killed program left in the session's journal");
 }
 
 }  // namespace boresight::app

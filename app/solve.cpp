@@ -3,12 +3,12 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/solution_file.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/pose_file.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 
 namespace boresight::app {
 namespace {
@@ -27,21 +27,21 @@ struct SolveArguments {
   bool robust = false;
 };
 
-std::vector<sessions::MarkedView> readViews(const SolveArguments& arguments) {
+std::vector<sessions::AnnotatedView> readViews(const SolveArguments& arguments) {
   if (!arguments.rig.empty()) return sessions::readRig(arguments.rig);
-  sessions::MarkedView view;
+  sessions::AnnotatedView view;
   view.name = arguments.points;
   view.camera = sessions::readCamera(std::filesystem::path(arguments.camera));
-  view.marks = sessions::readMarks(std::filesystem::path(arguments.points));
+  view.annotations = sessions::readAnnotations(std::filesystem::path(arguments.points));
   return {view};
 }
 
-/// Marks in files of their own: nothing but they says where the station is.
-sessions::CaseMarksSolution solveFiles(const SolveArguments& arguments) {
-  sessions::CaseMarksSolution made;
-  made.marks.views = readViews(arguments);
-  made.marks.rigid = !arguments.rig.empty();
-  sessions::SolveMarksOptions options;
+/// Annotations in files of their own: nothing but they says where the station is.
+sessions::CaseAnnotationsSolution solveFiles(const SolveArguments& arguments) {
+  sessions::CaseAnnotationsSolution case_annotations_solution;
+  case_annotations_solution.annotations.views = readViews(arguments);
+  case_annotations_solution.annotations.rigid = !arguments.rig.empty();
+  sessions::SolveAnnotationsOptions options;
   options.robust = arguments.robust;
   if (!arguments.seed.empty()) {
     sessions::PoseFrames frames;
@@ -51,45 +51,53 @@ sessions::CaseMarksSolution solveFiles(const SolveArguments& arguments) {
     options.rig_from_station_guess =
         sessions::readPose(std::filesystem::path(arguments.seed), frames).camera_from_station;
   }
-  const auto& views = made.marks.views;
-  made.result = sessions::solveMarks(views, options);
+  const auto& views = case_annotations_solution.annotations.views;
+  case_annotations_solution.result = sessions::solveAnnotations(views, options);
   const Pose* known = options.rig_from_station_guess ? &*options.rig_from_station_guess : nullptr;
-  if (made.result.solution) known = &made.result.solution->rig_from_station;
-  made.warnings = sessions::geometryWarnings(views, known, {});
-  if (made.result.solution) made.left_out = sessions::leaveOneOut(views, *made.result.solution);
-  return made;
+  if (case_annotations_solution.result.solution)
+    known = &case_annotations_solution.result.solution->rig_from_station;
+  case_annotations_solution.warnings = sessions::geometryWarnings(views, known, {});
+  if (case_annotations_solution.result.solution)
+    case_annotations_solution.left_out =
+        sessions::leaveOneOut(views, *case_annotations_solution.result.solution);
+  return case_annotations_solution;
 }
 
 /// A case of a session, as the desktop program solves it.
-sessions::CaseMarksSolution solveSession(const SolveArguments& arguments) {
+sessions::CaseAnnotationsSolution solveSession(const SolveArguments& arguments) {
   const sessions::SessionDocument document = openToRead(arguments.session);
   requireCase(document, arguments.case_id);
-  return sessions::solveCaseMarks(document.session(), arguments.case_id, !arguments.alone,
-                                  arguments.robust);
+  return sessions::solveCaseAnnotations(document.session(), arguments.case_id, !arguments.alone,
+                                        arguments.robust);
 }
 
 int solve(const SolveArguments& arguments) {
   if (arguments.rig.empty() && arguments.points.empty() && arguments.session.empty())
     throw CLI::RequiredError("--points and --camera, or --rig, or --session and --case");
   const bool of_session = !arguments.session.empty();
-  const sessions::CaseMarksSolution made =
+  const sessions::CaseAnnotationsSolution case_annotations_solution =
       of_session ? solveSession(arguments) : solveFiles(arguments);
   for (const std::string& file : {arguments.out, arguments.json})
     if (!file.empty()) sessions::requireWritable(file);
-  const auto& views = made.marks.views;
+  const auto& views = case_annotations_solution.annotations.views;
   if (!arguments.json.empty())
-    sessions::writeSolution(arguments.json, views, made.result, made.left_out, made.warnings,
+    sessions::writeSolution(arguments.json, views, case_annotations_solution.result,
+                            case_annotations_solution.left_out, case_annotations_solution.warnings,
                             arguments.robust);
-  if (!made.result.solution) {
-    note("no pose: " + made.result.reason);
+  if (!case_annotations_solution.result.solution) {
+    note("no pose: " + case_annotations_solution.result.reason);
     return kNotConverged;
   }
-  std::cout << sessions::solutionText(views, *made.result.solution, made.left_out, made.warnings);
+  std::cout << sessions::solutionText(views, *case_annotations_solution.result.solution,
+                                      case_annotations_solution.left_out,
+                                      case_annotations_solution.warnings);
   if (!arguments.out.empty())
-    sessions::writePose(
-        arguments.out,
-        of_session ? *made.camera_from_station() : made.result.solution->rig_from_station, {},
-        of_session ? made.covariance() : made.result.solution->covariance);
+    sessions::writePose(arguments.out,
+                        of_session ? *case_annotations_solution.camera_from_station()
+                                   : case_annotations_solution.result.solution->rig_from_station,
+                        {},
+                        of_session ? case_annotations_solution.covariance()
+                                   : case_annotations_solution.result.solution->covariance);
   return kDone;
 }
 
@@ -98,25 +106,25 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
   CLI::Option* points =
       command.add_option("--points", arguments.points, "points.json or points.csv");
   CLI::Option* camera = command.add_option("--camera", arguments.camera, kCameraHelp);
-  CLI::Option* rig = command.add_option("--rig", arguments.rig,
-                                        "rig.json: cameras that moved as one, with their points; "
-                                        "the pose is the rig's");
-  CLI::Option* session = command.add_option(
-      "--session", arguments.session,
-      "Session whose case is solved, as the desktop program does: together with the marks of its "
-      "rig's other cases, from its working pose or seed");
-  CLI::Option* one = command.add_option("--case", arguments.case_id, "The case");
+  CLI::Option* rig = command.add_option(
+      "--rig", arguments.rig,
+      "rig.json: rigidly joined cameras with their points; the pose is that of the rig");
+  CLI::Option* session =
+      command.add_option("--session", arguments.session,
+                         "Session with the case; solved as in the desktop program: with the "
+                         "annotations of its rig's other cases, from its working pose or seed");
+  CLI::Option* option = command.add_option("--case", arguments.case_id, "Case");
   CLI::Option* alone =
-      command.add_flag("--alone", arguments.alone, "Without the other cases of its rig");
-  CLI::Option* seed = command.add_option("--seed", arguments.seed,
-                                         "pose.json to start from, where no image has four points");
+      command.add_flag("--alone", arguments.alone, "Leave out the other cases of its rig");
+  CLI::Option* seed = command.add_option(
+      "--seed", arguments.seed, "pose.json to start from, needed if no image has four points");
   for (CLI::Option* file : {points, camera, rig, session, seed}) file->type_name("FILE");
-  one->type_name("ID");
+  option->type_name("ID");
   arguments.frames.addTo(command);
   rig->excludes(points)->excludes(camera);
   session->excludes(points)->excludes(camera)->excludes(rig)->excludes(seed);
-  session->needs(one);
-  one->needs(session);
+  session->needs(option);
+  option->needs(session);
   alone->needs(session);
   points->needs(camera);
   camera->needs(points);
@@ -127,13 +135,14 @@ void addSources(CLI::App& command, SolveArguments& arguments) {
 void addSolve(CLI::App& app, int& exit_code) {
   const auto [command, arguments] =
       addCommand(app, exit_code, "solve",
-                 "Finds the pose from points and lines annotated in the image", solve);
+                 "Solves for the pose from points and lines annotated in the image", solve);
   addSources(*command, *arguments);
-  command->add_flag("--robust", arguments->robust, "Marks far from their projection count less");
+  command->add_flag("--robust", arguments->robust,
+                    "Give annotations far from their projection less weight");
   addFile(*command, "--out", arguments->out, "Writes the pose as pose.json");
   addFile(*command, "--json", arguments->json,
-          "Writes everything that came out: poses, covariances, residuals, what each mark "
-          "moves, warnings (sessions/annotation/solution_file.h)");
+          "Writes the solution: poses, covariances, residuals, influence of each annotation, "
+          "warnings (sessions/annotation/solution_file.h)");
 }
 
 }  // namespace boresight::app

@@ -41,17 +41,17 @@ struct TablesArguments {
 void TablesArguments::addTo(CLI::App& command) {
   addFile(command, "RESULTS", results, "Results of `whs evaluate`")->required();
   addFile(command, "--against", against,
-          "Compares RESULTS (before) with these (after), run by run, instead");
-  command.add_flag("--all", all, "With --against: lists also what did not change");
+          "Compares RESULTS (before) with these results (after), run by run");
+  command.add_flag("--all", all, "With --against: also lists unchanged runs");
   command
       .add_option("--table", tables,
-                  "Only these: errors, success, strata, tolerance, times (all five)")
+                  "Tables to print: errors, success, strata, tolerance, times (default: all)")
       ->check(CLI::IsMember({"errors", "success", "strata", "tolerance", "times"}));
   command.add_option("--station", filter.stations, "Only runs of these stations")->type_name("S");
   command.add_option("--tag", filter.tags, "Only runs with one of these tags")->type_name("T");
   command.add_option("--method", filter.methods, "Only runs of these methods")->type_name("M");
   command.add_flag("--paper", paper,
-                   "Shows what Pham et al. 2025 report beside ours, with what to mind");
+                   "Adds the figures of Pham et al. 2025, with notes on the comparison");
   addFile(command, "--instructions", instructions,
           "Adds a table of minutes at 200 MHz from counts of tests/benchmarks/instructions.sh");
   command
@@ -64,7 +64,7 @@ void TablesArguments::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"text", "csv", "latex"}))
       ->capture_default_str()
       ->type_name("F");
-  addFile(command, "--out", out, "The tables into this file instead of onto the terminal");
+  addFile(command, "--out", out, "Writes the tables to this file instead of the terminal");
   command
       .add_option("--figures", figures,
                   "Draws the figures into this folder: error_strips, error_distribution, "
@@ -72,10 +72,10 @@ void TablesArguments::addTo(CLI::App& command) {
       ->type_name("FOLDER");
   command
       .add_option("--failures", failures,
-                  "Draws the runs that did not succeed into this folder, with where each went "
-                  "astray; needs the dataset's images")
+                  "Draws each unsuccessful run into this folder, with the cause of failure; needs "
+                  "the dataset's images")
       ->type_name("FOLDER");
-  command.add_option("--figure-format", figure_formats, "pdf, svg, png, or several of them")
+  command.add_option("--figure-format", figure_formats, "Formats of the figures: pdf, svg, png")
       ->check(CLI::IsMember({"pdf", "svg", "png"}))
       ->capture_default_str()
       ->type_name("F");
@@ -98,7 +98,7 @@ void write(const TablesArguments& arguments, const std::string& text) {
     sessions::writeFileAtomically(arguments.out, text);
 }
 
-/// What the runs are: nobody should have to guess which files and options a table is of.
+/// Files, machines and options of a table's runs.
 std::string provenanceText(const sessions::ResultsSet& set) {
   std::string text;
   for (const sessions::ResultsFacts& file : set.files)
@@ -107,9 +107,9 @@ std::string provenanceText(const sessions::ResultsSet& set) {
                                 file.dataset.version);
   std::set<std::string> machines;
   for (const sessions::ResultsFacts& file : set.files)
-    for (const sessions::Sitting& sitting : file.sittings)
-      machines.insert(sitting.processor + ", " + std::to_string(sitting.jobs) + " jobs of " +
-                      std::to_string(sitting.threads) + " threads");
+    for (const sessions::BatchRun& batch_run : file.batch_runs)
+      machines.insert(batch_run.processor + ", " + std::to_string(batch_run.jobs) + " jobs of " +
+                      std::to_string(batch_run.threads) + " threads");
   for (const std::string& machine : machines) text += sessions::plainLine("run on " + machine);
   for (const auto& [name, method] : set.methods)
     text += sessions::plainLine(
@@ -174,7 +174,7 @@ void drawFailures(const TablesArguments& arguments) {
   const std::vector<sessions::Failure> failures =
       sessions::failuresOf(paths(arguments.results), arguments.filter);
   if (failures.empty()) {
-    note("every run succeeded: there is nothing for --failures to draw");
+    note("no unsuccessful run; --failures draws nothing");
     return;
   }
   for (const std::string& name : arguments.figure_formats)
@@ -217,8 +217,8 @@ int makeTables(const TablesArguments& arguments) {
 void addTables(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "tables",
-      "Tables and figures of results: errors, success, time per step, distributions; or two sets "
-      "of results run by run (--against; exit 6 when a run became worse)",
+      "Writes tables and figures of results: errors, success, time per step, distributions. With "
+      "--against it compares two sets of results run by run; exit status 6: a run became worse",
       makeTables);
   arguments->addTo(*command);
 }

@@ -20,8 +20,8 @@ int verify(const VerifyArguments& arguments) {
     print((finding.good ? "good        " : "WRONG       ") + finding.what + ": " + finding.text);
   for (const std::string& text : report.not_proved) print("not proved  " + text);
   print("stated: " + report.review_status);
-  print(report.good() ? "everything that was measured is as stated"
-                      : "the document is NOT as stated");
+  print(report.good() ? "all measured values agree with the document"
+                      : "the document does NOT agree with the measured values");
   return report.good() ? kDone : kDifferent;
 }
 
@@ -30,19 +30,17 @@ int verify(const VerifyArguments& arguments) {
 void addVerify(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "verify",
-      "Checks a validated_pose.json against the files that it names and against itself, runs its "
-      "localization again, and compares pose, covariance and checks with those stated. It cannot "
-      "prove who decided, when, and why a failed check was passed over: those are listed as not "
-      "proved. Exit status 0 when everything that was measured is as stated, 6 when it is not",
+      "Verifies a validated_pose.json: checks its hashes, runs its localization again, and "
+      "compares pose, covariance and checks. Lists as not proved who decided, when, and why a "
+      "check was waived. Exit status: 0 all measured values agree, 6 they do not",
       verify);
   addFile(*command, "file", arguments->file, "validated_pose.json")->required();
-  CLI::Option* no_run = command->add_flag(
-      "--no-run", arguments->no_run,
-      "Do not run the localization again: pose, covariance and checks are not proved then");
+  CLI::Option* no_run =
+      command->add_flag("--no-run", arguments->no_run,
+                        "Skip the localization; pose, covariance and checks are then not proved");
   command
       ->add_flag("--full", arguments->full,
-                 "Run the convergence test from further seeds again, too, which takes as long as "
-                 "so many runs")
+                 "Repeat the convergence test, too; takes one run per seed")
       ->excludes(no_run);
 }
 

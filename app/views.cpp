@@ -38,20 +38,20 @@ struct RigRun {
   bool converged() const { return joint.result.status == LocalizationStatus::kConverged; }
   /// At the end effector, or at the camera; nothing without a pose or a truth.
   std::optional<sessions::PoseError> errorOf(std::size_t view) const {
-    const sessions::Case& one = *cases[view];
-    if (!converged() || !one.truth_camera_from_station) return std::nullopt;
-    return sessions::poseError(*one.truth_camera_from_station,
+    const sessions::Case& dataset_case = *cases[view];
+    if (!converged() || !dataset_case.truth_camera_from_station) return std::nullopt;
+    return sessions::poseError(*dataset_case.truth_camera_from_station,
                                joint.result.views[view].camera_from_station,
-                               one.camera_from_end_effector);
+                               dataset_case.camera_from_end_effector);
   }
 };
 
 /// In the order of their first cases.
 std::vector<std::string> rigIds(const sessions::Dataset& dataset) {
   std::vector<std::string> ids;
-  for (const sessions::Case& one : dataset.cases)
-    if (one.rig && std::find(ids.begin(), ids.end(), one.rig->id) == ids.end())
-      ids.push_back(one.rig->id);
+  for (const sessions::Case& dataset_case : dataset.cases)
+    if (dataset_case.rig && std::find(ids.begin(), ids.end(), dataset_case.rig->id) == ids.end())
+      ids.push_back(dataset_case.rig->id);
   return ids;
 }
 
@@ -61,10 +61,10 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
   RigRun run;
   run.rig = rig;
   std::vector<std::string> ids;
-  for (const sessions::Case& one : dataset.cases)
-    if (one.rig && one.rig->id == rig) {
-      run.cases.push_back(&one);
-      ids.push_back(one.id);
+  for (const sessions::Case& dataset_case : dataset.cases)
+    if (dataset_case.rig && dataset_case.rig->id == rig) {
+      run.cases.push_back(&dataset_case);
+      ids.push_back(dataset_case.id);
     }
   const std::string place = "rig \"" + rig + "\"";
   if (ids.empty()) throw sessions::InputError(dataset.file, place, "no case names it");
@@ -86,9 +86,9 @@ RigRun runRig(const sessions::Dataset& dataset, const std::string& rig,
   return run;
 }
 
-std::string errorText(const sessions::PoseError& error, const sessions::Case& one) {
-  return std::string("; off the truth at the ") +
-         sessions::judgedPlace(one.camera_from_end_effector) + ": normal " +
+std::string errorText(const sessions::PoseError& error, const sessions::Case& dataset_case) {
+  return std::string("; error at the ") +
+         sessions::judgedPlace(dataset_case.camera_from_end_effector) + ": normal " +
          fixedText(error.normal_mm, 3) + " mm, lateral " + fixedText(error.lateral_mm, 3) +
          " mm, rotation " + fixedText(error.rotation_mrad, 3) + " mrad";
 }
@@ -105,7 +105,7 @@ void printRig(const RigRun& run) {
     print("  " + run.cases[v]->id + " (" + run.cases[v]->camera +
           "): " + localizationStatusText(view.status) + ", " + std::to_string(view.inliers) +
           " of " + std::to_string(view.correspondences) + " matches agree, " +
-          std::to_string(view.edges_used) + " edge places, edge support " +
+          std::to_string(view.edges_used) + " edge points, edge support " +
           fixedText(100.0 * view.support.share(), 1) + " %" +
           (error ? errorText(*error, *run.cases[v]) : ""));
   }
@@ -166,14 +166,14 @@ int localizeRigs(const ViewsArguments& arguments) {
 }  // namespace
 
 void addViews(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "views",
-      "Finds one pose from several images: the cases of a dataset that share a rig, i.e. cameras "
-      "of a rigid rig, or one camera at known places of its arm",
-      localizeRigs);
-  addFile(*command, "--dataset", arguments->dataset, "dataset.json whose cases name rigs")
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "views",
+                 "Solves for one pose from several images: cases of a dataset that share a rig "
+                 "(joined cameras, or one camera on an arm)",
+                 localizeRigs);
+  addFile(*command, "--dataset", arguments->dataset, "dataset.json with cases that have rigs")
       ->required();
-  command->add_option("--rig", arguments->rigs, "Which of its rigs; without it all")
+  command->add_option("--rig", arguments->rigs, "Rig to localize; may be repeated (default: all)")
       ->type_name("ID");
   arguments->options.addTo(*command);
   addThreads(*command, arguments->threads);

@@ -153,6 +153,6 @@ int main(int argc, char** argv) {
   const PlainOutput plain_errors(std::cerr);
   const int exit_code = runGuarded(argc, argv);
   if (std::cout.flush()) return exit_code;
-  note("cannot write standard output: not all of the output got there; is its device full?");
+  note("cannot write standard output: the output is incomplete; is the device full?");
   return exit_code == kDone ? kBadInput : exit_code;
 }

@@ -27,7 +27,7 @@ static_assert(kArenaBytes % Arena::kAlignment == 0);
 /// own. The encoded problem is read behind what it decodes to, and overwritten after that.
 alignas(Arena::kAlignment) std::byte arena_block[kArenaBytes];
 
-/// What is wrong with an input, for people.
+/// Reason why an input is refused.
 struct Fault {
   const char* reason = nullptr;  ///< nullptr: nothing is
   const char* option = nullptr;  ///< the option that it is about, or nullptr
@@ -72,7 +72,7 @@ Fault readProblem(std::FILE* stream, std::span<std::byte> block, LocalizationPro
   const long size = sizeOfFile(stream);
   if (size < 0) return {"cannot be read; give a file, not a pipe"};
   const auto count = static_cast<std::size_t>(size);
-  if (count > block.size()) return {"larger than all memory there is; use a coarser mesh"};
+  if (count > block.size()) return {"larger than the arena; use a coarser mesh"};
   // It decodes to about as many bytes. As low as that allows: no page more is touched than needed.
   const std::size_t room = std::min(2 * count + 4096, block.size() - count);
   const std::span<std::byte> encoded = block.subspan(room, count);
@@ -157,8 +157,8 @@ int localize(const LocalizationProblem& problem, const LocalizerOptions& options
     std::size_t needed = 0;
     if (requiredBytes(sizeOf(problem), options, needed) != Status::kOk) needed = 0;
     std::fprintf(stderr,
-                 "%s: needs %lu bytes beside its inputs, and there are %lu; use a smaller "
-                 "image or a coarser mesh\n",
+                 "%s: needs %lu bytes besides its inputs, %lu are free; use a smaller image or a "
+                 "coarser mesh\n",
                  problem_file, static_cast<unsigned long>(needed),
                  static_cast<unsigned long>(memory.size()));
     return kBadInput;

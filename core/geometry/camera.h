@@ -26,8 +26,8 @@ inline constexpr CameraModel kLastCameraModel = CameraModel::kCahvore;
 /// are kept in the camera frame: C = 0, A = (0, 0, 1), H = (fx, 0, cx), V = (skew_px, fy, cy).
 inline bool isCahvFamily(CameraModel model) { return model >= CameraModel::kCahv; }
 
-/// Parameters of those models in addition to fx .. cy. cahv_model.h computes them from vectors in any
-/// frame.
+/// Parameters of those models in addition to fx .. cy. cahv_model.h computes them from vectors in
+/// any frame.
 struct CahvLens {
   double skew_px = 0.0;  ///< V along x: 0 when the image's axes are square to each other
   Eigen::Vector3d optical_axis = Eigen::Vector3d::UnitZ();  ///< O, of unit length

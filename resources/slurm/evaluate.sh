@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs `whs evaluate` as a Slurm job array, one shard a task, and merges what comes out of it.
-# README.md beside this says how.
+# See README.md in this folder.
 set -euo pipefail
 
 usage() {

@@ -11,12 +11,12 @@ namespace {
 /// Pairs of both lists that have the same id and both sides.
 template <class Pair, class Compare>
 void compareAll(const std::vector<Pair>& first, const std::vector<Pair>& second, Compare&& compare,
-                std::vector<MarkDifference>& differences) {
-  for (const Pair& one : first) {
+                std::vector<AnnotationDifference>& differences) {
+  for (const Pair& item : first) {
     const auto other = std::find_if(second.begin(), second.end(),
-                                    [&one](const Pair& pair) { return pair.id == one.id; });
-    if (other == second.end() || !one.complete() || !other->complete()) continue;
-    differences.push_back({one.id, compare(one, *other)});
+                                    [&item](const Pair& pair) { return pair.id == item.id; });
+    if (other == second.end() || !item.complete() || !other->complete()) continue;
+    differences.push_back({item.id, compare(item, *other)});
   }
 }
 
@@ -44,14 +44,14 @@ Pair blindPair(const Pair& pair) {
 
 }  // namespace
 
-Marks blindMarks(const Marks& marks) {
-  Marks blind;
-  for (const PointPair& point : marks.points) {
+Annotations blindAnnotations(const Annotations& annotations) {
+  Annotations blind;
+  for (const PointPair& point : annotations.points) {
     if (!point.point_in_station_m) continue;
     blind.points.push_back(blindPair(point));
     blind.points.back().point_in_station_m = point.point_in_station_m;
   }
-  for (const LinePair& line : marks.lines) {
+  for (const LinePair& line : annotations.lines) {
     if (!line.edge) continue;
     blind.lines.push_back(blindPair(line));
     blind.lines.back().edge = line.edge;
@@ -59,37 +59,41 @@ Marks blindMarks(const Marks& marks) {
   return blind;
 }
 
-AnnotationRounds keepingMarks(AnnotationRounds rounds, const Marks& marks,
-                              const std::string& time) {
+AnnotationRounds keepingAnnotations(AnnotationRounds rounds, const Annotations& annotations,
+                                    const std::string& time) {
   const bool on_image =
-      std::any_of(marks.points.begin(), marks.points.end(),
+      std::any_of(annotations.points.begin(), annotations.points.end(),
                   [](const PointPair& point) { return point.pixel.has_value(); }) ||
-      std::any_of(marks.lines.begin(), marks.lines.end(),
+      std::any_of(annotations.lines.begin(), annotations.lines.end(),
                   [](const LinePair& line) { return line.line.has_value(); });
-  const bool kept = std::any_of(rounds.begin(), rounds.end(),
-                                [&](const AnnotationRound& round) { return round.marks == marks; });
-  if (on_image && !kept) rounds.push_back({"marks at work", time, marks});
+  const bool kept = std::any_of(rounds.begin(), rounds.end(), [&](const AnnotationRound& round) {
+    return round.annotations == annotations;
+  });
+  if (on_image && !kept) rounds.push_back({"current annotations", time, annotations});
   return rounds;
 }
 
-Repeatability repeatability(const Marks& first, const Marks& second) {
-  Repeatability made;
+Repeatability repeatability(const Annotations& first, const Annotations& second) {
+  Repeatability result;
   compareAll(
       first.points, second.points,
       [](const PointPair& a, const PointPair& b) { return (*b.pixel - *a.pixel).eval(); },
-      made.marks);
+      result.annotations);
   compareAll(
       first.lines, second.lines,
       [](const LinePair& a, const LinePair& b) { return acrossLine(*a.line, *b.line); },
-      made.marks);
-  std::sort(made.marks.begin(), made.marks.end(),
-            [](const MarkDifference& a, const MarkDifference& b) { return a.id < b.id; });
+      result.annotations);
+  std::sort(
+      result.annotations.begin(), result.annotations.end(),
+      [](const AnnotationDifference& a, const AnnotationDifference& b) { return a.id < b.id; });
   double squares = 0.0;
-  for (const MarkDifference& mark : made.marks) squares += mark.difference_px.squaredNorm();
-  // Two values a mark; a difference has twice the variance of either person's mark.
-  if (!made.marks.empty())
-    made.sigma_px = std::sqrt(squares / (2.0 * static_cast<double>(made.marks.size())) / 2.0);
-  return made;
+  for (const AnnotationDifference& annotation : result.annotations)
+    squares += annotation.difference_px.squaredNorm();
+  // Two values an annotation; a difference has twice the variance of either person's annotation.
+  if (!result.annotations.empty())
+    result.sigma_px =
+        std::sqrt(squares / (2.0 * static_cast<double>(result.annotations.size())) / 2.0);
+  return result;
 }
 
 }  // namespace boresight::sessions

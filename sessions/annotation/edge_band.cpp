@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/run/scene_render.h"
 
 namespace boresight::sessions {
@@ -74,10 +74,11 @@ struct PosedEdge {
     bool in_image = false;
     PredictedPlace before = at(0.0);
     for (int i = 1; i <= kSections; ++i) {
-      const PredictedPlace here = at(static_cast<double>(i) / kSections);
-      if (before.valid && here.valid) length_px += (here.pixel - before.pixel).norm();
-      in_image = in_image || isOnImage(before) || isOnImage(here);
-      before = here;
+      const PredictedPlace predicted_place = at(static_cast<double>(i) / kSections);
+      if (before.valid && predicted_place.valid)
+        length_px += (predicted_place.pixel - before.pixel).norm();
+      in_image = in_image || isOnImage(before) || isOnImage(predicted_place);
+      before = predicted_place;
     }
     return in_image ? length_px : 0.0;
   }
@@ -91,12 +92,12 @@ std::optional<BandPlace> bandPlace(const PosedEdge& posed, const PredictedPlace&
       (posed.edge.end_in_station_m - posed.edge.start_in_station_m).normalized();
   const Eigen::Vector2d along = place.pixel_by_point * direction;
   if (!(along.norm() > 1e-9 * place.pixel_by_point.norm())) return {};
-  BandPlace made;
-  made.pixel = place.pixel;
-  made.normal = Eigen::Vector2d(-along.y(), along.x()).normalized();
-  const Eigen::Matrix<double, 1, 6> row = made.normal.transpose() * place.pixel_by_xi;
-  made.half_width_px = kNormalQuantile * std::sqrt(std::max(0.0, row.dot(row * covariance)));
-  return made;
+  BandPlace band_place;
+  band_place.pixel = place.pixel;
+  band_place.normal = Eigen::Vector2d(-along.y(), along.x()).normalized();
+  const Eigen::Matrix<double, 1, 6> row = band_place.normal.transpose() * place.pixel_by_xi;
+  band_place.half_width_px = kNormalQuantile * std::sqrt(std::max(0.0, row.dot(row * covariance)));
+  return band_place;
 }
 
 void addPieces(const PosedEdge& posed, const DepthImage& depth, const Matrix6d& covariance,
@@ -112,9 +113,9 @@ void addPieces(const PosedEdge& posed, const DepthImage& depth, const Matrix6d& 
   };
   for (int i = 0; i <= sections; ++i) {
     const PredictedPlace place = posed.at(static_cast<double>(i) / sections);
-    const auto made = depth.sees(place) ? bandPlace(posed, place, covariance) : std::nullopt;
-    if (made)
-      piece.places.push_back(*made);
+    const auto result = depth.sees(place) ? bandPlace(posed, place, covariance) : std::nullopt;
+    if (result)
+      piece.places.push_back(*result);
     else
       finish();
   }

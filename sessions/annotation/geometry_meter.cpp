@@ -14,12 +14,12 @@ constexpr int kFewestPoints = 4;
 constexpr double kFewestOfDepth = 0.02;  ///< of the mean distance
 constexpr double kFewestOfImage = 0.25;  ///< of the station's extent in the image, each way
 
-std::vector<Eigen::Vector3d> markedPlaces(std::span<const MarkedView> views) {
+std::vector<Eigen::Vector3d> annotatedPlaces(std::span<const AnnotatedView> views) {
   std::vector<Eigen::Vector3d> places;
-  for (const MarkedView& view : views) {
-    for (const PointPair& point : view.marks.points)
+  for (const AnnotatedView& view : views) {
+    for (const PointPair& point : view.annotations.points)
       if (point.used()) places.push_back(*point.point_in_station_m);
-    for (const LinePair& line : view.marks.lines) {
+    for (const LinePair& line : view.annotations.lines) {
       if (!line.used()) continue;
       places.push_back(line.edge->start_in_station_m);
       places.push_back(line.edge->end_in_station_m);
@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> markedPlaces(std::span<const MarkedView> views) {
 }
 
 /// Widths of the smallest upright box around the places that the camera sees.
-Eigen::Vector2d extentInImage(const MarkedView& view, const Pose& camera_from_station,
+Eigen::Vector2d extentInImage(const AnnotatedView& view, const Pose& camera_from_station,
                               std::span<const Eigen::Vector3d> places_m) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector3d& place : places_m) {
@@ -45,12 +45,13 @@ struct Counts {
   int most_points = 0;
 };
 
-Counts countMarks(std::span<const MarkedView> views) {
+Counts countAnnotations(std::span<const AnnotatedView> views) {
   Counts counts;
-  counts.measurements = 2 * static_cast<int>(usedMarks(views).size());
-  for (const MarkedView& view : views) {
-    const auto points = std::count_if(view.marks.points.begin(), view.marks.points.end(),
-                                      [](const PointPair& point) { return point.used(); });
+  counts.measurements = 2 * static_cast<int>(usedAnnotations(views).size());
+  for (const AnnotatedView& view : views) {
+    const auto points =
+        std::count_if(view.annotations.points.begin(), view.annotations.points.end(),
+                      [](const PointPair& point) { return point.used(); });
     counts.most_points = std::max(counts.most_points, static_cast<int>(points));
   }
   return counts;
@@ -60,19 +61,19 @@ void warnOfCounts(const Counts& counts, bool guessed, std::vector<GeometryWarnin
   const int missing = (kUnknowns - counts.measurements + 1) / 2;
   if (missing > 0) {
     warnings.push_back({GeometryWeakness::kTooFew, true,
-                        "too few marks: a pose needs " + std::to_string(missing) +
+                        "too few annotations: add " + std::to_string(missing) +
                             (missing == 1 ? " more pair" : " more pairs")});
   } else if (!guessed && counts.most_points < kFewestPoints) {
     warnings.push_back({GeometryWeakness::kTooFew, true,
-                        "too few points: without a first guess of the pose one image needs " +
+                        "too few points: without an initial pose one image needs at least " +
                             std::to_string(kFewestPoints)});
   } else if (counts.measurements == kUnknowns) {
     warnings.push_back(
-        {GeometryWeakness::kFew, false, "nothing is left over to check the pose: add a pair"});
+        {GeometryWeakness::kFew, false, "no redundancy: add an annotation to check the pose"});
   }
 }
 
-void warnOfDepth(std::span<const MarkedView> views, const Pose& rig_from_station,
+void warnOfDepth(std::span<const AnnotatedView> views, const Pose& rig_from_station,
                  std::span<const Eigen::Vector3d> places_m,
                  std::vector<GeometryWarning>& warnings) {
   if (views.size() != 1) return;  // several cameras see depth
@@ -85,16 +86,16 @@ void warnOfDepth(std::span<const MarkedView> views, const Pose& rig_from_station
     farthest_m = std::max(farthest_m, depth_m);
   }
   if (farthest_m - nearest_m > kFewestOfDepth * 0.5 * (farthest_m + nearest_m)) return;
-  warnings.push_back({GeometryWeakness::kOneDepth, false,
-                      "all marks are equally far from the camera, which leaves its tilt open: add "
-                      "one that is nearer or farther"});
+  warnings.push_back(
+      {GeometryWeakness::kOneDepth, false,
+       "all annotations have the same depth, so that the tilt is weak: add one nearer or farther"});
 }
 
 }  // namespace
 
-MarkedSpread markedSpread(std::span<const MarkedView> views) {
-  const std::vector<Eigen::Vector3d> places = markedPlaces(views);
-  MarkedSpread spread;
+AnnotatedSpread annotatedSpread(std::span<const AnnotatedView> views) {
+  const std::vector<Eigen::Vector3d> places = annotatedPlaces(views);
+  AnnotatedSpread spread;
   spread.places = static_cast<int>(places.size());
   if (places.empty()) return spread;
   const double count = static_cast<double>(places.size());
@@ -112,41 +113,44 @@ MarkedSpread markedSpread(std::span<const MarkedView> views) {
   return spread;
 }
 
-std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views, const Pose* guess,
+std::vector<GeometryWarning> geometryWarnings(std::span<const AnnotatedView> views,
+                                              const Pose* guess,
                                               std::span<const Eigen::Vector3d> station_m) {
   std::vector<GeometryWarning> warnings;
-  warnOfCounts(countMarks(views), guess != nullptr, warnings);
+  warnOfCounts(countAnnotations(views), guess != nullptr, warnings);
   if (!warnings.empty() && warnings.back().prevents) return warnings;
-  const MarkedSpread spread = markedSpread(views);
+  const AnnotatedSpread spread = annotatedSpread(views);
   if (spread.collinear()) {
-    warnings.push_back(
-        {GeometryWeakness::kCollinear, true, "all marks lie on one line: add one beside it"});
+    warnings.push_back({GeometryWeakness::kCollinear, true,
+                        "all annotations lie on one line: add one off the line"});
     return warnings;
   }
   if (spread.coplanar()) {
-    warnings.push_back({GeometryWeakness::kCoplanar, false,
-                        "all marks lie in one plane: two poses may explain them; add one off it"});
+    warnings.push_back(
+        {GeometryWeakness::kCoplanar, false,
+         "all annotations lie in one plane: two poses may fit; add one off the plane"});
   }
   if (guess == nullptr) return warnings;
-  const std::vector<Eigen::Vector3d> places = markedPlaces(views);
+  const std::vector<Eigen::Vector3d> places = annotatedPlaces(views);
   warnOfDepth(views, *guess, places, warnings);
   bool covered = station_m.empty();
-  for (const MarkedView& view : views) {
+  for (const AnnotatedView& view : views) {
     const Pose camera_from_station = view.camera_from_rig * *guess;
-    const Eigen::Vector2d marked = extentInImage(view, camera_from_station, places);
+    const Eigen::Vector2d annotated = extentInImage(view, camera_from_station, places);
     const Eigen::Vector2d whole = extentInImage(view, camera_from_station, station_m);
-    covered = covered || (marked.array() >= kFewestOfImage * whole.array()).all();
+    covered = covered || (annotated.array() >= kFewestOfImage * whole.array()).all();
   }
   if (!covered) {
-    warnings.push_back({GeometryWeakness::kClustered, false,
-                        "the marks cover little of the station: add some far from the others"});
+    warnings.push_back(
+        {GeometryWeakness::kClustered, false,
+         "the annotations cover little of the station: add some far from the others"});
   }
   return warnings;
 }
 
 GeometryWarning imprecisionWarning(const std::string& excess) {
   return {GeometryWeakness::kImprecise, false,
-          "one sigma is " + excess + ": mark more exactly, and far from each other"};
+          "one sigma is " + excess + "; place annotations more precisely and farther apart"};
 }
 
 }  // namespace boresight::sessions

@@ -7,12 +7,12 @@
 
 #include <Eigen/Core>
 
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 
 namespace boresight::sessions {
 
-/// How the marked places of the station (points, and both ends of edges) lie.
-struct MarkedSpread {
+/// How the annotated places of the station (points, and both ends of edges) lie.
+struct AnnotatedSpread {
   int places = 0;
   Eigen::Vector3d middle_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes_in_station = Eigen::Matrix3d::Identity();  ///< columns, widest first
@@ -21,14 +21,14 @@ struct MarkedSpread {
   bool collinear() const { return deviation_m[1] < 0.02 * deviation_m[0]; }
   bool coplanar() const { return deviation_m[2] < 0.02 * deviation_m[0]; }
 };
-MarkedSpread markedSpread(std::span<const MarkedView> views);
+AnnotatedSpread annotatedSpread(std::span<const AnnotatedView> views);
 
 enum class GeometryWeakness {
   kTooFew,     ///< fewer than six measurements, or four points without a guess
   kFew,        ///< no measurement left over to check the pose
   kCollinear,  ///< all places on a line
   kCoplanar,   ///< all places in a plane: two poses may explain them
-  kClustered,  ///< the marks cover little of the station's image
+  kClustered,  ///< the annotations cover little of the station's image
   kOneDepth,   ///< all at one distance from the camera
   kImprecise,  ///< one sigma of the solved pose exceeds the requirement
 };
@@ -39,10 +39,11 @@ struct GeometryWarning {
   std::string text;       ///< what is weak and what to add
 };
 
-/// What is weak in the marks that are on, before anything is solved. `guess` (rig from station, or
-/// nullptr) tells distances and how much of the station's image is covered. `station` are places
-/// that span the station (its mesh's box corners), or empty.
-std::vector<GeometryWarning> geometryWarnings(std::span<const MarkedView> views, const Pose* guess,
+/// What is weak in the annotations that are on, before anything is solved. `guess` (rig from
+/// station, or nullptr) tells distances and how much of the station's image is covered. `station`
+/// are places that span the station (its mesh's box corners), or empty.
+std::vector<GeometryWarning> geometryWarnings(std::span<const AnnotatedView> views,
+                                              const Pose* guess,
                                               std::span<const Eigen::Vector3d> station_m);
 
 /// Of a solved pose whose one sigma exceeds the requirement; `excess` is `sigmaExcessText`.

@@ -204,7 +204,7 @@ void sortByLikelihood(std::vector<Snap>& snaps, double radius_px) {
   });
 }
 
-/// Noise in a shadow makes corners too; beside an edge they are not what the operator clicked.
+/// Noise in a shadow makes corners, too; next to an edge the operator did not mean them.
 bool isFainter(const ImageView& image, const Eigen::Vector2d& corner,
                const std::optional<EdgeSnap>& edge) {
   if (!edge) return false;
@@ -285,22 +285,23 @@ std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Ve
     double squares = 0.0;
     for (const cv::Point2f& point : points)
       squares += distanceFrom(*ellipse, point) * distanceFrom(*ellipse, point);
-    EllipseSnap made;
-    made.centre = {ellipse->center.x, ellipse->center.y};
-    made.half_axes_px = 0.5 * Eigen::Vector2d(ellipse->size.height, ellipse->size.width);
-    made.angle_rad = (ellipse->angle + 90.0) * std::numbers::pi / 180.0;
-    if (made.half_axes_px.x() < made.half_axes_px.y()) {
-      std::swap(made.half_axes_px.x(), made.half_axes_px.y());
-      made.angle_rad += 0.5 * std::numbers::pi;
+    EllipseSnap ellipse_snap;
+    ellipse_snap.centre = {ellipse->center.x, ellipse->center.y};
+    ellipse_snap.half_axes_px = 0.5 * Eigen::Vector2d(ellipse->size.height, ellipse->size.width);
+    ellipse_snap.angle_rad = (ellipse->angle + 90.0) * std::numbers::pi / 180.0;
+    if (ellipse_snap.half_axes_px.x() < ellipse_snap.half_axes_px.y()) {
+      std::swap(ellipse_snap.half_axes_px.x(), ellipse_snap.half_axes_px.y());
+      ellipse_snap.angle_rad += 0.5 * std::numbers::pi;
     }
-    made.angle_rad = std::fmod(made.angle_rad, std::numbers::pi);
-    made.support = static_cast<double>(points.size()) / kDirections;
-    made.rms_px = std::sqrt(squares / static_cast<double>(points.size()));
-    if (made.support < kLeastSupport || made.half_axes_px.y() < kSmallestEllipse_px ||
-        made.half_axes_px.x() > radius_px || !patch.contains(made.centre))
+    ellipse_snap.angle_rad = std::fmod(ellipse_snap.angle_rad, std::numbers::pi);
+    ellipse_snap.support = static_cast<double>(points.size()) / kDirections;
+    ellipse_snap.rms_px = std::sqrt(squares / static_cast<double>(points.size()));
+    if (ellipse_snap.support < kLeastSupport ||
+        ellipse_snap.half_axes_px.y() < kSmallestEllipse_px ||
+        ellipse_snap.half_axes_px.x() > radius_px || !patch.contains(ellipse_snap.centre))
       return {};
-    snap = made;
-    from = made.centre;
+    snap = ellipse_snap;
+    from = ellipse_snap.centre;
   }
   return snap;
 }

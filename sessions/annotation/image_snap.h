@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places in an image that a mark may snap to, to a fraction of a pixel. All of them work on the
-// 8-bit image as the core sees it and leave the choice to the caller.
-// Which of several places near a pointer a person most likely means.
+// Places in an image that an annotation may snap to, to a fraction of a pixel. All of them work on
+// the 8-bit image as the core sees it and leave the choice to the caller. Which of several places
+// near a pointer a person most likely means.
 #pragma once
 
 #include <optional>
@@ -47,7 +47,7 @@ std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Ve
 
 enum class ImageSnapKind { kCorner, kEllipse, kEdge };
 
-/// A place of the image that a mark may snap to.
+/// A place of the image that an annotation may snap to.
 struct ImageSnap {
   ImageSnapKind kind = ImageSnapKind::kCorner;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();

@@ -8,8 +8,8 @@
 #include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/image_snap.h"
-#include "sessions/annotation/marks_on_image.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/json_fields.h"
 
@@ -65,12 +65,13 @@ void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmar
   writeFileAtomically(file, prettyJson(json), FileUse::kLandmarks);
 }
 
-std::vector<Landmark> withMarks(std::vector<Landmark> landmarks, const Marks& marks) {
-  for (const PointPair& point : marks.points) {
+std::vector<Landmark> withAnnotations(std::vector<Landmark> landmarks,
+                                      const Annotations& annotations) {
+  for (const PointPair& point : annotations.points) {
     if (!point.point_in_station_m) continue;
     const Landmark landmark{point.id, *point.point_in_station_m, point.comment};
     const auto same = std::find_if(landmarks.begin(), landmarks.end(),
-                                   [&](const Landmark& one) { return one.name == point.id; });
+                                   [&](const Landmark& item) { return item.name == point.id; });
     if (same == landmarks.end())
       landmarks.push_back(landmark);
     else
@@ -79,12 +80,13 @@ std::vector<Landmark> withMarks(std::vector<Landmark> landmarks, const Marks& ma
   return landmarks;
 }
 
-std::vector<Proposal> proposeMarks(const std::vector<Landmark>& landmarks, const Marks& marks,
-                                   const MeshView& mesh, const Camera& camera,
-                                   const Pose& camera_from_station, const Matrix6d* covariance) {
+std::vector<Proposal> proposeAnnotations(const std::vector<Landmark>& landmarks,
+                                         const Annotations& annotations, const MeshView& mesh,
+                                         const Camera& camera, const Pose& camera_from_station,
+                                         const Matrix6d* covariance) {
   std::vector<Proposal> proposals;
   for (const Landmark& landmark : landmarks) {
-    if (hasMark(marks, landmark.name)) continue;
+    if (hasAnnotation(annotations, landmark.name)) continue;
     const PredictedPlace place =
         predictPlace(camera, camera_from_station, landmark.point_in_station_m);
     if (!place.valid || !isInImage(camera, place.pixel)) continue;

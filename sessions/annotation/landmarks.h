@@ -12,13 +12,13 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 
 namespace boresight::sessions {
 
-/// A named point of a station that is marked in image after image.
+/// A named point of a station that is annotated in image after image.
 struct Landmark {
-  std::string name;  ///< unique; the id of marks of it
+  std::string name;  ///< unique; the id of annotations of it
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   std::string comment;
 
@@ -37,9 +37,10 @@ void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmar
 
 /// The landmarks with every point pair's station side added or replaced under the pair's id; its
 /// comment goes along.
-std::vector<Landmark> withMarks(std::vector<Landmark> landmarks, const Marks& marks);
+std::vector<Landmark> withAnnotations(std::vector<Landmark> landmarks,
+                                      const Annotations& annotations);
 
-/// A landmark that has no mark in an image yet, and where it should be.
+/// A landmark that has no annotation in an image yet, and where it should be.
 struct Proposal {
   Landmark landmark;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -47,12 +48,13 @@ struct Proposal {
   bool seen = false;      ///< no face of the mesh hides it
 };
 
-/// Landmarks without a mark of their name that project into the image, seen ones first, then by
-/// name. `covariance` (camera frame, left perturbation, rotation rad and translation m) may be
+/// Landmarks without an annotation of their name that project into the image, seen ones first, then
+/// by name. `covariance` (camera frame, left perturbation, rotation rad and translation m) may be
 /// nullptr.
-std::vector<Proposal> proposeMarks(const std::vector<Landmark>& landmarks, const Marks& marks,
-                                   const MeshView& mesh, const Camera& camera,
-                                   const Pose& camera_from_station, const Matrix6d* covariance);
+std::vector<Proposal> proposeAnnotations(const std::vector<Landmark>& landmarks,
+                                         const Annotations& annotations, const MeshView& mesh,
+                                         const Camera& camera, const Pose& camera_from_station,
+                                         const Matrix6d* covariance);
 
 /// The corner or the centre of an ellipse that the image shows where a landmark should be: the
 /// likeliest within three sigma of the prediction, at least 2 and at most 8 px. Nothing where there

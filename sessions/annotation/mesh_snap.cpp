@@ -65,9 +65,9 @@ std::optional<Eigen::Vector3d> nearestOnEdge(const Camera& camera, const Pose& c
   int best = 0;
   double least = 1e9;
   for (int i = 0; i <= kSections; ++i) {
-    const double here = distance(static_cast<double>(i) / kSections);
-    if (here >= least) continue;
-    least = here;
+    const double current = distance(static_cast<double>(i) / kSections);
+    if (current >= least) continue;
+    least = current;
     best = i;
   }
   if (least >= 1e9) return {};
@@ -135,15 +135,15 @@ void MeshSnapper::collectCircles() {
     std::vector<std::int32_t> loop = {start};
     visited.insert(start);
     std::int32_t before = start;
-    std::int32_t now = around[0];
-    while (now != start && neighbours[now].size() == 2 && visited.insert(now).second) {
-      loop.push_back(now);
-      const auto& next = neighbours[now];
+    std::int32_t after = around[0];
+    while (after != start && neighbours[after].size() == 2 && visited.insert(after).second) {
+      loop.push_back(after);
+      const auto& next = neighbours[after];
       const std::int32_t ahead = next[0] == before ? next[1] : next[0];
-      before = now;
-      now = ahead;
+      before = after;
+      after = ahead;
     }
-    if (now == start) addLoop(loop);
+    if (after == start) addLoop(loop);
   }
 }
 
@@ -233,9 +233,10 @@ std::vector<MeshSnap> MeshSnapper::near(const Camera& camera, const Pose& camera
           {MeshSnapKind::kCircle, circle.centre_in_station_m, {}, 0.0, {}, circle.radius_m});
   // A hole's centre lies in the air: half of its rim must be seen.
   keepNearest(circles, [&](const MeshSnap& snap) {
-    const auto circle = std::find_if(circles_.begin(), circles_.end(), [&](const MeshCircle& one) {
-      return one.centre_in_station_m == snap.point_in_station_m;
-    });
+    const auto circle =
+        std::find_if(circles_.begin(), circles_.end(), [&](const MeshCircle& mesh_circle) {
+          return mesh_circle.centre_in_station_m == snap.point_in_station_m;
+        });
     const auto seen =
         std::count_if(circle->vertices.begin(), circle->vertices.end(),
                       [&](std::int32_t index) { return seenFrom(eye_m, vertex(index)); });

@@ -11,7 +11,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 #include "sessions/run/surface_point.h"
 
 namespace boresight::sessions {
@@ -26,7 +26,7 @@ struct MeshCircle {
 
 enum class MeshSnapKind { kVertex, kEdge, kCircle };
 
-/// A place of the mesh that a mark may snap to.
+/// A place of the mesh that an annotation may snap to.
 struct MeshSnap {
   MeshSnapKind kind = MeshSnapKind::kVertex;
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
@@ -52,7 +52,7 @@ class MeshSnapper {
   std::vector<MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
                              const Eigen::Vector2d& pixel, double radius_px) const;
 
-  /// The surface that a pixel shows; nothing beside the station.
+  /// The surface that a pixel shows; nothing outside the station.
   std::optional<Eigen::Vector3d> surfaceAt(const Camera& camera, const Pose& camera_from_station,
                                            const Eigen::Vector2d& pixel) const;
 

@@ -25,13 +25,13 @@ constexpr const char* kWeaknessNames[] = {"too_few",   "few",       "collinear",
 
 /// Roots of three entries of the diagonal, in thousandths.
 ordered_json sigmas(const Matrix6d& covariance, int first) {
-  ordered_json made = ordered_json::array();
+  ordered_json json = ordered_json::array();
   for (int i = first; i < first + 3; ++i)
-    made.push_back(kThousand * std::sqrt(std::max(0.0, covariance(i, i))));
-  return made;
+    json.push_back(kThousand * std::sqrt(std::max(0.0, covariance(i, i))));
+  return json;
 }
 
-ordered_json viewJson(const MarkedView& view, const Pose& camera_from_station,
+ordered_json viewJson(const AnnotatedView& view, const Pose& camera_from_station,
                       const Matrix6d& covariance) {
   return {{"name", view.name},
           {"camera_from_rig", toJson(view.camera_from_rig)},
@@ -41,16 +41,17 @@ ordered_json viewJson(const MarkedView& view, const Pose& camera_from_station,
           {"sigma_mrad", sigmas(covariance, 0)}};
 }
 
-ordered_json markJson(std::span<const MarkedView> views, const SolvedMark& mark,
-                      const LeftOut* without) {
-  ordered_json json = {{"view", views[mark.address.view].name},
-                       {"id", markId(views, mark.address)},
-                       {"kind", mark.address.kind == MarkKind::kPoint ? "point" : "line"},
-                       {"projected", mark.projected},
-                       {"residual_px", toJson(mark.residual_px)},
-                       {"residual_mm", toJson(mark.residual_mm)},
-                       {"normalized", mark.normalized},
-                       {"weight", mark.weight}};
+ordered_json annotationJson(std::span<const AnnotatedView> views,
+                            const SolvedAnnotation& annotation, const LeftOut* without) {
+  ordered_json json = {
+      {"view", views[annotation.address.view].name},
+      {"id", annotationId(views, annotation.address)},
+      {"kind", annotation.address.kind == AnnotationKind::kPoint ? "point" : "line"},
+      {"projected", annotation.projected},
+      {"residual_px", toJson(annotation.residual_px)},
+      {"residual_mm", toJson(annotation.residual_mm)},
+      {"normalized", annotation.normalized},
+      {"weight", annotation.weight}};
   if (without != nullptr)
     json["without"] = {{"determined", without->determined},
                        {"translation_mm", without->translation_mm},
@@ -58,7 +59,7 @@ ordered_json markJson(std::span<const MarkedView> views, const SolvedMark& mark,
   return json;
 }
 
-void addSolution(std::span<const MarkedView> views, const MarksSolution& solution,
+void addSolution(std::span<const AnnotatedView> views, const AnnotationsSolution& solution,
                  std::span<const LeftOut> left_out, ordered_json& json) {
   json.update({{"rms_px", solution.rms_px},
                {"noise_factor", solution.noise_factor},
@@ -68,43 +69,43 @@ void addSolution(std::span<const MarkedView> views, const MarksSolution& solutio
   for (std::size_t i = 0; i < views.size(); ++i)
     json["views"].push_back(
         viewJson(views[i], solution.camera_from_station[i], cameraCovariance(solution, views[i])));
-  for (std::size_t i = 0; i < solution.marks.size(); ++i)
-    json["marks"].push_back(
-        markJson(views, solution.marks[i], i < left_out.size() ? &left_out[i] : nullptr));
+  for (std::size_t i = 0; i < solution.annotations.size(); ++i)
+    json["annotations"].push_back(annotationJson(views, solution.annotations[i],
+                                                 i < left_out.size() ? &left_out[i] : nullptr));
   if (solution.ambiguous)
     json["ambiguous"] = {{"rig_from_station", toJson(solution.ambiguous->rig_from_station)},
                          {"rms_px", solution.ambiguous->rms_px}};
 }
 
-TextTable markTable(std::span<const MarkedView> views, const MarksSolution& solution,
-                    std::span<const LeftOut> left_out) {
-  TextTable table({"view", "mark", "kind", "dx px", "dy px", "dx mm", "dy mm", "sigmas", "weight",
-                   "without: mm", "mrad"});
-  for (std::size_t i = 0; i < solution.marks.size(); ++i) {
-    const SolvedMark& mark = solution.marks[i];
+TextTable annotationTable(std::span<const AnnotatedView> views, const AnnotationsSolution& solution,
+                          std::span<const LeftOut> left_out) {
+  TextTable table({"view", "annotation", "kind", "dx px", "dy px", "dx mm", "dy mm", "sigmas",
+                   "weight", "without: mm", "mrad"});
+  for (std::size_t i = 0; i < solution.annotations.size(); ++i) {
+    const SolvedAnnotation& annotation = solution.annotations[i];
     const LeftOut& without = left_out[i];
-    table.add({views[mark.address.view].name, markId(views, mark.address),
-               mark.address.kind == MarkKind::kPoint ? "point" : "line",
-               fixedText(mark.residual_px.x(), 3), fixedText(mark.residual_px.y(), 3),
-               fixedText(mark.residual_mm.x(), 3), fixedText(mark.residual_mm.y(), 3),
-               fixedText(mark.normalized, 1) + (mark.isOutlier() ? " !" : ""),
-               fixedText(mark.weight, 2),
+    table.add({views[annotation.address.view].name, annotationId(views, annotation.address),
+               annotation.address.kind == AnnotationKind::kPoint ? "point" : "line",
+               fixedText(annotation.residual_px.x(), 3), fixedText(annotation.residual_px.y(), 3),
+               fixedText(annotation.residual_mm.x(), 3), fixedText(annotation.residual_mm.y(), 3),
+               fixedText(annotation.normalized, 1) + (annotation.isOutlier() ? " !" : ""),
+               fixedText(annotation.weight, 2),
                without.determined ? fixedText(without.translation_mm, 3) : "no pose",
                without.determined ? fixedText(without.rotation_mrad, 3) : "-"});
   }
   return table;
 }
 
-std::string summaryLine(const MarksSolution& solution) {
-  std::string text = std::to_string(solution.marks.size()) + " marks, rms " +
+std::string summaryLine(const AnnotationsSolution& solution) {
+  std::string text = std::to_string(solution.annotations.size()) + " annotations, rms " +
                      fixedText(solution.rms_px, 3) + " px, ";
-  if (solution.degrees_of_freedom == 0) return text + "none left over to check the pose";
+  if (solution.degrees_of_freedom == 0) return text + "no redundancy to check the pose";
   return text + "noise " + fixedText(solution.noise_factor, 2) + " times the stated sigma (" +
          std::to_string(solution.degrees_of_freedom) + " degrees of freedom)";
 }
 
 /// The poses that came out: the camera's, or of several views the rig's and then each camera's.
-std::string posesText(std::span<const MarkedView> views, const MarksSolution& solution) {
+std::string posesText(std::span<const AnnotatedView> views, const AnnotationsSolution& solution) {
   const auto ofView = [&](std::size_t i) {
     return poseText(solution.camera_from_station[i], cameraCovariance(solution, views[i]));
   };
@@ -118,8 +119,8 @@ std::string posesText(std::span<const MarkedView> views, const MarksSolution& so
 
 }  // namespace
 
-void writeSolution(const std::filesystem::path& file, std::span<const MarkedView> views,
-                   const MarksResult& result, std::span<const LeftOut> left_out,
+void writeSolution(const std::filesystem::path& file, std::span<const AnnotatedView> views,
+                   const AnnotationsResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust) {
   ordered_json json = {{"format", "boresight-solution"},
                        {"version", 1},
@@ -137,18 +138,18 @@ void writeSolution(const std::filesystem::path& file, std::span<const MarkedView
   writeJsonFile(file, json);
 }
 
-std::string solutionText(std::span<const MarkedView> views, const MarksSolution& solution,
+std::string solutionText(std::span<const AnnotatedView> views, const AnnotationsSolution& solution,
                          std::span<const LeftOut> left_out,
                          std::span<const GeometryWarning> warnings) {
-  std::string text = markTable(views, solution, left_out).text();
+  std::string text = annotationTable(views, solution, left_out).text();
   text +=
-      "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: stands out;\n"
-      "without: how far the middle of the marked places moves, and the pose turns)\n\n";
+      "(dx, dy: seen minus predicted; of a line, both ends across the edge; !: outlier;\nwithout: "
+      "change of the annotations' centre, and of the rotation, without this annotation)\n\n";
   text += summaryLine(solution) + "\n";
   for (const GeometryWarning& warning : warnings) text += plainLine("weak: " + warning.text);
   text += "\n" + posesText(views, solution);
   if (!solution.ambiguous) return text;
-  text += "\nanother pose explains these marks with rms " +
+  text += "\na second pose fits these annotations with rms " +
           fixedText(solution.ambiguous->rms_px, 3) + " px:\n";
   const Pose ambiguous = views.size() == 1
                              ? views[0].camera_from_rig * solution.ambiguous->rig_from_station

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sessions/annotation/geometry_meter.h"
-#include "sessions/annotation/solve_marks.h"
+#include "sessions/annotation/solve_annotations.h"
 
 namespace boresight::sessions {
 
@@ -18,7 +18,7 @@ namespace boresight::sessions {
 ///      "rig_from_station": [[4x4]], "covariance": [[6x6]],
 ///      "views": [{"name": "left", "camera_from_rig": [[4x4]], "camera_from_station": [[4x4]],
 ///                 "covariance": [[6x6]], "sigma_mm": [x, y, z], "sigma_mrad": [x, y, z]}],
-///      "marks": [{"view": "left", "id": "p1", "kind": "point", "projected": true,
+///      "annotations": [{"view": "left", "id": "p1", "kind": "point", "projected": true,
 ///                 "residual_px": [x, y], "residual_mm": [x, y], "normalized": 0.8, "weight": 1,
 ///                 "without": {"determined": true, "translation_mm": 0.1, "rotation_mrad": 0.2}}],
 ///      "ambiguous": {"rig_from_station": [[4x4]], "rms_px": 0.4},
@@ -29,14 +29,15 @@ namespace boresight::sessions {
 /// Residuals are seen minus predicted, of a line both ends across the edge. `ambiguous` only where
 /// there is one. Kinds of warnings: too_few, few, collinear, coplanar, clustered, one_depth,
 /// imprecise. Numbers read back as the same bits. OutputError.
-void writeSolution(const std::filesystem::path& file, std::span<const MarkedView> views,
-                   const MarksResult& result, std::span<const LeftOut> left_out,
+void writeSolution(const std::filesystem::path& file, std::span<const AnnotatedView> views,
+                   const AnnotationsResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust);
 
-/// A solution for people: one line per mark (residuals in px and mm, how far the pose moves without
-/// it), what is weak, the pose with one sigma (of several views the rig's and each camera's), and
-/// the other pose of an ambiguous plane. `left_out` by mark, as `leaveOneOut` gives them.
-std::string solutionText(std::span<const MarkedView> views, const MarksSolution& solution,
+/// A solution as text: one line per annotation (residuals in px and mm, how far the pose moves
+/// without it), what is weak, the pose with one sigma (of several views the rig's and each
+/// camera's), and the other pose of an ambiguous plane. `left_out` by annotation, as `leaveOneOut`
+/// gives them.
+std::string solutionText(std::span<const AnnotatedView> views, const AnnotationsSolution& solution,
                          std::span<const LeftOut> left_out,
                          std::span<const GeometryWarning> warnings);
 

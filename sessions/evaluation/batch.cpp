@@ -48,7 +48,7 @@ struct CaseImage {
 /// A case and what its runs share.
 struct CaseWork {
   const Case* input = nullptr;
-  std::int64_t place = 0;
+  std::int64_t dataset_index = 0;
   Shared<StationScene> scene;
   const Station* mesh_station = nullptr;
   Shared<CaseImage> image;
@@ -80,10 +80,11 @@ StationScene loadScene(const Station& station, const std::optional<MirrorAxis>& 
   return loaded;
 }
 
-std::optional<PoseError> errorOf(const Case& one, const Camera& camera, const Pose& estimate,
-                                 const StationScene& scene) {
-  if (!one.truth_camera_from_station) return std::nullopt;
-  return wholeError(camera, *one.truth_camera_from_station, estimate, one.camera_from_end_effector,
+std::optional<PoseError> errorOf(const Case& dataset_case, const Camera& camera,
+                                 const Pose& estimate, const StationScene& scene) {
+  if (!dataset_case.truth_camera_from_station) return std::nullopt;
+  return wholeError(camera, *dataset_case.truth_camera_from_station, estimate,
+                    dataset_case.camera_from_end_effector,
                     {scene.matched_vertices, &scene.symmetries});
 }
 
@@ -124,7 +125,7 @@ Batch::Batch(const Dataset& dataset, const BatchOptions& options,
     if (cases_.empty() || cases_.back()->input != planned.input) {
       auto work = std::make_unique<CaseWork>();
       work->input = planned.input;
-      work->place = planned.place;
+      work->dataset_index = planned.dataset_index;
       const std::string& mesh = options.mesh_of.empty() ? planned.input->station : options.mesh_of;
       work->mesh_station = &dataset.stations.at(mesh);
       Shared<StationScene>& scene = scenes_[mesh];
@@ -150,7 +151,7 @@ void Batch::run(const std::stop_token& stop) {
       threads.emplace_back([this, stop] {
         try {
           workUntilDone(stop);
-        } catch (...) {  // for the caller's thread to report; nobody begins another run
+        } catch (...) {  // rethrown on the caller's thread; no other run starts
           const std::lock_guard lock(mutex_);
           if (!fault_) fault_ = std::current_exception();
           next_ = items_.size();
@@ -178,15 +179,15 @@ void Batch::finish(const RunResult& result) {
 }
 
 RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
-  const Case& one = *item.work->input;
+  const Case& dataset_case = *item.work->input;
   RunResult result;
-  result.case_id = one.id;
-  result.place = item.work->place;
+  result.case_id = dataset_case.id;
+  result.dataset_index = item.work->dataset_index;
   result.reseed = item.reseed;
-  result.station = one.station;
+  result.station = dataset_case.station;
   result.method = options_.method;
-  result.tags = one.tags;
-  result.requirement = one.requirement;
+  result.tags = dataset_case.tags;
+  result.requirement = dataset_case.requirement;
   try {
     runLoaded(item, stop, result);
   } catch (const FileError& error) {
@@ -194,39 +195,41 @@ RunResult Batch::runItem(const Item& item, const std::stop_token& stop) {
     result.message = error.what();
   } catch (const MethodError& error) {
     result.status = "method_error";
-    result.message = one.id + ": " + error.what();
-    if (one.truth_camera_from_station && one.requirement) result.success = false;
+    result.message = dataset_case.id + ": " + error.what();
+    if (dataset_case.truth_camera_from_station && dataset_case.requirement) result.success = false;
   } catch (const std::bad_alloc&) {
     result.status = "input_error";
-    result.message = one.image.string() + ": not enough memory for this image and mesh";
+    result.message = dataset_case.image.string() + ": not enough memory for this image and mesh";
   }
   return result;
 }
 
 void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& result) {
-  const Case& one = *item.work->input;
-  if (!one.uncertainty)
-    throw InputError(dataset_.file, "cases." + one.id + ".uncertainty",
+  const Case& dataset_case = *item.work->input;
+  if (!dataset_case.uncertainty)
+    throw InputError(dataset_.file, "cases." + dataset_case.id + ".uncertainty",
                      "neither the case nor its station states one");
   const Shared<StationScene> shared_scene = item.work->scene;
   const Shared<CaseImage> shared_image = item.work->image;
   const StationScene& scene = shared_scene.get();
   const CaseImage& image = shared_image.get();
 
-  Pose seed = one.seed_camera_from_station;
+  Pose seed = dataset_case.seed_camera_from_station;
   if (item.reseed > 0) {
     const Vector6d offset =
-        drawOffset(*one.uncertainty, options_.reseed_scale, one.id, item.reseed);
-    seed = seedForOffset(*one.truth_camera_from_station, offset, one.uncertainty->pivot,
-                         matchedBounds(scene.scene.view()).centre());
+        drawOffset(*dataset_case.uncertainty, options_.reseed_scale, dataset_case.id, item.reseed);
+    seed =
+        seedForOffset(*dataset_case.truth_camera_from_station, offset,
+                      dataset_case.uncertainty->pivot, matchedBounds(scene.scene.view()).centre());
   }
   const BitImage ignore = image.ignore ? image.ignore->view() : BitImage{};
-  const LocalizationProblem problem =
-      problemOf(image.image, image.ignore ? &ignore : nullptr, dataset_.cameras.at(one.camera),
-                scene.scene.view(), seed, *one.uncertainty);
+  const LocalizationProblem problem = problemOf(
+      image.image, image.ignore ? &ignore : nullptr, dataset_.cameras.at(dataset_case.camera),
+      scene.scene.view(), seed, *dataset_case.uncertainty);
   result.camera_from_station_seed = problem.camera_from_station_seed;
   result.camera_from_station = problem.camera_from_station_seed;
-  result.seed_error = errorOf(one, problem.camera, problem.camera_from_station_seed, scene);
+  result.seed_error =
+      errorOf(dataset_case, problem.camera, problem.camera_from_station_seed, scene);
 
   result.image_quality = imageQualityOf(problem);
   LocalizerOptions options = options_.localizer;
@@ -243,11 +246,11 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     const LocalizationTrace trace =
         methods_.localize(options_.method, problem, options, settings, stop);
     noteTrace(trace, result);
-    result.steps = runSteps(trace, one);
+    result.steps = runSteps(trace, dataset_case);
   } else {
     result.status = "bad_seed";
   }
-  result.error = errorOf(one, problem.camera, result.camera_from_station, scene);
+  result.error = errorOf(dataset_case, problem.camera, result.camera_from_station, scene);
   judge(options_.wrongMesh(), result);
 }
 
@@ -267,17 +270,18 @@ std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& op
   requireNames(dataset, options);
   std::vector<PlannedRun> plan;
   std::int64_t selected = 0;
-  for (std::size_t place = 0; place < dataset.cases.size(); ++place) {
-    const Case& one = dataset.cases[place];
-    if (!selects(options.cases, [&](const auto& id) { return id == one.id; }) ||
-        !selects(options.stations, [&](const auto& station) { return station == one.station; }) ||
-        !selects(options.tags, [&](const auto& tag) { return one.hasTag(tag); }) ||
-        one.station == options.mesh_of)
+  for (std::size_t dataset_index = 0; dataset_index < dataset.cases.size(); ++dataset_index) {
+    const Case& dataset_case = dataset.cases[dataset_index];
+    if (!selects(options.cases, [&](const auto& id) { return id == dataset_case.id; }) ||
+        !selects(options.stations,
+                 [&](const auto& station) { return station == dataset_case.station; }) ||
+        !selects(options.tags, [&](const auto& tag) { return dataset_case.hasTag(tag); }) ||
+        dataset_case.station == options.mesh_of)
       continue;
     if (selected++ % options.shards != options.shard - 1) continue;
-    const int reseeds = one.truth_camera_from_station ? options.reseeds : 0;
+    const int reseeds = dataset_case.truth_camera_from_station ? options.reseeds : 0;
     for (int reseed = 0; reseed <= reseeds; ++reseed)
-      plan.push_back({&one, static_cast<std::int64_t>(place), reseed});
+      plan.push_back({&dataset_case, static_cast<std::int64_t>(dataset_index), reseed});
   }
   if (selected == 0) throw InputError(dataset.file, "cases", "none meets all filters");
   return plan;
@@ -300,7 +304,7 @@ std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& opti
       },
       stop);
   std::sort(results.begin(), results.end(), [](const RunResult& a, const RunResult& b) {
-    return std::pair(a.place, a.reseed) < std::pair(b.place, b.reseed);
+    return std::pair(a.dataset_index, a.reseed) < std::pair(b.dataset_index, b.reseed);
   });
   return results;
 }

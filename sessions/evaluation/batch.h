@@ -48,8 +48,8 @@ struct BatchOptions {
 
 /// One run that is to be done.
 struct PlannedRun {
-  const Case* input = nullptr;  ///< of the dataset
-  std::int64_t place = 0;       ///< of the case in the dataset
+  const Case* input = nullptr;     ///< of the dataset
+  std::int64_t dataset_index = 0;  ///< of the case in the dataset
   int reseed = 0;
 };
 

@@ -26,18 +26,18 @@ std::string heldNotGiven(const std::string& held, const std::string& given) {
 
 /// The options in which two lists (JSON objects) differ: "pnp.seed=1, not 7".
 std::string optionDifference(const std::string& held, const std::string& given) {
-  const auto one = nlohmann::json::parse(held, nullptr, false);
+  const auto entry = nlohmann::json::parse(held, nullptr, false);
   const auto other = nlohmann::json::parse(given, nullptr, false);
-  if (!one.is_object() || !other.is_object()) return "others";
-  nlohmann::json all = one;
+  if (!entry.is_object() || !other.is_object()) return "others";
+  nlohmann::json all = entry;
   all.update(other);
   std::string text;
   const auto value = [](const nlohmann::json& list, const std::string& name) {
     return list.contains(name) ? list[name].dump() : std::string("the profile's");
   };
   for (const auto& [name, unused] : all.items())
-    if (value(one, name) != value(other, name))
-      text += (text.empty() ? "" : "; ") + name + " " + value(one, name) + ", not " +
+    if (value(entry, name) != value(other, name))
+      text += (text.empty() ? "" : "; ") + name + " " + value(entry, name) + ", not " +
               value(other, name);
   return text.empty() ? "others" : text;
 }
@@ -84,11 +84,11 @@ DatasetFacts datasetFacts(const Dataset& dataset) {
 
 std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given) {
   if (held.dataset_sha256 != given.dataset_sha256)
-    return "its runs are of another dataset: " + held.dataset + " (SHA-256 " +
+    return "its runs belong to another dataset: " + held.dataset + " (SHA-256 " +
            held.dataset_sha256.substr(0, 12) + "), not " + given.dataset + " (" +
            given.dataset_sha256.substr(0, 12) + ")";
   if (held.version != given.version)
-    return "its runs were made by version " + heldNotGiven(held.version, given.version);
+    return "its runs are from version " + heldNotGiven(held.version, given.version);
   return std::nullopt;
 }
 
@@ -105,25 +105,24 @@ std::optional<std::string> contradiction(const MethodFacts& held, const MethodFa
     return runs + "the mesh of another station: " + heldNotGiven(held.mesh_of, given.mesh_of);
   if (held.mirror != given.mirror)
     return runs + "a mirrored mesh: " + heldNotGiven(held.mirror, given.mirror);
-  if (held.note != given.note)
-    return runs + "been made with " + heldNotGiven(held.note, given.note);
+  if (held.note != given.note) return runs + "been run with " + heldNotGiven(held.note, given.note);
   return std::nullopt;
 }
 
-Sitting sittingHere() {
-  Sitting sitting;
-  sitting.began = utcNowText();
-  sitting.version = kVersion;
+BatchRun thisBatchRun() {
+  BatchRun batch_run;
+  batch_run.began = utcNowText();
+  batch_run.version = kVersion;
   utsname name{};
   if (uname(&name) == 0) {
-    sitting.machine = name.nodename;
-    sitting.system = std::string(name.sysname) + " " + name.release + " " + name.machine;
+    batch_run.machine = name.nodename;
+    batch_run.system = std::string(name.sysname) + " " + name.release + " " + name.machine;
   }
-  sitting.processor =
+  batch_run.processor =
       processorName() + " x " + std::to_string(std::max(1U, std::thread::hardware_concurrency()));
   std::error_code error;
-  sitting.folder = std::filesystem::current_path(error).string();
-  return sitting;
+  batch_run.folder = std::filesystem::current_path(error).string();
+  return batch_run;
 }
 
 }  // namespace boresight::sessions

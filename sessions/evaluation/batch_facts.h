@@ -30,11 +30,11 @@ struct MethodFacts {
   double reseed_scale = 1.0;
   std::string mesh_of;  ///< deliberately wrong meshes: another station's,
   std::string mirror;   ///< or mirrored across this axis; empty: the right ones
-  std::string note;     ///< for people, e.g. which network took part
+  std::string note;     ///< display text, e.g. the network that was used
 };
 
 /// One process that ran cases into a results file.
-struct Sitting {
+struct BatchRun {
   std::int64_t id = 0;
   std::string began;  ///< UTC
   std::string ended;  ///< UTC; empty while it runs, and when it was killed
@@ -62,12 +62,12 @@ void addMethodOptions(const OptionList& changed, MethodFacts& facts);
 
 DatasetFacts datasetFacts(const Dataset& dataset);
 
-/// In what the second cannot go on with the first: one clause for people ("its runs are of another
+/// In what the second cannot go on with the first: one readable clause ("its runs are of another
 /// dataset, ..."); nothing when it can.
 std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given);
 std::optional<std::string> contradiction(const MethodFacts& held, const MethodFacts& given);
 
 /// Name, processor and system of this machine, as far as it tells; the rest is the caller's.
-Sitting sittingHere();
+BatchRun thisBatchRun();
 
 }  // namespace boresight::sessions

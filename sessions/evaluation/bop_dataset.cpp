@@ -203,11 +203,11 @@ std::string digestOf(const Dataset& dataset) {
     for (const double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()})
       text += " " + numberText(v);
   };
-  for (const Case& one : dataset.cases) {
-    text += one.id;
-    add(one.seed_camera_from_station);
-    add(*one.truth_camera_from_station);
-    const Camera& camera = dataset.cameras.at(one.camera);
+  for (const Case& dataset_case : dataset.cases) {
+    text += dataset_case.id;
+    add(dataset_case.seed_camera_from_station);
+    add(*dataset_case.truth_camera_from_station);
+    const Camera& camera = dataset.cameras.at(dataset_case.camera);
     for (const double v : {camera.fx, camera.fy, camera.cx, camera.cy}) text += " " + numberText(v);
     text += "\n";
   }
@@ -254,7 +254,7 @@ Dataset Reader::read() {
     if (!scenes.contains(scene)) throw InputError(split, "", "has no scene " + bopNumber(scene));
   for (const auto& [id, folder] : scenes)
     if (wants(selection_.scenes, id)) readScene(id, folder);
-  if (dataset_.cases.empty()) throw InputError(split, "", "nothing in it is chosen");
+  if (dataset_.cases.empty()) throw InputError(split, "", "the selection is empty");
   for (const auto& [id, camera] : cameras_) dataset_.cameras.emplace(id, camera);
   dataset_.sha256 = digestOf(dataset_);
   return std::move(dataset_);
@@ -270,8 +270,7 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
   const std::string& sensor = selection_.sensor;
   const fs::path truth = bopSceneFile(folder, "scene_gt", sensor);
   if (!fs::exists(truth))
-    throw InputError(truth, "",
-                     "is not there: without true poses there is nothing to draw seeds about");
+    throw InputError(truth, "", "is missing: seeds are drawn about true poses");
   const auto objects = readBopScene(bopSceneFile(folder, "scene_camera", sensor), truth);
   const auto visible = readVisibility(bopSceneFile(folder, "scene_gt_info", sensor));
   const auto images = bopImages(folder, sensor);
@@ -303,20 +302,21 @@ void Reader::readScene(int scene_id, const fs::path& folder) {
 
 std::vector<Reader::Instance> Reader::chosen(int scene_id, int image_id,
                                              std::vector<Instance> instances) const {
-  std::erase_if(instances, [this](const Instance& one) {
-    return !wants(selection_.objects, one.object->object_id);
+  std::erase_if(instances, [this](const Instance& instance) {
+    return !wants(selection_.objects, instance.object->object_id);
   });
   if (selection_.every_instance) return instances;
   if (!targets_) {
-    std::erase_if(instances, [](const Instance& one) { return one.visible < kLeastVisible; });
+    std::erase_if(instances,
+                  [](const Instance& instance) { return instance.visible < kLeastVisible; });
     return instances;
   }
   // Of several instances the challenge asks for the ones that are seen best.
   std::stable_sort(instances.begin(), instances.end(),
                    [](const Instance& a, const Instance& b) { return a.visible > b.visible; });
   std::map<int, int> taken;
-  std::erase_if(instances, [&](const Instance& one) {
-    const int object = one.object->object_id;
+  std::erase_if(instances, [&](const Instance& instance) {
+    const int object = instance.object->object_id;
     const auto target = targets_->find({scene_id, image_id, object});
     return target == targets_->end() || ++taken[object] > target->second;
   });
@@ -342,20 +342,21 @@ void Reader::addCase(int scene_id, const Instance& instance, int repetition,
   if (prepareCamera(camera) != Status::kOk)
     throw InputError(image, "scene_camera.json", "cam_K cannot be a camera's");
   dataset_.stations.emplace(model->second.station.id, model->second.station);
-  Case one;
-  one.id = bopNumber(scene_id) + "-" + bopNumber(object.image.id) + "-" +
-           bopNumber(object.object_id) + (repetition > 1 ? "-" + std::to_string(repetition) : "");
-  one.station = model->second.station.id;
-  one.camera = cameraOf(camera);
-  one.image = image;
-  one.uncertainty = selection_.uncertainty;
-  one.truth_camera_from_station = object.image.camera_from_station;
-  one.seed_camera_from_station = seedForOffset(
-      object.image.camera_from_station, drawOffset(selection_.uncertainty, 1.0, one.id, 0),
+  Case dataset_case;
+  dataset_case.id = bopNumber(scene_id) + "-" + bopNumber(object.image.id) + "-" +
+                    bopNumber(object.object_id) +
+                    (repetition > 1 ? "-" + std::to_string(repetition) : "");
+  dataset_case.station = model->second.station.id;
+  dataset_case.camera = cameraOf(camera);
+  dataset_case.image = image;
+  dataset_case.uncertainty = selection_.uncertainty;
+  dataset_case.truth_camera_from_station = object.image.camera_from_station;
+  dataset_case.seed_camera_from_station = seedForOffset(
+      object.image.camera_from_station, drawOffset(selection_.uncertainty, 1.0, dataset_case.id, 0),
       selection_.uncertainty.pivot, model->second.centre_m);
-  one.tags = {"scene_" + bopNumber(scene_id)};
-  one.bop = BopKey{scene_id, object.image.id, object.object_id};
-  dataset_.cases.push_back(std::move(one));
+  dataset_case.tags = {"scene_" + bopNumber(scene_id)};
+  dataset_case.bop = BopKey{scene_id, object.image.id, object.object_id};
+  dataset_.cases.push_back(std::move(dataset_case));
 }
 
 }  // namespace
@@ -369,17 +370,19 @@ Dataset openDataset(const fs::path& path, const BopSelection& selection) {
 }
 
 std::vector<BopResult> bopResults(const Dataset& dataset, std::span<const RunResult> runs) {
-  for (const Case& one : dataset.cases)
-    if (!one.bop) throw InputError(dataset.file, "cases." + one.id, "is not of a BOP dataset");
+  for (const Case& dataset_case : dataset.cases)
+    if (!dataset_case.bop)
+      throw InputError(dataset.file, "cases." + dataset_case.id, "is not part of a BOP dataset");
   std::map<std::pair<int, int>, double> seconds;
   std::vector<BopResult> results;
   for (const RunResult& run : runs) {
-    const Case* one = dataset.findCase(run.case_id);
-    if (run.reseed != 0 || one == nullptr) continue;
-    seconds[{one->bop->scene_id, one->bop->image_id}] += run.seconds.total();
+    const Case* dataset_case = dataset.findCase(run.case_id);
+    if (run.reseed != 0 || dataset_case == nullptr) continue;
+    seconds[{dataset_case->bop->scene_id, dataset_case->bop->image_id}] += run.seconds.total();
     if (run.completed)
-      results.push_back({one->bop->scene_id, one->bop->image_id, one->bop->object_id,
-                         run.edge_support, run.camera_from_station, 0.0});
+      results.push_back({dataset_case->bop->scene_id, dataset_case->bop->image_id,
+                         dataset_case->bop->object_id, run.edge_support, run.camera_from_station,
+                         0.0});
   }
   for (BopResult& result : results) result.seconds = seconds[{result.scene_id, result.image_id}];
   return results;

@@ -104,7 +104,7 @@ void requireWritable(const fs::path& file, const BopResult& result,
     throw OutputError(file, image + " has a pose or score that is not finite");
   const auto [known, is_new] = times.insert({{result.scene_id, result.image_id}, result.seconds});
   if (!is_new && std::abs(known->second - result.seconds) >= kSameTime_s)
-    throw OutputError(file, image + " has lines of different times, which is one for the image");
+    throw OutputError(file, image + " has lines with different times; the time is one per image");
 }
 
 std::string lineOf(const BopResult& result) {
@@ -151,7 +151,7 @@ std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
   const JsonDocument camera_document(camera_file);
   for (const auto& [key, entry] : camera_document.root().members())
     cameras[bopImageId(key, entry)] = readCameraEntry(entry);
-  std::vector<BopObject> made;
+  std::vector<BopObject> bop_objects;
   const JsonDocument document(truth_file);
   for (const auto& [key, list] : document.root().members()) {
     const int id = bopImageId(key, list);
@@ -163,12 +163,12 @@ std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
       object.image.camera = camera->second;
       object.image.camera_from_station = readPoseEntry(entry);
       object.object_id = static_cast<int>(entry.at("obj_id").integer(0, 1 << 30));
-      made.push_back(object);
+      bop_objects.push_back(object);
     }
   }
-  std::stable_sort(made.begin(), made.end(),
+  std::stable_sort(bop_objects.begin(), bop_objects.end(),
                    [](const BopObject& a, const BopObject& b) { return a.image.id < b.image.id; });
-  return made;
+  return bop_objects;
 }
 
 void writeBopResults(const fs::path& file, std::span<const BopResult> results) {

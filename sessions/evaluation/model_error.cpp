@@ -88,15 +88,15 @@ Least leastOver(const Cost& cost_of, const Pose& truth, const Symmetries* symmet
   if (symmetries == nullptr || symmetries->empty()) return least;
   std::vector<Pose> discrete = symmetries->discrete;
   discrete.insert(discrete.begin(), Pose());
-  for (const Pose& one : discrete) {
-    least.take(cost_of, truth * one);
+  for (const Pose& pose : discrete) {
+    least.take(cost_of, truth * pose);
     for (const AxisSymmetry& symmetry : symmetries->continuous) {
       const Cost turned = [&](const Pose& camera_from_turned, double bound) {
-        return cost_of(camera_from_turned * one, bound);
+        return cost_of(camera_from_turned * pose, bound);
       };
       Least found;
       searchTurns(turned, truth, symmetry, found);
-      if (found.cost < least.cost) least = {found.cost, found.camera_from_station * one};
+      if (found.cost < least.cost) least = {found.cost, found.camera_from_station * pose};
     }
   }
   return least;

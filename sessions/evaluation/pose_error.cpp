@@ -95,11 +95,12 @@ std::optional<double> rotationLimit_mrad(const Requirement& requirement) {
 }
 
 bool meetsRequirement(const PoseError& error, const Requirement& requirement, double factor) {
-  return std::all_of(kJudgedFigures.begin(), kJudgedFigures.end(), [&](const JudgedFigure& one) {
-    const std::optional<double> limit = requirement.*one.limit;
-    const std::optional<double> value = one.error(error);
-    return !limit || (value && std::abs(*value) <= factor * *limit);
-  });
+  return std::all_of(kJudgedFigures.begin(), kJudgedFigures.end(),
+                     [&](const JudgedFigure& judged_figure) {
+                       const std::optional<double> limit = requirement.*judged_figure.limit;
+                       const std::optional<double> value = judged_figure.error(error);
+                       return !limit || (value && std::abs(*value) <= factor * *limit);
+                     });
 }
 
 bool isGross(const PoseError& error, const Requirement& requirement) {
@@ -164,9 +165,9 @@ std::optional<double> projectionSigma(const Camera& camera, const Pose& camera_f
 double requirementShare(const PoseError& error, const Requirement& requirement) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   double share = 0.0;
-  for (const JudgedFigure& one : kJudgedFigures) {
-    const std::optional<double> allowed = requirement.*one.limit;
-    const double value = std::abs(one.error(error).value_or(kInfinite));
+  for (const JudgedFigure& judged_figure : kJudgedFigures) {
+    const std::optional<double> allowed = requirement.*judged_figure.limit;
+    const double value = std::abs(judged_figure.error(error).value_or(kInfinite));
     if (allowed) share = std::max(share, *allowed > 0.0 ? value / *allowed : kInfinite);
   }
   return share;

@@ -14,7 +14,7 @@ struct PosedImage {
   std::string name;  ///< its file; where the format has one
   Camera camera;     ///< after prepareCamera
   Pose camera_from_station;
-  /// Said of the pose where the format has room: who validated it, or that nobody has. One line.
+  /// Review status of the pose for formats with remarks. One line.
   std::string remark = {};
 };
 

@@ -16,13 +16,13 @@ namespace {
 std::string schema() {
   return "CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL);"
          "CREATE TABLE method (" +
-         methodTable().sql() + ");CREATE TABLE sitting (id INTEGER PRIMARY KEY, " +
-         sittingTable().sql() +
-         ");CREATE TABLE run (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES "
-         "sitting(id), " +
+         methodTable().sql() + ");CREATE TABLE batch_run (id INTEGER PRIMARY KEY, " +
+         batchRunTable().sql() +
+         ");CREATE TABLE run (id INTEGER PRIMARY KEY, batch_run INTEGER NOT NULL REFERENCES "
+         "batch_run(id), " +
          runTable().sql() +
          ", UNIQUE (case_id, reseed, method));"
-         "CREATE INDEX run_order ON run (place, reseed, method);"
+         "CREATE INDEX run_order ON run (dataset_index, reseed, method);"
          "CREATE TABLE tag (run INTEGER NOT NULL REFERENCES run(id), tag TEXT NOT NULL, "
          "PRIMARY KEY (run, tag)) WITHOUT ROWID;"
          "CREATE INDEX tag_name ON tag (tag);"
@@ -58,7 +58,7 @@ void requireOwnObjects(SqlDatabase& database) {
   const std::string remedy = "; it was changed by another program: evaluate again into a new file";
   if (extra != found.end())
     database.fail("its " + textOf((*extra)[0]) + " \"" + textOf((*extra)[1]) +
-                  "\" is not one that whs evaluate makes" + remedy);
+                  "\" is not from whs evaluate" + remedy);
   if (lost != wanted.end())
     database.fail("it lacks the " + textOf((*lost)[0]) + " \"" + textOf((*lost)[1]) + "\"" +
                   remedy);
@@ -75,12 +75,13 @@ std::vector<Row> readRows(SqlDatabase& database, const RowTable<Row>& table,
   return rows;
 }
 
-std::vector<Sitting> readSittings(SqlDatabase& database) {
-  std::vector<Sitting> sittings = readRows(database, sittingTable(), " FROM sitting ORDER BY id");
-  SqlStatement ids(database, "SELECT id FROM sitting ORDER BY id");
-  for (Sitting& sitting : sittings)
-    if (ids.step()) sitting.id = integerOf(ids.cell(0));
-  return sittings;
+std::vector<BatchRun> readBatchRuns(SqlDatabase& database) {
+  std::vector<BatchRun> batch_runs =
+      readRows(database, batchRunTable(), " FROM batch_run ORDER BY id");
+  SqlStatement ids(database, "SELECT id FROM batch_run ORDER BY id");
+  for (BatchRun& batch_run : batch_runs)
+    if (ids.step()) batch_run.id = integerOf(ids.cell(0));
+  return batch_runs;
 }
 
 /// The tags of all runs, by the runs' ids: one query for all of them.
@@ -94,8 +95,9 @@ std::map<std::int64_t, std::vector<std::string>> readTags(SqlDatabase& database)
 void readRuns(SqlDatabase& database, const std::function<void(const RunResult&)>& take) {
   auto tags = readTags(database);
   const std::vector<std::string> names = runTable().names();
-  SqlStatement statement(database, "SELECT " + joined(names) +
-                                       ", id FROM run ORDER BY place, case_id, reseed, method");
+  SqlStatement statement(
+      database,
+      "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
   while (statement.step()) {
     const std::vector<SqlValue> row = statement.row();
     RunResult run = runTable().read(database.file(), names, row);
@@ -120,9 +122,9 @@ void insertRow(SqlDatabase& database, const std::string& name, const RowTable<Ro
 }
 
 /// Gives the batch run an id of this file.
-void addSitting(SqlDatabase& database, Sitting& sitting) {
-  insertRow(database, "sitting", sittingTable(), sitting);
-  sitting.id = database.lastId();
+void addBatchRun(SqlDatabase& database, BatchRun& batch_run) {
+  insertRow(database, "batch_run", batchRunTable(), batch_run);
+  batch_run.id = database.lastId();
 }
 
 bool isEmptyDatabase(SqlDatabase& database) {
@@ -134,7 +136,7 @@ bool isEmptyDatabase(SqlDatabase& database) {
 void requireResultsFile(SqlDatabase& database) {
   if (integerOf(database.value("PRAGMA application_id")) != kResultsApplication) {
     if (!database.columns("run").empty() && !database.columns("fact").empty())
-      database.fail("an older version made it, of another form: evaluate again into a new file");
+      database.fail("it has the format of an older version; evaluate again into a new file");
     database.fail("it is not a results file of whs evaluate");
   }
   const std::int64_t version = integerOf(database.value("PRAGMA user_version"));
@@ -154,7 +156,7 @@ ResultsFacts factsOf(SqlDatabase& database) {
   facts.dataset = {named["dataset"], named["dataset_sha256"], std::atoll(named["cases"].c_str()),
                    named["version"]};
   facts.methods = readRows(database, methodTable(), " FROM method ORDER BY method");
-  facts.sittings = readSittings(database);
+  facts.batch_runs = readBatchRuns(database);
   return facts;
 }
 
@@ -249,7 +251,7 @@ Results readResults(const std::filesystem::path& file) {
 
 struct ResultsWriter::Insertions {
   explicit Insertions(SqlDatabase& database)
-      : run(database, insertSql("run", withFirst<std::string>({"sitting"}, runTable().names()))),
+      : run(database, insertSql("run", withFirst<std::string>({"batch_run"}, runTable().names()))),
         tag(database, "INSERT OR IGNORE INTO tag (run, tag) VALUES (?1, ?2)"),
         step(database,
              insertSql("iteration", withFirst<std::string>({"run"}, stepTable().names()))),
@@ -259,7 +261,8 @@ struct ResultsWriter::Insertions {
                 "DELETE FROM run WHERE case_id = ?1 AND reseed = ?2 AND method = ?3 AND status = "
                 "'input_error' RETURNING id"),
         tag_removal(database, "DELETE FROM tag WHERE run = ?1"),
-        sitting(database, "UPDATE sitting SET runs = ?2, seconds = ?3, ended = ?4 WHERE id = ?1") {}
+        batch_run(database,
+                  "UPDATE batch_run SET runs = ?2, seconds = ?3, ended = ?4 WHERE id = ?1") {}
 
   SqlStatement run;
   SqlStatement tag;
@@ -267,7 +270,7 @@ struct ResultsWriter::Insertions {
   SqlStatement match;
   SqlStatement removal;
   SqlStatement tag_removal;
-  SqlStatement sitting;
+  SqlStatement batch_run;
 };
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& file, const DatasetFacts& dataset)
@@ -300,9 +303,9 @@ void ResultsWriter::admit(const MethodFacts& method) {
   addMethodFacts(database_, method);
 }
 
-void ResultsWriter::begin(Sitting sitting) {
-  sitting_ = std::move(sitting);
-  addSitting(database_, sitting_);
+void ResultsWriter::begin(BatchRun batch_run) {
+  batch_run_ = std::move(batch_run);
+  addBatchRun(database_, batch_run_);
   began_ns_ = steadyNow_ns();
 }
 
@@ -315,9 +318,9 @@ void ResultsWriter::add(const RunResult& run) {
   if (has(run.method, run.case_id, run.reseed)) return;
   SqlTransaction transaction(database_);
   insert(run);
-  ++sitting_.runs;
-  sitting_.seconds = 1e-9 * static_cast<double>(steadyNow_ns() - began_ns_);
-  noteSitting();
+  ++batch_run_.runs;
+  batch_run_.seconds = 1e-9 * static_cast<double>(steadyNow_ns() - began_ns_);
+  noteBatchRun();
   transaction.commit();
   if (!run.inputFailed()) known_.insert(keyOf(run.method, run.case_id, run.reseed));
 }
@@ -329,7 +332,7 @@ void ResultsWriter::insert(const RunResult& run) {
     const SqlValue removed = insertions_->removal.cell(0);
     insertions_->tag_removal.run({&removed, 1});
   }
-  insertions_->run.run(withFirst<SqlValue>({sitting_.id}, runTable().values(run)));
+  insertions_->run.run(withFirst<SqlValue>({batch_run_.id}, runTable().values(run)));
   const std::int64_t id = database_.lastId();
   for (const std::string& tag : run.tags) {
     const SqlValue row[] = {id, tag};
@@ -347,14 +350,14 @@ void ResultsWriter::insertSteps(std::int64_t run_id, const RunResult& run) {
   }
 }
 
-void ResultsWriter::noteSitting() {
-  const SqlValue row[] = {sitting_.id, sitting_.runs, sitting_.seconds, sitting_.ended};
-  insertions_->sitting.run(row);
+void ResultsWriter::noteBatchRun() {
+  const SqlValue row[] = {batch_run_.id, batch_run_.runs, batch_run_.seconds, batch_run_.ended};
+  insertions_->batch_run.run(row);
 }
 
 void ResultsWriter::end() {
-  sitting_.ended = utcNowText();
-  noteSitting();
+  batch_run_.ended = utcNowText();
+  noteBatchRun();
 }
 
 }  // namespace boresight::sessions

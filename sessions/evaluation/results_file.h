@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading results files; README.md beside this has their tables.
+// Reading results files; their tables are in README.md.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@
 
 namespace boresight::sessions {
 
-/// Marks an SQLite file as ours ("BSRT"), and of which form.
+/// Annotations an SQLite file as ours ("BSRT"), and of which form.
 inline constexpr std::int64_t kResultsApplication = 0x42535254;
-inline constexpr std::int64_t kResultsVersion = 3;
+inline constexpr std::int64_t kResultsVersion = 4;
 
 /// A results file but its runs.
 struct ResultsFacts {
   std::filesystem::path file;
   DatasetFacts dataset;
   std::vector<MethodFacts> methods;  ///< by name
-  std::vector<Sitting> sittings;     ///< in the order in which they began
+  std::vector<BatchRun> batch_runs;  ///< in the order in which they began
 };
 
 /// InputError unless the file is a results file of this version.
@@ -68,26 +68,26 @@ class ResultsWriter {
   /// Runs of this method are to be added. OutputError when the file's runs of it have other
   /// options.
   void admit(const MethodFacts& method);
-  /// What is added from now on is of this sitting.
-  void begin(Sitting sitting);
+  /// What is added from now on is of this batch_run.
+  void begin(BatchRun batch_run);
   /// Whether a run is there. One whose input was refused is not: it is to be tried again.
   bool has(const std::string& method, const std::string& case_id, std::int32_t reseed) const;
-  /// Adds a run, in place of one of the same whose input was refused. OutputError.
+  /// Adds a run, in@dataset_index of one of the same whose input was refused. OutputError.
   void add(const RunResult& run);
-  /// Notes that the sitting ended by itself.
+  /// Notes that the batch_run ended by itself.
   void end();
 
  private:
   struct Insertions;
   void insert(const RunResult& run);
   void insertSteps(std::int64_t run_id, const RunResult& run);
-  void noteSitting();
+  void noteBatchRun();
 
   std::unique_ptr<FileLock> lock_;
   SqlDatabase database_;
   std::unique_ptr<Insertions> insertions_;
   std::unordered_set<std::string> known_;  ///< runs that need not be done again
-  Sitting sitting_;
+  BatchRun batch_run_;
   std::int64_t began_ns_ = 0;  ///< of the steady clock
 };
 

@@ -66,7 +66,7 @@ class Merge {
                                    "WHERE (o.status = 'input_error') = (h.status = "
                                    "'input_error')"));
     removeRefused();
-    takeSittings();
+    takeBatchRuns();
     takeRuns();
     out_.execute("COMMIT; DETACH other");
   }
@@ -98,9 +98,9 @@ class Merge {
     if (!statement.step()) return;
     throw InputError(file, "run of " + textOf(statement.cell(0)),
                      "seed " + std::to_string(integerOf(statement.cell(1))) + ", method " +
-                         textOf(statement.cell(2)) + " ended otherwise in another of the files (" +
+                         textOf(statement.cell(2)) + " has another result in another file (" +
                          textOf(statement.cell(3)) + ", here " + textOf(statement.cell(4)) +
-                         "): only equal runs can be merged");
+                         "); only equal runs can be merged");
   }
 
   /// Runs whose input was refused, where the other file has the run done.
@@ -113,18 +113,19 @@ class Merge {
   }
 
   /// A batch run that several files have is taken once.
-  void takeSittings() {
-    const std::string names = joined(sittingTable().names());
+  void takeBatchRuns() {
+    const std::string names = joined(batchRunTable().names());
     const std::string same =
         "h.machine = o.machine AND h.began = o.began AND h.command = o.command AND h.shard = "
         "o.shard";
-    out_.execute("INSERT INTO main.sitting (" + names + ") SELECT " + names +
-                 " FROM other.sitting o WHERE NOT EXISTS (SELECT 1 FROM main.sitting h WHERE " +
+    out_.execute("INSERT INTO main.batch_run (" + names + ") SELECT " + names +
+                 " FROM other.batch_run o WHERE NOT EXISTS (SELECT 1 FROM main.batch_run h WHERE " +
                  same + ") ORDER BY id");
     out_.execute(
-        "DROP TABLE IF EXISTS temp.sitting_of;"
-        "CREATE TEMP TABLE sitting_of AS SELECT o.id AS old, min(h.id) AS new FROM other.sitting "
-        "o JOIN main.sitting h ON " +
+        "DROP TABLE IF EXISTS temp.batch_run_of;"
+        "CREATE TEMP TABLE batch_run_of AS SELECT o.id AS old, min(h.id) AS new FROM "
+        "other.batch_run "
+        "o JOIN main.batch_run h ON " +
         same + " GROUP BY o.id");
   }
 
@@ -141,9 +142,10 @@ class Merge {
                    " FROM other." + table + " JOIN added ON old = run");
     };
     const std::string names = joined(runTable().names());
-    out_.execute("INSERT INTO main.run (id, sitting, " + names + ") SELECT a.new, s.new, " + names +
-                 " FROM other.run JOIN added a ON a.old = id JOIN sitting_of s ON s.old = sitting "
-                 "ORDER BY a.new");
+    out_.execute(
+        "INSERT INTO main.run (id, batch_run, " + names + ") SELECT a.new, s.new, " + names +
+        " FROM other.run JOIN added a ON a.old = id JOIN batch_run_of s ON s.old = batch_run "
+        "ORDER BY a.new");
     copy("tag", "tag");
     copy("iteration", joined(stepTable().names()));
     copy("match", "step, " + joined(matchTable().names()));

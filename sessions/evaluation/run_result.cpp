@@ -37,13 +37,14 @@ RunStep stepOf(const IterationTrace& iteration, std::int32_t index) {
 
 }  // namespace
 
-std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& one) {
+std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case) {
   std::vector<RunStep> steps;
   for (const auto& iteration : trace.iterations) {
     steps.push_back(stepOf(*iteration, static_cast<std::int32_t>(steps.size())));
-    if (one.truth_camera_from_station)
-      steps.back().error = poseError(*one.truth_camera_from_station, iteration->camera_from_station,
-                                     one.camera_from_end_effector);
+    if (dataset_case.truth_camera_from_station)
+      steps.back().error =
+          poseError(*dataset_case.truth_camera_from_station, iteration->camera_from_station,
+                    dataset_case.camera_from_end_effector);
   }
   return steps;
 }

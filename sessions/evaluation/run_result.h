@@ -66,13 +66,13 @@ struct RunStep {
 
 /// One per iteration of the trace; errors where the case's truth is known. Matches come along when
 /// the trace was recorded in full.
-std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& one);
+std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case);
 
 /// What is kept of one run of a batch.
 struct RunResult {
   std::string case_id;
-  std::int64_t place = 0;   ///< of the case in its dataset, from 0
-  std::int32_t reseed = 0;  ///< 0: the seed of the dataset
+  std::int64_t dataset_index = 0;  ///< of the case in its dataset, from 0
+  std::int32_t reseed = 0;         ///< 0: the seed of the dataset
   std::string station;
   std::string method;
   std::vector<std::string> tags;

@@ -153,7 +153,7 @@ void readQuaternionText(RunResult& run, const SqlValue& value, const fs::path& f
 std::vector<Column<RunResult>> makeRunColumns() {
   using Run = RunResult;
   std::vector<Column<Run>> columns = {
-      integer("place", &Run::place),
+      integer("dataset_index", &Run::dataset_index),
       text("case_id", &Run::case_id),
       integer("reseed", &Run::reseed),
       text("station", &Run::station),
@@ -252,16 +252,16 @@ const RowTable<MethodFacts>& methodTable() {
   return kTable;
 }
 
-const RowTable<Sitting>& sittingTable() {
-  static const RowTable<Sitting> kTable = {
-      {text("began", &Sitting::began), text("ended", &Sitting::ended),
-       text("version", &Sitting::version), text("machine", &Sitting::machine),
-       text("processor", &Sitting::processor), text("system", &Sitting::system),
-       text("command", &Sitting::command), text("folder", &Sitting::folder),
-       integer("jobs", &Sitting::jobs), integer("threads", &Sitting::threads),
-       text("kernels", &Sitting::kernels), text("shard", &Sitting::shard),
-       integer("reseeds", &Sitting::reseeds), integer("runs", &Sitting::runs),
-       real("seconds", &Sitting::seconds, "REAL NOT NULL")}};
+const RowTable<BatchRun>& batchRunTable() {
+  static const RowTable<BatchRun> kTable = {
+      {text("began", &BatchRun::began), text("ended", &BatchRun::ended),
+       text("version", &BatchRun::version), text("machine", &BatchRun::machine),
+       text("processor", &BatchRun::processor), text("system", &BatchRun::system),
+       text("command", &BatchRun::command), text("folder", &BatchRun::folder),
+       integer("jobs", &BatchRun::jobs), integer("threads", &BatchRun::threads),
+       text("kernels", &BatchRun::kernels), text("shard", &BatchRun::shard),
+       integer("reseeds", &BatchRun::reseeds), integer("runs", &BatchRun::runs),
+       real("seconds", &BatchRun::seconds, "REAL NOT NULL")}};
   return kTable;
 }
 

@@ -60,7 +60,7 @@ struct RowTable {
 };
 
 const RowTable<MethodFacts>& methodTable();
-const RowTable<Sitting>& sittingTable();
+const RowTable<BatchRun>& batchRunTable();
 /// Without tags and steps.
 const RowTable<RunResult>& runTable();
 /// Without details of matches.

@@ -132,19 +132,19 @@ void SqlStatement::Finalize::operator()(sqlite3_stmt* statement) const {
 
 void SqlStatement::bind(std::span<const SqlValue> values) {
   sqlite3_reset(statement_.get());  // repeats the error of the last step, which was told then
-  int place = 0;
+  int index = 0;
   for (const SqlValue& value : values) {
-    ++place;
+    ++index;
     int code = SQLITE_OK;
     if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-      code = sqlite3_bind_int64(statement_.get(), place, *integer);
+      code = sqlite3_bind_int64(statement_.get(), index, *integer);
     } else if (const auto* real = std::get_if<double>(&value)) {
-      code = sqlite3_bind_double(statement_.get(), place, *real);
+      code = sqlite3_bind_double(statement_.get(), index, *real);
     } else if (const auto* text = std::get_if<std::string>(&value)) {
-      code = sqlite3_bind_text(statement_.get(), place, text->c_str(),
+      code = sqlite3_bind_text(statement_.get(), index, text->c_str(),
                                static_cast<int>(text->size()), SQLITE_TRANSIENT);
     } else {
-      code = sqlite3_bind_null(statement_.get(), place);
+      code = sqlite3_bind_null(statement_.get(), index);
     }
     database_->require(code);
   }

@@ -70,7 +70,7 @@ class SqlDatabase {
 class SqlStatement {
  public:
   SqlStatement(SqlDatabase& database, const std::string& sql);
-  /// The values of ?1, ?2, ...; begins anew.
+  /// The values of ?1, ?2, ...; restarts.
   void bind(std::span<const SqlValue> values);
   /// Whether there is a (further) row.
   bool step();

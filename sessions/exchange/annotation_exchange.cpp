@@ -8,9 +8,9 @@
 #include <system_error>
 #include <utility>
 
+#include "sessions/annotation/annotations_file.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
-#include "sessions/annotation/marks_on_image.h"
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
 #include "sessions/io/atomic_file.h"
@@ -21,7 +21,7 @@
 #include "sessions/io/undistort.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/image_names.h"
 
 namespace boresight::sessions {
@@ -29,11 +29,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Marks& requireMarks(const Session& session, const std::string& case_id) {
+const Annotations& requireMarks(const Session& session, const std::string& case_id) {
   (void)knownCase(session, case_id);
   const auto found = session.annotations.find(case_id);
   if (found == session.annotations.end())
-    throw InputError("session", "annotations", "case '" + case_id + "' has no marks");
+    throw InputError("session", "annotations", "case '" + case_id + "' has no annotations");
   return *found->second;
 }
 
@@ -56,26 +56,27 @@ void requireHonestName(const std::filesystem::path& file, const HandedPoses& han
   for (const HandedPose& pose : handed.poses)
     if (!pose.validated)
       throw InputError(file, "case '" + pose.case_id + "' is " + pose.review_status +
-                                 "; the format has no room to say so, so its name has to: put " +
-                                 kNotValidatedName + " into it, or name the validated cases alone");
+                                 "; the format cannot state this, so the file name must: put " +
+                                 kNotValidatedName +
+                                 " into the name, or export only the validated cases");
 }
 
-ExportReport reportOf(const CasePoses& made) {
+ExportReport reportOf(const CasePoses& case_poses) {
   ExportReport report;
-  for (const CasePose& pose : made.poses) report.case_ids.push_back(pose.case_id);
-  report.notes = made.notes;
+  for (const CasePose& pose : case_poses.poses) report.case_ids.push_back(pose.case_id);
+  report.notes = case_poses.notes;
   return report;
 }
 
-void requireOneStation(const Session& session, const CasePoses& made) {
+void requireOneStation(const Session& session, const CasePoses& case_poses) {
   const std::vector<int> stations = stationNumbers(session);
-  const int first = stations[placeOf(session, made.poses[0].case_id)];
-  for (const CasePose& pose : made.poses)
+  const int first = stations[placeOf(session, case_poses.poses[0].case_id)];
+  for (const CasePose& pose : case_poses.poses)
     if (stations[placeOf(session, pose.case_id)] != first)
       throw InputError("session", "cases",
-                       "'" + made.poses[0].case_id + "' and '" + pose.case_id +
-                           "' are of different stations, and a COLMAP model has one world: choose "
-                           "the cases of one station");
+                       "'" + case_poses.poses[0].case_id + "' and '" + pose.case_id +
+                           "' have different stations, but a COLMAP model has one world; choose "
+                           "cases of one station");
 }
 
 /// Who validated this very pose, or that it is not validated.
@@ -84,14 +85,15 @@ std::string remarkOf(const Session& session, const CasePose& pose) {
   const bool judged = status.holds() && status.decision->pose &&
                       status.decision->pose->camera_from_station == pose.camera_from_station;
   if (status.state == ReviewState::kValidated && !judged)
-    return "NOT VALIDATED: another pose of the case was";
+    return "NOT VALIDATED: the validation is of another pose of the case";
   return reviewStatusText(status);
 }
 
-Camera prepared(const SessionCase& one) {
-  Camera camera = one.camera;
+Camera prepared(const SessionCase& session_case) {
+  Camera camera = session_case.camera;
   if (prepareCamera(camera) != Status::kOk)
-    throw InputError("case " + one.id, "camera", "its parameters are not those of a camera");
+    throw InputError("case " + session_case.id, "camera",
+                     "its parameters are not those of a camera");
   return camera;
 }
 
@@ -102,31 +104,34 @@ struct ExchangeCamera {
 };
 
 /// A camera of the CAHV family is fitted at the distance of the seed, and says with what error.
-ExchangeCamera exchangeCamera(const SessionCase& one) {
-  const Camera own = prepared(one);
+ExchangeCamera exchangeCamera(const SessionCase& session_case) {
+  const Camera own = prepared(session_case);
   if (!isCahvFamily(own.model)) return {own, ""};
   try {
-    const FittedCamera fitted = fitCamera(own, CameraModel::kBrownConrady,
-                                          one.camera_from_station_seed.translation_m.norm());
+    const FittedCamera fitted =
+        fitCamera(own, CameraModel::kBrownConrady,
+                  session_case.camera_from_station_seed.translation_m.norm());
     return {fitted.camera, std::string("its ") + cameraModelName(own.model) +
                                " camera is written as brown_conrady, " + fitText(fitted)};
   } catch (const std::runtime_error& error) {
-    throw InputError("session", "cases",
-                     "the camera of case '" + one.id + "' cannot be written: " + error.what());
+    throw InputError(
+        "session", "cases",
+        "the camera of case '" + session_case.id + "' cannot be written: " + error.what());
   }
 }
 
 /// The image as a camera without distortion would have taken it, where BOP has images.
-void writeBopImage(const fs::path& folder, const SessionCase& one, int number) {
-  const GrayImage image = readImage(one.image.source.file, one.image.eight_bit);
+void writeBopImage(const fs::path& folder, const SessionCase& session_case, int number) {
+  const GrayImage image = readImage(session_case.image.source.file, session_case.image.eight_bit);
   const ImageView view = image.view();
-  const Camera camera = prepared(one);
+  const Camera camera = prepared(session_case);
   if (view.width != camera.width || view.height != camera.height)
-    throw InputError(one.image.source.file, "has another size than the camera of case " + one.id);
-  const UndistortedImage made = undistort(camera, view);
+    throw InputError(session_case.image.source.file,
+                     "has another size than the camera of case " + session_case.id);
+  const UndistortedImage undistorted_image = undistort(camera, view);
   char name[32];
   (void)std::snprintf(name, sizeof name, "%06d.png", number);
-  writePng(folder / name, made.pixels, camera.width, camera.height, 1);
+  writePng(folder / name, undistorted_image.pixels, camera.width, camera.height, 1);
 }
 
 /// Gives a case a truth, unless it has another one that is to stay.
@@ -138,7 +143,7 @@ void setTruth(ImportReport& report, const std::string& case_id, const Pose& trut
   if (known && !(*known == truth) && !replace)
     throw InputError("session", "cases",
                      "case '" + case_id +
-                         "' has another truth already; ask for it to be replaced (whs: --replace)");
+                         "' already has another truth; request its replacement (whs: --replace)");
   if (!known || !(*known == truth)) boresight::sessions::setTruth(changed, truth);
   report.session = withCase(report.session, std::move(changed));
   report.case_ids.push_back(case_id);
@@ -186,34 +191,39 @@ const SessionCase* caseOfImage(const Session& session, const fs::path& file,
 CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
                          bool robust) {
   for (const std::string& id : case_ids) (void)knownCase(session, id);
-  CasePoses made;
-  for (const auto& one : session.cases) {
-    const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
+  CasePoses case_poses;
+  for (const auto& session_case : session.cases) {
+    const bool asked =
+        std::find(case_ids.begin(), case_ids.end(), session_case->id) != case_ids.end();
     if (!case_ids.empty() && !asked) continue;
-    const CaseMarks marks = caseMarks(session, one->id);
-    const bool marked = std::any_of(marks.views.begin(), marks.views.end(),
-                                    [](const MarkedView& view) { return !view.marks.empty(); });
-    if (!marked && !asked) continue;
-    const CaseMarksSolution solved = solveCaseMarks(marks, marksGuess(*one), {}, robust);
+    const CaseAnnotations annotations = caseAnnotations(session, session_case->id);
+    const bool annotated =
+        std::any_of(annotations.views.begin(), annotations.views.end(),
+                    [](const AnnotatedView& view) { return !view.annotations.empty(); });
+    if (!annotated && !asked) continue;
+    const CaseAnnotationsSolution solved =
+        solveCaseAnnotations(annotations, annotationsGuess(*session_case), {}, robust);
     if (const auto pose = solved.camera_from_station())
-      made.poses.push_back({one->id, *pose});
+      case_poses.poses.push_back({session_case->id, *pose});
     else
-      made.notes.push_back("case '" + one->id + "' has no pose: " + solved.result.reason);
+      case_poses.notes.push_back("case '" + session_case->id +
+                                 "' has no pose: " + solved.result.reason);
   }
-  if (made.poses.empty())
+  if (case_poses.poses.empty())
     throw InputError("session", "annotations",
-                     made.notes.empty() ? "no case has marks to make a pose of"
-                                        : "no case has a pose to export: " + made.notes.front());
-  return made;
+                     case_poses.notes.empty()
+                         ? "no case has annotations to solve for a pose"
+                         : "no case has a pose to export: " + case_poses.notes.front());
+  return case_poses;
 }
 
 CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids) {
   const HandedPoses handed = requirePoses(session, case_ids);
-  CasePoses made;
-  made.notes = handed.notes;
+  CasePoses case_poses;
+  case_poses.notes = handed.notes;
   for (const HandedPose& pose : handed.poses)
-    made.poses.push_back({pose.case_id, pose.camera_from_station});
-  return made;
+    case_poses.poses.push_back({pose.case_id, pose.camera_from_station});
+  return case_poses;
 }
 
 ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
@@ -264,62 +274,64 @@ ExportReport exportBop(const Session& session, const fs::path& folder, const Cas
     std::vector<BopObject> objects;
     for (const CasePose& pose : poses.poses) {
       const std::size_t place = placeOf(session, pose.case_id);
-      const SessionCase& one = *session.cases[place];
-      objects.push_back({{numbers[place], "", pinholeOf(prepared(one)), pose.camera_from_station,
-                          remarkOf(session, pose)},
+      const SessionCase& session_case = *session.cases[place];
+      objects.push_back({{numbers[place], "", pinholeOf(prepared(session_case)),
+                          pose.camera_from_station, remarkOf(session, pose)},
                          stations[place]});
-      writeBopImage(to / "gray", one, numbers[place]);
+      writeBopImage(to / "gray", session_case, numbers[place]);
     }
     writeBopScene(to, objects);
   });
   return reportOf(poses);
 }
 
-void exportMarks(const Session& session, const std::string& case_id, const fs::path& file) {
-  writeMarks(file, requireMarks(session, case_id));
+void exportAnnotations(const Session& session, const std::string& case_id, const fs::path& file) {
+  writeAnnotations(file, requireMarks(session, case_id));
 }
 
 void exportLandmarks(const Session& session, const std::string& case_id, const fs::path& file) {
-  const Marks& marks = requireMarks(session, case_id);
+  const Annotations& annotations = requireMarks(session, case_id);
   std::error_code error;
   std::vector<Landmark> landmarks;
   if (fs::exists(file, error)) landmarks = readLandmarks(file);
-  landmarks = withMarks(std::move(landmarks), marks);
+  landmarks = withAnnotations(std::move(landmarks), annotations);
   if (landmarks.empty())
     throw InputError("session", "annotations",
-                     "case '" + case_id + "' has no point with a place on the station");
+                     "case '" + case_id + "' has no point with station coordinates");
   writeLandmarks(file, landmarks);
 }
 
-ImportReport importMarks(const Session& session, const std::string& case_id, const fs::path& file,
-                         bool replace) {
-  const SessionCase& one = knownCase(session, case_id);
-  const Marks marks = readMarks(file);
-  for (const PointPair& point : marks.points)
-    if (point.pixel && !isInImage(one.camera, *point.pixel))
+ImportReport importAnnotations(const Session& session, const std::string& case_id,
+                               const fs::path& file, bool replace) {
+  const SessionCase& session_case = knownCase(session, case_id);
+  const Annotations annotations = readAnnotations(file);
+  for (const PointPair& point : annotations.points)
+    if (point.pixel && !isInImage(session_case.camera, *point.pixel))
       throw InputError(file, point.id,
                        "lies outside of the image of case '" + case_id + "', which has " +
-                           std::to_string(one.camera.width) + " x " +
-                           std::to_string(one.camera.height) + " pixels; are these its marks?");
+                           std::to_string(session_case.camera.width) + " x " +
+                           std::to_string(session_case.camera.height) +
+                           " pixels; do the annotations belong to this case?");
   const auto known = session.annotations.find(case_id);
-  if (marks.empty()) throw InputError(file, "has no marks");
-  if (known != session.annotations.end() && !(*known->second == marks) && !replace)
-    throw InputError("session", "annotations",
-                     "case '" + case_id +
-                         "' has other marks already; ask for them to be replaced (whs: --replace)");
-  return {withAnnotation(session, case_id, marks), {case_id}, {}};
+  if (annotations.empty()) throw InputError(file, "has no annotations");
+  if (known != session.annotations.end() && !(*known->second == annotations) && !replace)
+    throw InputError(
+        "session", "annotations",
+        "case '" + case_id +
+            "' already has other annotations; request their replacement (whs: --replace)");
+  return {withAnnotations(session, case_id, annotations), {case_id}, {}};
 }
 
 ImportReport importColmap(const Session& session, const fs::path& folder, bool replace) {
   ImportReport report{session, {}, {}};
   for (const PosedImage& image : readColmapText(folder)) {
-    const SessionCase* one = caseOfImage(session, folder / "images.txt", image.name);
-    if (one == nullptr)
+    const SessionCase* session_case = caseOfImage(session, folder / "images.txt", image.name);
+    if (session_case == nullptr)
       report.notes.push_back("image '" + image.name + "' is no case's");
-    else if (!sameCamera(image.camera, exchangeCamera(*one).camera, true))
-      report.notes.push_back(otherCamera("image '" + image.name + "'", one->id));
+    else if (!sameCamera(image.camera, exchangeCamera(*session_case).camera, true))
+      report.notes.push_back(otherCamera("image '" + image.name + "'", session_case->id));
     else
-      setTruth(report, one->id, image.camera_from_station, replace);
+      setTruth(report, session_case->id, image.camera_from_station, replace);
   }
   requireSome(report, folder);
   return report;
@@ -338,17 +350,17 @@ ImportReport importBop(const Session& session, const fs::path& folder, bool repl
       continue;
     }
     const auto place = static_cast<std::size_t>(found - numbers.begin());
-    const SessionCase& one = *session.cases[place];
+    const SessionCase& session_case = *session.cases[place];
     const auto in_image = std::count_if(
         objects.begin(), objects.end(),
         [&object](const BopObject& other) { return other.image.id == object.image.id; });
     if (in_image > 1 && object.object_id != stations[place])
       report.notes.push_back(image + ": object " + std::to_string(object.object_id) +
-                             " is not the station of case '" + one.id + "'");
-    else if (!sameCamera(object.image.camera, one.camera, false))
-      report.notes.push_back(otherCamera(image, one.id));
+                             " is not the station of case '" + session_case.id + "'");
+    else if (!sameCamera(object.image.camera, session_case.camera, false))
+      report.notes.push_back(otherCamera(image, session_case.id));
     else
-      setTruth(report, one.id, object.image.camera_from_station, replace);
+      setTruth(report, session_case.id, object.image.camera_from_station, replace);
   }
   requireSome(report, folder);
   return report;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks and poses of a session for other programs, and from them: for the desktop program, `whs
-// export` and `whs import`.
+// Annotations and poses of a session for other programs, and from them: for the desktop program,
+// `whs export` and `whs import`.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +22,9 @@ struct CasePoses {
   std::vector<std::string> notes;  ///< cases without a pose, and why
 };
 
-/// The poses that cases' marks give, solved as `solveCaseMarks` does, each together with its rig.
-/// Of these cases, or of all that have marks (or whose rig has). InputError for an id that does not
-/// exist, and when there is no pose.
+/// The poses that cases' annotations give, solved as `solveCaseAnnotations` does, each together
+/// with its rig. Of these cases, or of all that have annotations (or whose rig has). InputError for
+/// an id that does not exist, and when there is no pose.
 CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
                          bool robust);
 /// The poses that cases are handed over with (handedPoses). InputError when there is none.
@@ -55,16 +55,16 @@ ExportReport exportBop(const Session& session, const std::filesystem::path& fold
 
 /// Writes the poses that cases are handed over with as a BOP19 results file: images and objects are
 /// numbered as `exportBop` does, in this scene; the score is 1 for a validated pose or one from
-/// marks, else the edge support of its run. The format has no room for a remark: when a pose is not
-/// validated, the file's name must contain kNotValidatedName. InputError; OutputError.
+/// annotations, else the edge support of its run. The format has no room for a remark: when a pose
+/// is not validated, the file's name must contain kNotValidatedName. InputError; OutputError.
 ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
                               const std::vector<std::string>& case_ids, int scene_id);
 inline constexpr const char* kNotValidatedName = "NOT-VALIDATED";
 
-/// Writes a case's marks as points.json, or points.csv where the name ends so. InputError when the
-/// case does not exist or has none; OutputError.
-void exportMarks(const Session& session, const std::string& case_id,
-                 const std::filesystem::path& file);
+/// Writes a case's annotations as points.json, or points.csv where the name ends so. InputError
+/// when the case does not exist or has none; OutputError.
+void exportAnnotations(const Session& session, const std::string& case_id,
+                       const std::filesystem::path& file);
 
 /// Writes the points of a case as landmarks.json, added to those that the file has; one of the same
 /// name is replaced. InputError also for a file that is there and is none; OutputError.
@@ -78,10 +78,10 @@ struct ImportReport {
   std::vector<std::string> notes;     ///< what was left out, and why
 };
 
-/// The marks of a points.json or points.csv become the case's. InputError when the case has others
-/// and they are not to be replaced.
-ImportReport importMarks(const Session& session, const std::string& case_id,
-                         const std::filesystem::path& file, bool replace);
+/// The annotations of a points.json or points.csv become the case's. InputError when the case has
+/// others and they are not to be replaced.
+ImportReport importAnnotations(const Session& session, const std::string& case_id,
+                               const std::filesystem::path& file, bool replace);
 
 /// The poses of a COLMAP text model become the truths of the cases whose images it names, by the
 /// names of `exportColmap` or by the ends of the images' paths. InputError when it names none, a

@@ -93,9 +93,9 @@ class Line {
   }
 
   std::string word(const char* what) {
-    std::string made;
-    if (!(words_ >> made)) fail(std::string(what) + " is missing");
-    return made;
+    std::string text;
+    if (!(words_ >> text)) fail(std::string(what) + " is missing");
+    return text;
   }
 
   double number(const char* what) {
@@ -115,16 +115,16 @@ class Line {
   }
 
   std::string rest(const char* what) {
-    std::string made;
-    std::getline(words_ >> std::ws, made);
-    while (!made.empty() && (made.back() == '\r' || made.back() == ' ')) made.pop_back();
-    if (made.empty()) fail(std::string(what) + " is missing");
-    return made;
+    std::string text;
+    std::getline(words_ >> std::ws, text);
+    while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
+    if (text.empty()) fail(std::string(what) + " is missing");
+    return text;
   }
 
   void end() {
     std::string more;
-    if (words_ >> more) fail("has more than it should: '" + more + "'");
+    if (words_ >> more) fail("has extra values: '" + more + "'");
   }
 
  private:
@@ -150,9 +150,9 @@ bool isBlank(const std::string& line) {
 Camera readCameraLine(Line& line) {
   const std::string name = line.word("the camera's model");
   const ColmapModel* model = nullptr;
-  for (const ColmapModel& one : colmapModels())
-    if (name == one.name) model = &one;
-  if (model == nullptr) line.fail("no camera here can be a " + name + kWhatToDo);
+  for (const ColmapModel& colmap_model : colmapModels())
+    if (name == colmap_model.name) model = &colmap_model;
+  if (model == nullptr) line.fail("no camera model matches " + name + kWhatToDo);
   Camera camera;
   camera.model = model->model;
   camera.width = line.integer("the width", 1, kMaxImageSide_px);
@@ -164,12 +164,12 @@ Camera readCameraLine(Line& line) {
   for (const std::size_t i : model->distortion) {
     const double value = line.number("a coefficient");
     if (i == kNone && value != 0.0)
-      line.fail("no camera here can be a " + name + " with tangential or thin-prism terms" +
+      line.fail("no camera model matches " + name + " with tangential or thin-prism terms" +
                 kWhatToDo);
     if (i != kNone) camera.distortion[i] = value;
   }
   line.end();
-  if (prepareCamera(camera) != Status::kOk) line.fail("the numbers cannot be a camera's");
+  if (prepareCamera(camera) != Status::kOk) line.fail("the parameters are not those of a camera");
   return camera;
 }
 

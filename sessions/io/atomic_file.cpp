@@ -184,7 +184,7 @@ void writeFolderAtomically(const fs::path& folder,
   const fs::file_status status = fs::symlink_status(target, error);
   const bool there = fs::exists(status);
   if (there && !(fs::is_directory(status) && fs::is_empty(target, error)))
-    throw OutputError(folder, "there is something of this name already; name a new folder");
+    throw OutputError(folder, "the name exists; give a new folder");
   const fs::path temporary = temporaryName(target);
   if (::mkdir(temporary.c_str(), 0777) != 0) fail(target, errno);
   try {

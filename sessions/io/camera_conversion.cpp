@@ -337,17 +337,17 @@ std::vector<BestFit> fitGrowing(const Camera& start, const std::vector<Field>& f
   std::vector<Camera> reached(counts.size(), start);
   for (const Field& field : fields)
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      BestFit here;
+      BestFit best_fit;
       const auto fitFrom = [&](Camera camera) {
-        if (fitParameters(field.sights, counts[i], camera)) here.offer(check.measured(camera));
+        if (fitParameters(field.sights, counts[i], camera)) best_fit.offer(check.measured(camera));
       };
       fitFrom(reached[i]);
       if (i > 0) fitFrom(reached[i - 1]);
       if (i > 0 && equidistant.found)
         fitFrom(rationalStart(equidistant.fitted.camera, field.widest_rad));
-      if (!here.found) continue;
-      reached[i] = here.fitted.camera;
-      best[i].offer(here.fitted);
+      if (!best_fit.found) continue;
+      reached[i] = best_fit.fitted.camera;
+      best[i].offer(best_fit.fitted);
     }
   return best;
 }
@@ -375,18 +375,18 @@ FittedCamera fitCamera(const Camera& given, CameraModel model, double distance_m
   if (isCahvFamily(model))
     throw std::invalid_argument("fitCamera: a model of the CAHV family is not fitted");
   if (isMirrored(given))
-    throw std::runtime_error("its image is mirrored, which no model without vectors can say");
+    throw std::runtime_error("its image is mirrored, which only vector models can state");
   distance_m = std::min(distance_m, kFar_m);
   const std::vector<Sight> sights = sightsOf(given, distance_m);
   if (sights.size() < kFewestSights)
-    throw std::runtime_error("hardly a pixel of it sees a point at that distance");
+    throw std::runtime_error("hardly any pixel sees a point at that distance");
   const FitCheck check(given, distance_m);
   BestFit best;
-  for (const BestFit& one : fitsOf(given, model, sights, check))
-    if (one.found && (!best.found || isBetter(one.fitted, best.fitted))) best = one;
+  for (const BestFit& best_fit : fitsOf(given, model, sights, check))
+    if (best_fit.found && (!best.found || isBetter(best_fit.fitted, best.fitted))) best = best_fit;
   if (!best.found)
     throw std::runtime_error(std::string("no ") + cameraModelName(model) +
-                             " camera comes near to it");
+                             " camera approximates it");
   check.measureFar(best.fitted);
   return best.fitted;
 }
@@ -402,7 +402,7 @@ std::string fitText(const FittedCamera& fitted) {
   if (fitted.unseen_count > 0)
     text += "; " + share(fitted.unseen_count) + " of the image lie outside its valid field";
   if (fitted.without_ray_count > 0)
-    text += "; " + share(fitted.without_ray_count) + " of the image had no ray to begin with";
+    text += "; " + share(fitted.without_ray_count) + " of the image have no ray";
   return text;
 }
 

@@ -115,7 +115,7 @@ CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
   for (const char* key : {"fx", "fy", "cx", "cy", "dist"})
     if (json.has(key))
       json.failMember(key, std::string("a ") + cameraModelName(model) +
-                               " camera is given by its vectors alone (C, A, H, V ...)");
+                               " camera is given by its vectors only (C, A, H, V ...)");
   const CahvModel cahv = readVectors(model, json);
   const auto width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
   const auto height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
@@ -166,7 +166,7 @@ FrameName readFrameName(const JsonReader& json) {
   FrameName frame;
   frame.name = json.at("name").nonEmptyText();
   if (const auto index = json.find("index"))
-    for (const JsonReader& one : index->elements()) frame.index.push_back(one.integer());
+    for (const JsonReader& item : index->elements()) frame.index.push_back(item.integer());
   return frame;
 }
 
@@ -179,8 +179,8 @@ nlohmann::ordered_json toJson(const FrameName& frame) {
 std::string frameText(const FrameName& frame) {
   if (frame.name.empty()) return "a frame without a name";
   std::string index;
-  for (const std::int64_t one : frame.index)
-    index += (index.empty() ? " (" : ", ") + std::to_string(one);
+  for (const std::int64_t item : frame.index)
+    index += (index.empty() ? " (" : ", ") + std::to_string(item);
   return frame.name + (index.empty() ? "" : index + ")");
 }
 
@@ -264,9 +264,9 @@ CameraFile readChosenCamera(const std::filesystem::path& camera_file,
                             const std::filesystem::path& image) {
   if (!camera_file.empty()) return readCameraFile(camera_file);
   if (!hasImageLabel(image))
-    throw InputError(image, "camera",
-                     "none is given, and the image has no label that could tell it: give a "
-                     "camera.json");
+    throw InputError(
+        image, "camera",
+        "none is given, and the image has no label with a camera model: give a camera.json");
   const ImageLabel label = readImageLabel(image);
   if (!label.camera)
     throw InputError(image, "camera",

@@ -82,7 +82,7 @@ std::vector<PartSource> readParts(const JsonReader& json, Dataset& dataset) {
     if (!only.part.match) json.failMember("match", "the station's only part must be matched");
     return {only};
   }
-  if (json.has("mesh")) json.failMember("mesh", "given together with 'parts'");
+  if (json.has("mesh")) json.failMember("mesh", "cannot be combined with 'parts'");
   std::vector<PartSource> all;
   for (const JsonReader& part : parts->elements()) all.push_back(readPart(part, dataset));
   const auto matched = [](const PartSource& source) { return source.part.match; };
@@ -95,11 +95,11 @@ std::vector<PartSource> readParts(const JsonReader& json, Dataset& dataset) {
 Symmetries readStationSymmetries(const JsonReader& json, Dataset& dataset) {
   Symmetries symmetries;
   if (const auto list = json.find("discrete"))
-    for (const JsonReader& one : list->elements())
-      symmetries.discrete.push_back(readNotedTransform(one, dataset));
+    for (const JsonReader& item : list->elements())
+      symmetries.discrete.push_back(readNotedTransform(item, dataset));
   if (const auto list = json.find("continuous"))
-    for (const JsonReader& one : list->elements())
-      symmetries.continuous.push_back(readAxisSymmetry(one, "point_m", 1.0));
+    for (const JsonReader& item : list->elements())
+      symmetries.continuous.push_back(readAxisSymmetry(item, "point_m", 1.0));
   if (symmetries.empty()) json.fail("has neither 'discrete' nor 'continuous' symmetries");
   return symmetries;
 }
@@ -129,9 +129,9 @@ std::string readReference(const JsonReader& json, const Map& known, const char* 
   return id;
 }
 
-void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
+void readPoses(const JsonReader& json, Case& dataset_case, Dataset& dataset) {
   PoseFrames frames{std::nullopt, dataset.transforms};
-  if (const auto known = dataset.camera_references.find(one.camera);
+  if (const auto known = dataset.camera_references.find(dataset_case.camera);
       known != dataset.camera_references.end())
     frames.reference = known->second;
   const auto read = [&](const JsonReader& pose_json) {
@@ -141,31 +141,32 @@ void readPoses(const JsonReader& json, Case& one, Dataset& dataset) {
     return pose;
   };
   const PoseFile seed = read(json.at("seed"));
-  one.seed_camera_from_station = seed.camera_from_station;
-  one.uncertainty = seed.uncertainty;
-  one.station_frame = seed.station_frame;
+  dataset_case.seed_camera_from_station = seed.camera_from_station;
+  dataset_case.uncertainty = seed.uncertainty;
+  dataset_case.station_frame = seed.station_frame;
   if (const auto given = json.find("truth")) {
     const PoseFile truth = read(*given);
-    one.truth_camera_from_station = truth.camera_from_station;
-    one.truth_frame = truth.station_frame;
-    one.truth_covariance = truth.covariance;
+    dataset_case.truth_camera_from_station = truth.camera_from_station;
+    dataset_case.truth_frame = truth.station_frame;
+    dataset_case.truth_covariance = truth.covariance;
   }
   if (const auto rig = json.find("rig"))
-    one.rig =
+    dataset_case.rig =
         Rig{rig->at("id").nonEmptyText(), readNotedTransform(rig->at("camera_from_rig"), dataset)};
 }
 
 /// What a case may override, and what holds for it otherwise.
-void readOverrides(const JsonReader& json, const Station& station, Case& one, Dataset& dataset) {
+void readOverrides(const JsonReader& json, const Station& station, Case& dataset_case,
+                   Dataset& dataset) {
   if (const auto uncertainty = json.find("uncertainty"))
-    one.uncertainty = readUncertainty(*uncertainty);
-  if (!one.uncertainty) one.uncertainty = station.uncertainty;
-  one.requirement = dataset.requirement;
+    dataset_case.uncertainty = readUncertainty(*uncertainty);
+  if (!dataset_case.uncertainty) dataset_case.uncertainty = station.uncertainty;
+  dataset_case.requirement = dataset.requirement;
   if (const auto requirement = json.find("requirement"))
-    one.requirement = readRequirement(*requirement);
-  one.camera_from_end_effector = station.camera_from_end_effector;
+    dataset_case.requirement = readRequirement(*requirement);
+  dataset_case.camera_from_end_effector = station.camera_from_end_effector;
   if (const auto transform = json.find("camera_from_end_effector"))
-    one.camera_from_end_effector = readNotedTransform(*transform, dataset);
+    dataset_case.camera_from_end_effector = readNotedTransform(*transform, dataset);
 }
 
 void addCamera(const std::string& id, const CameraFile& camera, Dataset& dataset) {
@@ -175,30 +176,30 @@ void addCamera(const std::string& id, const CameraFile& camera, Dataset& dataset
 }
 
 /// One of the data set's cameras, or that of the image's own label.
-std::string readCaseCamera(const JsonReader& json, const Case& one, Dataset& dataset) {
+std::string readCaseCamera(const JsonReader& json, const Case& dataset_case, Dataset& dataset) {
   if (const auto named = json.find("camera"))
     return readReference(*named, dataset.cameras, "camera");
-  if (!hasImageLabel(one.image))
+  if (!hasImageLabel(dataset_case.image))
     json.failMember("camera", "missing, and the image has no label with a camera model");
-  const std::string id = "label of " + one.id;
+  const std::string id = "label of " + dataset_case.id;
   if (dataset.cameras.contains(id))
     json.failMember("camera", "missing, and there is a camera called '" + id + "'");
-  addCamera(id, readLabelCamera(one.image), dataset);
+  addCamera(id, readLabelCamera(dataset_case.image), dataset);
   return id;
 }
 
 Case readCase(const JsonReader& json, Dataset& dataset) {
-  Case one;
-  one.id = json.at("id").nonEmptyText();
-  one.station = readReference(json.at("station"), dataset.stations, "station");
-  one.image = json.at("image").path();
-  one.camera = readCaseCamera(json, one, dataset);
-  if (const auto ignore = json.find("ignore")) one.ignore = ignore->path();
-  readPoses(json, one, dataset);
-  readOverrides(json, dataset.stations.at(one.station), one, dataset);
+  Case dataset_case;
+  dataset_case.id = json.at("id").nonEmptyText();
+  dataset_case.station = readReference(json.at("station"), dataset.stations, "station");
+  dataset_case.image = json.at("image").path();
+  dataset_case.camera = readCaseCamera(json, dataset_case, dataset);
+  if (const auto ignore = json.find("ignore")) dataset_case.ignore = ignore->path();
+  readPoses(json, dataset_case, dataset);
+  readOverrides(json, dataset.stations.at(dataset_case.station), dataset_case, dataset);
   if (const auto tags = json.find("tags"))
-    for (const JsonReader& tag : tags->elements()) one.tags.push_back(tag.nonEmptyText());
-  return one;
+    for (const JsonReader& tag : tags->elements()) dataset_case.tags.push_back(tag.nonEmptyText());
+  return dataset_case;
 }
 
 Dataset readMembers(const JsonReader& json) {
@@ -208,16 +209,16 @@ Dataset readMembers(const JsonReader& json) {
   for (const auto& [id, station] : json.at("stations").members())
     dataset.stations.emplace(id, readStation(id, station, dataset));
   if (const auto transforms = json.find("transforms"))
-    for (const JsonReader& one : transforms->elements())
-      dataset.transforms.push_back(readFrameTransform(one.path()));
+    for (const JsonReader& item : transforms->elements())
+      dataset.transforms.push_back(readFrameTransform(item.path()));
   if (const auto cameras = json.find("cameras"))
     for (const auto& [id, camera] : cameras->members())
       addCamera(id, readCameraFile(camera), dataset);
   std::set<std::string> ids;
-  for (const JsonReader& one : json.at("cases").elements()) {
-    dataset.cases.push_back(readCase(one, dataset));
+  for (const JsonReader& item : json.at("cases").elements()) {
+    dataset.cases.push_back(readCase(item, dataset));
     if (!ids.insert(dataset.cases.back().id).second)
-      one.failMember("id", "'" + dataset.cases.back().id + "' is given twice");
+      item.failMember("id", "'" + dataset.cases.back().id + "' is given twice");
   }
   return dataset;
 }
@@ -248,10 +249,11 @@ AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
 Symmetries readBopSymmetries(const JsonReader& model) {
   Symmetries symmetries;
   if (const auto list = model.find("symmetries_discrete"))
-    for (const JsonReader& one : list->elements()) symmetries.discrete.push_back(readDiscrete(one));
+    for (const JsonReader& item : list->elements())
+      symmetries.discrete.push_back(readDiscrete(item));
   if (const auto list = model.find("symmetries_continuous"))
-    for (const JsonReader& one : list->elements())
-      symmetries.continuous.push_back(readAxisSymmetry(one, "offset", kMillimetres));
+    for (const JsonReader& item : list->elements())
+      symmetries.continuous.push_back(readAxisSymmetry(item, "offset", kMillimetres));
   return symmetries;
 }
 
@@ -267,8 +269,9 @@ bool Case::hasTag(const std::string& tag) const {
 }
 
 const Case* Dataset::findCase(const std::string& id) const {
-  const auto found =
-      std::find_if(cases.begin(), cases.end(), [&id](const Case& one) { return one.id == id; });
+  const auto found = std::find_if(cases.begin(), cases.end(), [&id](const Case& dataset_case) {
+    return dataset_case.id == id;
+  });
   return found == cases.end() ? nullptr : &*found;
 }
 
@@ -311,17 +314,18 @@ void requireFiles(const Dataset& dataset) {
   }
 }
 
-GrayImage readCaseImage(const Dataset& dataset, const Case& one) {
-  GrayImage image = readImage(one.image);
-  requireSameSize(image, dataset.cameras.at(one.camera));
-  requireField(dataset.file, "cameras." + one.camera, dataset.cameras.at(one.camera));
+GrayImage readCaseImage(const Dataset& dataset, const Case& dataset_case) {
+  GrayImage image = readImage(dataset_case.image);
+  requireSameSize(image, dataset.cameras.at(dataset_case.camera));
+  requireField(dataset.file, "cameras." + dataset_case.camera,
+               dataset.cameras.at(dataset_case.camera));
   return image;
 }
 
-std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& one) {
-  if (!one.ignore) return std::nullopt;
-  const Camera& camera = dataset.cameras.at(one.camera);
-  return readIgnoreMask(*one.ignore, camera.width, camera.height);
+std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& dataset_case) {
+  if (!dataset_case.ignore) return std::nullopt;
+  const Camera& camera = dataset.cameras.at(dataset_case.camera);
+  return readIgnoreMask(*dataset_case.ignore, camera.width, camera.height);
 }
 
 SceneMesh readStationScene(const Station& station) { return readScene(station.parts); }

@@ -133,9 +133,9 @@ Requirement readRequirement(const JsonReader& json);
 nlohmann::ordered_json toJson(const Requirement& requirement);
 
 /// The image of a case; InputError also when its size is not the camera's.
-GrayImage readCaseImage(const Dataset& dataset, const Case& one);
+GrayImage readCaseImage(const Dataset& dataset, const Case& dataset_case);
 /// Nothing when the case has no mask.
-std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& one);
+std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& dataset_case);
 /// The scene of a station; several cases share it.
 SceneMesh readStationScene(const Station& station);
 

@@ -53,7 +53,7 @@ class OverwriteError : public OutputError {
  public:
   OverwriteError(const std::filesystem::path& file, const std::filesystem::path& input)
       : OutputError(file, "it is the input " + input.string() +
-                              ", which would be lost; name another file") {}
+                              ", which would be overwritten; give another file") {}
 };
 
 }  // namespace boresight::sessions

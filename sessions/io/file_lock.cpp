@@ -101,7 +101,7 @@ FileLock::FileLock(const fs::path& lock_file) : file_(lock_file) {
   constexpr int kAttempts = 100;
   for (int i = 0; i < kAttempts; ++i)
     if (take()) return;
-  throw OutputError(file_, "the lock changes hands all the time; try again");
+  throw OutputError(file_, "other programs take the lock repeatedly; try again");
 }
 
 bool FileLock::take() {

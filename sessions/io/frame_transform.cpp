@@ -23,13 +23,14 @@ std::string noWayText(const FrameName& a, const FrameName& b,
       "the pose is given in " + frameText(b) + ", but the camera model in " + frameText(a);
   if (a.name.empty())
     return needed +
-           "; if these are one frame leave reference_frame out of the pose, else name the "
-           "camera's frame in a camera.json and give the transform between the two";
+           "; if both are one frame, leave reference_frame out of the pose; else state the "
+           "camera's frame in a camera.json and give their transform";
   if (given.empty()) return needed + "; give the transform between the two (transform.json)";
   std::string others;
-  for (const FrameTransform& one : given)
-    others += (others.empty() ? "" : ", ") + one.file.filename().string() + " leads from " +
-              frameText(one.source) + " to " + frameText(one.target);
+  for (const FrameTransform& frame_transform : given)
+    others += (others.empty() ? "" : ", ") + frame_transform.file.filename().string() +
+              " leads from " + frameText(frame_transform.source) + " to " +
+              frameText(frame_transform.target);
   return needed + ", and " + others;
 }
 
@@ -79,16 +80,16 @@ JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
                         std::span<const FrameTransform> given, const JsonReader& at) {
   if (!a.name.empty() && a == b) return {};
   std::optional<JoinedFrames> joined;
-  for (const FrameTransform& one : given) {
-    const std::optional<Pose> a_from_b = joinBy(one, a, b);
+  for (const FrameTransform& frame_transform : given) {
+    const std::optional<Pose> a_from_b = joinBy(frame_transform, a, b);
     if (!a_from_b) continue;
     if (joined && !nearlySame(joined->a_from_b, *a_from_b))
       at.fail("of the given transforms " + joined->by->file.string() + " and " +
-              one.file.filename().string() + " lead from " + frameText(b) + " to " + frameText(a) +
-              " by different numbers; give the one that holds");
+              frame_transform.file.filename().string() + " lead from " + frameText(b) + " to " +
+              frameText(a) + " with different values; give only the valid one");
     if (joined) continue;
-    joined = JoinedFrames{*a_from_b, one};
-    joined->by->file = one.file.filename();
+    joined = JoinedFrames{*a_from_b, frame_transform};
+    joined->by->file = frame_transform.file.filename();
   }
   if (!joined) at.fail(noWayText(a, b, given));
   return *joined;

@@ -149,7 +149,7 @@ class OpenImage {
                        : bands == 2
                            ? gray && !whiteIsZero()
                            : is(1, GCI_RedBand) && is(2, GCI_GreenBand) && is(3, GCI_BlueBand);
-    if (converted || !known) fail("has colours other than gray and RGB, which are not read");
+    if (converted || !known) fail("has colours other than gray and RGB; these are not supported");
   }
 
   /// GDAL takes strips and tiles that a TIFF does not have for zeros.
@@ -178,7 +178,7 @@ class OpenImage {
   }
 
   cv::Mat coloured(const cv::Mat& image, const GDALColorTable& table) const {
-    if (image.depth() != CV_8U) fail("has a palette of 16 bits, which is not read");
+    if (image.depth() != CV_8U) fail("has a palette of 16 bits; this is not supported");
     cv::Mat colours(1, 256, CV_8UC3, cv::Scalar());
     for (int i = 0; i < std::min(256, table.GetColorEntryCount()); ++i) {
       const GDALColorEntry& entry = *table.GetColorEntry(i);
@@ -212,7 +212,7 @@ std::string damageOfJpeg(const std::filesystem::path& file, Bytes bytes,
   try {
     OpenImage open(file, shorter);
     (void)open.pixels();
-    return open.warning().empty() ? "data are left over after its last line" : "";
+    return open.warning().empty() ? "data follow its last line" : "";
   } catch (const InputError&) {
     return "";
   }

@@ -225,7 +225,7 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
   if (options.bit_depth && (*options.bit_depth < 1 || *options.bit_depth > 16))
     throw InputError(file, "bit_depth", std::to_string(*options.bit_depth) + " is outside 1 .. 16");
   if (options.levels && !options.table.empty())
-    throw InputError(file, "levels", "given together with a table: one of the two");
+    throw InputError(file, "levels", "cannot be combined with a table");
   const FileSamples decoded = decode(file);
   const cv::Mat& image = decoded.pixels;
   GrayImage gray;

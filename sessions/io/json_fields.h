@@ -102,7 +102,8 @@ constexpr auto listOf(Element element) {
                },
                [=](const JsonReader& json) {
                  std::vector<decltype(element.read(json))> values;
-                 for (const JsonReader& one : json.elements()) values.push_back(element.read(one));
+                 for (const JsonReader& item : json.elements())
+                   values.push_back(element.read(item));
                  return values;
                }};
 }
@@ -216,7 +217,7 @@ class FieldReader {
   }
   template <class T>
   void list(const char* key, std::vector<T>& values) {
-    for (const JsonReader& one : json_.at(key).elements()) values.push_back(readFields<T>(one));
+    for (const JsonReader& item : json_.at(key).elements()) values.push_back(readFields<T>(item));
   }
   template <class T>
   void optionalList(const char* key, std::vector<T>& values) {

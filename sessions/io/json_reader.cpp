@@ -17,8 +17,7 @@ namespace {
 std::string explanation(const nlohmann::json::exception& error) {
   constexpr std::size_t kMost = 200;
   const std::string message = error.what();
-  if (message.find("unexpected end of input") != std::string::npos)
-    return "the file ends in the middle; it was cut short, or not written to its end";
+  if (message.find("unexpected end of input") != std::string::npos) return "the file is truncated";
   const std::size_t end_of_number = message.find("] ");
   const std::string text =
       end_of_number == std::string::npos ? message : message.substr(end_of_number + 2);

@@ -53,9 +53,9 @@ class JsonReader {
   auto whole(Read&& read) const {
     JsonUse use;
     const JsonReader tracked(*file_, *value_, place_, &use);
-    auto made = read(tracked);
+    auto result = read(tracked);
     tracked.requireUsed();
-    return made;
+    return result;
   }
   /// InputError unless this is an object of this `format` and `version`.
   void requireFormat(std::string_view format, int version) const;
@@ -101,13 +101,13 @@ class JsonReader {
   /// N rows of N numbers.
   template <int N>
   Eigen::Matrix<double, N, N> matrix() const {
-    Eigen::Matrix<double, N, N> made;
+    Eigen::Matrix<double, N, N> result;
     for (int row = 0; const JsonReader& cells : elements(N)) {
       for (int column = 0; const JsonReader& cell : cells.elements(N))
-        made(row, column++) = cell.number();
+        result(row, column++) = cell.number();
       ++row;
     }
-    return made;
+    return result;
   }
 
   /// A file named relative to the document's folder (or absolute): no output replaces it from now

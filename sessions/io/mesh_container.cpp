@@ -43,7 +43,7 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
   if (bytes.size() < kHeader + facets * kFacet) truncatedMesh(file, "STL");
   if (const std::uint64_t there = (bytes.size() - kHeader) / kFacet; there != facets)
     throw InputError(file, "header",
-                     "declares " + std::to_string(facets) + " facets, but the file has room for " +
+                     "declares " + std::to_string(facets) + " facets, but the file can hold only " +
                          std::to_string(there));
   declaration.polygon_count = static_cast<std::int64_t>(facets);
   return declaration;
@@ -186,7 +186,7 @@ void readBuffers(MeshFiles& files) {
     if (!uri || uri->text().starts_with("data:")) continue;
     const std::string name = nameOf(uri->nonEmptyText());
     if (!staysBeside(files.file, name))
-      uri->fail("'" + name + "' is not in the mesh's folder: only buffers there are read");
+      uri->fail("'" + name + "' is not in the mesh's folder; only buffers in that folder are read");
     const auto stated = static_cast<std::size_t>(buffer.at("byteLength").integer(0));
     files.buffers.push_back({buffer.place(), uri->text(), name, stated,
                              readFileBytes(files.file.parent_path() / name, room)});

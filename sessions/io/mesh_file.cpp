@@ -54,7 +54,7 @@ void measure(const std::filesystem::path& file, Mesh& mesh) {
   }
   if (info.sliver_faces == static_cast<std::int64_t>(mesh.faces.size()))
     throw InputError(file, "faces",
-                     "all " + std::to_string(info.sliver_faces) + " are slivers without a surface");
+                     "all " + std::to_string(info.sliver_faces) + " are slivers without area");
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ Mesh readMesh(const MeshFiles& files, const std::string& unit) {
     throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
   WeldedMesh welded = weldMesh(imported.vertices_m, imported.faces);
   if (welded.faces.empty())
-    throw InputError(file, "faces", "each has two corners in the same point: no surface");
+    throw InputError(file, "faces", "each has two coinciding corners and no area");
   mesh.vertices_m = std::move(welded.vertices);
   mesh.faces = std::move(welded.faces);
   info.merged_vertices = welded.merged_vertices;
@@ -121,15 +121,15 @@ std::vector<std::string> MeshInfo::notes() const {
     if (number > 0) all.push_back(std::to_string(number) + " " + what);
   };
   count(unused_vertices, "vertices belong to no face and were left out");
-  count(collapsed_faces, "faces have two corners in the same point and were left out");
+  count(collapsed_faces, "faces have two coinciding corners and were left out");
   count(lines_and_points, "lines and points were left out");
-  count(irregular_polygons, "polygons cross themselves or have no area");
+  count(irregular_polygons, "polygons intersect themselves or have no area");
   count(sliver_faces, "faces are slivers");
   constexpr double kUnusuallyLarge_m = 20.0;
   constexpr double kUnusuallySmall_m = 0.002;
   if (diagonal_m() > kUnusuallyLarge_m || diagonal_m() < kUnusuallySmall_m)
-    all.push_back("the mesh measures " + lengthText(diagonal_m()) +
-                  " across: is its unit really '" + unit + "'?");
+    all.push_back("the mesh measures " + lengthText(diagonal_m()) + " across: check its unit '" +
+                  unit + "'");
   return all;
 }
 

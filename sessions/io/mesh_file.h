@@ -17,7 +17,7 @@ namespace boresight::sessions {
 inline constexpr std::int64_t kMaxMeshVertices = 3'000'000;  ///< in the file, before welding
 inline constexpr std::int64_t kMaxMeshFaces = 1'000'000;     ///< triangles
 
-/// What is known of a mesh besides its geometry; lengths in metres.
+/// Properties of a mesh apart from its geometry; lengths in metres.
 struct MeshInfo {
   std::filesystem::path file;
   std::string format;  ///< "PLY", "OBJ", "STL", "glTF", "GLB"

@@ -73,32 +73,32 @@ using Json = nlohmann::json;
 using Keys = std::initializer_list<const char*>;
 
 Json kept(const Json& object, Keys keys) {
-  Json made = Json::object();
+  Json gltf = Json::object();
   for (const char* key : keys)
-    if (object.contains(key)) made[key] = object[key];
-  return made;
+    if (object.contains(key)) gltf[key] = object[key];
+  return gltf;
 }
 
 void keepInEach(Json& object, const char* list, Keys keys) {
   if (!object.contains(list)) return;
-  for (Json& one : object[list]) one = kept(one, keys);
+  for (Json& gltf : object[list]) gltf = kept(gltf, keys);
 }
 
 std::string geometryJson(std::string_view text) {
-  Json made = kept(Json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
+  Json gltf = kept(Json::parse(text), {"asset", "extensionsRequired", "scene", "scenes", "nodes",
                                        "meshes", "accessors", "bufferViews", "buffers"});
-  keepInEach(made, "scenes", {"nodes"});
-  keepInEach(made, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
-  keepInEach(made, "meshes", {"primitives"});
-  for (Json& mesh : made["meshes"]) {
+  keepInEach(gltf, "scenes", {"nodes"});
+  keepInEach(gltf, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"});
+  keepInEach(gltf, "meshes", {"primitives"});
+  for (Json& mesh : gltf["meshes"]) {
     keepInEach(mesh, "primitives", {"attributes", "indices", "mode"});
     for (Json& primitive : mesh["primitives"])
       primitive["attributes"] = kept(primitive["attributes"], {"POSITION"});
   }
-  keepInEach(made, "accessors", {"bufferView", "byteOffset", "componentType", "count", "type"});
-  keepInEach(made, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
-  keepInEach(made, "buffers", {"uri", "byteLength"});
-  return made.dump();
+  keepInEach(gltf, "accessors", {"bufferView", "byteOffset", "componentType", "count", "type"});
+  keepInEach(gltf, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
+  keepInEach(gltf, "buffers", {"uri", "byteLength"});
+  return gltf.dump();
 }
 
 void appendNumber(std::vector<std::uint8_t>& bytes, std::size_t number) {
@@ -119,13 +119,13 @@ std::vector<std::uint8_t> gltfGeometry(std::span<const std::uint8_t> bytes, Mesh
   std::string text = geometryJson(asText(bytes.subspan(kHeader, old_size)));
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const auto rest = bytes.subspan(kHeader + old_size);
-  std::vector<std::uint8_t> made(bytes.begin(), bytes.begin() + 8);
-  appendNumber(made, kHeader + text.size() + rest.size());
-  appendNumber(made, text.size());
-  made.insert(made.end(), bytes.begin() + 16, bytes.begin() + kHeader);
-  made.insert(made.end(), text.begin(), text.end());
-  made.insert(made.end(), rest.begin(), rest.end());
-  return made;
+  std::vector<std::uint8_t> result(bytes.begin(), bytes.begin() + 8);
+  appendNumber(result, kHeader + text.size() + rest.size());
+  appendNumber(result, text.size());
+  result.insert(result.end(), bytes.begin() + 16, bytes.begin() + kHeader);
+  result.insert(result.end(), text.begin(), text.end());
+  result.insert(result.end(), rest.begin(), rest.end());
+  return result;
 }
 
 /// What the importer gets in place of the mesh's file; empty: the file as it is. It takes a first
@@ -203,7 +203,7 @@ Eigen::Vector3f placedVertex(const std::filesystem::path& file, const aiVector3D
     throw InputError(file, "vertex " + std::to_string(index), "not a finite number");
   if (placed_m.cwiseAbs().maxCoeff() > kMaxCoordinate_m)
     throw InputError(file, "vertex " + std::to_string(index),
-                     "is more than 1000 km from the origin: is the unit right?");
+                     "is more than 1000 km from the origin: check the unit");
   return placed_m.cast<float>();
 }
 

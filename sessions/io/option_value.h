@@ -119,7 +119,7 @@ void withOption(Options& options, const std::string& name, Convert&& convert) {
     const OptionDescription option = describeOption(info, field);
     assignOption(option, convert(option), field);
   });
-  if (!found) throw OptionError(name, "there is no such option");
+  if (!found) throw OptionError(name, "unknown option");
 }
 
 /// Sets one option; OptionError leaves it as it was.
@@ -139,11 +139,11 @@ void applyOptionText(Options& options, const std::string& name, std::string_view
 /// What differs from `defaults`, in the order of declaration.
 template <class Options>
 OptionList changedOptions(const Options& options, const Options& defaults) {
-  const std::vector<OptionDescription> now = listOptions(options);
+  const std::vector<OptionDescription> after = listOptions(options);
   const std::vector<OptionDescription> before = listOptions(defaults);
   OptionList changed;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (now[i].value != before[i].value) changed.emplace_back(now[i].name, now[i].value);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (after[i].value != before[i].value) changed.emplace_back(after[i].name, after[i].value);
   return changed;
 }
 

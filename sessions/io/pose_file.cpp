@@ -73,7 +73,7 @@ void readReferencePose(const JsonReader& json, const PoseFrames& frames, PoseFil
   const JsonReader given = json.at("reference_from_station");
   if (!frames.reference)
     given.fail(
-        "needs a camera of the CAHV family, whose file says where its reference frame is; give "
+        "needs a camera of the CAHV family, whose file states its reference frame; give "
         "camera_from_station");
   const CameraReference& reference = *frames.reference;
   pose.camera_from_station =
@@ -95,9 +95,8 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
     json.requireFormat(kPoseFormat, kPoseVersion);  // a file's content in a dataset
   PoseFile pose;
   if (json.has("reference_from_station") && json.has("camera_from_station"))
-    json.failMember(
-        "reference_from_station",
-        "given together with camera_from_station: give the pose in one of the two ways");
+    json.failMember("reference_from_station",
+                    "cannot be combined with camera_from_station; give one of the two");
   if (json.has("reference_from_station")) {
     readReferencePose(json, frames, pose);
   } else {
@@ -122,7 +121,7 @@ PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
 
 std::string projectionNote(double rotation_deviation) {
   if (rotation_deviation <= kNotedDeviation) return "";
-  return "the matrix is not quite a rotation (|R'R - I| = " + numberText(rotation_deviation) +
+  return "the matrix is slightly off a rotation (|R'R - I| = " + numberText(rotation_deviation) +
          ") and was projected to the nearest one";
 }
 

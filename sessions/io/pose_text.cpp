@@ -96,7 +96,7 @@ ParsedPose accepted(PoseForm form, const Eigen::Matrix3d& rotation,
             : "The matrix is not a rotation: |R'R - I| is " +
                   shortNumber(
                       (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm()) +
-                  ", at most 1e-4 is taken.");
+                  "; the limit is 1e-4.");
   parsed.valid = true;
   parsed.camera_from_station =
       reading.direction == PoseDirection::kCameraFromStation ? pose : pose.inverse();
@@ -130,8 +130,7 @@ ParsedPose fromQuaternion(const std::vector<double>& numbers, const PoseReading&
   const Eigen::Vector4d q(numbers[0], numbers[1], numbers[2], numbers[3]);
   if (!(std::abs(q.norm() - 1.0) <= 1e-4))
     return refused(PoseForm::kQuaternion, "The quaternion is not of unit length (it is " +
-                                              shortNumber(q.norm()) +
-                                              "); at most 1e-4 off is taken.");
+                                              shortNumber(q.norm()) + "); the limit is 1e-4.");
   const Eigen::Vector4d unit = q.normalized();
   const Eigen::Quaterniond rotation = w_first
                                           ? Eigen::Quaterniond(unit[0], unit[1], unit[2], unit[3])

@@ -95,7 +95,7 @@ void requirePlausibleScale(const SceneMesh& scene, const Pose& camera_from_stati
   const std::string concern = scaleConcern(matchedBounds(scene.view()), camera_from_station);
   if (concern.empty() || scene.infos.empty()) return;
   throw InputError(scene.infos.front().file, "mesh_unit",
-                   concern + " (unit '" + scene.infos.front().unit + "'): is the unit right?");
+                   concern + " (unit '" + scene.infos.front().unit + "'): check the unit");
 }
 
 }  // namespace boresight::sessions

@@ -25,10 +25,10 @@ namespace {
 constexpr int kLeastCounted = 10;
 
 template <class Value>
-std::string versus(const Value& one, const Value& other) {
+std::string versus(const Value& value, const Value& other) {
   std::ostringstream text;
   text.precision(9);
-  text << one << " and " << other;
+  text << value << " and " << other;
   return text.str();
 }
 
@@ -47,10 +47,10 @@ class Walk {
   }
 
   template <class Value>
-  void compare(RunPart part, const std::string& what, const Value& one, const Value& other) {
-    if (one == other) return;
+  void compare(RunPart part, const std::string& what, const Value& value, const Value& other) {
+    if (value == other) return;
     std::string values;
-    if constexpr (std::is_arithmetic_v<Value>) values = ": " + versus(one, other);
+    if constexpr (std::is_arithmetic_v<Value>) values = ": " + versus(value, other);
     differ(part, what + " differ" + values);
   }
 
@@ -59,17 +59,18 @@ class Walk {
   int iteration_ = -1;
 };
 
-void walkPixels(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
-  if (!one.inputs || !other.inputs) return;
+void walkPixels(const OnboardRecord& record, const OnboardRecord& other, Walk& walk) {
+  if (!record.inputs || !other.inputs) return;
   const auto pixels = [](const RecordedInputs& inputs) {
     return std::tuple(inputs.width, inputs.height, inputs.sha256.pixels);
   };
-  walk.compare(RunPart::kPixels, "the pixels", pixels(*one.inputs), pixels(*other.inputs));
+  walk.compare(RunPart::kPixels, "the pixels", pixels(*record.inputs), pixels(*other.inputs));
 }
 
-void walkOptions(const RecordedOptions& one, const RecordedOptions& other, Walk& walk) {
+void walkOptions(const RecordedOptions& recorded_options, const RecordedOptions& other,
+                 Walk& walk) {
   std::map<std::string, std::array<const RecordedOption*, 2>> by_name;
-  for (const RecordedOption& option : one.options) by_name[option.name][0] = &option;
+  for (const RecordedOption& option : recorded_options.options) by_name[option.name][0] = &option;
   for (const RecordedOption& option : other.options) by_name[option.name][1] = &option;
   for (const auto& [name, values] : by_name) {
     const auto& [a, b] = values;
@@ -82,9 +83,9 @@ void walkOptions(const RecordedOptions& one, const RecordedOptions& other, Walk&
 }
 
 /// All inputs and options but the pixels.
-void walkInputs(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
-  if (one.inputs && other.inputs) {
-    const RecordedInputs& a = *one.inputs;
+void walkInputs(const OnboardRecord& record, const OnboardRecord& other, Walk& walk) {
+  if (record.inputs && other.inputs) {
+    const RecordedInputs& a = *record.inputs;
     const RecordedInputs& b = *other.inputs;
     const auto uncertainty = [](const RecordedInputs& inputs) {
       Eigen::Matrix<double, 9, 1> all;
@@ -99,35 +100,35 @@ void walkInputs(const OnboardRecord& one, const OnboardRecord& other, Walk& walk
                  b.camera_from_station_seed);
     walk.compare(RunPart::kSeed, "the uncertainties of the seeds", uncertainty(a), uncertainty(b));
   }
-  if (one.options.empty() || other.options.empty()) return;
-  walkOptions(one.options.front(), other.options.front(), walk);
-  const std::size_t both = std::min(one.options.size(), other.options.size());
+  if (record.options.empty() || other.options.empty()) return;
+  walkOptions(record.options.front(), other.options.front(), walk);
+  const std::size_t both = std::min(record.options.size(), other.options.size());
   for (std::size_t i = 1; i < both; ++i) {
-    walk.enter(one.options[i].first_iteration);
-    walk.compare(RunPart::kOptions, "options that change during the run", one.options[i],
+    walk.enter(record.options[i].first_iteration);
+    walk.compare(RunPart::kOptions, "options that change during the run", record.options[i],
                  other.options[i]);
   }
   walk.enter(-1);
 }
 
-void walkEdges(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
-  if (!one.edges || !other.edges) return;
-  const RecordedEdges& a = *one.edges;
+void walkEdges(const OnboardRecord& record, const OnboardRecord& other, Walk& walk) {
+  if (!record.edges || !other.edges) return;
+  const RecordedEdges& a = *record.edges;
   const RecordedEdges& b = *other.edges;
   walk.compare(RunPart::kEdges, "the lower edge thresholds", a.low_threshold, b.low_threshold);
   walk.compare(RunPart::kEdges, "the upper edge thresholds", a.high_threshold, b.high_threshold);
   walk.compare(RunPart::kEdges, "the image's edge pixels", a.edge_count, b.edge_count);
-  walk.compare(RunPart::kEdges, "the places of the image's edges", a.sha256, b.sha256);
+  walk.compare(RunPart::kEdges, "the positions of the image's edges", a.sha256, b.sha256);
 }
 
-void walkTemplates(const RecordedIteration& one, const RecordedIteration& other, Walk& walk) {
-  walk.compare(RunPart::kTemplates, "the numbers of templates", one.trace.template_count,
+void walkTemplates(const RecordedIteration& recorded, const RecordedIteration& other, Walk& walk) {
+  walk.compare(RunPart::kTemplates, "the numbers of templates", recorded.trace.template_count,
                other.trace.template_count);
-  if (!one.templates || !other.templates) return;
+  if (!recorded.templates || !other.templates) return;
   const auto each = [&](RunPart part, auto&& value, auto&& text) {
-    const std::size_t count = std::min(one.templates->size(), other.templates->size());
+    const std::size_t count = std::min(recorded.templates->size(), other.templates->size());
     for (std::size_t i = 0; i < count; ++i) {
-      const RecordedTemplate& a = (*one.templates)[i];
+      const RecordedTemplate& a = (*recorded.templates)[i];
       const RecordedTemplate& b = (*other.templates)[i];
       if (value(a) == value(b)) continue;
       walk.differ(part, "template " + std::to_string(i + 1) + text(a, b), static_cast<int>(i));
@@ -136,7 +137,7 @@ void walkTemplates(const RecordedIteration& one, const RecordedIteration& other,
   using Item = RecordedTemplate;
   each(
       RunPart::kTemplates, [](const Item& item) { return std::pair(item.x, item.y); },
-      [](const Item&, const Item&) { return " was taken at different places"; });
+      [](const Item&, const Item&) { return " was cut at different positions"; });
   each(
       RunPart::kMatches,
       [](const Item& item) {
@@ -144,15 +145,15 @@ void walkTemplates(const RecordedIteration& one, const RecordedIteration& other,
                           item.second_score);
       },
       [](const Item& a, const Item& b) {
-        return " was found differently, with scores " + versus(a.score, b.score);
+        return " has different matches, with scores " + versus(a.score, b.score);
       });
   each(
       RunPart::kInliers, [](const Item& item) { return item.inlier; },
       [](const Item&, const Item&) { return " is an inlier in one run only"; });
 }
 
-void walkIteration(const RecordedIteration& one, const RecordedIteration& other, Walk& walk) {
-  const IterationTrace& a = one.trace;
+void walkIteration(const RecordedIteration& recorded, const RecordedIteration& other, Walk& walk) {
+  const IterationTrace& a = recorded.trace;
   const IterationTrace& b = other.trace;
   walk.enter(a.index);
   walk.compare(RunPart::kPose, "the poses before", a.camera_from_station_before,
@@ -161,35 +162,35 @@ void walkIteration(const RecordedIteration& one, const RecordedIteration& other,
   walk.compare(RunPart::kRender, "the levels", a.level, b.level);
   walk.compare(RunPart::kRender, "the rendered edge pixels", a.edge_pixel_count,
                b.edge_pixel_count);
-  if (one.render_sha256 && other.render_sha256)
-    walk.compare(RunPart::kRender, "the renders", *one.render_sha256, *other.render_sha256);
-  walkTemplates(one, other, walk);
+  if (recorded.render_sha256 && other.render_sha256)
+    walk.compare(RunPart::kRender, "the renders", *recorded.render_sha256, *other.render_sha256);
+  walkTemplates(recorded, other, walk);
   walk.compare(RunPart::kMatches, "the searched templates", a.searched_count, b.searched_count);
   walk.compare(RunPart::kMatches, "the matches", a.correspondence_count, b.correspondence_count);
   walk.compare(RunPart::kInliers, "the inliers", a.pnp.inlier_count, b.pnp.inlier_count);
-  walk.compare(RunPart::kInliers, "the edge places used", a.refinement.used_count,
+  walk.compare(RunPart::kInliers, "the edge points used", a.refinement.used_count,
                b.refinement.used_count);
   walk.compare(RunPart::kPose, "the poses after", a.camera_from_station, b.camera_from_station);
   walk.compare(RunPart::kPose, "the states after", std::pair(a.status, a.reached),
                std::pair(b.status, b.reached));
-  if (!one.support || !other.support) return;
+  if (!recorded.support || !other.support) return;
   const auto counts = [](const EdgeSupport& support) {
     const auto& [rendered, covered, displaced, displaced_covered, seen, explained,
                  displaced_explained] = support;
     return std::array{rendered, covered,   displaced,          displaced_covered,
                       seen,     explained, displaced_explained};
   };
-  walk.compare(RunPart::kSupport, "the edge supports", counts(*one.support),
+  walk.compare(RunPart::kSupport, "the edge supports", counts(*recorded.support),
                counts(*other.support));
 }
 
-void walkEnd(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
+void walkEnd(const OnboardRecord& record, const OnboardRecord& other, Walk& walk) {
   walk.enter(-1);
-  if (!one.end || !other.end) return;
-  const RecordedEnd& a = *one.end;
+  if (!record.end || !other.end) return;
+  const RecordedEnd& a = *record.end;
   const RecordedEnd& b = *other.end;
-  if (one.whole() && other.whole())
-    walk.compare(RunPart::kEnd, "the numbers of iterations", one.iterations.size(),
+  if (record.whole() && other.whole())
+    walk.compare(RunPart::kEnd, "the numbers of iterations", record.iterations.size(),
                  other.iterations.size());
   if (a.status != b.status || a.fault != b.fault)
     walk.differ(RunPart::kEnd, "the runs ended as " + versus(localizationStatusText(a.status),
@@ -198,25 +199,24 @@ void walkEnd(const OnboardRecord& one, const OnboardRecord& other, Walk& walk) {
   walk.compare(RunPart::kEnd, "the final covariances", a.covariance, b.covariance);
   if (a.digest != b.digest)
     walk.differ(RunPart::kDigest,
-                "the digests differ although the records do not: a value that records do not hold "
-                "differs");
+                "the digests differ but the records agree: a value outside the records differs");
 }
 
-std::optional<FirstDifference> firstDifference(const OnboardRecord& one,
+std::optional<FirstDifference> firstDifference(const OnboardRecord& record,
                                                const OnboardRecord& other) {
   Walk walk;
-  walkPixels(one, other, walk);
-  walkInputs(one, other, walk);
-  walkEdges(one, other, walk);
-  const std::size_t both = std::min(one.iterations.size(), other.iterations.size());
+  walkPixels(record, other, walk);
+  walkInputs(record, other, walk);
+  walkEdges(record, other, walk);
+  const std::size_t both = std::min(record.iterations.size(), other.iterations.size());
   for (std::size_t i = 0; i < both; ++i)
-    walkIteration(one.iterations[i], other.iterations[i], walk);
-  walkEnd(one, other, walk);
+    walkIteration(record.iterations[i], other.iterations[i], walk);
+  walkEnd(record, other, walk);
   return walk.first();
 }
 
 void compareTemplates(const RecordedIteration& a, const RecordedIteration& b,
-                      const ComparisonLimits& limits, IterationComparison& made) {
+                      const ComparisonLimits& limits, IterationComparison& iteration_comparison) {
   if (!a.templates || !b.templates) return;
   std::map<std::pair<int, int>, const RecordedTemplate*> theirs;
   for (const RecordedTemplate& item : *b.templates) theirs[{item.x, item.y}] = &item;
@@ -224,12 +224,12 @@ void compareTemplates(const RecordedIteration& a, const RecordedIteration& b,
     const auto found = theirs.find({item.x, item.y});
     if (found == theirs.end() || !item.searched || !found->second->searched) continue;
     const RecordedTemplate& counterpart = *found->second;
-    ++made.templates;
+    ++iteration_comparison.templates;
     const double apart = std::hypot(static_cast<double>(item.found_x) - counterpart.found_x,
                                     static_cast<double>(item.found_y) - counterpart.found_y);
-    if (apart <= limits.found_px) ++made.found_alike;
-    if (item.inlier || counterpart.inlier) ++made.inliers_either;
-    if (item.inlier && counterpart.inlier) ++made.inliers_both;
+    if (apart <= limits.found_px) ++iteration_comparison.found_alike;
+    if (item.inlier || counterpart.inlier) ++iteration_comparison.inliers_either;
+    if (item.inlier && counterpart.inlier) ++iteration_comparison.inliers_both;
   }
 }
 
@@ -239,14 +239,14 @@ struct PosesApart {
   Vector6d xi = Vector6d::Zero();  ///< rotation rad, translation m; left, camera frame
 };
 
-PosesApart apart(const Pose& one, const Pose& other) {
-  PosesApart made;
-  if (one == other) return made;  // to the bit: the product of the two is not
-  const Pose between = other * one.inverse();
-  made.xi << rotationLog(between.rotation), between.translation_m;
-  made.rotation_mrad = kMilliradians * made.xi.head<3>().norm();
-  made.translation_mm = kMillimetres * made.xi.tail<3>().norm();
-  return made;
+PosesApart apart(const Pose& pose, const Pose& other) {
+  PosesApart poses_apart;
+  if (pose == other) return poses_apart;  // to the bit: the product of the two is not
+  const Pose between = other * pose.inverse();
+  poses_apart.xi << rotationLog(between.rotation), between.translation_m;
+  poses_apart.rotation_mrad = kMilliradians * poses_apart.xi.head<3>().norm();
+  poses_apart.translation_mm = kMillimetres * poses_apart.xi.tail<3>().norm();
+  return poses_apart;
 }
 
 /// Root of xi' C^-1 xi / 6; nothing without a covariance that can be inverted.
@@ -259,30 +259,31 @@ std::optional<double> sigmasOf(const Vector6d& xi, const Matrix6d& covariance) {
                                                   : std::nullopt;
 }
 
-void compareIterations(const OnboardRecord& one, const OnboardRecord& other,
-                       const ComparisonLimits& limits, RecordComparison& made) {
-  const std::size_t both = std::min(one.iterations.size(), other.iterations.size());
+void compareIterations(const OnboardRecord& record, const OnboardRecord& other,
+                       const ComparisonLimits& limits, RecordComparison& record_comparison) {
+  const std::size_t both = std::min(record.iterations.size(), other.iterations.size());
   for (std::size_t i = 0; i < both; ++i) {
     IterationComparison comparison;
-    const IterationTrace& trace = one.iterations[i].trace;
+    const IterationTrace& trace = record.iterations[i].trace;
     comparison.index = trace.index;
-    compareTemplates(one.iterations[i], other.iterations[i], limits, comparison);
+    compareTemplates(record.iterations[i], other.iterations[i], limits, comparison);
     const PosesApart poses =
         apart(trace.camera_from_station, other.iterations[i].trace.camera_from_station);
     comparison.translation_mm = poses.translation_mm;
     comparison.rotation_mrad = poses.rotation_mrad;
-    made.iterations.push_back(comparison);
+    record_comparison.iterations.push_back(comparison);
   }
 }
 
-void compareEnds(const OnboardRecord& one, const OnboardRecord& other, RecordComparison& made) {
-  if (!one.end || !other.end) return;
-  const PosesApart poses = apart(one.end->camera_from_station, other.end->camera_from_station);
-  made.translation_mm = poses.translation_mm;
-  made.rotation_mrad = poses.rotation_mrad;
-  if (one.end->status == LocalizationStatus::kConverged &&
+void compareEnds(const OnboardRecord& record, const OnboardRecord& other,
+                 RecordComparison& record_comparison) {
+  if (!record.end || !other.end) return;
+  const PosesApart poses = apart(record.end->camera_from_station, other.end->camera_from_station);
+  record_comparison.translation_mm = poses.translation_mm;
+  record_comparison.rotation_mrad = poses.rotation_mrad;
+  if (record.end->status == LocalizationStatus::kConverged &&
       other.end->status == LocalizationStatus::kConverged)
-    made.pose_sigmas = sigmasOf(poses.xi, one.end->covariance);
+    record_comparison.pose_sigmas = sigmasOf(poses.xi, record.end->covariance);
 }
 
 std::string percent(int part, int whole) {
@@ -291,71 +292,78 @@ std::string percent(int part, int whole) {
 
 /// Whether the first iterations of both runs started at one pose: from the seed. Candidates of a
 /// search are refined on the pixels, and so differ with them.
-bool startAlike(const OnboardRecord& one, const OnboardRecord& other) {
-  return apart(one.iterations.front().trace.camera_from_station_before,
+bool startAlike(const OnboardRecord& record, const OnboardRecord& other) {
+  return apart(record.iterations.front().trace.camera_from_station_before,
                other.iterations.front().trace.camera_from_station_before)
              .xi.norm() == 0.0;
 }
 
 /// The templates of the first iterations are those of one render where both start alike.
-void holdToLimits(const OnboardRecord& one, const OnboardRecord& other,
-                  const ComparisonLimits& limits, RecordComparison& made) {
-  if (one.end && other.end && one.end->status != other.end->status)
-    made.beyond.push_back(
-        std::string("the runs ended as ") +
-        versus(localizationStatusText(one.end->status), localizationStatusText(other.end->status)));
-  if (made.pose_sigmas && *made.pose_sigmas > limits.pose_sigmas)
-    made.beyond.push_back("the final poses are " + std::to_string(*made.pose_sigmas) +
-                          " sigmas apart");
-  if (made.iterations.empty() || !startAlike(one, other)) return;
-  const IterationComparison& first = made.iterations.front();
+void holdToLimits(const OnboardRecord& record, const OnboardRecord& other,
+                  const ComparisonLimits& limits, RecordComparison& record_comparison) {
+  if (record.end && other.end && record.end->status != other.end->status)
+    record_comparison.beyond.push_back(std::string("the runs ended as ") +
+                                       versus(localizationStatusText(record.end->status),
+                                              localizationStatusText(other.end->status)));
+  if (record_comparison.pose_sigmas && *record_comparison.pose_sigmas > limits.pose_sigmas)
+    record_comparison.beyond.push_back(
+        "the final poses are " + std::to_string(*record_comparison.pose_sigmas) + " sigmas apart");
+  if (record_comparison.iterations.empty() || !startAlike(record, other)) return;
+  const IterationComparison& first = record_comparison.iterations.front();
   if (first.templates >= kLeastCounted && first.found_alike < limits.found_share * first.templates)
-    made.beyond.push_back("only " + percent(first.found_alike, first.templates) +
-                          " of the first iteration's templates were found alike");
+    record_comparison.beyond.push_back("only " + percent(first.found_alike, first.templates) +
+                                       " of the first iteration's templates have equal positions");
   if (first.inliers_either >= kLeastCounted &&
       first.inliers_both < limits.inlier_share * first.inliers_either)
-    made.beyond.push_back("only " + percent(first.inliers_both, first.inliers_either) +
-                          " of the first iteration's inliers are inliers of both");
+    record_comparison.beyond.push_back("only " + percent(first.inliers_both, first.inliers_either) +
+                                       " of the first iteration's inliers are inliers of both");
 }
 
 /// Other pixels excuse other results, but not other options or another mesh.
-void holdToSameInputs(const OnboardRecord& one, const OnboardRecord& other,
-                      RecordComparison& made) {
+void holdToSameInputs(const OnboardRecord& record, const OnboardRecord& other,
+                      RecordComparison& record_comparison) {
   Walk walk;
-  walkInputs(one, other, walk);
+  walkInputs(record, other, walk);
   if (!walk.first()) return;
-  if (one.inputs && other.inputs &&
-      (one.inputs->width != other.inputs->width || one.inputs->height != other.inputs->height))
-    made.beyond.push_back("the images are of different sizes");
-  made.beyond.push_back("not the pixels alone differ: " + walk.first()->text);
+  if (record.inputs && other.inputs &&
+      (record.inputs->width != other.inputs->width ||
+       record.inputs->height != other.inputs->height))
+    record_comparison.beyond.push_back("the images are of different sizes");
+  record_comparison.beyond.push_back("inputs other than the pixels differ: " + walk.first()->text);
 }
 
 /// A digest is over everything that a run was given and all that it came upon.
-bool haveSameDigest(const OnboardRecord& one, const OnboardRecord& other) {
-  return one.end && other.end && !one.end->digest.empty() && one.end->digest == other.end->digest;
+bool haveSameDigest(const OnboardRecord& record, const OnboardRecord& other) {
+  return record.end && other.end && !record.end->digest.empty() &&
+         record.end->digest == other.end->digest;
 }
 
-RunVerdict verdictOf(const RecordComparison& made, bool same_digest) {
-  if (!made.first)
-    return made.missing.empty() || same_digest ? RunVerdict::kEqual : RunVerdict::kWithinLimits;
-  const bool other_pixels = made.first->part == RunPart::kPixels;
-  return other_pixels && made.beyond.empty() ? RunVerdict::kWithinLimits : RunVerdict::kDifferent;
+RunVerdict verdictOf(const RecordComparison& record_comparison, bool same_digest) {
+  if (!record_comparison.first)
+    return record_comparison.missing.empty() || same_digest ? RunVerdict::kEqual
+                                                            : RunVerdict::kWithinLimits;
+  const bool other_pixels = record_comparison.first->part == RunPart::kPixels;
+  return other_pixels && record_comparison.beyond.empty() ? RunVerdict::kWithinLimits
+                                                          : RunVerdict::kDifferent;
 }
 
 }  // namespace
 
-RecordComparison compareRecords(const OnboardRecord& one, const OnboardRecord& other,
+RecordComparison compareRecords(const OnboardRecord& record, const OnboardRecord& other,
                                 const ComparisonLimits& limits) {
-  RecordComparison made;
-  for (const std::string& text : one.missing) made.missing.push_back("first: " + text);
-  for (const std::string& text : other.missing) made.missing.push_back("second: " + text);
-  made.first = firstDifference(one, other);
-  compareIterations(one, other, limits, made);
-  compareEnds(one, other, made);
-  holdToLimits(one, other, limits, made);
-  if (made.first && made.first->part == RunPart::kPixels) holdToSameInputs(one, other, made);
-  made.verdict = verdictOf(made, haveSameDigest(one, other));
-  return made;
+  RecordComparison record_comparison;
+  for (const std::string& text : record.missing)
+    record_comparison.missing.push_back("first: " + text);
+  for (const std::string& text : other.missing)
+    record_comparison.missing.push_back("second: " + text);
+  record_comparison.first = firstDifference(record, other);
+  compareIterations(record, other, limits, record_comparison);
+  compareEnds(record, other, record_comparison);
+  holdToLimits(record, other, limits, record_comparison);
+  if (record_comparison.first && record_comparison.first->part == RunPart::kPixels)
+    holdToSameInputs(record, other, record_comparison);
+  record_comparison.verdict = verdictOf(record_comparison, haveSameDigest(record, other));
+  return record_comparison;
 }
 
 const char* runPartText(RunPart part) {
@@ -373,8 +381,8 @@ std::string comparisonText(const RecordComparison& comparison) {
   else if (comparison.verdict == RunVerdict::kDifferent)
     text << "different\n";
   else
-    text << (comparison.first ? "not the same, but within the limits\n"
-                              : "equal to the bit as far as the records go\n");
+    text << (comparison.first ? "different, but within the limits\n"
+                              : "equal to the bit as far as the records reach\n");
   if (comparison.first)
     text << plainLine("first difference: " + std::string(runPartText(comparison.first->part)) +
                       ": " + comparison.first->text);
@@ -384,11 +392,14 @@ std::string comparisonText(const RecordComparison& comparison) {
   if (comparison.verdict == RunVerdict::kEqual) return text.str();
   TextTable table(
       {"iteration", "templates", "found alike", "inliers either", "both", "apart mm", "mrad"});
-  for (const IterationComparison& one : comparison.iterations)
-    table.add({std::to_string(one.index + 1), std::to_string(one.templates),
-               std::to_string(one.found_alike), std::to_string(one.inliers_either),
-               std::to_string(one.inliers_both), fixedText(one.translation_mm, 3),
-               fixedText(one.rotation_mrad, 3)});
+  for (const IterationComparison& iteration_comparison : comparison.iterations)
+    table.add({std::to_string(iteration_comparison.index + 1),
+               std::to_string(iteration_comparison.templates),
+               std::to_string(iteration_comparison.found_alike),
+               std::to_string(iteration_comparison.inliers_either),
+               std::to_string(iteration_comparison.inliers_both),
+               fixedText(iteration_comparison.translation_mm, 3),
+               fixedText(iteration_comparison.rotation_mrad, 3)});
   text << table.text();
   text << "final poses: " << comparison.translation_mm << " mm and " << comparison.rotation_mrad
        << " mrad apart";

@@ -77,7 +77,7 @@ struct RecordComparison {
 
 /// Compares what both records have. Runs given the same must be the same to the bit: then any
 /// difference makes them different. Runs on other pixels are held to the limits.
-RecordComparison compareRecords(const OnboardRecord& one, const OnboardRecord& other,
+RecordComparison compareRecords(const OnboardRecord& record, const OnboardRecord& other,
                                 const ComparisonLimits& limits = {});
 
 /// The comparison as text.

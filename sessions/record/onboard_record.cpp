@@ -231,11 +231,11 @@ class BlockReader {
     if (sum.u32() != crc32(rest.first(checked)) || number < next_) return damaged("damaged");
     if (number > next_)
       miss("blocks " + std::to_string(next_) + " to " + std::to_string(number - 1) +
-           " found no room on board");
+           " did not fit on board");
     try {
       readBlock(type, rest.subspan(kBlockHeadBytes, length), record_);
     } catch (const InputError&) {
-      return damaged("not one that this program knows");
+      return damaged("unknown to this program");
     }
     next_ = number + 1;
     at_ += checked + 4;
@@ -275,9 +275,10 @@ void noteWhatIsMissing(OnboardRecord& record) {
         std::to_string(record.end->iterations - static_cast<int>(record.iterations.size())) +
         " of " + std::to_string(record.end->iterations) + " iterations");
   }
-  for (const RecordedIteration& one : record.iterations)
-    if (one.trace.template_count > 0 && !one.templates)
-      record.missing.push_back("the templates of iteration " + std::to_string(one.trace.index + 1));
+  for (const RecordedIteration& recorded : record.iterations)
+    if (recorded.trace.template_count > 0 && !recorded.templates)
+      record.missing.push_back("the templates of iteration " +
+                               std::to_string(recorded.trace.index + 1));
 }
 
 }  // namespace

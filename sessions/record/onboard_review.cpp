@@ -43,15 +43,15 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
                                                   const std::stop_token& stop) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, 64 * kMegabyte);
   if (sha256Text(bytes) != sha256)
-    throw InputError(file,
-                     "its bytes are not those of the record that was attached: take it as it is "
-                     "now, or attach the right one");
-  auto made = std::make_shared<OnboardReview>();
-  made->record = parseRecord(file, bytes);
-  made->plan = planOf(made->record);
-  made->replay =
-      std::make_shared<const LocalizationTrace>(replayRecord(made->record, ground, stop));
-  return made;
+    throw InputError(
+        file,
+        "it differs from the attached record: accept it as it is now, or attach the right one");
+  auto result = std::make_shared<OnboardReview>();
+  result->record = parseRecord(file, bytes);
+  result->plan = planOf(result->record);
+  result->replay =
+      std::make_shared<const LocalizationTrace>(replayRecord(result->record, ground, stop));
+  return result;
 }
 
 RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,
@@ -93,8 +93,9 @@ std::string verdictText(const RecordComparison& comparison) {
     case RunVerdict::kEqual:
       return "Agrees with the run on the ground bit for bit.";
     case RunVerdict::kWithinLimits:
-      return comparison.first ? "Not the same pixels, but within the limits."
-                              : "Agrees with the run on the ground bit for bit as far as it goes.";
+      return comparison.first
+                 ? "Within the limits; the pixels differ."
+                 : "Agrees with the run on the ground bit for bit as far as it reaches.";
     case RunVerdict::kDifferent:
       break;
   }
@@ -102,11 +103,13 @@ std::string verdictText(const RecordComparison& comparison) {
 }
 
 std::string limitsText(const ComparisonLimits& limits) {
-  return "Limits for other pixels: in the first iteration at least " + percent(limits.found_share) +
-         " of the templates at one place found within " + fixedText(limits.found_px, 1) +
-         " px of each other, at least " + percent(limits.inlier_share) +
-         " of the inliers of either inliers of both (shares of ten or more); final poses " +
-         fixedText(limits.pose_sigmas, 1) + " sigmas apart at most.";
+  return "Limits if the pixels differ: in the first iteration at least " +
+         percent(limits.found_share) + " of the templates at equal positions match within " +
+         fixedText(limits.found_px, 1) + " px of each other, and at least " +
+         percent(limits.inlier_share) +
+         " of the inliers of either run are inliers of both (shares of ten or more); the final "
+         "poses are at most " +
+         fixedText(limits.pose_sigmas, 1) + " sigmas apart.";
 }
 
 }  // namespace boresight::sessions

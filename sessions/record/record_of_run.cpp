@@ -14,31 +14,32 @@ namespace boresight::sessions {
 namespace {
 
 RecordedInputs inputsOf(const LocalizationProblem& given, const LocalizerOptions& options) {
-  RecordedInputs made;
-  made.sha256 = recordInputs(withoutUnusedColor(given, options));
-  made.width = given.image.width;
-  made.height = given.image.height;
-  made.camera_from_station_seed = given.camera_from_station_seed;
-  made.uncertainty = given.uncertainty;
-  return made;
+  RecordedInputs recorded_inputs;
+  recorded_inputs.sha256 = recordInputs(withoutUnusedColor(given, options));
+  recorded_inputs.width = given.image.width;
+  recorded_inputs.height = given.image.height;
+  recorded_inputs.camera_from_station_seed = given.camera_from_station_seed;
+  recorded_inputs.uncertainty = given.uncertainty;
+  return recorded_inputs;
 }
 
 RecordedOptions optionsOf(const LocalizerOptions& options, std::int32_t first_iteration) {
-  RecordedOptions made;
-  made.first_iteration = first_iteration;
-  LocalizerOptions::visitFields(options, [&made](const OptionInfo& info, const auto& field) {
-    using Field = std::remove_cvref_t<decltype(field)>;
-    RecordedOption option;
-    option.name = info.name;
-    option.kind = optionKindOf<Field>();
-    if constexpr (std::is_floating_point_v<Field>) {
-      option.bits = std::bit_cast<std::uint64_t>(static_cast<double>(field));
-    } else {
-      option.bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(field));
-    }
-    made.options.push_back(std::move(option));
-  });
-  return made;
+  RecordedOptions recorded_options;
+  recorded_options.first_iteration = first_iteration;
+  LocalizerOptions::visitFields(
+      options, [&recorded_options](const OptionInfo& info, const auto& field) {
+        using Field = std::remove_cvref_t<decltype(field)>;
+        RecordedOption option;
+        option.name = info.name;
+        option.kind = optionKindOf<Field>();
+        if constexpr (std::is_floating_point_v<Field>) {
+          option.bits = std::bit_cast<std::uint64_t>(static_cast<double>(field));
+        } else {
+          option.bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(field));
+        }
+        recorded_options.options.push_back(std::move(option));
+      });
+  return recorded_options;
 }
 
 std::optional<RecordedEdges> edgesOf(const EdgeMapTrace& edges) {
@@ -57,31 +58,33 @@ std::optional<RecordHash> renderHashOf(const IterationTrace& run) {
 }
 
 RecordedTemplate templateOf(const Template& item, const Match* match) {
-  RecordedTemplate made;
-  made.x = item.center_x;
-  made.y = item.center_y;
-  if (match == nullptr || !match->searched) return made;
-  made.searched = true;
-  made.at_border = match->at_border;
-  made.found_x = static_cast<float>(match->x);
-  made.found_y = static_cast<float>(match->y);
-  made.score = static_cast<float>(whsScore(match->peak.counts, match->norms));
+  RecordedTemplate recorded_template;
+  recorded_template.x = item.center_x;
+  recorded_template.y = item.center_y;
+  if (match == nullptr || !match->searched) return recorded_template;
+  recorded_template.searched = true;
+  recorded_template.at_border = match->at_border;
+  recorded_template.found_x = static_cast<float>(match->x);
+  recorded_template.found_y = static_cast<float>(match->y);
+  recorded_template.score = static_cast<float>(whsScore(match->peak.counts, match->norms));
   if (match->peak.has_second)
-    made.second_score = static_cast<float>(whsScore(match->peak.second_counts, match->norms));
-  return made;
+    recorded_template.second_score =
+        static_cast<float>(whsScore(match->peak.second_counts, match->norms));
+  return recorded_template;
 }
 
 std::optional<std::vector<RecordedTemplate>> templatesOf(const IterationTrace& run) {
   const bool selected = run.kind == IterationKind::kMatch && run.reached >= Stage::kTemplates;
   if (!selected || (run.template_count > 0 && run.templates.empty())) return std::nullopt;
-  std::vector<RecordedTemplate> made;
+  std::vector<RecordedTemplate> recorded_templates;
   for (std::size_t i = 0; i < run.templates.size(); ++i)
-    made.push_back(
+    recorded_templates.push_back(
         templateOf(run.templates[i], i < run.matches.size() ? &run.matches[i] : nullptr));
-  if (run.reached < Stage::kPose) return made;
+  if (run.reached < Stage::kPose) return recorded_templates;
   for (std::size_t c = 0; c < run.template_of.size() && c < run.pnp.inlier.size(); ++c)
-    made[static_cast<std::size_t>(run.template_of[c])].inlier = run.pnp.inlier[c] != 0;
-  return made;
+    recorded_templates[static_cast<std::size_t>(run.template_of[c])].inlier =
+        run.pnp.inlier[c] != 0;
+  return recorded_templates;
 }
 
 RecordedIteration iterationOf(const IterationTrace& run) {
@@ -91,18 +94,18 @@ RecordedIteration iterationOf(const IterationTrace& run) {
 /// A trace has the support of the pose that was judged last.
 void takeSupport(const EdgeSupport& support, LocalizationStatus status, OnboardRecord& record) {
   bool taken = false;
-  for (auto one = record.iterations.rbegin(); one != record.iterations.rend(); ++one) {
+  for (auto item = record.iterations.rbegin(); item != record.iterations.rend(); ++item) {
     const bool converged =
-        one == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
-    const bool refused = one->trace.status == LocalizationStatus::kNotSupported ||
-                         one->trace.status == LocalizationStatus::kBlurred ||
-                         one->trace.status == LocalizationStatus::kCameraMismatch;
+        item == record.iterations.rbegin() && status == LocalizationStatus::kConverged;
+    const bool refused = item->trace.status == LocalizationStatus::kNotSupported ||
+                         item->trace.status == LocalizationStatus::kBlurred ||
+                         item->trace.status == LocalizationStatus::kCameraMismatch;
     if (!converged && !refused) continue;
     if (taken)
       record.missing.push_back("the edge support of iteration " +
-                               std::to_string(one->trace.index + 1));
+                               std::to_string(item->trace.index + 1));
     else
-      one->support = support;
+      item->support = support;
     taken = true;
   }
 }
@@ -120,13 +123,12 @@ RecordedEnd endOf(const LocalizationTrace& run, std::size_t iterations) {
 }
 
 void noteWhatTheRunLacks(OnboardRecord& record) {
-  if (!record.inputs)
-    record.missing.push_back("the hashes of the inputs, which only the digest covers");
+  if (!record.inputs) record.missing.push_back("the hashes of the inputs (only in the digest)");
   if (!record.edges) record.missing.push_back("the edges of the image");
-  for (const RecordedIteration& one : record.iterations) {
-    const std::string of = " of iteration " + std::to_string(one.trace.index + 1);
-    if (!one.render_sha256) record.missing.push_back("the render" + of);
-    if (one.trace.template_count > 0 && !one.templates)
+  for (const RecordedIteration& recorded : record.iterations) {
+    const std::string of = " of iteration " + std::to_string(recorded.trace.index + 1);
+    if (!recorded.render_sha256) record.missing.push_back("the render" + of);
+    if (recorded.trace.template_count > 0 && !recorded.templates)
       record.missing.push_back("the templates" + of);
   }
   if (!record.end) record.missing.push_back("how the run ended: it was halted");
@@ -161,18 +163,18 @@ LocalizerOptions optionsOf(const RecordedOptions& recorded, std::vector<std::str
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
     const auto found = left.find(info.name);
     if (found == left.end()) {
-      remarks.push_back("The record has no option " + std::string(info.name) +
-                        ": it has its default here.");
+      remarks.push_back("The record lacks the option " + std::string(info.name) +
+                        "; its default is used.");
       return;
     }
     if (!assign(info, *found->second, field))
       remarks.push_back("The option " + found->first + " was " + valueOf(*found->second) +
-                        " on board, which this program does not take: it has its default here.");
+                        " on board, which this program does not accept; its default is used.");
     left.erase(found);
   });
   for (const auto& [name, option] : left)
     remarks.push_back("The option " + name + " (" + valueOf(*option) +
-                      " on board) is none of this program: it is left out.");
+                      " on board) is unknown to this program and left out.");
   return options;
 }
 
@@ -196,28 +198,28 @@ OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* 
 }
 
 RecordedPlan planOf(const OnboardRecord& record) {
-  RecordedPlan made;
-  made.plan.options = defaultProfile();
+  RecordedPlan recorded_plan;
+  recorded_plan.plan.options = defaultProfile();
   for (const RecordedOptions& recorded : record.options) {
     std::vector<std::string> remarks;
     const LocalizerOptions options = optionsOf(recorded, remarks);
-    if (recorded.first_iteration == 0 && !made.has_options) {
-      made.plan.options = options;
-      made.has_options = true;
-      made.remarks = remarks;  // those of changes are the same
+    if (recorded.first_iteration == 0 && !recorded_plan.has_options) {
+      recorded_plan.plan.options = options;
+      recorded_plan.has_options = true;
+      recorded_plan.remarks = remarks;  // those of changes are the same
     } else {
-      made.plan.changes.push_back({recorded.first_iteration, options});
+      recorded_plan.plan.changes.push_back({recorded.first_iteration, options});
     }
   }
-  if (!made.has_options)
-    made.remarks.push_back("The record has no options: all have their default here.");
-  const std::string problem = planProblem(made.plan);
+  if (!recorded_plan.has_options)
+    recorded_plan.remarks.push_back("The record has no options; the defaults are used.");
+  const std::string problem = planProblem(recorded_plan.plan);
   if (!problem.empty()) {
-    made.remarks.push_back("The options that were taken up on the way are left out: " + problem +
-                           ".");
-    made.plan.changes.clear();
+    recorded_plan.remarks.push_back("Options changed during the run are left out: " + problem +
+                                    ".");
+    recorded_plan.plan.changes.clear();
   }
-  return made;
+  return recorded_plan;
 }
 
 }  // namespace boresight::sessions

@@ -65,31 +65,31 @@ class ReplayScene {
   std::map<int, SceneRenderer> levels_;
 };
 
-std::string inIteration(const IterationTrace& one) {
-  return " in iteration " + std::to_string(one.index + 1);
+std::string inIteration(const IterationTrace& iteration) {
+  return " in iteration " + std::to_string(iteration.index + 1);
 }
 
 Template templateAt(const RecordedTemplate& recorded, const RenderTrace& render,
                     const std::vector<Template>& chosen) {
-  for (const Template& one : chosen)
-    if (one.center_x == recorded.x && one.center_y == recorded.y) return one;
-  Template made;
-  made.center_x = recorded.x;
-  made.center_y = recorded.y;
-  made.depth_m = made.distinctness = std::numeric_limits<float>::quiet_NaN();
-  made.point_in_station_m.setConstant(kUnknown);
+  for (const Template& candidate : chosen)
+    if (candidate.center_x == recorded.x && candidate.center_y == recorded.y) return candidate;
+  Template result;
+  result.center_x = recorded.x;
+  result.center_y = recorded.y;
+  result.depth_m = result.distinctness = std::numeric_limits<float>::quiet_NaN();
+  result.point_in_station_m.setConstant(kUnknown);
   if (render.row_begin.empty() || recorded.x >= render.edges.width ||
       recorded.y >= render.edges.height)
-    return made;
+    return result;
   const EdgeRender view = render.view();
   const std::int32_t pixel = findEdgePixel(view, recorded.x, recorded.y);
-  if (pixel < 0) return made;
+  if (pixel < 0) return result;
   const EdgePixel& edge = render.pixels[static_cast<std::size_t>(pixel)];
   Eigen::Vector3d point_in_station_m;
-  if (!edgePointInStation(view, edge, point_in_station_m)) return made;
-  made.depth_m = edge.depth_m;
-  made.point_in_station_m = point_in_station_m;
-  return made;
+  if (!edgePointInStation(view, edge, point_in_station_m)) return result;
+  result.depth_m = edge.depth_m;
+  result.point_in_station_m = point_in_station_m;
+  return result;
 }
 
 bool liesInside(const Template& item, int side_px, const RenderTrace& render) {
@@ -120,9 +120,9 @@ class Replayer {
   LocalizationTrace replay(const std::stop_token& stop) {
     noteInputs();
     detect();
-    for (const RecordedIteration& one : record_.iterations) {
+    for (const RecordedIteration& recorded : record_.iterations) {
       if (stop.stop_requested()) break;
-      run_.iterations.push_back(std::make_shared<const IterationTrace>(iterationOf(one)));
+      run_.iterations.push_back(std::make_shared<const IterationTrace>(iterationOf(recorded)));
     }
     finish();
     return std::move(run_);
@@ -134,15 +134,15 @@ class Replayer {
   void noteInputs();
   void detect();
   void finish();
-  void startAttempt(const IterationTrace& one);
-  void startFromCandidate(const IterationTrace& one);
-  IterationTrace iterationOf(const RecordedIteration& one);
-  Pose renderedPose(const IterationTrace& one);
-  void renderAgain(const RecordedIteration& one, IterationTrace& made);
-  void fillTemplates(const RecordedIteration& one, IterationTrace& made);
+  void startAttempt(const IterationTrace& iteration);
+  void startFromCandidate(const IterationTrace& iteration);
+  IterationTrace iterationOf(const RecordedIteration& recorded);
+  Pose renderedPose(const IterationTrace& iteration);
+  void renderAgain(const RecordedIteration& recorded, IterationTrace& iteration);
+  void fillTemplates(const RecordedIteration& recorded, IterationTrace& iteration);
   Match matchOf(const RecordedTemplate& recorded, const Template& item,
-                const IterationTrace& made) const;
-  void fillPairs(const RecordedIteration& one, IterationTrace& made) const;
+                const IterationTrace& iteration) const;
+  void fillPairs(const RecordedIteration& recorded, IterationTrace& iteration) const;
 
   const LocalizerOptions& optionsAt(std::int32_t index) const {
     const LocalizerOptions* options = &run_.options;
@@ -167,118 +167,122 @@ class Replayer {
 };
 
 void Replayer::noteInputs() {
-  for (const std::string& text : record_.missing)
-    remark("The record lacks something: " + text + ".");
+  for (const std::string& text : record_.missing) remark("The record is incomplete: " + text + ".");
   for (const std::string& text : recorded_plan_.remarks) remark(text);
   if (!record_.inputs) return;
   const RecordedInputs& onboard = *record_.inputs;
-  RecordInputs here = recordInputs(withoutUnusedColor(given_, run_.options));
-  if (onboard.sha256.pixels != here.pixels) {
+  RecordInputs record_inputs = recordInputs(withoutUnusedColor(given_, run_.options));
+  if (onboard.sha256.pixels != record_inputs.pixels) {
     // The run may have had the gray image alone.
     LocalizationProblem gray = given_;
     gray.color = {};
-    here = recordInputs(gray);
+    record_inputs = recordInputs(gray);
   }
   same_size_ = onboard.width == given_.camera.width && onboard.height == given_.camera.height;
   if (!same_size_)
-    remark("The run saw an image of " + std::to_string(onboard.width) + " x " +
-           std::to_string(onboard.height) + " px, the camera here has " +
+    remark("The run's image has " + std::to_string(onboard.width) + " x " +
+           std::to_string(onboard.height) + " px, this case's camera " +
            std::to_string(given_.camera.width) + " x " + std::to_string(given_.camera.height) +
-           ": this may be the record of another case; only its poses are shown.");
-  else if (onboard.sha256.pixels != here.pixels)
+           "; the record may belong to another case; only its poses are shown.");
+  else if (onboard.sha256.pixels != record_inputs.pixels)
     remark(
-        "The run saw other pixels than the image here has (its downlink was compressed, or it is "
-        "another image): edges, score maps and agreement are those of the image here.");
-  if (onboard.sha256.ignore != here.ignore)
-    remark("The run ignored other pixels than the mask here has.");
-  if (onboard.sha256.scene != here.scene)
+        "The run's pixels differ from this case's image (compressed downlink, or another image); "
+        "edges, score maps and agreement are computed from this case's image.");
+  if (onboard.sha256.ignore != record_inputs.ignore)
+    remark("The run's ignore mask differs from this case's mask.");
+  if (onboard.sha256.scene != record_inputs.scene)
     remark(
-        "The run had another mesh than this case: renders and points are those of the mesh here.");
-  if (onboard.sha256.camera != here.camera)
+        "The run's mesh differs from this case's mesh; renders and points are computed from this "
+        "case's mesh.");
+  if (onboard.sha256.camera != record_inputs.camera)
     remark(
-        "The run had another camera than this case: renders and points are those of the camera "
-        "here.");
+        "The run's camera differs from this case's camera; renders and points are computed with "
+        "this case's camera.");
 }
 
 void Replayer::detect() {
   auto edges = std::make_shared<EdgeMapTrace>();
   const Status status = detectEdges(given_.image, given_.ignore, run_.options.edges, *edges);
   if (status != Status::kOk) {
-    remark(std::string("The image's edges cannot be found here: ") + statusText(status) + ".");
+    remark(std::string("The image's edges cannot be computed: ") + statusText(status) + ".");
     if (record_.edges) edges->edge_count = record_.edges->edge_count;
   } else if (record_.edges && record_.inputs && same_size_) {
     EdgeMap map;
     for (std::size_t i = 0; i < map.level.size(); ++i) map.level[i] = edges->level[i].view();
     if (edgeMapHash(map) != record_.edges->sha256)
-      remark("The image's edges here are not those that the run found on board: " +
-             std::to_string(edges->edge_count) + " edge pixels here, " +
+      remark("This case's image edges differ from those of the run on board: " +
+             std::to_string(edges->edge_count) + " edge pixels on the ground, " +
              std::to_string(record_.edges->edge_count) + " on board.");
   }
   run_.edges = std::move(edges);
 }
 
-void Replayer::startAttempt(const IterationTrace& one) {
-  if (one.attempt == attempt_) return;
-  const bool follows = !run_.iterations.empty() && run_.iterations.back()->index == one.index - 1;
-  attempt_ = one.attempt;
+void Replayer::startAttempt(const IterationTrace& iteration) {
+  if (iteration.attempt == attempt_) return;
+  const bool follows =
+      !run_.iterations.empty() && run_.iterations.back()->index == iteration.index - 1;
+  attempt_ = iteration.attempt;
   refined_render_.reset();
   attempt_begin_.reset();
-  if (one.attempt == 0) attempt_begin_ = 0;
-  if (one.attempt > 0 && follows) attempt_begin_ = one.index;
-  startFromCandidate(one);
+  if (iteration.attempt == 0) attempt_begin_ = 0;
+  if (iteration.attempt > 0 && follows) attempt_begin_ = iteration.index;
+  startFromCandidate(iteration);
 }
 
 /// Attempts of a run that searched start from a candidate: in a box of its own when its templates
 /// are matched, with a refinement otherwise.
-void Replayer::startFromCandidate(const IterationTrace& one) {
+void Replayer::startFromCandidate(const IterationTrace& iteration) {
   attempt_seed_ = seedOf(given_);
-  if (!optionsAt(one.index).search.enabled || !attempt_begin_) return;
-  const Pose& before = one.camera_from_station_before;
-  if (one.kind == IterationKind::kRefine)
-    *attempt_begin_ -= optionsAt(one.index).loop.match_iterations;
+  if (!optionsAt(iteration.index).search.enabled || !attempt_begin_) return;
+  const Pose& before = iteration.camera_from_station_before;
+  if (iteration.kind == IterationKind::kRefine)
+    *attempt_begin_ -= optionsAt(iteration.index).loop.match_iterations;
   else if (before != given_.camera_from_station_seed && isUsable(before))
     attempt_seed_ = {before, uncertaintyAbout(before, seedOf(given_), bounds_)};
 }
 
 /// Of a match the pose before it, rolled; of a refinement perhaps that of the last render.
-Pose Replayer::renderedPose(const IterationTrace& one) {
-  const Pose& before = one.camera_from_station_before;
-  if (one.kind == IterationKind::kMatch) {
+Pose Replayer::renderedPose(const IterationTrace& iteration) {
+  const Pose& before = iteration.camera_from_station_before;
+  if (iteration.kind == IterationKind::kMatch) {
     refined_render_.reset();
-    const auto chosen = static_cast<std::size_t>(one.chosen_hypothesis);
+    const auto chosen = static_cast<std::size_t>(iteration.chosen_hypothesis);
     return chosen == 0 ? before
-                       : rolledAboutScene(before, one.hypotheses[chosen].roll_rad, bounds_);
+                       : rolledAboutScene(before, iteration.hypotheses[chosen].roll_rad, bounds_);
   }
-  const double again_px = optionsAt(one.index).loop.render_again_px;
+  const double again_px = optionsAt(iteration.index).loop.render_again_px;
   const bool reuse = refined_render_ && displacementBetween_px(*refined_render_, before, bounds_,
                                                                given_.camera) < again_px;
   if (!reuse) refined_render_ = before;
   return *refined_render_;
 }
 
-void Replayer::renderAgain(const RecordedIteration& one, IterationTrace& made) {
-  const bool failed = made.reached == Stage::kRender && made.status == LocalizationStatus::kFault;
-  if (!same_size_ || failed || !isUsable(made.camera_from_station_before)) return;
-  const bool rendered = scene_.render(renderedPose(made), made.level, made.render);
-  const bool same =
-      rendered && (!one.render_sha256 || renderHash(made.render.view()) == *one.render_sha256);
+void Replayer::renderAgain(const RecordedIteration& recorded, IterationTrace& iteration) {
+  const bool failed =
+      iteration.reached == Stage::kRender && iteration.status == LocalizationStatus::kFault;
+  if (!same_size_ || failed || !isUsable(iteration.camera_from_station_before)) return;
+  const bool rendered = scene_.render(renderedPose(iteration), iteration.level, iteration.render);
+  const bool same = rendered && (!recorded.render_sha256 ||
+                                 renderHash(iteration.render.view()) == *recorded.render_sha256);
   if (same || std::exchange(noted_render_, true)) return;
-  remark((rendered ? "The station is not rendered here as it was on board"
-                   : "The station cannot be rendered here") +
-         inIteration(made) + ", perhaps in others: points of templates may be missing or others.");
+  remark((rendered ? "The station's render differs from that on board"
+                   : "The station cannot be rendered") +
+         inIteration(iteration) +
+         ", possibly in others; points of templates may be missing or differ.");
 }
 
 Match Replayer::matchOf(const RecordedTemplate& recorded, const Template& item,
-                        const IterationTrace& made) const {
+                        const IterationTrace& iteration) const {
   Match match;
-  if (liesInside(item, made.template_side_px, made.render)) {
-    const BitImage edges = made.render.edges.view();
-    const BitImage mask = made.render.mask.view();
-    match.norms = whsNorms({&edges, &mask, item.center_x, item.center_y, made.template_side_px});
+  if (liesInside(item, iteration.template_side_px, iteration.render)) {
+    const BitImage edges = iteration.render.edges.view();
+    const BitImage mask = iteration.render.mask.view();
+    match.norms =
+        whsNorms({&edges, &mask, item.center_x, item.center_y, iteration.template_side_px});
     if (item.point_in_station_m.allFinite() && attempt_begin_)
-      match.window = searchWindow(made.render.camera,
-                                  made.camera_from_station_before * item.point_in_station_m,
-                                  made.uncertainty, made.template_side_px);
+      match.window = searchWindow(iteration.render.camera,
+                                  iteration.camera_from_station_before * item.point_in_station_m,
+                                  iteration.uncertainty, iteration.template_side_px);
   }
   if (!recorded.searched) return match;
   match.searched = true;
@@ -290,78 +294,80 @@ Match Replayer::matchOf(const RecordedTemplate& recorded, const Template& item,
   return match;
 }
 
-void Replayer::fillTemplates(const RecordedIteration& one, IterationTrace& made) {
-  if (!one.templates || !same_size_) return;
-  const std::vector<Template> chosen = scene_.choose(made.render, made.level, made.template_side_px,
-                                                     optionsAt(made.index).templates);
+void Replayer::fillTemplates(const RecordedIteration& entry, IterationTrace& iteration) {
+  if (!entry.templates || !same_size_) return;
+  const std::vector<Template> chosen =
+      scene_.choose(iteration.render, iteration.level, iteration.template_side_px,
+                    optionsAt(iteration.index).templates);
   int unknown = 0;
   double sum = 0.0;
-  for (const RecordedTemplate& recorded : *one.templates) {
-    made.templates.push_back(templateAt(recorded, made.render, chosen));
-    const Template& item = made.templates.back();
+  for (const RecordedTemplate& recorded : *entry.templates) {
+    iteration.templates.push_back(templateAt(recorded, iteration.render, chosen));
+    const Template& item = iteration.templates.back();
     if (!item.point_in_station_m.allFinite()) ++unknown;
-    if (made.reached < Stage::kMatch) continue;
-    made.matches.push_back(matchOf(recorded, item, made));
+    if (iteration.reached < Stage::kMatch) continue;
+    iteration.matches.push_back(matchOf(recorded, item, iteration));
     RecordedScore score{static_cast<double>(recorded.score), std::nullopt};
     if (recorded.second_score) score.second_score = static_cast<double>(*recorded.second_score);
-    made.recorded_scores.push_back(score);
+    iteration.recorded_scores.push_back(score);
     if (!recorded.searched) continue;
-    made.best_score = std::max(made.best_score, score.score);
+    iteration.best_score = std::max(iteration.best_score, score.score);
     sum += score.score;
   }
-  if (made.searched_count > 0) made.mean_score = sum / made.searched_count;
+  if (iteration.searched_count > 0) iteration.mean_score = sum / iteration.searched_count;
   if (unknown > 0)
-    remark(std::to_string(unknown) + " of " + std::to_string(one.templates->size()) +
-           " templates lie on no rendered edge here" + inIteration(made) +
-           ": their points are not known.");
+    remark(std::to_string(unknown) + " of " + std::to_string(entry.templates->size()) +
+           " templates lie on no rendered edge" + inIteration(iteration) +
+           "; their points are unknown.");
 }
 
 /// Pairs of points and places, in the order of the templates; residuals are the recorded pose's.
-void Replayer::fillPairs(const RecordedIteration& one, IterationTrace& made) const {
-  const double scale = static_cast<double>(1 << made.level);
-  const bool solved = made.reached >= Stage::kPose && made.status != LocalizationStatus::kPnpFailed;
-  for (std::size_t i = 0; i < made.matches.size(); ++i) {
-    const Template& item = made.templates[i];
-    const Match& match = made.matches[i];
+void Replayer::fillPairs(const RecordedIteration& recorded, IterationTrace& iteration) const {
+  const double scale = static_cast<double>(1 << iteration.level);
+  const bool solved =
+      iteration.reached >= Stage::kPose && iteration.status != LocalizationStatus::kPnpFailed;
+  for (std::size_t i = 0; i < iteration.matches.size(); ++i) {
+    const Template& item = iteration.templates[i];
+    const Match& match = iteration.matches[i];
     if (!match.searched || !item.point_in_station_m.allFinite()) continue;
     Correspondence pair;
     pair.point_in_station_m = item.point_in_station_m;
-    pair.pixel = fullImagePixel(match.x, match.y, made.level);
+    pair.pixel = fullImagePixel(match.x, match.y, iteration.level);
     pair.sigma_px = kMatchSigma_px * scale;
-    made.correspondences.push_back(pair);
-    made.template_of.push_back(static_cast<std::int32_t>(i));
+    iteration.correspondences.push_back(pair);
+    iteration.template_of.push_back(static_cast<std::int32_t>(i));
     if (!solved) continue;
     Eigen::Vector2d projected;
     const bool seen =
-        project(run_.camera, made.camera_from_station * pair.point_in_station_m, projected);
-    made.pnp.inlier.push_back((*one.templates)[i].inlier ? 1 : 0);
-    made.pnp.residual_px.push_back(seen ? (projected - pair.pixel).norm() : kUnknown);
+        project(run_.camera, iteration.camera_from_station * pair.point_in_station_m, projected);
+    iteration.pnp.inlier.push_back((*recorded.templates)[i].inlier ? 1 : 0);
+    iteration.pnp.residual_px.push_back(seen ? (projected - pair.pixel).norm() : kUnknown);
   }
 }
 
-IterationTrace Replayer::iterationOf(const RecordedIteration& one) {
-  IterationTrace made = one.trace;
-  startAttempt(made);
+IterationTrace Replayer::iterationOf(const RecordedIteration& recorded) {
+  IterationTrace iteration = recorded.trace;
+  startAttempt(iteration);
   if (attempt_begin_)
-    made.uncertainty =
-        uncertaintyAt(attempt_seed_, optionsAt(made.index).loop,
-                      std::max(0, made.index - *attempt_begin_), made.camera_from_station_before);
-  renderAgain(one, made);
-  if (made.kind == IterationKind::kMatch) {
-    fillTemplates(one, made);
-    fillPairs(one, made);
+    iteration.uncertainty = uncertaintyAt(attempt_seed_, optionsAt(iteration.index).loop,
+                                          std::max(0, iteration.index - *attempt_begin_),
+                                          iteration.camera_from_station_before);
+  renderAgain(recorded, iteration);
+  if (iteration.kind == IterationKind::kMatch) {
+    fillTemplates(recorded, iteration);
+    fillPairs(recorded, iteration);
   } else if (!std::exchange(noted_refinement_, true)) {
     remark(
-        "A record does not have the edge places of refinements: run it again on the ground to "
-        "see them.");
+        "Records do not hold the edge points of refinements; run the case again on the ground to "
+        "show them.");
   }
-  return made;
+  return iteration;
 }
 
 void Replayer::finish() {
-  for (const RecordedIteration& one : record_.iterations) {
-    if (one.support) run_.support = *one.support;
-    run_.attempts = std::max(run_.attempts, one.trace.attempt + 1);
+  for (const RecordedIteration& recorded : record_.iterations) {
+    if (recorded.support) run_.support = *recorded.support;
+    run_.attempts = std::max(run_.attempts, recorded.trace.attempt + 1);
   }
   if (!record_.end) return;
   const RecordedEnd& end = *record_.end;

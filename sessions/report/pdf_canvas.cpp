@@ -36,9 +36,9 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
 
 std::string validUtf8(const std::string& text) {
   char* valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
-  std::string made = valid;
+  std::string result = valid;
   g_free(valid);
-  return made;
+  return result;
 }
 
 constexpr PangoAlignment kAlignments[] = {PANGO_ALIGN_LEFT, PANGO_ALIGN_CENTER,

@@ -185,11 +185,13 @@ double drawSeriesNames(PdfCanvas& canvas, double x, double y, double width,
                        const std::vector<PdfSeries>& series) {
   constexpr double kSample = 24.0;
   double taken = 0.0;
-  for (const PdfSeries& one : series) {
+  for (const PdfSeries& pdf_series : series) {
     const double middle = y + taken + 5.0;
-    if (one.line) canvas.polyline({{x, middle}, {x + kSample, middle}}, one.color, 0.9, one.dashes);
-    if (one.marks) drawMark(canvas, x + 0.5 * kSample, middle, one);
-    taken += 1.5 + canvas.text(x + kSample + 4.0, y + taken, width - kSample - 4.0, one.name,
+    if (pdf_series.line)
+      canvas.polyline({{x, middle}, {x + kSample, middle}}, pdf_series.color, 0.9,
+                      pdf_series.dashes);
+    if (pdf_series.marks) drawMark(canvas, x + 0.5 * kSample, middle, pdf_series);
+    taken += 1.5 + canvas.text(x + kSample + 4.0, y + taken, width - kSample - 4.0, pdf_series.name,
                                {7.0, false, false, kInk, 1});
   }
   return taken;

@@ -53,9 +53,10 @@ const Decision* decisionOf(const PoseReport& report) {
 // ---- what every page has
 
 void drawHead(PdfCanvas& canvas, const PoseReport& report) {
-  const SessionCase& one = caseOf(report);
+  const SessionCase& session_case = caseOf(report);
   const std::string title =
-      "Pose of " + one.id + (one.station.empty() ? "" : ", station " + one.station);
+      "Pose of " + session_case.id +
+      (session_case.station.empty() ? "" : ", station " + session_case.station);
   canvas.text(kLeft, 28.0, kTextWidth, title, {14.0, true, false, kInk, 1});
   const PdfColor& color = report.pose.validated ? kPdfBlue : kPdfOrange;
   const PdfBox bar = {kLeft, 48.0, kTextWidth, 17.0};
@@ -68,7 +69,7 @@ void drawHead(PdfCanvas& canvas, const PoseReport& report) {
 void drawFoot(PdfCanvas& canvas, const PoseReport& report) {
   canvas.line(kLeft, kFoot, kRight, kFoot, kPaperGrid);
   const std::string what = report.pose.run_digest.empty()
-                               ? "pose of the marks"
+                               ? "pose of the annotations"
                                : "run " + report.pose.run_digest.substr(0, 16);
   canvas.text(kLeft, kFoot + 4.0, kTextWidth - 90.0,
               report.pose.review_status + ".  " + what + ", pixels " +
@@ -92,13 +93,12 @@ double drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport
   const PdfBox taken = canvas.picture(box, picture.image);
   canvas.frame(taken, kFaintInk);
   const double below = taken.bottom() + 2.0;
-  return below +
-         canvas.text(
-             box.x, below, box.width,
-             formatted("Edges of the seed (red) and, over them, of the pose (green) on the image; "
-                       "%d x %d px from (%d, %d).",
-                       picture.image.width, picture.image.height, picture.left_px, picture.top_px),
-             kFaint);
+  return below + canvas.text(box.x, below, box.width,
+                             formatted("Edges of the seed (red) and of the pose (green) over the "
+                                       "image; %d x %d px from (%d, %d).",
+                                       picture.image.width, picture.image.height, picture.left_px,
+                                       picture.top_px),
+                             kFaint);
 }
 
 std::string vectorText(const Eigen::Vector3d& v, const char* unit, const char* number) {
@@ -168,7 +168,7 @@ double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) 
     rows.addSigma("1 sigma", *sigma);
     rows.add("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
     if (const auto picture = poseSigma(report.pose.covariance.picture, end_effector))
-      rows.addSigma("picture alone", *picture);
+      rows.addSigma("image only", *picture);
   } else {
     rows.add("1 sigma", "not known");
   }
@@ -179,9 +179,9 @@ double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) 
 
 /// Where the pose was asked for in a frame with a name: in that one, the last that there is.
 double drawNamedPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
-  const SessionCase& one = caseOf(report);
-  const auto named =
-      namedPoses(one.camera_reference, one.station_frame, report.pose.camera_from_station);
+  const SessionCase& session_case = caseOf(report);
+  const auto named = namedPoses(session_case.camera_reference, session_case.station_frame,
+                                report.pose.camera_from_station);
   if (named.empty()) return box.y;
   const Pose& pose = named.back().reference_from_station;
   Rows rows(canvas, box, namedPoseTitle(named.back()));
@@ -192,47 +192,48 @@ double drawNamedPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& rep
 }
 
 void drawEndEffector(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
-  const SessionCase& one = caseOf(report);
-  if (!one.camera_from_end_effector) return;
-  const EndEffectorPose made =
-      endEffectorPose(one.camera_from_station_seed, report.pose.camera_from_station,
-                      *one.camera_from_end_effector, report.pose.covariance.total());
-  const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
-  Rows rows(canvas, box, "Correction to what was commanded");
+  const SessionCase& session_case = caseOf(report);
+  if (!session_case.camera_from_end_effector) return;
+  const EndEffectorPose end_effector_pose =
+      endEffectorPose(session_case.camera_from_station_seed, report.pose.camera_from_station,
+                      *session_case.camera_from_end_effector, report.pose.covariance.total());
+  const Pose& correction = end_effector_pose.end_effector_seed_from_end_effector_estimated;
+  Rows rows(canvas, box, "Correction of the commanded pose");
   rows.addText("end_effector_seed_from_end_effector_estimated");
   rows.add("translation", vectorText(1e3 * correction.translation_m, "mm", "%.4f"));
   rows.addRotation(correction);
   if (!report.pose.covariance.known()) return;
-  const Vector6d sigma = made.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Vector6d sigma = end_effector_pose.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   rows.add("1 sigma", vectorText(1e3 * sigma.tail<3>(), "mm", "%.4f"));
   rows.add("", vectorText(1e3 * sigma.head<3>(), "mrad", "%.4f"));
 }
 
 double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
-  const SessionCase& one = caseOf(report);
+  const SessionCase& session_case = caseOf(report);
   Rows rows(canvas, box, "Inputs");
   const auto row = [&rows](const std::string& name, const std::string& value) {
     rows.add(name, value, false);
   };
-  row("image", one.image.source.file.filename().string() +
-                   formatted(", %d x %d px, file %s", one.image.width, one.image.height,
-                             one.image.source.sha256.substr(0, 16).c_str()));
+  row("image",
+      session_case.image.source.file.filename().string() +
+          formatted(", %d x %d px, file %s", session_case.image.width, session_case.image.height,
+                    session_case.image.source.sha256.substr(0, 16).c_str()));
   row("to 8 bit", report.loaded->image.rule);
   row("camera", formatted("%s, fx %.3f, fy %.3f, cx %.3f, cy %.3f px; centre of the top-left pixel "
                           "is (0, 0)",
-                          cameraModelName(one.camera.model), one.camera.fx, one.camera.fy,
-                          one.camera.cx, one.camera.cy));
-  for (const LabelItem& line : frameLines(one)) row(line.name, line.value);
-  for (const LabelItem& item : one.image.label)
+                          cameraModelName(session_case.camera.model), session_case.camera.fx,
+                          session_case.camera.fy, session_case.camera.cx, session_case.camera.cy));
+  for (const LabelItem& line : frameLines(session_case)) row(line.name, line.value);
+  for (const LabelItem& item : session_case.image.label)
     if (item.name == "PRODUCT_ID" || item.name == "START_TIME") row(item.name, item.value);
-  for (const MeshInput& part : one.parts)
+  for (const MeshInput& part : session_case.parts)
     row("mesh", part.source.mesh.filename().string() + " in " +
                     (part.source.mesh_unit.empty() ? "its own unit" : part.source.mesh_unit) +
                     ", " + part.sha256.substr(0, 16));
-  const InputSigmas sigmas(one);
+  const InputSigmas sigmas(session_case);
   row("known to", "scale " + meshScaleText(sigmas) + "; calibration " + calibrationText(sigmas));
-  if (one.ignore || !one.ignore_strokes.empty()) row("ignored pixels", "a mask");
-  row("seed", vectorText(1e3 * one.camera_from_station_seed.translation_m, "mm", "%.1f"));
+  if (session_case.ignore || !session_case.ignore_strokes.empty()) row("ignored pixels", "a mask");
+  row("seed", vectorText(1e3 * session_case.camera_from_station_seed.translation_m, "mm", "%.1f"));
   if (report.trace) {
     row("run",
         formatted("%s, %zu iterations, version %s", localizationStatusText(report.trace->status),
@@ -282,7 +283,7 @@ struct CheckLook {
 CheckLook lookOf(const JudgedCheck& judged) {
   if (judged.check.state == CheckState::kPassed) return {"\xE2\x9C\x94", kPdfBlue};
   if (judged.check.state == CheckState::kFailed)
-    return {judged.override_reason.empty() ? "\xE2\x9C\x98" : "\xE2\x9C\x98!", kPdfOrange};
+    return {judged.waiver_reason.empty() ? "\xE2\x9C\x98" : "\xE2\x9C\x98!", kPdfOrange};
   return {"\xE2\x80\x93", kFaintInk};
 }
 
@@ -292,7 +293,7 @@ double drawCheck(PdfCanvas& canvas, double y, const JudgedCheck& judged) {
   const Check& check = judged.check;
   const PdfColor& ink = check.state == CheckState::kNotApplicable ? kFaintInk : kInk;
   std::string sentence = check.sentence;
-  if (!judged.override_reason.empty()) sentence += " Passed over: " + judged.override_reason;
+  if (!judged.waiver_reason.empty()) sentence += " Waived: " + judged.waiver_reason;
   canvas.text(kLeft, y, 14.0, look.sign, {kSize, true, false, look.color, 1});
   const double title =
       canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink, 2});
@@ -308,12 +309,12 @@ double drawChecks(PdfCanvas& canvas, double y, const PoseReport& report) {
   std::vector<Check> plain;
   for (const JudgedCheck& judged : report.pose.checks) plain.push_back(judged.check);
   const bool judged = decisionOf(report) != nullptr;
-  const std::string text =
-      plain.empty() ? "Checks: none were made"
-                    : "Checks: " + checkCountsText(plain) +
-                          (judged ? ", as they were when it was decided" : ", as they are now");
+  const std::string text = plain.empty()
+                               ? "Checks: none"
+                               : "Checks: " + checkCountsText(plain) +
+                                     (judged ? ", at the time of the decision" : ", current");
   y = drawHeading(canvas, kLeft, y, kTextWidth, text);
-  for (const JudgedCheck& one : report.pose.checks) y = drawCheck(canvas, y, one);
+  for (const JudgedCheck& item : report.pose.checks) y = drawCheck(canvas, y, item);
   return y;
 }
 
@@ -336,25 +337,26 @@ void drawResidualPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport&
   canvas.clip(taken);
   const std::size_t step = 1 + residuals.all.size() / kMostArrows;
   for (std::size_t i = 0; i < residuals.all.size(); i += step) {
-    const ReportResidual& one = residuals.all[i];
+    const ReportResidual& report_residual = residuals.all[i];
     const Eigen::Vector2d from =
-        scale * (one.predicted_px - Eigen::Vector2d(picture.left_px, picture.top_px) +
+        scale * (report_residual.predicted_px - Eigen::Vector2d(picture.left_px, picture.top_px) +
                  Eigen::Vector2d(0.5, 0.5));
-    const Eigen::Vector2d to = from + scale * factor * one.residual_px;
-    const PdfColor& color = one.used ? kPdfBlue : kPdfOrange;
+    const Eigen::Vector2d to = from + scale * factor * report_residual.residual_px;
+    const PdfColor& color = report_residual.used ? kPdfBlue : kPdfOrange;
     canvas.line(taken.x + from.x(), taken.y + from.y(), taken.x + to.x(), taken.y + to.y(), color,
                 0.5);
-    one.used ? canvas.circle(taken.x + from.x(), taken.y + from.y(), 0.9, color, true)
-             : canvas.cross(taken.x + from.x(), taken.y + from.y(), 1.4, color);
+    report_residual.used ? canvas.circle(taken.x + from.x(), taken.y + from.y(), 0.9, color, true)
+                         : canvas.cross(taken.x + from.x(), taken.y + from.y(), 1.4, color);
   }
   canvas.unclip();
   canvas.frame(taken, kFaintInk);
-  const auto set_aside = std::count_if(residuals.all.begin(), residuals.all.end(),
-                                       [](const ReportResidual& one) { return !one.used; });
+  const auto set_aside =
+      std::count_if(residuals.all.begin(), residuals.all.end(),
+                    [](const ReportResidual& report_residual) { return !report_residual.used; });
   canvas.text(
       box.x, taken.bottom() + 2.0, box.width,
-      formatted("Residuals of %zu %s (one in %zu is drawn), %.3g times as long; rms %.3f px. "
-                "Dots: used; crosses: set aside (%td).",
+      formatted("Residuals of %zu %s (one in %zu is drawn), magnified %.3g times; rms %.3f px. "
+                "Dots: used; crosses: not used (%td).",
                 residuals.all.size(), residuals.of, step, factor, residuals.rms_px(), set_aside),
       kFaint);
 }
@@ -374,27 +376,27 @@ PdfPlot correctionPlot(const LocalizationTrace& trace) {
 
 PdfPlot supportPlot(const LocalizationTrace& trace) {
   PdfPlot plot{
-      "Matches and edge places of each iteration", "iteration", "count", {}, true, true, true};
+      "Matches and edge points of each iteration", "iteration", "count", {}, true, true, true};
   plot.series = {{"looked for", {}, kFaintInk, false}, {"agree", {}, kPdfBlue, false}};
   for (std::size_t i = 0; i < trace.iterations.size(); ++i) {
-    const IterationTrace& one = *trace.iterations[i];
+    const IterationTrace& iteration = *trace.iterations[i];
     const double x = static_cast<double>(i + 1);
-    const bool refine = one.kind == IterationKind::kRefine;
+    const bool refine = iteration.kind == IterationKind::kRefine;
     plot.series[0].points.push_back(
-        {x, static_cast<double>(refine ? one.refinement.sample_count : one.searched_count)});
-    plot.series[1].points.push_back({x, static_cast<double>(one.support())});
+        {x, static_cast<double>(refine ? iteration.refinement.sample_count
+                                       : iteration.searched_count)});
+    plot.series[1].points.push_back({x, static_cast<double>(iteration.support())});
   }
   return plot;
 }
 
 void drawResidualHistogram(PdfCanvas& canvas, const PdfBox& box, const ReportResiduals& residuals) {
   std::vector<double> lengths;
-  for (const ReportResidual& one : residuals.all)
-    if (one.used) lengths.push_back(one.residual_px.norm());
+  for (const ReportResidual& report_residual : residuals.all)
+    if (report_residual.used) lengths.push_back(report_residual.residual_px.norm());
   if (lengths.empty()) return;
   const double high = std::max(0.1, *std::max_element(lengths.begin(), lengths.end()));
-  drawHistogram(canvas, box, "Lengths of the residuals that are used", "px", lengths, 0.0, high,
-                24);
+  drawHistogram(canvas, box, "Lengths of the used residuals", "px", lengths, 0.0, high, 24);
 }
 
 void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
@@ -403,7 +405,7 @@ void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
   const double room = kFoot - y - kGap;
   const double right = kLeft + column + 2.0 * kGap;
   if (residuals.all.empty()) {
-    canvas.text(kLeft, y, kTextWidth, "No residuals: nothing was matched.", kFaint);
+    canvas.text(kLeft, y, kTextWidth, "No residuals: no matches.", kFaint);
     return;
   }
   drawResidualPicture(canvas, {kLeft, y, column, 0.62 * room}, report, residuals);

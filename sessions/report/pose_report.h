@@ -22,7 +22,7 @@ struct PoseReport {
   const Session* session = nullptr;
   HandedPose pose;  ///< with its checks, judged or as they are now
   std::shared_ptr<const LoadedCase> loaded;
-  std::optional<LocalizationTrace> trace;  ///< of the pose's run; none of a pose from marks
+  std::optional<LocalizationTrace> trace;  ///< of the pose's run; none of a pose from annotations
 };
 
 /// What there is to report of a case: its pose, measured again (checkedPose), its image and its
@@ -56,13 +56,13 @@ struct ReportResidual {
 };
 
 struct ReportResiduals {
-  const char* of = "";  ///< "edge places of the refinement", "matched templates", "marks"
+  const char* of = "";  ///< "edge places of the refinement", "matched templates", "annotations"
   std::vector<ReportResidual> all;
 
   double rms_px() const;  ///< over those that are used, root of the mean squared norm
 };
 
-/// Of what the pose rests on last: edges of the refinement, else templates, else marks.
+/// Of what the pose rests on last: edges of the refinement, else templates, else annotations.
 ReportResiduals reportResiduals(const PoseReport& report);
 
 }  // namespace boresight::sessions

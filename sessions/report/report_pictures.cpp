@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/run/overlay.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 
 namespace boresight::sessions {
 namespace {
@@ -48,46 +48,49 @@ ReportPicture cut(const cv::Mat& bgr, const cv::Rect& area) {
 const IterationTrace* lastOf(const LocalizationTrace& trace, IterationKind kind) {
   const auto found =
       std::find_if(trace.iterations.rbegin(), trace.iterations.rend(),
-                   [kind](const auto& one) { return one->kind == kind && one->support() > 0; });
+                   [kind](const auto& item) { return item->kind == kind && item->support() > 0; });
   return found == trace.iterations.rend() ? nullptr : found->get();
 }
 
 ReportResiduals ofEdges(const PoseReport& report, const Camera& camera,
                         const IterationTrace& iteration) {
-  ReportResiduals made{"edge places of the refinement", {}};
+  ReportResiduals report_residuals{"edge points of the refinement", {}};
   for (const EdgeSample& sample : iteration.refinement.samples) {
     const auto place =
         predictPlace(camera, report.pose.camera_from_station, sample.point_in_station_m);
     if (!place.valid || sample.gradient == 0.0) continue;
-    made.all.push_back({place.pixel, sample.residual_px * sample.normal, sample.weight > 0.0});
+    report_residuals.all.push_back(
+        {place.pixel, sample.residual_px * sample.normal, sample.weight > 0.0});
   }
-  return made;
+  return report_residuals;
 }
 
 ReportResiduals ofTemplates(const PoseReport& report, const Camera& camera,
                             const IterationTrace& iteration) {
-  ReportResiduals made{"matched templates", {}};
+  ReportResiduals report_residuals{"matched templates", {}};
   for (std::size_t i = 0; i < iteration.correspondences.size(); ++i) {
-    const Correspondence& one = iteration.correspondences[i];
+    const Correspondence& correspondence = iteration.correspondences[i];
     const auto place =
-        predictPlace(camera, report.pose.camera_from_station, one.point_in_station_m);
+        predictPlace(camera, report.pose.camera_from_station, correspondence.point_in_station_m);
     const bool inlier = i < iteration.pnp.inlier.size() && iteration.pnp.inlier[i] != 0;
-    if (place.valid) made.all.push_back({place.pixel, one.pixel - place.pixel, inlier});
+    if (place.valid)
+      report_residuals.all.push_back({place.pixel, correspondence.pixel - place.pixel, inlier});
   }
-  return made;
+  return report_residuals;
 }
 
-ReportResiduals ofMarks(const PoseReport& report, const Camera& camera) {
-  ReportResiduals made{"marks", {}};
+ReportResiduals ofAnnotations(const PoseReport& report, const Camera& camera) {
+  ReportResiduals report_residuals{"annotations", {}};
   const auto found = report.session->annotations.find(report.pose.case_id);
-  if (found == report.session->annotations.end()) return made;
+  if (found == report.session->annotations.end()) return report_residuals;
   for (const PointPair& point : found->second->points) {
     if (!point.pixel || !point.point_in_station_m) continue;
     const auto place =
         predictPlace(camera, report.pose.camera_from_station, *point.point_in_station_m);
-    if (place.valid) made.all.push_back({place.pixel, *point.pixel - place.pixel, point.enabled});
+    if (place.valid)
+      report_residuals.all.push_back({place.pixel, *point.pixel - place.pixel, point.enabled});
   }
-  return made;
+  return report_residuals;
 }
 
 }  // namespace
@@ -117,9 +120,9 @@ ReportPicture palePicture(const PoseReport& report) {
 double ReportResiduals::rms_px() const {
   double squares = 0.0;
   int count = 0;
-  for (const ReportResidual& one : all) {
-    if (!one.used) continue;
-    squares += one.residual_px.squaredNorm();
+  for (const ReportResidual& report_residual : all) {
+    if (!report_residual.used) continue;
+    squares += report_residual.residual_px.squaredNorm();
     ++count;
   }
   return count > 0 ? std::sqrt(squares / count) : 0.0;
@@ -128,7 +131,7 @@ double ReportResiduals::rms_px() const {
 ReportResiduals reportResiduals(const PoseReport& report) {
   Camera camera = report.loaded->source.camera;
   if (prepareCamera(camera) != Status::kOk) return {};
-  if (report.pose.source == PoseSource::kAnnotation) return ofMarks(report, camera);
+  if (report.pose.source == PoseSource::kAnnotation) return ofAnnotations(report, camera);
   if (!report.trace) return {};
   if (const auto* refined = lastOf(*report.trace, IterationKind::kRefine))
     return ofEdges(report, camera, *refined);

@@ -82,11 +82,11 @@ ordered_json acceptanceJson(const LocalizationTrace& trace, bool in_colour) {
 /// Candidates of the search, the most evidence first.
 ordered_json candidatesJson(const LocalizationTrace& trace) {
   ordered_json list = ordered_json::array();
-  for (const Alternative& one : alternativesOf(trace))
-    if (one.kind == AlternativeKind::kCandidate)
-      list.push_back({{"camera_from_station", toJson(one.camera_from_station)},
-                      {"evidence_nats", one.evidence_nats},
-                      {"taken", trace.converged() && one.chosen}});
+  for (const Alternative& alternative : alternativesOf(trace))
+    if (alternative.kind == AlternativeKind::kCandidate)
+      list.push_back({{"camera_from_station", toJson(alternative.camera_from_station)},
+                      {"evidence_nats", alternative.evidence_nats},
+                      {"taken", trace.converged() && alternative.chosen}});
   return list;
 }
 
@@ -110,12 +110,12 @@ ordered_json imageJson(const GrayImage& image) {
 }
 
 ordered_json provenanceJson(const LocalizationTrace& trace, const RunProvenance& provenance) {
-  const SessionCase& one = provenance.loaded->source;
+  const SessionCase& session_case = provenance.loaded->source;
   ordered_json json = {{"version", trace.version},
                        {"digest", trace.digest},
                        {"profile", provenance.profile},
                        {"options", toJson(provenance.changed_options)},
-                       {"uncertainty", toJson(one.uncertainty)},
+                       {"uncertainty", toJson(session_case.uncertainty)},
                        {"image", imageJson(provenance.loaded->image)},
                        {"camera", fileJson(provenance.camera_file)}};
   ordered_json meshes = ordered_json::array();
@@ -124,8 +124,8 @@ ordered_json provenanceJson(const LocalizationTrace& trace, const RunProvenance&
         {{"file", info.file.string()}, {"sha256", info.file_sha256}, {"unit", info.unit}});
   json["meshes"] = meshes;
   json["seed"] = fileJson(provenance.seed_file);
-  if (!one.image.label.empty()) json["image_label"] = toJson(one.image.label);
-  if (one.station_frame) json["station_frame"] = toJson(*one.station_frame);
+  if (!session_case.image.label.empty()) json["image_label"] = toJson(session_case.image.label);
+  if (session_case.station_frame) json["station_frame"] = toJson(*session_case.station_frame);
   if (const auto& ignore = provenance.loaded->ignore)
     json["ignore"] = {{"file", ignore->file.string()},
                       {"sha256", ignore->file_sha256},
@@ -151,9 +151,9 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["attempts"] = trace.attempts;
   json["camera_from_station"] = toJson(trace.camera_from_station);
   json["camera_from_station_seed"] = toJson(trace.camera_from_station_seed);
-  if (const SessionCase& one = provenance.loaded->source; one.camera_reference)
-    json["frames"] =
-        toJson(namedPoses(one.camera_reference, one.station_frame, trace.camera_from_station));
+  if (const SessionCase& session_case = provenance.loaded->source; session_case.camera_reference)
+    json["frames"] = toJson(namedPoses(session_case.camera_reference, session_case.station_frame,
+                                       trace.camera_from_station));
   if (trace.converged()) json["covariance"] = toJson(trace.covariance);
   json["matches"] = result.matches;
   json["inliers"] = result.inliers;

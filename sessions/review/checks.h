@@ -25,48 +25,49 @@ namespace boresight::sessions {
 struct LookedPlace;
 struct PredictedEdges;
 
-/// So many further seeds tell a second answer from none, and take a few seconds.
-inline constexpr int kBasinSeeds = 8;
+/// Number of further seeds that detects a competing pose within a few seconds.
+inline constexpr int kConvergenceSeeds = 8;
 
 /// Another answer to the same image.
-struct RivalPose {
+struct ConvergedPose {
   Pose camera_from_station;
   bool mirrored = false;  ///< of the station's mirror image about a plane through its box's middle
   double coverage = 0.0;  ///< share of the edges that it predicts which the image shows, 0 to 1
 };
 
 /// Where further seeds around the case's lead, and what speaks for it.
-struct BasinResult {
+struct ConvergenceResult {
   int seeds = 0;
   int converged = 0;
-  int returned = 0;               ///< converged to the pose in question, within the requirement
-  double coverage = 0.0;          ///< of the pose in question
-  std::vector<RivalPose> rivals;  ///< other poses, and the mirror images' wherever they lie
+  int returned = 0;       ///< converged to the pose in question, within the requirement
+  double coverage = 0.0;  ///< of the pose in question
+  std::vector<ConvergedPose> competing;  ///< other poses, and the mirror images' wherever they lie
 };
 
 /// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty, and
 /// of the station's three mirror images from the pose in question. Deterministic. A stop leaves
 /// what was done by then; as many seeds as it counts give the same result again. `after_each` is
 /// told what was found so far.
-BasinResult basinTest(const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
-                      const std::function<void(const BasinResult&)>& after_each = {});
+ConvergenceResult convergenceTest(
+    const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
+    const std::function<void(const ConvergenceResult&)>& after_each = {});
 
 /// What became of other seeds: enough lead back, and none to another pose.
-bool isBasinCheck(const std::string& check_id);
-void addBasinChecks(const std::optional<BasinResult>& basin, const CheckLimits& limits,
-                    std::vector<Check>& checks);
+bool isConvergenceCheck(const std::string& check_id);
+void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
+                          const CheckLimits& limits, std::vector<Check>& checks);
 
 /// The same case with its station mirrored in the plane through the middle of its matched box.
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis);
 
 /// All checks of a pose, always the same ones in the same order; what cannot be asked is not
-/// applicable. `basin` is what was measured of it, if it was.
+/// applicable. `convergence` is what was measured of it, if it was.
 std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& limits,
-                             const std::optional<BasinResult>& basin = {});
+                             const std::optional<ConvergenceResult>& convergence = {});
 
 /// What a run says of itself: that it converged, that its corrections shrink, and its last
 /// matching iteration's inliers, their spread, window borders and margins. Always the same checks
-/// in the same order; not applicable to a pose from marks.
+/// in the same order; not applicable to a pose from annotations.
 void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
                   std::vector<Check>& checks);
 
@@ -99,8 +100,9 @@ double medianOf(std::span<const double> values);
 void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
                     std::vector<Check>& checks);
 
-/// What the image's edges say of the final pose, measured anew and not by the run's own gate:
-/// coverage, clutter and fall-off kept apart, and whether they ask for another camera.
+/// What the image's edges say of the final pose, measured again, independent of the run's
+/// acceptance test: coverage, clutter and fall-off kept apart, and whether they ask for another
+/// camera.
 void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
                    const PredictedEdges& edges, std::vector<Check>& checks);
 
@@ -120,8 +122,8 @@ struct CameraFit {
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
                                    const Pose& camera_from_station);
 
-/// How far the pose is from what else is known: the case's marks, its truth, the other cameras of
-/// its rig (the one that is farthest off).
+/// How far the pose is from what else is known: the case's annotations, its truth, the other
+/// cameras of its rig (the one that is farthest off).
 void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
                         std::vector<Check>& checks);
 

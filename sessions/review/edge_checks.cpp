@@ -19,19 +19,18 @@ namespace {
 
 constexpr CheckName kCoverage{"edge_coverage", "Predicted edges that are seen"};
 constexpr CheckName kClutter{"edge_clutter", "Edges on the station that are not predicted"};
-constexpr CheckName kExplained{"edge_explained", "Edges that explain each other"};
-constexpr CheckName kFallOff{"edge_fall_off", "Fall-off when the pose is displaced"};
+constexpr CheckName kExplained{"edge_explained", "Larger of seen and predicted share of edges"};
+constexpr CheckName kFallOff{"edge_fall_off", "Edge-coverage sensitivity to displacement"};
 constexpr CheckName kWidth{"edge_width", "Sharpness of the image"};
-constexpr CheckName kFocal{"camera_focal", "Focal length that the edges ask for"};
-constexpr CheckName kCentre{"camera_centre", "Principal point that the edges ask for"};
+constexpr CheckName kFocal{"camera_focal", "Focal length estimated from the edges"};
+constexpr CheckName kCentre{"camera_centre", "Principal point estimated from the edges"};
 
 constexpr const char* kCameraRemedy =
-    "Camera, mesh and image do not fit together: make sure that the calibration is this camera's, "
-    "of this focus setting and image size, and that the mesh is this station's.";
+    "Camera, mesh and image contradict each other: check that the calibration is for this camera, "
+    "focus and image size, and that the mesh is of this station.";
 
 constexpr const char* kUndecidedRemedy =
-    "The image cannot confirm the camera: state how well it is calibrated (calibration_sigma), or "
-    "use a nearer image.";
+    "The image cannot confirm the camera: state its calibration_sigma, or use a nearer image.";
 
 Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   const double seen = evidence.coverage.value();
@@ -39,7 +38,7 @@ Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       kCoverage, "%", 100.0 * seen, limits.coverage_percent, LimitSide::kAtLeast,
       "The image shows " + percentText(seen) +
           " of the edges that this pose predicts, in place and direction.",
-      "Look at the overlay: the pose or the mesh is wrong, or much is in the dark or hidden.");
+      "Check the overlay: pose or mesh is wrong, or much of the station is dark or hidden.");
 }
 
 Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
@@ -48,9 +47,9 @@ Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   const double share = evidence.clutter.value();
   return measuredCheck(
       kClutter, "%", 100.0 * share, limits.clutter_percent, LimitSide::kAtMost,
-      percentText(share) + " of the image's edges on the station are none that the pose predicts.",
-      "Look what they belong to: shadows and labels are harmless, another station "
-      "or a part that the mesh lacks is not.");
+      percentText(share) + " of the image's edges on the station are not predicted by the pose.",
+      "Check these edges: shadows and labels are harmless; another station or a part missing in "
+      "the mesh is not.");
 }
 
 /// A label or a screw that the mesh lacks leaves much unpredicted, a shadow or an obstacle leaves
@@ -63,7 +62,7 @@ Check explainedCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
                        percentText(seen) + " of the predicted edges are seen, and " +
                            percentText(predicted) +
                            " of the edges seen on the station are predicted.",
-                       "Neither explains the other: look at the overlay.");
+                       "Rendered and image edges disagree: check the overlay.");
 }
 
 Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
@@ -72,13 +71,14 @@ Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       std::max_element(evidence.fall_off.begin(), evidence.fall_off.end(),
                        [](const FallOff& a, const FallOff& b) { return a.coverage < b.coverage; });
   if (least == evidence.fall_off.end() || seen <= 0.0)
-    return notAskedCheck(kFallOff, "None of the predicted edges is seen.");
+    return notAskedCheck(kFallOff, "No predicted edge is seen.");
   const double fall = 1.0 - least->coverage / seen;
-  return measuredCheck(
-      kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
-      "Displaced by " + sentenceNumber(kDisplaced_px) + " px in the image, the pose loses least, " +
-          percentText(fall) + " of the edges seen, when " + least->direction + ".",
-      "The image hardly tells this pose from others that way: use marks or a second camera.");
+  return measuredCheck(kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
+                       "Displaced by " + sentenceNumber(kDisplaced_px) +
+                           " px in the image, the pose loses at least " + percentText(fall) +
+                           " of the edges seen, least when " + least->direction + ".",
+                       "The image hardly constrains the pose in this direction: use annotations or "
+                       "a second camera.");
 }
 
 /// Motion and defocus, measured where the pose has its edges.
@@ -91,8 +91,8 @@ Check widthCheck(const LoadedCase& loaded, std::span<const EdgePlace> places,
     return notAskedCheck(kWidth, "Too few of the predicted edges are seen.");
   return measuredCheck(kWidth, "px", width.widest_px(), limits.edge_width_px, LimitSide::kAtMost,
                        "The image's edges are " + sentenceNumber(width.widest_px()) +
-                           " px wide in the direction that is least sharp.",
-                       "The image is blurred by motion or focus: use a sharper one.");
+                           " px wide in the least sharp direction.",
+                       "The image is blurred by motion or focus: use a sharper image.");
 }
 
 /// One of the camera's parameters as the edges would have it.
@@ -117,12 +117,13 @@ Check cameraCheck(const CheckName& name, const std::string& what, const AskedCha
   const double figure = unexplained(asked, sigmas);
   const bool undecided = !asked.stated && std::abs(asked.change) <= limit + sigmas * asked.sigma;
   return measuredCheck(name, asked.unit, figure, limit, LimitSide::kAtMost,
-                       "Left free, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
-                           " (one sigma " + sentenceNumber(asked.sigma) + " " + asked.unit + ").",
+                       "Estimated freely, the " + what + sentenceNumber(asked.change) + " " +
+                           asked.unit + " (one sigma " + sentenceNumber(asked.sigma) + " " +
+                           asked.unit + ").",
                        undecided ? kUndecidedRemedy : kCameraRemedy);
 }
 
-void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& one,
+void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
                      const CheckLimits& limits, std::vector<Check>& checks) {
   if (!fit) {
     const char* why = "The edges do not determine the camera together with the pose.";
@@ -130,8 +131,8 @@ void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& one
     checks.push_back(notAskedCheck(kCentre, why));
     return;
   }
-  const double percent = 100.0 / one.camera.fx;
-  const InputSigmas known(one);
+  const double percent = 100.0 / session_case.camera.fx;
+  const InputSigmas known(session_case);
   checks.push_back(
       cameraCheck(kFocal, "focal length changes by ",
                   {percent * fit->focal_px, percent * fit->focal_sigma_px,
@@ -158,7 +159,7 @@ bool canBeMeasured(const ReviewSubject& subject) {
 
 void addAll(const CheckName& name, bool failed, const std::string& why,
             std::vector<Check>& checks) {
-  checks.push_back(failed ? statedCheck(name, false, why, "Look at the overlay, and at the seed.")
+  checks.push_back(failed ? statedCheck(name, false, why, "Check the overlay and the seed.")
                           : notAskedCheck(name, why));
 }
 
@@ -168,8 +169,8 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 constexpr std::size_t kLeastFound = 60;
 constexpr int kRounds = 10;
 /// First the usual constant, so that what a wrong camera leaves does not count as outlying; then a
-/// tighter one: shadows and bevels beside an edge are many and off to one side, and precision is to
-/// spare.
+/// tighter one: shadows and bevels next to an edge are many and off to one side, and precision is
+/// to spare.
 constexpr double kWideTukey = 4.685;
 constexpr double kTightTukey = 2.0;
 /// Farther ones are mostly another edge.
@@ -191,18 +192,18 @@ std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camer
                         const Pose& camera_from_station) {
   std::vector<Row> rows;
   Eigen::AlignedBox2d box;
-  for (const LookedPlace& one : looked) box.extend(one.place.pixel);
+  for (const LookedPlace& looked_place : looked) box.extend(looked_place.place.pixel);
   const double tile_px = std::max(box.sizes().maxCoeff() / kTiles, 1.0);
-  for (const LookedPlace& one : looked) {
+  for (const LookedPlace& looked_place : looked) {
     PlaceDerivative by;
-    if (!one.found || std::abs(one.found->offset_px) > kFarthest_px ||
-        !placeDerivative(camera, camera_from_station, one.place.point_in_station_m, by))
+    if (!looked_place.found || std::abs(looked_place.found->offset_px) > kFarthest_px ||
+        !placeDerivative(camera, camera_from_station, looked_place.place.point_in_station_m, by))
       continue;
     Row row;
-    row.by.head<6>() = by.by_pose.transpose() * one.place.normal;
-    row.by.tail<3>() = by.by_camera.transpose() * one.place.normal;
-    row.residual_px = one.found->offset_px;
-    const Eigen::Vector2d tile = (one.place.pixel - box.min()) / tile_px;
+    row.by.head<6>() = by.by_pose.transpose() * looked_place.place.normal;
+    row.by.tail<3>() = by.by_camera.transpose() * looked_place.place.normal;
+    row.residual_px = looked_place.found->offset_px;
+    const Eigen::Vector2d tile = (looked_place.place.pixel - box.min()) / tile_px;
     row.tile = {static_cast<int>(tile.x()), static_cast<int>(tile.y())};
     rows.push_back(row);
   }
@@ -271,7 +272,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   const bool measurable = canBeMeasured(subject);
   if (!measurable || edges.places.empty()) {
     const std::string why = measurable ? "The pose shows no edge of the station in the image."
-                                       : "There is no image of the camera's size.";
+                                       : "No image has the camera's size.";
     addAll(kCoverage, measurable, why, checks);
     for (const CheckName& name : {kClutter, kExplained, kFallOff, kWidth, kFocal, kCentre})
       addAll(name, false, why, checks);
@@ -298,7 +299,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   }
   for (const CheckName& name : {kFocal, kCentre})
     checks.push_back(notAskedCheck(
-        name, "The requirement is one in the image, where a wrong camera hardly shows."));
+        name, "The requirement is in pixels, where a wrong camera has little effect."));
 }
 
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,

@@ -53,9 +53,9 @@ cv::Mat1i nearestPlaces(const cv::Rect& region, const std::vector<EdgePlace>& pl
 /// How steep an edge of the image is that counts as clutter.
 double clutterSlope(const std::vector<LookedPlace>& looked) {
   std::vector<double> slopes;
-  for (const LookedPlace& one : looked)
-    if (one.found && std::abs(one.found->offset_px) <= kNearEdge_px)
-      slopes.push_back(one.found->slope);
+  for (const LookedPlace& looked_place : looked)
+    if (looked_place.found && std::abs(looked_place.found->offset_px) <= kNearEdge_px)
+      slopes.push_back(looked_place.found->slope);
   if (slopes.empty()) return 2.0 * kLeastSlope;
   return std::max(kLeastSlope, kShareOfSlope * medianOf(slopes));
 }
@@ -82,9 +82,9 @@ Eigen::Vector3d middleOf(const std::vector<EdgePlace>& places, const Pose& camer
 
 /// A perturbation about a point of the camera frame as one about the camera's centre.
 Vector6d aboutCamera(const Vector6d& xi, const Eigen::Vector3d& middle_m) {
-  Vector6d made = xi;
-  made.tail<3>() += middle_m - rotationExp(xi.head<3>()) * middle_m;
-  return made;
+  Vector6d result = xi;
+  result.tail<3>() += middle_m - rotationExp(xi.head<3>()) * middle_m;
+  return result;
 }
 
 Motion motionOf(const std::vector<EdgePlace>& places, const Camera& camera,
@@ -237,10 +237,10 @@ std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgeP
 
 Share coverageOf(const std::vector<LookedPlace>& looked) {
   Share share;
-  for (const LookedPlace& one : looked) {
-    share.whole += one.place.length_px;
-    if (one.found && std::abs(one.found->offset_px) <= kNearEdge_px)
-      share.part += one.place.length_px;
+  for (const LookedPlace& looked_place : looked) {
+    share.whole += looked_place.place.length_px;
+    if (looked_place.found && std::abs(looked_place.found->offset_px) <= kNearEdge_px)
+      share.part += looked_place.place.length_px;
   }
   return share;
 }
@@ -313,11 +313,11 @@ std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePl
 
 PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
                             const Pose& camera_from_station) {
-  PredictedEdges made;
+  PredictedEdges predicted_edges;
   RenderTrace render;
-  if (renderScene(camera, mesh, camera_from_station, render) != Status::kOk) return made;
+  if (renderScene(camera, mesh, camera_from_station, render) != Status::kOk) return predicted_edges;
   const EdgeRender view = render.view();
-  made.places.reserve(render.pixels.size());
+  predicted_edges.places.reserve(render.pixels.size());
   for (const EdgePixel& pixel : render.pixels) {
     EdgePlace place;
     if (!edgeLinePoint(view, mesh, pixel, place.pixel, place.point_in_station_m)) continue;
@@ -326,10 +326,10 @@ PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
     if (!place.normal.allFinite()) continue;
     // A thin line has a pixel per column or per row, whichever it crosses more of.
     place.length_px = 1.0 / place.normal.cwiseAbs().maxCoeff();
-    made.places.push_back(place);
+    predicted_edges.places.push_back(place);
   }
-  made.mask = std::move(render.mask);
-  return made;
+  predicted_edges.mask = std::move(render.mask);
+  return predicted_edges;
 }
 
 bool placeDerivative(const Camera& camera, const Pose& camera_from_station,

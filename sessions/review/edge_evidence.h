@@ -116,11 +116,11 @@ struct Share {
 
 /// A way in which the pose could be off, and how much less of the station is then seen.
 struct FallOff {
-  std::string direction;  ///< for people: "turned about the view axis"
+  std::string direction;  ///< for display: "turned about the view axis"
   double coverage = 0.0;  ///< with the pose displaced this way, the mean of both senses
 };
 
-/// What the image's edges say of a pose, measured anew: with filters of their own, on the raw
+/// What the image's edges say of a pose, measured again: with filters of their own, on the raw
 /// image, from a render of the final pose.
 struct EdgeEvidence {
   Share coverage;  ///< predicted length with the image's edge near, of what could be seen
@@ -138,7 +138,7 @@ struct LookedPlace {
 std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places);
 Share coverageOf(const std::vector<LookedPlace>& looked);
 
-/// That of the station at a pose, rendered anew. Nothing where no edge can be looked at.
+/// That of the station at a pose, rendered again. Nothing where no edge can be looked at.
 Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station);
 
 /// Edges of the image inside the silhouette that are at least half as steep as the predicted ones

@@ -10,7 +10,7 @@
 #include "sessions/io/json_reader.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/review_status.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
@@ -24,11 +24,11 @@ bool converged(const RunRecord* run) {
   return run != nullptr && run->status == localizationStatusText(LocalizationStatus::kConverged);
 }
 
-void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
-  if (run.inputs_sha256 != inputsDigest(one))
+void takeRun(const SessionCase& session_case, const RunRecord& run, HandedPose& pose) {
+  if (run.inputs_sha256 != inputsDigest(session_case))
     throw InputError(
         "session", "runs",
-        "the inputs of case '" + one.id + "' have changed since its run: run it again");
+        "the inputs of case '" + session_case.id + "' have changed since its run: run it again");
   const LocalizationTrace trace = loadRun(run);
   pose.source = PoseSource::kRun;
   pose.camera_from_station = trace.camera_from_station;
@@ -37,14 +37,15 @@ void takeRun(const SessionCase& one, const RunRecord& run, HandedPose& pose) {
   pose.seconds = trace.seconds.total();
 }
 
-void takeMarks(const Session& session, const SessionCase& one, HandedPose& pose) {
-  const CaseMarksSolution solved =
-      solveCaseMarks(caseMarks(session, one.id), marksGuess(one), {}, false);
+void takeAnnotations(const Session& session, const SessionCase& session_case, HandedPose& pose) {
+  const CaseAnnotationsSolution solved = solveCaseAnnotations(
+      caseAnnotations(session, session_case.id), annotationsGuess(session_case), {}, false);
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
-    throw InputError("session", "cases",
-                     "case '" + one.id + "' has no pose: no run converged, and of its marks: " +
-                         solved.result.reason);
+    throw InputError(
+        "session", "cases",
+        "case '" + session_case.id +
+            "' has no pose: no run converged, and the annotations fail: " + solved.result.reason);
   pose.source = PoseSource::kAnnotation;
   pose.camera_from_station = *camera_from_station;
 }
@@ -68,10 +69,10 @@ LocalizationTrace runAgain(const RunRecord& run, const Session& session,
   const std::string place = "run " + run.digest;
   if (again.digest != run.digest)
     throw InputError(session_file, place,
-                     "gives another digest when it is run again: " + again.digest +
-                         (run.version == kVersion ? ""
-                                                  : "; it was made by version " + run.version +
-                                                        ", this is " + kVersion));
+                     "has another digest when repeated: " + again.digest +
+                         (run.version == kVersion
+                              ? ""
+                              : "; it is from version " + run.version + ", this is " + kVersion));
   if (localizationStatusText(again.status) != run.status)
     throw InputError(session_file, place,
                      std::string("ended as ") + localizationStatusText(again.status) +
@@ -98,16 +99,17 @@ std::string shortText(const Check& check) {
 
 std::string differenceText(const Check& stated, const Check& measured) {
   const std::string before = shortText(stated);
-  const std::string now = shortText(measured);
-  return "'" + measured.title + "' is stated as " + before + " and measured as " + now +
-         (before == now ? ", with another sentence" : "");
+  const std::string after = shortText(measured);
+  return "'" + measured.title + "' is stated as " + before + " and measured as " + after +
+         (before == after ? ", with another text" : "");
 }
 
 /// A run that had other options than the session has now names them, so that it can be repeated.
 Session withPlans(Session session) {
   for (RunRecord& run : session.runs) {
-    const SessionCase& one = *session.findCase(run.case_id);
-    if (!run.rerun && run.options_sha256 != optionsDigest(caseOptions(session, one, "session")))
+    const SessionCase& session_case = *session.findCase(run.case_id);
+    if (!run.rerun &&
+        run.options_sha256 != optionsDigest(caseOptions(session, session_case, "session")))
       run.rerun = RerunRecord{loadRun(run).plan(), ""};
   }
   return session;
@@ -116,7 +118,7 @@ Session withPlans(Session session) {
 }  // namespace
 
 HandedPose handedPose(const Session& session, const std::string& case_id) {
-  const SessionCase& one = knownCase(session, case_id);
+  const SessionCase& session_case = knownCase(session, case_id);
   HandedPose pose;
   pose.case_id = case_id;
   const ReviewStatus status = reviewStatusOf(session, case_id);
@@ -127,49 +129,53 @@ HandedPose handedPose(const Session& session, const std::string& case_id) {
   const bool of_run =
       decision != nullptr ? decision->pose->source == PoseSource::kRun : converged(run);
   if (of_run && !converged(run))
-    throw InputError("session", "decisions",
-                     "the decision on case '" + case_id + "' is of a run that did not converge");
+    throw InputError(
+        "session", "decisions",
+        "the decision on case '" + case_id + "' belongs to a run that did not converge");
   if (of_run)
-    takeRun(one, *run, pose);
+    takeRun(session_case, *run, pose);
   else
-    takeMarks(session, one, pose);
+    takeAnnotations(session, session_case, pose);
   if (decision != nullptr) takeDecision(*decision, pose);
   return pose;
 }
 
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids) {
   for (const std::string& id : case_ids) (void)knownCase(session, id);
-  HandedPoses made;
-  for (const auto& one : session.cases) {
-    const bool asked = std::find(case_ids.begin(), case_ids.end(), one->id) != case_ids.end();
+  HandedPoses handed_poses;
+  for (const auto& session_case : session.cases) {
+    const bool asked =
+        std::find(case_ids.begin(), case_ids.end(), session_case->id) != case_ids.end();
     if (!case_ids.empty() && !asked) continue;
     try {
-      made.poses.push_back(handedPose(session, one->id));
+      handed_poses.poses.push_back(handedPose(session, session_case->id));
     } catch (const InputError& error) {
-      made.notes.push_back(error.what());
+      handed_poses.notes.push_back(error.what());
     }
   }
-  return made;
+  return handed_poses;
 }
 
 CheckedPose checkedPose(const Session& session, const std::string& case_id) {
-  CheckedPose made;
-  made.pose = handedPose(session, case_id);
-  made.session = withPlans(sessionOfCase(session, case_id, made.pose.run_digest));
-  const ReviewStatus status = reviewStatusOf(made.session, case_id);
-  made.pose.review_status = reviewStatusText(status);  // of what is handed over
+  CheckedPose checked_pose;
+  checked_pose.pose = handedPose(session, case_id);
+  checked_pose.session = withPlans(sessionOfCase(session, case_id, checked_pose.pose.run_digest));
+  const ReviewStatus status = reviewStatusOf(checked_pose.session, case_id);
+  checked_pose.pose.review_status = reviewStatusText(status);  // of what is handed over
   const Decision* decision = status.judgedPose();
-  const int basin_seeds = decision != nullptr ? decision->basin_seeds : 0;
-  MeasuredPose measured = measurePose(made.session, made.pose, basin_seeds, "session");
+  const int convergence_seeds = decision != nullptr ? decision->convergence_seeds : 0;
+  MeasuredPose measured =
+      measurePose(checked_pose.session, checked_pose.pose, convergence_seeds, "session");
   if (decision == nullptr) {
-    made.pose.covariance = measured.subject.covariance;
-    for (const Check& check : measured.checks) made.pose.checks.push_back({check, ""});
+    checked_pose.pose.covariance = measured.subject.covariance;
+    for (const Check& check : measured.checks) checked_pose.pose.checks.push_back({check, ""});
   }
-  requireAsMeasured(case_id, poseDifference(made.pose, measured.subject.camera_from_station));
-  requireAsMeasured(case_id, covarianceDifference(made.pose, measured.subject.covariance));
-  requireAsMeasured(case_id, checksDifference(made.pose, measured.checks, true));
-  made.subject = std::move(measured.subject);
-  return made;
+  requireAsMeasured(case_id,
+                    poseDifference(checked_pose.pose, measured.subject.camera_from_station));
+  requireAsMeasured(case_id, covarianceDifference(checked_pose.pose, measured.subject.covariance));
+  requireAsMeasured(case_id, checksDifference(checked_pose.pose, measured.checks, true));
+  checked_pose.subject = std::move(measured.subject);
+  return checked_pose;
 }
 
 Session sessionOfCase(const Session& session, const std::string& case_id,
@@ -178,34 +184,34 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
   const auto isOther = [&](const std::string& id) {
     return id != case_id && std::find(linked.begin(), linked.end(), id) == linked.end();
   };
-  Session made = session;
-  made.cases.eraseIf([&](const auto& one) { return isOther(one->id); });
-  std::erase_if(made.annotations, [&](const auto& entry) { return isOther(entry.first); });
-  made.runs.eraseIf([&](const RunRecord& run) {
+  Session next_session = session;
+  next_session.cases.eraseIf([&](const auto& item) { return isOther(item->id); });
+  std::erase_if(next_session.annotations, [&](const auto& entry) { return isOther(entry.first); });
+  next_session.runs.eraseIf([&](const RunRecord& run) {
     if (isOther(run.case_id)) return true;
     if (run.case_id == case_id) return run.digest != run_digest;
     const RunRecord* asked = ownRunOf(session, run.case_id, case_id);
     return asked == nullptr || run != *asked;
   });
-  made.decisions.clear();
-  if (const Decision* last = session.decisionOn(case_id)) made.decisions.push_back(*last);
-  if (!made.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
-    made.decisions.front().checks.clear();
-  made.rounds.clear();
-  made.view = {};
-  return made;
+  next_session.decisions.clear();
+  if (const Decision* last = session.decisionOn(case_id)) next_session.decisions.push_back(*last);
+  if (!next_session.decisions.empty() && reviewStatusOf(session, case_id).judgedPose() == nullptr)
+    next_session.decisions.front().checks.clear();
+  next_session.rounds.clear();
+  next_session.view = {};
+  return next_session;
 }
 
-MeasuredPose measurePose(const Session& session, const HandedPose& pose, int basin_seeds,
+MeasuredPose measurePose(const Session& session, const HandedPose& pose, int convergence_seeds,
                          const std::filesystem::path& session_file) {
   const auto read_run = [&](const RunRecord& run) { return runAgain(run, session, session_file); };
   MeasuredPose measured;
   measured.subject = reviewSubject(session, loadCase(*session.findCase(pose.case_id)), pose.source,
                                    pose.run_digest, read_run);
-  std::optional<BasinResult> basin;
-  if (basin_seeds > 0) basin = basinTest(measured.subject, basin_seeds);
+  std::optional<ConvergenceResult> convergence;
+  if (convergence_seeds > 0) convergence = convergenceTest(measured.subject, convergence_seeds);
   const CheckLimits limits = checkLimits(session.review.preset, session.review.limits);
-  measured.checks = checkPose(measured.subject, limits, basin);
+  measured.checks = checkPose(measured.subject, limits, convergence);
   return measured;
 }
 
@@ -216,8 +222,8 @@ std::string poseDifference(const HandedPose& stated, const Pose& measured) {
   const double rotation_rad = apart.head<3>().norm();
   const double translation_m = apart.tail<3>().norm();
   if (rotation_rad <= limit && translation_m <= limit) return "";
-  return "another pose comes out: " + numberText(translation_m * 1e3) + " mm and " +
-         numberText(rotation_rad * 1e3) + " mrad from the one stated";
+  return "the pose differs: " + numberText(translation_m * 1e3) + " mm and " +
+         numberText(rotation_rad * 1e3) + " mrad from the stated pose";
 }
 
 std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured) {
@@ -234,22 +240,22 @@ std::string covarianceDifference(const HandedPose& stated, const PoseCovariance&
   const auto translation_mm = [](const Matrix6d& covariance) {
     return numberText(1e3 * std::sqrt(std::max(0.0, covariance.bottomRightCorner<3, 3>().trace())));
   };
-  return "another covariance comes out: a sigma of the translation of " +
-         translation_mm(measured.total()) + " mm, where " +
-         translation_mm(stated.covariance.total()) + " mm is stated";
+  return "the covariance differs: the translation has a sigma of " +
+         translation_mm(measured.total()) + " mm, stated are " +
+         translation_mm(stated.covariance.total()) + " mm";
 }
 
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
-                             bool with_basin) {
+                             bool with_convergence) {
   if (stated.checks.size() != measured.size())
     return std::to_string(stated.checks.size()) + " checks are stated, but " +
-           std::to_string(measured.size()) + " are made";
+           std::to_string(measured.size()) + " are measured";
   std::string text;
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const Check& one = stated.checks[i].check;
-    const bool compared = with_basin || !isBasinCheck(measured[i].id);
-    if (compared ? sameCheck(one, measured[i]) : one.id == measured[i].id) continue;
-    text += (text.empty() ? "check " : "; ") + differenceText(one, measured[i]);
+    const Check& check = stated.checks[i].check;
+    const bool compared = with_convergence || !isConvergenceCheck(measured[i].id);
+    if (compared ? sameCheck(check, measured[i]) : check.id == measured[i].id) continue;
+    text += (text.empty() ? "check " : "; ") + differenceText(check, measured[i]);
   }
   return text;
 }
@@ -257,7 +263,7 @@ std::string checksDifference(const HandedPose& stated, const std::vector<Check>&
 void requireAsMeasured(const std::string& case_id, const std::string& difference) {
   if (!difference.empty())
     throw InputError("session", "case " + case_id,
-                     difference + "; run and decide again, or bring back the session as it was");
+                     difference + "; run and decide again, or restore the session");
 }
 
 }  // namespace boresight::sessions

@@ -44,8 +44,8 @@ void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
   checks.push_back(measuredCheck(
       kSharpness, "px", quality->edge_width_px, limits.edge_width_px, LimitSide::kAtMost,
       "The strongest edges on the station are " + sentenceNumber(quality->edge_width_px) +
-          " px wide in the direction that is least sharp, wherever the pose has its edges.",
-      "The image is blurred by motion or focus, or overexposed: use a sharper one."));
+          " px wide in the least sharp direction, independent of the pose.",
+      "The image is blurred by motion or focus, or overexposed: use a sharper image."));
 }
 
 }  // namespace boresight::sessions

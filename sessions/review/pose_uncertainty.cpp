@@ -7,7 +7,7 @@
 namespace boresight::sessions {
 namespace {
 
-/// So many places give the sums to a percent.
+/// This number of points gives the sums to a percent.
 constexpr std::size_t kPlaces = 4000;
 
 using ByCamera = Eigen::Matrix<double, 6, 3>;
@@ -40,10 +40,10 @@ std::optional<ByCamera> poseByCamera(std::span<const EdgePlace> places, const Ca
   return inverse * right;
 }
 
-PoseCovariance poseCovariance(const SessionCase& one, const MeshView& mesh,
+PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,
                               const Pose& camera_from_station, const Matrix6d& picture) {
-  const Camera& camera = one.camera;
-  const InputSigmas sigmas(one);
+  const Camera& camera = session_case.camera;
+  const InputSigmas sigmas(session_case);
   const Eigen::Vector3d middle_in_camera_m = camera_from_station * matchedBounds(mesh).centre();
   PoseCovariance covariance;
   covariance.picture = picture;
@@ -64,16 +64,17 @@ PoseCovariance poseCovariance(const SessionCase& one, const MeshView& mesh,
 EndEffectorPose endEffectorPose(const Pose& camera_from_station_seed,
                                 const Pose& camera_from_station,
                                 const Pose& camera_from_end_effector, const Matrix6d& covariance) {
-  EndEffectorPose made;
-  made.station_from_end_effector = camera_from_station.inverse() * camera_from_end_effector;
-  made.end_effector_seed_from_end_effector_estimated = camera_from_end_effector.inverse() *
-                                                       camera_from_station_seed *
-                                                       made.station_from_end_effector;
+  EndEffectorPose end_effector_pose;
+  end_effector_pose.station_from_end_effector =
+      camera_from_station.inverse() * camera_from_end_effector;
+  end_effector_pose.end_effector_seed_from_end_effector_estimated =
+      camera_from_end_effector.inverse() * camera_from_station_seed *
+      end_effector_pose.station_from_end_effector;
   // camera_from_station -> Exp(xi) camera_from_station turns station_from_end_effector into
   // camera_from_station^-1 Exp(-xi) camera_from_end_effector, which is it times Exp(-Ad xi).
   const Matrix6d turn = adjointOf(camera_from_end_effector.inverse());
-  made.covariance = turn * covariance * turn.transpose();
-  return made;
+  end_effector_pose.covariance = turn * covariance * turn.transpose();
+  return end_effector_pose;
 }
 
 }  // namespace boresight::sessions

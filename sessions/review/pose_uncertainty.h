@@ -21,13 +21,13 @@ std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlac
                                                         const Pose& camera_from_station);
 
 /// The covariance of a case's pose with all of its causes: the one function behind checks,
-/// decisions and exports. `picture` is what the run or the marks say.
+/// decisions and exports. `picture` is what the run or the annotations say.
 /// - A mesh that is larger by s about the middle of its box looks the same from 1 + s times the
 ///   distance: xi is s times that point in the camera frame, as a translation.
 /// - Errors of focal length and principal point are independent; the pose follows them as
 ///   `poseByCamera` says at the edges that it shows, or where these do not determine it as a shift
 ///   of the same point that undoes the error.
-PoseCovariance poseCovariance(const SessionCase& one, const MeshView& mesh,
+PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,
                               const Pose& camera_from_station, const Matrix6d& picture);
 
 /// Where the end effector is, and what a move commanded from the seed has to be corrected by.

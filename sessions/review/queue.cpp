@@ -56,13 +56,13 @@ void takeRun(const ReviewSubject& subject, QueueRow& row) {
 }
 
 std::shared_ptr<const ReviewSubject> withoutData(const ReviewSubject& subject) {
-  auto made = std::make_shared<ReviewSubject>(subject);
+  auto result = std::make_shared<ReviewSubject>(subject);
   auto source = std::make_shared<LoadedCase>();
   source->source = subject.loaded->source;
-  made->loaded = std::move(source);
-  made->run->iterations.clear();
-  made->run->edges.reset();
-  return made;
+  result->loaded = std::move(source);
+  result->run->iterations.clear();
+  result->run->edges.reset();
+  return result;
 }
 
 void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, QueueRow& row) {
@@ -80,11 +80,11 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
 
 /// What is known of a case that was not run here: how it ended in the results that its session was
 /// made of.
-void takeListedResult(const SessionCase& one, QueueRow& row) {
-  const std::optional<ListedResult> listed = listedResult(one);
+void takeListedResult(const SessionCase& session_case, QueueRow& row) {
+  const std::optional<ListedResult> listed = listedResult(session_case);
   if (!listed) return;
   if (!listed->completed) {
-    row.trouble = "not run here; in the results: " + listed->status;
+    row.trouble = "not run in this session; in the results: " + listed->status;
   } else if (listed->error_share) {
     row.margin = 1.0 - *listed->error_share;
     row.margin_of = "Requirement, in the results";
@@ -129,16 +129,16 @@ SeedDistance seedDistance(const Pose& camera_from_station_seed, const Pose& came
                           const SeedUncertainty& uncertainty) {
   const Vector6d offset = offsetAboutPivot(camera_from_station_seed, camera_from_station,
                                            uncertainty.pivot_in_camera_m);
-  SeedDistance made;
-  made.rotation_mrad = kMilliradians * offset.head<3>().norm();
-  made.translation_mm = kMillimetres * offset.tail<3>().norm();
+  SeedDistance seed_distance;
+  seed_distance.rotation_mrad = kMilliradians * offset.head<3>().norm();
+  seed_distance.translation_mm = kMillimetres * offset.tail<3>().norm();
   for (int i = 0; i < 3; ++i) {
     const std::array parts{std::pair(std::abs(offset[i]), uncertainty.rotation_rad[i]),
                            std::pair(std::abs(offset[i + 3]), uncertainty.translation_m[i])};
     for (const auto& [moved, allowed] : parts)
-      if (allowed > 0.0) made.share = std::max(made.share, moved / allowed);
+      if (allowed > 0.0) seed_distance.share = std::max(seed_distance.share, moved / allowed);
   }
-  return made;
+  return seed_distance;
 }
 
 std::optional<double> checkMargin(const Check& check) {
@@ -149,11 +149,11 @@ std::optional<double> checkMargin(const Check& check) {
 }
 
 QueueRow queueRow(const Session& session, const std::string& case_id) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) throw std::invalid_argument("there is no case '" + case_id + "'");
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) throw std::invalid_argument("there is no case '" + case_id + "'");
   if (session.lastRunOf(case_id) == nullptr) return queueRow(session, case_id, nullptr);
   try {
-    return queueRow(session, case_id, loadCase(*one));
+    return queueRow(session, case_id, loadCase(*session_case));
   } catch (const FileError& error) {
     return queueRow(session, case_id, nullptr, error.what());
   }
@@ -171,8 +171,8 @@ QueueRow queueRow(const Session& session, const std::string& case_id,
     } catch (const FileError& error) {
       row.trouble = error.what();
     }
-  } else if (const SessionCase* one = session.findCase(case_id)) {
-    if (reason.empty()) takeListedResult(*one, row);
+  } else if (const SessionCase* session_case = session.findCase(case_id)) {
+    if (reason.empty()) takeListedResult(*session_case, row);
   }
   takeReviewStatus(session, row);
   return row;
@@ -205,12 +205,12 @@ bool moreTrouble(const QueueRow& a, const QueueRow& b) {
 }
 
 std::string troubleText(const QueueRow& row) {
-  if (row.group == QueueGroup::kAwaits) return "a second person has to approve";
+  if (row.group == QueueGroup::kAwaits) return "a second person must approve";
   if (row.group == QueueGroup::kDecided) return row.review_status_text;
   if (!row.trouble.empty()) return row.trouble;
   if (row.group == QueueGroup::kNotRun && row.margin)
-    return "not run here; in the results " + fixedText(100.0 * (1.0 - *row.margin), 0) +
-           " % of the requirement off";
+    return "not run in this session; in the results: error " +
+           fixedText(100.0 * (1.0 - *row.margin), 0) + " % of the requirement";
   if (row.group == QueueGroup::kNotRun) return "not run yet";
   if (row.failed > 0)
     return std::to_string(row.failed) + (row.failed == 1 ? " check failed: " : " checks failed: ") +
@@ -222,25 +222,25 @@ std::string troubleText(const QueueRow& row) {
 
 std::vector<QueueRow> queueRows(const Session& session, int jobs, const std::stop_token& stop,
                                 const QueueProgress& progress) {
-  std::vector<std::optional<QueueRow>> made(session.cases.size());
+  std::vector<std::optional<QueueRow>> queue_rows(session.cases.size());
   std::size_t done = 0;
   std::mutex mutex;
   std::exception_ptr fault;
-  const auto work = [&](int piece, int) {
-    const auto i = static_cast<std::size_t>(piece);
+  const auto work = [&](int task, int) {
+    const auto i = static_cast<std::size_t>(task);
     try {
-      made[i] = queueRow(session, session.cases[i]->id);
+      queue_rows[i] = queueRow(session, session.cases[i]->id);
       const std::lock_guard lock(mutex);
-      if (progress) progress(*made[i], ++done, made.size());
+      if (progress) progress(*queue_rows[i], ++done, queue_rows.size());
     } catch (...) {
       const std::lock_guard lock(mutex);
       fault = std::current_exception();
     }
   };
-  WorkerPool(std::max(jobs, 1)).run(static_cast<int>(made.size()), work, stop);
+  WorkerPool(std::max(jobs, 1)).run(static_cast<int>(queue_rows.size()), work, stop);
   if (fault) std::rethrow_exception(fault);
   std::vector<QueueRow> rows;
-  for (std::optional<QueueRow>& row : made)
+  for (std::optional<QueueRow>& row : queue_rows)
     if (row) rows.push_back(std::move(*row));
   std::sort(rows.begin(), rows.end(), moreTrouble);
   return rows;

@@ -95,7 +95,7 @@ std::vector<QueueRow> queueRows(const Session& session, int jobs = 1,
                                 const std::stop_token& stop = {},
                                 const QueueProgress& progress = {});
 
-/// A table for people, in the order of the rows.
+/// A readable table, in the order of the rows.
 std::string queueText(const std::vector<QueueRow>& rows);
 /// The same for programs: a header and one line per case (RFC 4180), with a dot as decimal point
 /// and empty fields for what is not known.

@@ -84,10 +84,10 @@ Check agreementCheck(const CheckName& name, const ReviewSubject& subject, const 
                      const Matrix6d& apart, const CheckLimits& limits, const std::string& remedy) {
   const Distance distance =
       Measure(subject, other.camera_from_station, apart, limits.sigmas).distance();
-  if (distance.text.empty()) return notAskedCheck(name, "The requirement names nothing.");
-  std::string found = "The pose and " + other.from + " are apart by " + distance.text + ".";
+  if (distance.text.empty()) return notAskedCheck(name, "The requirement has no limits.");
+  std::string found = "The pose and " + other.from + " differ by " + distance.text + ".";
   if (distance.covariance_dominates)
-    found += " Their covariances allow more than the requirement does: this says little.";
+    found += " Their covariances exceed the requirement, so that this check is weak.";
   return measuredCheck(name, "%", 100.0 * distance.of_allowed, limits.agreement_percent,
                        LimitSide::kAtMost, found, remedy);
 }
@@ -110,33 +110,34 @@ Check camerasCheck(const ReviewSubject& subject, const CheckLimits& limits) {
     return notAskedCheck(kCamera, "No other camera of a rig has a pose.");
   std::optional<Check> worst;
   for (const OtherPose& other : subject.other_cameras) {
-    Check one = agreementCheck(kCamera, subject, other, apartOfTwoCameras(subject, other), limits,
-                               "One of both is wrong, or the cameras do not lie as the rig says: "
-                               "look at both overlays.");
-    if (!worst || one.figure.value_or(0.0) > worst->figure.value_or(0.0)) worst = std::move(one);
+    Check check =
+        agreementCheck(kCamera, subject, other, apartOfTwoCameras(subject, other), limits,
+                       "One pose or the rig's camera positions are wrong: check both overlays.");
+    if (!worst || check.figure.value_or(0.0) > worst->figure.value_or(0.0))
+      worst = std::move(check);
   }
   return *worst;
 }
 
 Check annotationCheck(const ReviewSubject& subject, const CheckLimits& limits) {
   if (subject.source == PoseSource::kAnnotation)
-    return notAskedCheck(kAnnotation, "The pose is that of the annotation.");
-  if (!subject.annotated) return notAskedCheck(kAnnotation, "No marks give a pose.");
+    return notAskedCheck(kAnnotation, "The pose is that of the annotations.");
+  if (!subject.annotated) return notAskedCheck(kAnnotation, "No annotations give a pose.");
   return agreementCheck(kAnnotation, subject, *subject.annotated,
                         apartOfOneCamera(subject, *subject.annotated), limits,
-                        "Look where the overlay and the marks differ: one of both is wrong.");
+                        "Pose or annotations are wrong: compare overlay and annotations.");
 }
 
 Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
   if (subject.loaded == nullptr || !subject.loaded->source.camera_from_station_truth)
     return notAskedCheck(kTruth, "The case has no truth.");
-  const SessionCase& one = subject.loaded->source;
+  const SessionCase& session_case = subject.loaded->source;
   const OtherPose truth{"the truth",
-                        *one.camera_from_station_truth,
-                        {one.truth_covariance.value_or(Matrix6d::Zero())}};
+                        *session_case.camera_from_station_truth,
+                        {session_case.truth_covariance.value_or(Matrix6d::Zero())}};
   return agreementCheck(kTruth, subject, truth, apartOfOneCamera(subject, truth), limits,
                         truth.covariance.known()
-                            ? "One of both is wrong: look at the overlays of both."
+                            ? "One of both poses is wrong: check both overlays."
                             : "The pose does not meet the requirement: reject it.");
 }
 
@@ -145,14 +146,14 @@ constexpr CheckName kLateral{"covariance_lateral", "Covariance across the view a
 constexpr CheckName kRotation{"covariance_rotation", "Covariance of the axis's direction"};
 constexpr CheckName kProjection{"covariance_projection", "Covariance in the image"};
 
-constexpr const char* kNotRequired = "The requirement does not name it.";
+constexpr const char* kNotRequired = "The requirement does not limit this value.";
 constexpr const char* kNoCovariance = "The pose has no covariance.";
 constexpr const char* kPictureRemedy =
-    "The edges seen do not fix the pose so well: take a nearer image, or one that shows more of "
-    "the station.";
+    "The seen edges constrain the pose too weakly: take a nearer image, or one with more of the "
+    "station.";
 constexpr const char* kInputsRemedy =
-    "The picture alone would pass: measure the part, calibrate the camera, and state how well "
-    "(mesh_scale_sigma, calibration_sigma); or take a nearer image.";
+    "The image alone would pass: state mesh_scale_sigma and calibration_sigma after measurement, "
+    "or take a nearer image.";
 
 /// One sigma of what is judged, of the picture alone and with mesh and camera.
 struct Sigmas {
@@ -226,8 +227,8 @@ class PrecisionChecks {
   std::string inputsText(const Sigmas& sigma, const std::string& unit) const {
     const double inputs =
         std::sqrt(std::max(0.0, sigma.total * sigma.total - sigma.picture * sigma.picture));
-    std::string text = "The picture alone says " + sentenceNumber(limits_.sigmas * sigma.picture) +
-                       " " + unit + "; the pose is no better than the mesh's scale";
+    std::string text = "The image alone gives " + sentenceNumber(limits_.sigmas * sigma.picture) +
+                       " " + unit + "; the pose is limited by the mesh's scale";
     if (subject_.loaded == nullptr) return text + " and the camera's calibration allow.";
     const InputSigmas known(subject_.loaded->source);
     return text + " (" + meshScaleText(known) + ") and the camera's calibration (" +
@@ -257,12 +258,14 @@ bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_sta
 
 void addPrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits,
                         std::vector<Check>& checks) {
-  const PrecisionChecks made(subject, limits);
+  const PrecisionChecks precision_checks(subject, limits);
   const Requirement& required = subject.requirement;
-  checks.push_back(made.ofTranslation(kNormal, &PoseSigma::normal_mm, required.normal_mm));
-  checks.push_back(made.ofTranslation(kLateral, &PoseSigma::lateral_mm, required.lateral_mm));
-  checks.push_back(made.ofRotation(rotationLimit_mrad(required)));
-  checks.push_back(made.inImage(required.projection_px));
+  checks.push_back(
+      precision_checks.ofTranslation(kNormal, &PoseSigma::normal_mm, required.normal_mm));
+  checks.push_back(
+      precision_checks.ofTranslation(kLateral, &PoseSigma::lateral_mm, required.lateral_mm));
+  checks.push_back(precision_checks.ofRotation(rotationLimit_mrad(required)));
+  checks.push_back(precision_checks.inImage(required.projection_px));
 }
 
 }  // namespace boresight::sessions

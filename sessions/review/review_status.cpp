@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_fields.h"
 #include "sessions/io/json_writer.h"
@@ -33,10 +33,10 @@ ReviewState undecided(const Session& session, const std::string& case_id) {
 std::string droppedText(const Session& session, const Decision& decision) {
   if (decision.input_fingerprint.empty() ||
       (decision.verdict == Verdict::kValidated && !decision.pose))
-    return "it does not say what it is of";
+    return "it does not state its inputs";
   const bool of_run = !decision.digest.empty();
   const RunRecord* last = session.lastRunOf(decision.case_id);
-  if (of_run && last == nullptr) return "its run is no longer there";
+  if (of_run && last == nullptr) return "its run is missing";
   if (of_run && last->digest != decision.digest) return "there is a later run";
   return changedInputsText(decision.input_fingerprint,
                            inputFingerprint(session, decision.case_id, decision.digest));
@@ -54,20 +54,20 @@ ordered_json poseJson(const std::optional<Pose>& pose) {
   return pose ? exactPoseJson(*pose) : ordered_json();
 }
 
-ordered_json truthJson(const SessionCase& one) {
-  ordered_json json = poseJson(one.camera_from_station_truth);
-  if (one.truth_covariance) json["covariance"] = toJson(*one.truth_covariance);
+ordered_json truthJson(const SessionCase& session_case) {
+  ordered_json json = poseJson(session_case.camera_from_station_truth);
+  if (session_case.truth_covariance) json["covariance"] = toJson(*session_case.truth_covariance);
   return json;
 }
 
-ordered_json inputSigmasJson(const SessionCase& one) {
+ordered_json inputSigmasJson(const SessionCase& session_case) {
   ordered_json json = ordered_json::object();
-  if (one.mesh_scale_sigma) json["mesh_scale"] = *one.mesh_scale_sigma;
-  if (one.calibration_sigma) json["calibration"] = toJson(*one.calibration_sigma);
+  if (session_case.mesh_scale_sigma) json["mesh_scale"] = *session_case.mesh_scale_sigma;
+  if (session_case.calibration_sigma) json["calibration"] = toJson(*session_case.calibration_sigma);
   return json;
 }
 
-ordered_json marksJson(const Session& session, const std::string& case_id) {
+ordered_json annotationsJson(const Session& session, const std::string& case_id) {
   std::vector<std::string> ids = casesOfRig(session, case_id);
   ids.insert(ids.begin(), case_id);
   ordered_json json = ordered_json::object();
@@ -78,11 +78,11 @@ ordered_json marksJson(const Session& session, const std::string& case_id) {
 }
 
 /// The rig's cameras as they lie to each other; its name is only a name.
-ordered_json rigJson(const Session& session, const SessionCase& one) {
+ordered_json rigJson(const Session& session, const SessionCase& session_case) {
   ordered_json json = ordered_json::object();
-  if (!one.rig) return json;
-  json[one.id] = exactPoseJson(one.rig->camera_from_rig);
-  for (const std::string& id : casesOfRig(session, one.id))
+  if (!session_case.rig) return json;
+  json[session_case.id] = exactPoseJson(session_case.rig->camera_from_rig);
+  for (const std::string& id : casesOfRig(session, session_case.id))
     json[id] = exactPoseJson(session.findCase(id)->rig->camera_from_rig);
   return json;
 }
@@ -99,7 +99,7 @@ const char* inputText(const std::string& name) {
   static const std::map<std::string, const char*> kTexts = {
       {"inputs", "the image, camera, mesh, seed or mask"},
       {"run", "the run"},
-      {"marks", "the marks"},
+      {"annotations", "the annotations"},
       {"truth", "the truth"},
       {"input_sigmas", "the stated sigmas of mesh and camera"},
       {"requirement", "the requirement"},
@@ -128,55 +128,53 @@ std::string comparableName(const std::string& name) {
 
 Signature requireSigned(const Signature& who, const char* what) {
   const Signature plain{std::string(trimmed(who.by)), std::string(trimmed(who.comment))};
-  if (plain.by.empty()) throw DecisionError(std::string("give a name: who ") + what + "?");
+  if (plain.by.empty()) throw DecisionError("give your name");
   if (plain.comment.empty())
-    throw DecisionError(std::string("give a comment: on what grounds does ") + plain.by + " " +
-                        what + "?");
+    throw DecisionError(std::string("give a comment: why do you ") + what + "?");
   return plain;
 }
 
 const SessionCase& requireCase(const Session& session, const std::string& case_id) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) throw DecisionError("there is no case '" + case_id + "'");
-  return *one;
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) throw DecisionError("there is no case '" + case_id + "'");
+  return *session_case;
 }
 
 /// Pairs each check with the reason for passing over it.
 std::vector<JudgedCheck> judgedChecks(const std::vector<Check>& checks,
-                                      const CheckOverrides& overrides) {
+                                      const CheckWaivers& waivers) {
   std::vector<JudgedCheck> judged;
   for (const Check& check : checks) {
-    const auto found = overrides.find(check.id);
+    const auto found = waivers.find(check.id);
     const bool failed = check.state == CheckState::kFailed;
-    const bool answered = failed && found != overrides.end();
+    const bool answered = failed && found != waivers.end();
     judged.push_back({check, std::string(answered ? trimmed(found->second) : "")});
   }
   return judged;
 }
 
 void requireAnswered(const std::vector<JudgedCheck>& checks) {
-  if (std::none_of(checks.begin(), checks.end(), [](const JudgedCheck& one) {
-        return one.check.state != CheckState::kNotApplicable;
+  if (std::none_of(checks.begin(), checks.end(), [](const JudgedCheck& judged) {
+        return judged.check.state != CheckState::kNotApplicable;
       }))
-    throw DecisionError("no check has been made of this pose");
+    throw DecisionError("this pose has not been checked");
   std::string open;
-  for (const JudgedCheck& one : checks)
-    if (one.check.state == CheckState::kFailed && one.override_reason.empty())
-      open += (open.empty() ? "" : ", ") + one.check.title;
-  if (!open.empty())
-    throw DecisionError("these checks failed and have no reason to pass over them: " + open);
+  for (const JudgedCheck& judged : checks)
+    if (judged.check.state == CheckState::kFailed && judged.waiver_reason.empty())
+      open += (open.empty() ? "" : ", ") + judged.check.title;
+  if (!open.empty()) throw DecisionError("failed checks are not waived: " + open);
 }
 
-/// A check without overrides may be given for what is not there any more: it is told.
-void requireKnownOverrides(const std::vector<Check>& checks, const CheckOverrides& overrides) {
-  for (const auto& [id, reason] : overrides) {
+/// A check without waivers may be given for what is not there any more: it is told.
+void requireKnownWaivers(const std::vector<Check>& checks, const CheckWaivers& waivers) {
+  for (const auto& [id, reason] : waivers) {
     const auto found = std::find_if(checks.begin(), checks.end(),
                                     [&id = id](const Check& check) { return check.id == id; });
     if (found == checks.end()) throw DecisionError("there is no check '" + id + "'");
     if (found->state != CheckState::kFailed)
-      throw DecisionError("the check '" + found->title + "' has not failed: it needs no reason");
+      throw DecisionError("the check '" + found->title + "' has not failed and needs no waiver");
     if (trimmed(reason).empty())
-      throw DecisionError("give a reason for passing over '" + found->title + "'");
+      throw DecisionError("give a reason to waive '" + found->title + "'");
   }
 }
 
@@ -228,7 +226,7 @@ std::string reviewStatusText(const ReviewStatus& status) {
     return "NOT VALIDATED: rejected" + byText(*status.decision);
   const std::string text = std::string("NOT VALIDATED: ") + reviewStateText(status.state);
   if (status.awaits_approval)
-    return text + "; validated" + byText(*status.decision) + ", a second person has to approve";
+    return text + "; validated" + byText(*status.decision) + ", a second person must approve";
   if (status.decision == nullptr) return text;
   const char* what = status.decision->verdict == Verdict::kValidated ? "validation" : "rejection";
   return text + "; the " + what + byText(*status.decision) + " no longer holds: " + status.dropped;
@@ -237,19 +235,19 @@ std::string reviewStatusText(const ReviewStatus& status) {
 std::map<std::string, std::string> inputFingerprint(const Session& session,
                                                     const std::string& case_id,
                                                     const std::string& run_digest) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return {};
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) return {};
   std::map<std::string, std::string> fingerprint;
-  fingerprint["inputs"] = inputsDigest(*one);
-  fingerprint["marks"] = sha256Of(marksJson(session, case_id));
-  fingerprint["truth"] = sha256Of(truthJson(*one));
-  fingerprint["input_sigmas"] = sha256Of(inputSigmasJson(*one));
+  fingerprint["inputs"] = inputsDigest(*session_case);
+  fingerprint["annotations"] = sha256Of(annotationsJson(session, case_id));
+  fingerprint["truth"] = sha256Of(truthJson(*session_case));
+  fingerprint["input_sigmas"] = sha256Of(inputSigmasJson(*session_case));
   fingerprint["requirement"] =
-      sha256Of(one->requirement ? toJson(*one->requirement) : ordered_json());
-  fingerprint["end_effector"] = sha256Of(poseJson(one->camera_from_end_effector));
-  fingerprint["rig"] = sha256Of(rigJson(session, *one));
-  fingerprint["onboard_record"] =
-      sha256Text(one->onboard_record ? one->onboard_record->sha256 : std::string());
+      sha256Of(session_case->requirement ? toJson(*session_case->requirement) : ordered_json());
+  fingerprint["end_effector"] = sha256Of(poseJson(session_case->camera_from_end_effector));
+  fingerprint["rig"] = sha256Of(rigJson(session, *session_case));
+  fingerprint["onboard_record"] = sha256Text(
+      session_case->onboard_record ? session_case->onboard_record->sha256 : std::string());
   ReviewSettings limits = session.review;
   limits.second_person = false;  // who has to sign does not change what was measured
   fingerprint["limits"] = sha256Of(toJson(limits));
@@ -260,57 +258,57 @@ std::map<std::string, std::string> inputFingerprint(const Session& session,
 }
 
 std::string changedInputsText(const std::map<std::string, std::string>& before,
-                              const std::map<std::string, std::string>& now) {
+                              const std::map<std::string, std::string>& after) {
   std::vector<std::string> changed;
   for (const auto& [name, sha256] : before) {
-    const auto found = now.find(name);
-    if (found == now.end() || found->second != sha256) changed.emplace_back(inputText(name));
+    const auto found = after.find(name);
+    if (found == after.end() || found->second != sha256) changed.emplace_back(inputText(name));
   }
-  for (const auto& [name, sha256] : now)
+  for (const auto& [name, sha256] : after)
     if (before.count(name) == 0) changed.emplace_back(inputText(name));
   if (changed.empty()) return "";
   const auto plural = [](const std::string& text) {
-    return text.starts_with("the marks") || text.starts_with("the limits") ||
+    return text.starts_with("the annotations") || text.starts_with("the limits") ||
            text.starts_with("the runs") || text.starts_with("the stated sigmas");
   };
   const bool one_thing = changed.size() == 1 && !plural(changed.front());
   return listText(changed) + (one_thing ? " has changed" : " have changed");
 }
 
-bool samePerson(const std::string& one, const std::string& other) {
-  return comparableName(one) == comparableName(other);
+bool samePerson(const std::string& text, const std::string& other) {
+  return comparableName(text) == comparableName(other);
 }
 
 std::string validationConcern(const Session& session, const ReviewSubject& subject) {
   const std::string& id = subject.loaded->source.id;
-  const SessionCase* one = session.findCase(id);
-  if (one == nullptr) return "there is no case '" + id + "' any more";
-  if (inputsDigest(*one) != inputsDigest(subject.loaded->source))
+  const SessionCase* session_case = session.findCase(id);
+  if (session_case == nullptr) return "there is no case '" + id + "' any more";
+  if (inputsDigest(*session_case) != inputsDigest(subject.loaded->source))
     return "the inputs have changed since they were checked: check again";
   if (subject.source == PoseSource::kAnnotation) return "";
   if (!subject.run || subject.run->digest.empty()) return "there is no finished run";
   if (!subject.run->converged())
-    return "the run did not converge: there is no pose to vouch for; annotate the image, or run "
+    return "the run did not converge, so that no pose can be validated; annotate the image, or run "
            "with other options";
   const RunRecord* last = session.lastRunOf(id);
   if (last == nullptr || last->digest != subject.run->digest)
-    return "this is not the last run of the case: look at the last one, or run again";
-  if (last->inputs_sha256 != inputsDigest(*one))
-    return "the run is of other inputs than the case has now: run again";
+    return "this is not the last run of the case; review the last run, or run again";
+  if (last->inputs_sha256 != inputsDigest(*session_case))
+    return "the inputs have changed since the run: run again";
   return "";
 }
 
 Session validated(const Session& session, const ReviewSubject& subject,
-                  const std::vector<Check>& checks, const CheckOverrides& overrides,
-                  const Signature& who, int basin_seeds) {
-  const Signature signature = requireSigned(who, "validates");
+                  const std::vector<Check>& checks, const CheckWaivers& waivers,
+                  const Signature& who, int convergence_seeds) {
+  const Signature signature = requireSigned(who, "validate this pose");
   const std::string concern = validationConcern(session, subject);
   if (!concern.empty()) throw DecisionError(concern);
-  requireKnownOverrides(checks, overrides);
+  requireKnownWaivers(checks, waivers);
   const std::string& id = subject.loaded->source.id;
   Decision decision = newDecision(id, Verdict::kValidated, signature);
-  decision.checks = judgedChecks(checks, overrides);
-  decision.basin_seeds = basin_seeds;
+  decision.checks = judgedChecks(checks, waivers);
+  decision.convergence_seeds = convergence_seeds;
   requireAnswered(decision.checks);
   if (subject.run) decision.digest = subject.run->digest;
   decision.pose = JudgedPose{subject.source, subject.camera_from_station, subject.covariance};
@@ -320,15 +318,15 @@ Session validated(const Session& session, const ReviewSubject& subject,
 
 Session approved(const Session& session, const std::string& case_id, const Signature& who) {
   requireCase(session, case_id);
-  const Signature signature = requireSigned(who, "approves");
+  const Signature signature = requireSigned(who, "approve this validation");
   const ReviewStatus status = reviewStatusOf(session, case_id);
   if (status.decision == nullptr || status.decision->verdict != Verdict::kValidated)
     throw DecisionError("there is no validation of '" + case_id + "' to approve");
   if (!status.holds()) throw DecisionError("the validation no longer holds: " + status.dropped);
   if (status.decision->approval)
-    throw DecisionError("it has been approved already, by " + status.decision->approval->by);
+    throw DecisionError("it is already approved by " + status.decision->approval->by);
   if (samePerson(status.decision->by, signature.by))
-    throw DecisionError(signature.by + " validated it: somebody else has to approve");
+    throw DecisionError(signature.by + " validated it; another person must approve");
   Decision decision = *status.decision;
   decision.approval = Approval{signature.by, signature.comment, utcNowText()};
   return withDecision(session, std::move(decision));
@@ -337,7 +335,8 @@ Session approved(const Session& session, const std::string& case_id, const Signa
 Session rejected(const Session& session, const std::string& case_id,
                  const std::vector<Check>& checks, const Signature& who) {
   requireCase(session, case_id);
-  Decision decision = newDecision(case_id, Verdict::kRejected, requireSigned(who, "rejects"));
+  Decision decision =
+      newDecision(case_id, Verdict::kRejected, requireSigned(who, "reject this result"));
   decision.checks = judgedChecks(checks, {});
   if (const RunRecord* run = session.lastRunOf(case_id)) decision.digest = run->digest;
   decision.input_fingerprint = inputFingerprint(session, case_id, decision.digest);
@@ -350,7 +349,7 @@ Session reopened(const Session& session, const std::string& case_id, const Signa
   if (last == nullptr || last->verdict == Verdict::kReopened)
     throw DecisionError("there is no decision on '" + case_id + "' to take back");
   return withDecision(session, newDecision(case_id, Verdict::kReopened,
-                                           requireSigned(who, "takes the decision back")));
+                                           requireSigned(who, "withdraw this decision")));
 }
 
 }  // namespace boresight::sessions

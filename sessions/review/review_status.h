@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a case stands: what was run, marked and decided, and whether a decision still holds.
+// Where a case stands: what was run, annotated and decided, and whether a decision still holds.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ struct ReviewStatus {
   /// The last decision, also when it does not hold; nullptr: there is none, or it was taken back.
   /// Points into the session.
   const Decision* decision = nullptr;
-  std::string dropped;           ///< why it does not hold: "the marks have changed"; "": it does
+  std::string dropped;  ///< why it does not hold: "the annotations have changed"; "": it does
   bool awaits_approval = false;  ///< validated by one person where two are asked for
 
   bool holds() const { return decision != nullptr && dropped.empty(); }
@@ -36,23 +36,24 @@ ReviewStatus reviewStatusOf(const Session& session, const std::string& case_id);
 
 /// The status in words, never less than the truth: "validated by A, approved by B", "NOT
 /// VALIDATED: converged", "NOT VALIDATED: converged; the validation by A no longer holds, as the
-/// marks have changed".
+/// annotations have changed".
 std::string reviewStatusText(const ReviewStatus& status);
 
-/// SHA-256 by name: "inputs" (of runs), "run" (its digest), "marks" (of the case and its rig),
-/// "truth", "input_sigmas", "requirement", "end_effector", "rig", "other_runs" (of the rig's other
-/// cameras, where they have one), "onboard_record", "limits". Not the options: those of a run are
-/// part of its digest. `run_digest` is empty for what rests on no run. Empty when there is no such
-/// case.
+/// SHA-256 by name: "inputs" (of runs), "run" (its digest), "annotations" (of the case and its
+/// rig), "truth", "input_sigmas", "requirement", "end_effector", "rig", "other_runs" (of the rig's
+/// other cameras, where they have one), "onboard_record", "limits". Not the options: those of a run
+/// are part of its digest. `run_digest` is empty for what rests on no run. Empty when there is no
+/// such case.
 std::map<std::string, std::string> inputFingerprint(const Session& session,
                                                     const std::string& case_id,
                                                     const std::string& run_digest);
 
-/// What differs, as a clause: "the marks and the requirement have changed"; empty when nothing.
+/// What differs, as a clause: "the annotations and the requirement have changed"; empty when
+/// nothing.
 std::string changedInputsText(const std::map<std::string, std::string>& before,
-                              const std::map<std::string, std::string>& now);
+                              const std::map<std::string, std::string>& after);
 
-/// A decision that is not allowed; `what()` is a sentence for people.
+/// A decision that is not allowed; `what()` is one readable sentence.
 class DecisionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -65,21 +66,21 @@ struct Signature {
 };
 
 /// Whether two names are one person's, whatever the case of their letters and their blanks.
-bool samePerson(const std::string& one, const std::string& other);
+bool samePerson(const std::string& text, const std::string& other);
 
 /// Reasons for passing over failed checks, by their ids.
-using CheckOverrides = std::map<std::string, std::string>;
+using CheckWaivers = std::map<std::string, std::string>;
 
 /// Why this pose cannot be validated now, or "": the run did not converge, it is stale (inputs or
 /// options have changed since), or it is not the case's last one.
 std::string validationConcern(const Session& session, const ReviewSubject& subject);
 
 /// Vouches for a pose: with a name, a comment, and every check passed or passed over with a reason.
-/// `basin_seeds` is the number of further seeds that the checks rest on, 0: none. DecisionError
-/// otherwise.
+/// `convergence_seeds` is the number of further seeds that the checks rest on, 0: none.
+/// DecisionError otherwise.
 Session validated(const Session& session, const ReviewSubject& subject,
-                  const std::vector<Check>& checks, const CheckOverrides& overrides,
-                  const Signature& who, int basin_seeds = 0);
+                  const std::vector<Check>& checks, const CheckWaivers& waivers,
+                  const Signature& who, int convergence_seeds = 0);
 
 /// The second person's yes to a validation that holds. DecisionError when there is none, or when it
 /// is the first person again (whatever the case or blanks of the name).

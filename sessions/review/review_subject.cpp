@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "core/localizer/localizer.h"
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/review/pose_uncertainty.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
 
@@ -21,19 +21,19 @@ namespace {
 const RunRecord& runToReview(const Session& session, const std::string& case_id,
                              const std::string& digest) {
   if (const RunRecord* run = findRun(session, case_id, digest)) return *run;
-  throw InputError("case " + case_id, "runs",
-                   digest.empty() ? "it was not run yet: run it first"
-                                  : "there is no run of the digest " + digest);
+  throw InputError(
+      "case " + case_id, "runs",
+      digest.empty() ? "it has no run: run it first" : "there is no run with digest " + digest);
 }
 
-std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& loaded,
-                                     std::string& reason) {
+std::optional<OtherPose> poseOfAnnotations(const Session& session, const LoadedCase& loaded,
+                                           std::string& reason) {
   const std::string& id = loaded.source.id;
-  reason = "it has no marks";
+  reason = "it has no annotations";
   if (!session.annotations.contains(id)) return {};
-  const CaseMarksSolution solved =
-      solveCaseMarks(caseMarks(session, id), marksGuess(loaded.source),
-                     boxCorners(matchedBounds(loaded.scene.view())), false);
+  const CaseAnnotationsSolution solved =
+      solveCaseAnnotations(caseAnnotations(session, id), annotationsGuess(loaded.source),
+                           boxCorners(matchedBounds(loaded.scene.view())), false);
   reason = solved.result.reason;
   if (!solved.result.solution) return {};
   return OtherPose{"the annotation", *solved.camera_from_station(), {*solved.covariance()}};
@@ -43,13 +43,14 @@ std::optional<OtherPose> poseOfMarks(const Session& session, const LoadedCase& l
 /// converged with the inputs that it has now.
 std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& loaded,
                                      const SessionCase& other, const RunReader& read_run) {
-  const SessionCase& one = loaded.source;
-  const RunRecord* run = ownRunOf(session, other.id, one.id);
+  const SessionCase& session_case = loaded.source;
+  const RunRecord* run = ownRunOf(session, other.id, session_case.id);
   if (run == nullptr || run->inputs_sha256 != inputsDigest(other) ||
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
   const LocalizationTrace seen = read_run(*run);
-  const Pose one_from_other = one.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
+  const Pose one_from_other =
+      session_case.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
   const PoseCovariance own =
       poseCovariance(other, loaded.scene.view(), seen.camera_from_station, seen.covariance);
   const auto turned = [turn = adjointOf(one_from_other)](const Matrix6d& covariance) {
@@ -84,8 +85,7 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
   const std::vector<std::uint8_t> bytes = readFileBytes(known->file, 64 * kMegabyte);
   if (sha256Text(bytes) != known->sha256)
     throw InputError(known->file,
-                     "its bytes are not those that the session knows: accept the file as it is "
-                     "now, or relink it");
+                     "it differs from the session's file: accept it as it is now, or relink it");
   const LocalizationProblem given = loaded.problem();
   return compareRecords(parseRecord(known->file, bytes), recordOf(run, &given));
 }
@@ -93,12 +93,12 @@ std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
 }  // namespace
 
 std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station) {
-  const SessionCase& one = loaded.source;
-  if (!one.camera_from_station_truth) return std::nullopt;
-  const Pose& truth = *one.camera_from_station_truth;
-  PoseError error = poseError(truth, camera_from_station, one.camera_from_end_effector);
-  error.projection_px =
-      projectionError(one.camera, truth, camera_from_station, matchedVertices(loaded.scene.view()));
+  const SessionCase& session_case = loaded.source;
+  if (!session_case.camera_from_station_truth) return std::nullopt;
+  const Pose& truth = *session_case.camera_from_station_truth;
+  PoseError error = poseError(truth, camera_from_station, session_case.camera_from_end_effector);
+  error.projection_px = projectionError(session_case.camera, truth, camera_from_station,
+                                        matchedVertices(loaded.scene.view()));
   return error;
 }
 
@@ -106,23 +106,24 @@ ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const Loaded
                             PoseSource source, const std::string& digest,
                             const RunReader& read_run) {
   ReviewSubject subject;
-  const SessionCase& one = loaded->source;
-  subject.requirement = requirementOf(session, one);
+  const SessionCase& session_case = loaded->source;
+  subject.requirement = requirementOf(session, session_case);
   subject.source = source;
   std::string reason;
-  auto marked = poseOfMarks(session, *loaded, reason);
+  auto annotated = poseOfAnnotations(session, *loaded, reason);
   if (source == PoseSource::kRun) {
-    takeRun(read_run(runToReview(session, one.id, digest)), subject);
+    takeRun(read_run(runToReview(session, session_case.id, digest)), subject);
     subject.onboard = againstOnboard(*loaded, *subject.run);
-    subject.annotated = std::move(marked);
+    subject.annotated = std::move(annotated);
   } else {
-    if (!marked) throw InputError("case " + one.id, "marks", "they give no pose: " + reason);
-    subject.camera_from_station = marked->camera_from_station;
-    subject.covariance = marked->covariance;
+    if (!annotated)
+      throw InputError("case " + session_case.id, "annotations", "they give no pose: " + reason);
+    subject.camera_from_station = annotated->camera_from_station;
+    subject.covariance = annotated->covariance;
   }
-  subject.covariance = poseCovariance(one, loaded->scene.view(), subject.camera_from_station,
-                                      subject.covariance.picture);
-  if (one.rig) subject.other_cameras = otherCameras(session, *loaded, read_run);
+  subject.covariance = poseCovariance(session_case, loaded->scene.view(),
+                                      subject.camera_from_station, subject.covariance.picture);
+  if (session_case.rig) subject.other_cameras = otherCameras(session, *loaded, read_run);
   subject.loaded = std::move(loaded);
   return subject;
 }

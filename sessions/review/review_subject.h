@@ -17,11 +17,11 @@
 
 namespace boresight::sessions {
 
-/// A pose of the same camera that somebody or something else came to.
+/// A pose of the same camera from another source.
 struct OtherPose {
-  std::string from;  ///< for people: "the annotation", "bc-right"
+  std::string from;  ///< for display: "the annotation", "bc-right"
   Pose camera_from_station;
-  PoseCovariance covariance = {};  ///< of the annotation only the marks' own part
+  PoseCovariance covariance = {};  ///< of the annotation only the annotations' own part
 };
 
 /// A pose of a case, and all that it can be checked by. A value: it may be checked on any thread.
@@ -32,7 +32,7 @@ struct ReviewSubject {
   Pose camera_from_station;
   PoseCovariance covariance;
   std::optional<LocalizationTrace> run;  ///< that the pose came from; nothing of annotated ones
-  std::optional<OtherPose> annotated;    ///< by the case's marks, unless these are the source
+  std::optional<OtherPose> annotated;    ///< by the case's annotations, unless these are the source
   std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
   std::optional<RecordComparison>
       onboard;  ///< the case's onboard record with the run, if it has one
@@ -44,7 +44,7 @@ std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera
 /// Where a recorded run comes from: its trace, or a second run of the same inputs.
 using RunReader = std::function<LocalizationTrace(const RunRecord&)>;
 
-/// What there is to check of a case: its last run (or this one), or the pose of its marks.
+/// What there is to check of a case: its last run (or this one), or the pose of its annotations.
 /// `read_run` is asked for the case's run and for those of the rig's other cameras. InputError when
 /// there is no pose of this source, or something cannot be read.
 ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,

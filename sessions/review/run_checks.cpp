@@ -18,14 +18,14 @@ namespace {
 constexpr CheckName kConverged{"converged", "Converged"};
 constexpr CheckName kCorrections{"corrections_shrink", "Corrections shrink"};
 constexpr CheckName kCount{"inlier_count", "Inliers"};
-constexpr CheckName kRatio{"inlier_ratio", "Inliers among the matches"};
+constexpr CheckName kRatio{"inlier_ratio", "Inlier ratio of the matches"};
 constexpr CheckName kSpread{"inlier_spread", "Spread of the inliers over the station"};
 constexpr CheckName kDepth{"inlier_depth", "Spread of the inliers in depth"};
 constexpr CheckName kBorder{"matches_at_border", "Matches on window borders"};
-constexpr CheckName kMargin{"peak_margin", "Best against second-best place"};
+constexpr CheckName kMargin{"peak_margin", "Best against second-best position"};
 
-constexpr const char* kFromMarks = "The pose comes from marks, not from a run.";
-constexpr const char* kNoMatching = "The run has no iteration that matched.";
+constexpr const char* kFromAnnotations = "The pose comes from annotations, not from a run.";
+constexpr const char* kNoMatching = "The run has no matching iteration.";
 /// Half the width of a pixel tells a line of edges from a plane of them.
 constexpr double kSpreadFloor_px = 1.0;
 /// A station whose edges lie within so small a part of their distance has no depth to speak of.
@@ -39,19 +39,18 @@ Check convergedCheck(const LocalizationTrace& run) {
           ? "The run converged after " + std::to_string(run.iterations.size()) + " iterations."
           : std::string("The run ended as ") + localizationStatusText(run.status) + ".";
   if (hasProbability(run)) found += " " + acceptanceText(run);
-  return statedCheck(
-      kConverged, run.converged(), found,
-      "Look at the iteration in which it failed; begin nearer, or mark what cannot be trusted.");
+  return statedCheck(kConverged, run.converged(), found,
+                     "Check the failed iteration; start nearer, or ignore unreliable pixels.");
 }
 
 /// Of the last attempt, those iterations that came to a pose.
 std::vector<const IterationTrace*> lastAttempt(const LocalizationTrace& run) {
   std::vector<const IterationTrace*> found;
-  for (const auto& one : run.iterations) {
-    if (!found.empty() && found.back()->attempt != one->attempt) found.clear();
-    if (one->status == LocalizationStatus::kRunning ||
-        one->status == LocalizationStatus::kConverged)
-      found.push_back(one.get());
+  for (const auto& item : run.iterations) {
+    if (!found.empty() && found.back()->attempt != item->attempt) found.clear();
+    if (item->status == LocalizationStatus::kRunning ||
+        item->status == LocalizationStatus::kConverged)
+      found.push_back(item.get());
   }
   return found;
 }
@@ -59,23 +58,22 @@ std::vector<const IterationTrace*> lastAttempt(const LocalizationTrace& run) {
 Check correctionsCheck(const LocalizationTrace& run, const CheckLimits& limits) {
   const auto iterations = lastAttempt(run);
   if (iterations.size() < 2)
-    return notAskedCheck(kCorrections, "Fewer than two iterations came to a pose.");
+    return notAskedCheck(kCorrections, "Fewer than two iterations have a pose.");
   if (run.iterations.back().get() != iterations.back())
-    return notAskedCheck(kCorrections, "The last iteration came to no pose.");
+    return notAskedCheck(kCorrections, "The last iteration has no pose.");
   const double first_px = iterations.front()->correction_image_px;
   const double last_px = iterations.back()->correction_image_px;
   const std::string found = "The first iteration moved the station by " + sentenceNumber(first_px) +
                             " px in the image, the last one by " + sentenceNumber(last_px) + " px.";
   return measuredCheck(kCorrections, "%", 100.0 * last_px / std::max(first_px, 1.0),
                        limits.last_correction_percent, LimitSide::kAtMost, found,
-                       "The pose has not settled: run with more iterations, or look at what the "
-                       "last ones matched.");
+                       "The pose has not settled: run more iterations, or check the last matches.");
 }
 
 const IterationTrace* lastMatching(const LocalizationTrace& run) {
   const IterationTrace* found = nullptr;
-  for (const auto& one : run.iterations)
-    if (one->kind == IterationKind::kMatch && one->reached > Stage::kRender) found = one.get();
+  for (const auto& item : run.iterations)
+    if (item->kind == IterationKind::kMatch && item->reached > Stage::kRender) found = item.get();
   return found;
 }
 
@@ -85,14 +83,13 @@ void addCounts(const IterationTrace& iteration, const CheckLimits& limits,
   const double matches = iteration.correspondence_count;
   const std::string found = count(inliers) + " of " + count(matches) +
                             " matches of the last matching iteration agree on the pose.";
-  checks.push_back(measuredCheck(
-      kCount, "", inliers, limits.inlier_count, LimitSide::kAtLeast, found,
-      "So few may agree by chance: look at the templates that were not matched, and at the mesh."));
-  checks.push_back(measuredCheck(
-      kRatio, "%", matches > 0.0 ? 100.0 * inliers / matches : 0.0, limits.inlier_ratio_percent,
-      LimitSide::kAtLeast, found,
-      "Many matches contradict the pose: look at where they lie; mask what does not belong to the "
-      "station."));
+  checks.push_back(
+      measuredCheck(kCount, "", inliers, limits.inlier_count, LimitSide::kAtLeast, found,
+                    "Few inliers may agree by chance: check unmatched templates and the mesh."));
+  checks.push_back(measuredCheck(kRatio, "%", matches > 0.0 ? 100.0 * inliers / matches : 0.0,
+                                 limits.inlier_ratio_percent, LimitSide::kAtLeast, found,
+                                 "Many matches contradict the pose: check their positions; ignore "
+                                 "pixels that are not of the station."));
 }
 
 struct InlierPlaces {
@@ -103,46 +100,45 @@ struct InlierPlaces {
 };
 
 InlierPlaces inlierPlaces(const IterationTrace& iteration) {
-  InlierPlaces made;
+  InlierPlaces inlier_places;
   for (const MatchDetails& match : matchDetails(iteration)) {
     if (!match.inlier) continue;
-    made.inliers_px.push_back(match.found_px);
-    made.inlier_depths_m.push_back(match.depth_m);
+    inlier_places.inliers_px.push_back(match.found_px);
+    inlier_places.inlier_depths_m.push_back(match.depth_m);
   }
   for (const EdgePixel& pixel : iteration.render.pixels) {
-    made.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
-    made.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
+    inlier_places.edges_px.push_back(fullImagePixel(pixel.x, pixel.y, iteration.level));
+    inlier_places.edge_depths_m.push_back(static_cast<double>(pixel.depth_m));
   }
-  return made;
+  return inlier_places;
 }
 
 Check spreadCheck(const InlierPlaces& places, const CheckLimits& limits) {
   const auto spread = leastSpread(places.inliers_px, places.edges_px, kSpreadFloor_px);
-  if (!spread) return notAskedCheck(kSpread, "The run did not keep where its inliers lie.");
+  if (!spread) return notAskedCheck(kSpread, "The run has no stored inlier positions.");
   const std::string percent = count(100.0 * *spread);
   return measuredCheck(
       kSpread, "%", 100.0 * *spread, limits.inlier_spread_percent, LimitSide::kAtLeast,
-      "In the direction in which they spread least, the inliers spread " + percent +
+      "In their narrowest direction the inliers spread " + percent +
           " % as wide as the station's edges.",
-      "A part of the station holds the pose alone, and errors grow away from it: look for what "
-      "hides the rest, or for another station there.");
+      "One part of the station determines the pose: check for occlusion, or for another station.");
 }
 
 Check depthCheck(const InlierPlaces& places, const CheckLimits& limits) {
   const auto& depths = places.edge_depths_m;
   if (depths.size() < 2 || places.inliers_px.size() < 2)
-    return notAskedCheck(kDepth, "The run did not keep where its inliers lie.");
+    return notAskedCheck(kDepth, "The run has no stored inlier positions.");
   const double edges_m = deviationOf(depths);
   if (edges_m < kLeastDepthShare * medianOf(depths))
     return notAskedCheck(kDepth, "The station's edges lie at nearly the same distance.");
   const double inliers_m = deviationOf(places.inlier_depths_m);
-  return measuredCheck(
-      kDepth, "%", 100.0 * inliers_m / edges_m, limits.inlier_depth_percent, LimitSide::kAtLeast,
-      "Along the view axis the inliers spread by " + sentenceNumber(1e3 * inliers_m) +
-          " mm, the station's edges by " + sentenceNumber(1e3 * edges_m) +
-          " mm (standard deviations).",
-      "Inliers at one depth leave distance and tilt loose: look at the templates nearer and "
-      "farther.");
+  return measuredCheck(kDepth, "%", 100.0 * inliers_m / edges_m, limits.inlier_depth_percent,
+                       LimitSide::kAtLeast,
+                       "Along the view axis the inliers spread by " +
+                           sentenceNumber(1e3 * inliers_m) + " mm, the station's edges by " +
+                           sentenceNumber(1e3 * edges_m) + " mm (standard deviations).",
+                       "Inliers at one depth constrain distance and tilt weakly: check nearer and "
+                       "farther templates.");
 }
 
 Check borderCheck(const IterationTrace& iteration, const CheckLimits& limits) {
@@ -152,28 +148,25 @@ Check borderCheck(const IterationTrace& iteration, const CheckLimits& limits) {
     searched += match.searched ? 1.0 : 0.0;
     at_border += match.searched && match.at_border ? 1.0 : 0.0;
   }
-  if (searched == 0.0)
-    return notAskedCheck(kBorder, "The run did not keep where its templates were found.");
-  return measuredCheck(kBorder, "%", 100.0 * at_border / searched, limits.border_percent,
-                       LimitSide::kAtMost,
-                       count(at_border) + " of " + count(searched) +
-                           " templates were found on the border of their search window.",
-                       "The station may lie beyond the windows: begin nearer, or declare a larger "
-                       "uncertainty.");
+  if (searched == 0.0) return notAskedCheck(kBorder, "The run has no stored template positions.");
+  return measuredCheck(
+      kBorder, "%", 100.0 * at_border / searched, limits.border_percent, LimitSide::kAtMost,
+      count(at_border) + " of " + count(searched) +
+          " templates were found on the border of their search window.",
+      "The station may lie outside the windows: start nearer, or declare a larger uncertainty.");
 }
 
 Check marginCheck(const IterationTrace& iteration, const CheckLimits& limits) {
   std::vector<double> margins;
   for (const MatchDetails& match : matchDetails(iteration))
     if (match.inlier && std::isfinite(match.margin)) margins.push_back(100.0 * match.margin);
-  if (margins.empty())
-    return notAskedCheck(kMargin, "No inlier has a second-best place to compare with.");
+  if (margins.empty()) return notAskedCheck(kMargin, "No inlier has a second-best position.");
   const double median = medianOf(margins);
-  return measuredCheck(kMargin, "%", median, limits.peak_margin_percent, LimitSide::kAtLeast,
-                       "Half of the inliers score at least " + sentenceNumber(median) +
-                           " % above their second-best place.",
-                       "The templates could as well lie elsewhere: look at the score maps for a "
-                       "pattern that repeats.");
+  return measuredCheck(
+      kMargin, "%", median, limits.peak_margin_percent, LimitSide::kAtLeast,
+      "Half of the inliers score at least " + sentenceNumber(median) +
+          " % above their second-best position.",
+      "Template positions are ambiguous: check the score maps for a repeating pattern.");
 }
 
 void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
@@ -193,8 +186,7 @@ void addMatchingChecks(const LocalizationTrace& run, const CheckLimits& limits,
 }
 
 constexpr CheckName kOnboard{"agreement_onboard", "Agreement with the onboard record"};
-constexpr const char* kRemedy =
-    "Compare both runs step by step: what ran onboard is not what is checked here.";
+constexpr const char* kRemedy = "Compare both runs: the checked run is not the onboard run.";
 
 std::string differenceText(const RecordComparison& compared) {
   std::string text;
@@ -217,7 +209,7 @@ void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
   if (!subject.run) {
     for (const CheckName& name :
          {kConverged, kCorrections, kCount, kRatio, kSpread, kDepth, kBorder, kMargin})
-      checks.push_back(notAskedCheck(name, kFromMarks));
+      checks.push_back(notAskedCheck(name, kFromAnnotations));
     return;
   }
   checks.push_back(convergedCheck(*subject.run));
@@ -233,17 +225,18 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks) {
   const std::string difference = differenceText(*subject.onboard);
   switch (subject.onboard->verdict) {
     case RunVerdict::kEqual:
-      checks.push_back(statedCheck(kOnboard, true, "The run is the onboard one, to the bit.", ""));
+      checks.push_back(
+          statedCheck(kOnboard, true, "The run equals the onboard run to the bit.", ""));
       return;
     case RunVerdict::kWithinLimits:
       checks.push_back(statedCheck(
-          kOnboard, true, "The run agrees with the onboard one within limits. " + difference, ""));
+          kOnboard, true, "The run agrees with the onboard run within limits. " + difference, ""));
       return;
     case RunVerdict::kDifferent:
       break;
   }
   checks.push_back(
-      statedCheck(kOnboard, false, "The run is not the onboard one. " + difference, kRemedy));
+      statedCheck(kOnboard, false, "The run differs from the onboard run. " + difference, kRemedy));
 }
 
 std::int32_t lastInliers(const LocalizationTrace& run) {

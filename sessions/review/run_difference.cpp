@@ -29,23 +29,24 @@ struct ReadRun {
 
 ReadRun readRun(const Session& session, const std::string& digest,
                 const std::shared_ptr<const LoadedCase>& loaded) {
-  ReadRun made;
-  made.record = findRun(session, loaded->source.id, digest);
-  if (made.record == nullptr)
-    throw std::invalid_argument("case " + loaded->source.id + " has no run of the digest " +
-                                digest);
-  made.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
-  made.checks = checkPose(made.subject, checkLimits(session.review.preset, session.review.limits));
-  return made;
+  ReadRun read_run;
+  read_run.record = findRun(session, loaded->source.id, digest);
+  if (read_run.record == nullptr)
+    throw std::invalid_argument("case " + loaded->source.id + " has no run with digest " + digest);
+  read_run.subject = reviewSubject(session, loaded, PoseSource::kRun, digest);
+  read_run.checks =
+      checkPose(read_run.subject, checkLimits(session.review.preset, session.review.limits));
+  return read_run;
 }
 
 void takeError(const ReviewSubject& subject, RunSide& side) {
   if (!side.converged) return;
   side.error = truthError(*subject.loaded, subject.camera_from_station);
   if (!side.error) return;
-  const SessionCase& one = subject.loaded->source;
-  const Matrix6d truth_covariance = one.truth_covariance.value_or(Matrix6d::Zero());
-  if (sigmaExcessText(truth_covariance, one.camera_from_end_effector, subject.requirement).empty())
+  const SessionCase& session_case = subject.loaded->source;
+  const Matrix6d truth_covariance = session_case.truth_covariance.value_or(Matrix6d::Zero());
+  if (sigmaExcessText(truth_covariance, session_case.camera_from_end_effector, subject.requirement)
+          .empty())
     side.error_share = requirementShare(*side.error, subject.requirement);
 }
 
@@ -77,13 +78,13 @@ std::vector<CheckChange> changedChecks(const std::vector<Check>& before,
 
 std::vector<OptionChangeText> changedOptions(const LocalizerOptions& before,
                                              const LocalizerOptions& after) {
-  const auto one = listOptions(before);
+  const auto value = listOptions(before);
   const auto other = listOptions(after);
   std::vector<OptionChangeText> changed;
-  for (std::size_t i = 0; i < one.size(); ++i)
-    if (!(one[i].value == other[i].value))
-      changed.push_back(
-          {one[i].name, valueText(one[i], one[i].value), valueText(other[i], other[i].value)});
+  for (std::size_t i = 0; i < value.size(); ++i)
+    if (!(value[i].value == other[i].value))
+      changed.push_back({value[i].name, valueText(value[i], value[i].value),
+                         valueText(other[i], other[i].value)});
   return changed;
 }
 
@@ -103,7 +104,7 @@ int rankByTruth(const RunSide& side) {
 
 std::string truthText(const RunSide& side) {
   if (!side.converged) return "failed";
-  return fixedText(100.0 * side.error_share.value_or(0.0), 0) + " % of the requirement off";
+  return "error " + fixedText(100.0 * side.error_share.value_or(0.0), 0) + " % of the requirement";
 }
 
 std::string checksText(const RunSide& side) {
@@ -118,20 +119,20 @@ RunChange changeOf(double before, double after) {
   return after > before ? RunChange::kWorse : RunChange::kSame;
 }
 
-RunChange judgedByTruth(const RunDifference& made) {
-  const int before = rankByTruth(made.before);
-  const int after = rankByTruth(made.after);
+RunChange judgedByTruth(const RunDifference& run_difference) {
+  const int before = rankByTruth(run_difference.before);
+  const int after = rankByTruth(run_difference.after);
   if (before != after || before != 2) return changeOf(before, after);
-  const double nearer = *made.before.error_share - *made.after.error_share;
+  const double nearer = *run_difference.before.error_share - *run_difference.after.error_share;
   if (std::abs(nearer) < kTelling) return RunChange::kSame;
   return nearer > 0.0 ? RunChange::kBetter : RunChange::kWorse;
 }
 
-RunChange judgedByChecks(const RunDifference& made) {
+RunChange judgedByChecks(const RunDifference& run_difference) {
   const auto rank = [](const RunSide& side) {
     return side.converged ? static_cast<double>(side.checks_failed) : 1e9;
   };
-  return changeOf(rank(made.before), rank(made.after));
+  return changeOf(rank(run_difference.before), rank(run_difference.after));
 }
 
 std::string errorText(const RunSide& side) {
@@ -169,15 +170,18 @@ std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& ca
   return pair.before ? std::optional(pair) : std::nullopt;
 }
 
-void judgeChange(RunDifference& made) {
-  const bool truth = made.before.error_share || made.after.error_share;
-  const std::string before = truth ? truthText(made.before) : checksText(made.before);
-  const std::string after = truth ? truthText(made.after) : checksText(made.after);
-  made.change = truth ? judgedByTruth(made) : judgedByChecks(made);
-  if (made.before.digest == made.after.digest)
-    made.why = "bit for bit";
+void judgeChange(RunDifference& run_difference) {
+  const bool truth = run_difference.before.error_share || run_difference.after.error_share;
+  const std::string before =
+      truth ? truthText(run_difference.before) : checksText(run_difference.before);
+  const std::string after =
+      truth ? truthText(run_difference.after) : checksText(run_difference.after);
+  run_difference.change = truth ? judgedByTruth(run_difference) : judgedByChecks(run_difference);
+  if (run_difference.before.digest == run_difference.after.digest)
+    run_difference.why = "bit for bit";
   else
-    made.why = before == after ? after + " before and now" : before + " before, now " + after;
+    run_difference.why =
+        before == after ? after + " before and now" : before + " before, now " + after;
 }
 
 RunDifference compareRuns(const Session& session, const std::string& before_digest,
@@ -185,51 +189,54 @@ RunDifference compareRuns(const Session& session, const std::string& before_dige
                           std::shared_ptr<const LoadedCase> loaded) {
   const ReadRun before = readRun(session, before_digest, loaded);
   const ReadRun after = readRun(session, after_digest, loaded);
-  RunDifference made;
-  made.case_id = loaded->source.id;
-  made.before = sideOf(before);
-  made.after = sideOf(after);
-  made.inputs_differ = before.record->inputs_sha256 != after.record->inputs_sha256;
-  made.options = changedOptions(before.subject.run->options, after.subject.run->options);
-  made.checks = changedChecks(before.checks, after.checks);
-  made.comparison = compareRecords(recordOfRun(before), recordOfRun(after));
-  judgeChange(made);
-  return made;
+  RunDifference run_difference;
+  run_difference.case_id = loaded->source.id;
+  run_difference.before = sideOf(before);
+  run_difference.after = sideOf(after);
+  run_difference.inputs_differ = before.record->inputs_sha256 != after.record->inputs_sha256;
+  run_difference.options = changedOptions(before.subject.run->options, after.subject.run->options);
+  run_difference.checks = changedChecks(before.checks, after.checks);
+  run_difference.comparison = compareRecords(recordOfRun(before), recordOfRun(after));
+  judgeChange(run_difference);
+  return run_difference;
 }
 
-std::vector<DifferenceLine> differenceLines(const RunDifference& made) {
+std::vector<DifferenceLine> differenceLines(const RunDifference& run_difference) {
   std::vector<DifferenceLine> lines = {
-      {"How it ended", endText(made.before), endText(made.after)},
-      {"Inliers", std::to_string(made.before.inliers), std::to_string(made.after.inliers)},
-      {"Checks", checkText(made.before), checkText(made.after)}};
-  if (made.before.error || made.after.error)
-    lines.push_back(
-        {"Off the truth: along, across, turned", errorText(made.before), errorText(made.after)});
-  for (const CheckChange& check : made.checks)
+      {"Status", endText(run_difference.before), endText(run_difference.after)},
+      {"Inliers", std::to_string(run_difference.before.inliers),
+       std::to_string(run_difference.after.inliers)},
+      {"Checks", checkText(run_difference.before), checkText(run_difference.after)}};
+  if (run_difference.before.error || run_difference.after.error)
+    lines.push_back({"Error: along, across, rotation", errorText(run_difference.before),
+                     errorText(run_difference.after)});
+  for (const CheckChange& check : run_difference.checks)
     lines.push_back({check.title, checkStateText(check.before), checkStateText(check.after)});
-  for (const OptionChangeText& option : made.options)
+  for (const OptionChangeText& option : run_difference.options)
     lines.push_back({option.name, option.before, option.after});
   return lines;
 }
 
-std::string changeText(const RunDifference& made) {
-  std::string text = sentence(std::string(runChangeText(made.change)) + ": " + made.why);
-  if (made.inputs_differ) text += " The runs were given other inputs.";
-  if (made.comparison.first)
-    text += " They differ first in the " + std::string(runPartText(made.comparison.first->part)) +
-            ": " + made.comparison.first->text + ".";
+std::string changeText(const RunDifference& run_difference) {
+  std::string text =
+      sentence(std::string(runChangeText(run_difference.change)) + ": " + run_difference.why);
+  if (run_difference.inputs_differ) text += " The inputs of the runs differ.";
+  if (run_difference.comparison.first)
+    text +=
+        " First difference: " + std::string(runPartText(run_difference.comparison.first->part)) +
+        ": " + run_difference.comparison.first->text + ".";
   return text;
 }
 
-std::string differenceText(const RunDifference& made) {
-  TextTable table({made.case_id, "before", "now"});
-  for (const DifferenceLine& line : differenceLines(made))
+std::string differenceText(const RunDifference& run_difference) {
+  TextTable table({run_difference.case_id, "before", "now"});
+  for (const DifferenceLine& line : differenceLines(run_difference))
     table.add({line.label, line.before, line.after});
   std::string apart;
-  if (made.before.converged && made.after.converged)
-    apart = "Final poses " + fixedText(made.comparison.translation_mm, 3) + " mm and " +
-            fixedText(made.comparison.rotation_mrad, 3) + " mrad apart at the camera.\n";
-  return table.text() + apart + plainLine(changeText(made));
+  if (run_difference.before.converged && run_difference.after.converged)
+    apart = "Final poses " + fixedText(run_difference.comparison.translation_mm, 3) + " mm and " +
+            fixedText(run_difference.comparison.rotation_mrad, 3) + " mrad apart at the camera.\n";
+  return table.text() + apart + plainLine(changeText(run_difference));
 }
 
 }  // namespace boresight::sessions

@@ -94,7 +94,7 @@ struct DifferenceLine {
 std::vector<DifferenceLine> differenceLines(const RunDifference& difference);
 /// "better: 2 checks failed before, none now", and the first difference: one or two sentences.
 std::string changeText(const RunDifference& difference);
-/// All of it for people.
+/// The whole report as text.
 std::string differenceText(const RunDifference& difference);
 
 }  // namespace boresight::sessions

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 
 namespace boresight::sessions {
 namespace {
@@ -25,9 +25,9 @@ cv::Rect2d stationBox(const Camera& camera, const MeshView& mesh, std::span<cons
       if (project(camera, camera_from_station * corner, pixel)) box.extend(pixel);
     }
     if (box.isEmpty()) continue;
-    const cv::Rect2d one =
+    const cv::Rect2d rect2d =
         cv::Rect2d(box.min().x(), box.min().y(), box.sizes().x(), box.sizes().y()) & image;
-    if (one.area() > 0.0) all = all.area() > 0.0 ? all | one : one;
+    if (rect2d.area() > 0.0) all = all.area() > 0.0 ? all | rect2d : rect2d;
   }
   return all;
 }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
@@ -41,7 +41,7 @@ ordered_json conventionsJson() {
           {"covariance",
            "6x6 over (rotation rad, translation m); of camera_from_station: left "
            "perturbation in the camera frame, Exp(xi) * camera_from_station; the sum of its terms: "
-           "picture (or marks), the mesh's scale, the camera's calibration"}};
+           "picture (or annotations), the mesh's scale, the camera's calibration"}};
 }
 
 ordered_json quaternionJson(const Pose& pose) {
@@ -69,7 +69,7 @@ ordered_json inputSigmasJson(const InputSigmas& sigmas) {
           {"calibration_is", sigmas.calibration_stated ? "stated" : "assumed"}};
 }
 
-ordered_json poseJson(const HandedPose& pose, const SessionCase& one) {
+ordered_json poseJson(const HandedPose& pose, const SessionCase& session_case) {
   ordered_json json;
   json["source"] = pose.source == PoseSource::kRun ? "run" : "annotation";
   json["camera_from_station"] = toJson(pose.camera_from_station);
@@ -78,25 +78,25 @@ ordered_json poseJson(const HandedPose& pose, const SessionCase& one) {
   if (pose.covariance.known()) {
     json["covariance"] = toJson(pose.covariance.total());
     json["covariance_terms"] = toJson(pose.covariance);
-    json["one_sigma"] = sigmaJson(pose.covariance.total(), one.camera_from_end_effector);
-    json["input_sigmas"] = inputSigmasJson(InputSigmas(one));
+    json["one_sigma"] = sigmaJson(pose.covariance.total(), session_case.camera_from_end_effector);
+    json["input_sigmas"] = inputSigmasJson(InputSigmas(session_case));
   }
   return json;
 }
 
-ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& one) {
-  const EndEffectorPose made =
-      endEffectorPose(one.camera_from_station_seed, pose.camera_from_station,
-                      *one.camera_from_end_effector, pose.covariance.total());
-  const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
+ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& session_case) {
+  const EndEffectorPose end_effector_pose =
+      endEffectorPose(session_case.camera_from_station_seed, pose.camera_from_station,
+                      *session_case.camera_from_end_effector, pose.covariance.total());
+  const Pose& correction = end_effector_pose.end_effector_seed_from_end_effector_estimated;
   ordered_json json;
-  json["station_from_end_effector"] = toJson(made.station_from_end_effector);
+  json["station_from_end_effector"] = toJson(end_effector_pose.station_from_end_effector);
   json["end_effector_seed_from_end_effector_estimated"] = toJson(correction);
   json["correction_translation_m"] = toJson(correction.translation_m);
   json["correction_rotation_deg"] =
       toJson(Eigen::Vector3d(rotationLog(correction.rotation) / kDegree_rad));
   if (pose.covariance.known()) {
-    json["covariance"] = toJson(made.covariance);
+    json["covariance"] = toJson(end_effector_pose.covariance);
     json["covariance_is_of"] =
         "(rotation rad, translation m), right perturbation in the end effector's frame";
   }
@@ -117,12 +117,13 @@ std::string runText(const HandedPose& pose, const Session& session) {
 }
 
 /// The camera model's frame, and what joined the station's to it.
-void addFrames(const SessionCase& one, ordered_json& chain) {
-  if (one.camera_reference)
-    chain.push_back(linkJson("camera_from_reference", one.camera_reference->camera_from_reference,
-                             "the camera model, in " + frameText(one.camera_reference->frame)));
-  if (!one.station_frame || !one.station_frame->joined_by) return;
-  const FrameTransform& join = *one.station_frame->joined_by;
+void addFrames(const SessionCase& session_case, ordered_json& chain) {
+  if (session_case.camera_reference)
+    chain.push_back(
+        linkJson("camera_from_reference", session_case.camera_reference->camera_from_reference,
+                 "the camera model, in " + frameText(session_case.camera_reference->frame)));
+  if (!session_case.station_frame || !session_case.station_frame->joined_by) return;
+  const FrameTransform& join = *session_case.station_frame->joined_by;
   chain.push_back(linkJson("target_from_source", join.target_from_source,
                            join.file.string() + ", sha256 " + join.file_sha256 + ", from " +
                                frameText(join.source) + " to " + frameText(join.target) + ": " +
@@ -130,26 +131,27 @@ void addFrames(const SessionCase& one, ordered_json& chain) {
 }
 
 /// Every transform that was used, and where it came from.
-ordered_json chainJson(const HandedPose& pose, const SessionCase& one, const Session& session) {
+ordered_json chainJson(const HandedPose& pose, const SessionCase& session_case,
+                       const Session& session) {
   ordered_json chain = ordered_json::array();
-  chain.push_back(linkJson("camera_from_station_seed", one.camera_from_station_seed,
-                           "the case's seed, as it was given"));
-  for (const MeshInput& part : one.parts)
+  chain.push_back(linkJson("camera_from_station_seed", session_case.camera_from_station_seed,
+                           "the case's seed, as given"));
+  for (const MeshInput& part : session_case.parts)
     chain.push_back(
         linkJson("station_from_mesh", part.source.station_from_mesh,
                  part.source.mesh.filename().string() + ", sha256 " + part.sha256 +
                      (part.source.mesh_unit.empty() ? ", in its own unit"
                                                     : ", in " + part.source.mesh_unit)));
-  if (one.rig)
-    chain.push_back(
-        linkJson("camera_from_rig", one.rig->camera_from_rig, "rig '" + one.rig->id + "'"));
-  addFrames(one, chain);
-  if (one.camera_from_end_effector)
-    chain.push_back(linkJson("camera_from_end_effector", *one.camera_from_end_effector,
-                             "the case's, as it was given"));
-  chain.push_back(
-      linkJson("camera_from_station", pose.camera_from_station,
-               pose.source == PoseSource::kRun ? runText(pose, session) : "the marks of the case"));
+  if (session_case.rig)
+    chain.push_back(linkJson("camera_from_rig", session_case.rig->camera_from_rig,
+                             "rig '" + session_case.rig->id + "'"));
+  addFrames(session_case, chain);
+  if (session_case.camera_from_end_effector)
+    chain.push_back(linkJson("camera_from_end_effector", *session_case.camera_from_end_effector,
+                             "that of the case, as given"));
+  chain.push_back(linkJson(
+      "camera_from_station", pose.camera_from_station,
+      pose.source == PoseSource::kRun ? runText(pose, session) : "the annotations of the case"));
   return chain;
 }
 
@@ -161,15 +163,15 @@ ordered_json pixelJson(const Eigen::Vector2d& pixel) {
 ordered_json matchesJson(const LocalizationTrace& run) {
   const auto last =
       std::find_if(run.iterations.rbegin(), run.iterations.rend(),
-                   [](const auto& one) { return one->kind == IterationKind::kMatch; });
+                   [](const auto& item) { return item->kind == IterationKind::kMatch; });
   ordered_json list = ordered_json::array();
   if (last == run.iterations.rend()) return list;
   const IterationTrace& iteration = **last;
   for (std::size_t i = 0; i < iteration.correspondences.size(); ++i) {
-    const Correspondence& one = iteration.correspondences[i];
+    const Correspondence& correspondence = iteration.correspondences[i];
     ordered_json json;
-    json["point_in_station_m"] = toJson(one.point_in_station_m);
-    json["pixel"] = pixelJson(one.pixel);
+    json["point_in_station_m"] = toJson(correspondence.point_in_station_m);
+    json["pixel"] = pixelJson(correspondence.pixel);
     if (i < iteration.pnp.inlier.size()) {
       json["inlier"] = iteration.pnp.inlier[i] != 0;
       json["residual_px"] = iteration.pnp.residual_px[i];
@@ -209,14 +211,14 @@ ordered_json decisionJson(const HandedPose& pose, const ReviewStatus& status) {
   return json;
 }
 
-ordered_json hashesJson(const SessionCase& one) {
+ordered_json hashesJson(const SessionCase& session_case) {
   ordered_json json;
-  json["image_file"] = one.image.source.sha256;
-  json["image_pixels"] = one.image.pixels_sha256;
-  for (const MeshInput& part : one.parts) json["meshes"].push_back(part.sha256);
-  if (one.ignore) json["ignore"] = one.ignore->sha256;
-  if (one.onboard_record) json["onboard_record"] = one.onboard_record->sha256;
-  json["inputs"] = inputsDigest(one);
+  json["image_file"] = session_case.image.source.sha256;
+  json["image_pixels"] = session_case.image.pixels_sha256;
+  for (const MeshInput& part : session_case.parts) json["meshes"].push_back(part.sha256);
+  if (session_case.ignore) json["ignore"] = session_case.ignore->sha256;
+  if (session_case.onboard_record) json["onboard_record"] = session_case.onboard_record->sha256;
+  json["inputs"] = inputsDigest(session_case);
   return json;
 }
 
@@ -233,33 +235,34 @@ ordered_json signatureOf(const ordered_json& json) {
 ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
                                const std::optional<LocalizationTrace>& run,
                                const std::filesystem::path& file) {
-  const SessionCase& one = *session.findCase(pose.case_id);
+  const SessionCase& session_case = *session.findCase(pose.case_id);
   const Session alone = sessionOfCase(session, pose.case_id, pose.run_digest);
   ordered_json json;
   json["format"] = kValidatedPoseFormat;
   json["version"] = kValidatedPoseVersion;
   json["state"] = pose.validated ? "validated" : "NOT VALIDATED";
   json["review_status"] = pose.review_status;
-  json["case"] = one.id;
-  json["station"] = one.station;
+  json["case"] = session_case.id;
+  json["station"] = session_case.station;
   json["conventions"] = conventionsJson();
-  json["pose"] = poseJson(pose, one);
+  json["pose"] = poseJson(pose, session_case);
   // Frames are never converted silently: those that the case knows by name are named.
-  if (one.camera_reference)
-    json["frames"] =
-        toJson(namedPoses(one.camera_reference, one.station_frame, pose.camera_from_station));
-  if (one.camera_from_end_effector) json["end_effector"] = endEffectorJson(pose, one);
-  json["chain"] = chainJson(pose, one, alone);
-  json["decision"] = decisionJson(pose, reviewStatusOf(alone, one.id));
+  if (session_case.camera_reference)
+    json["frames"] = toJson(namedPoses(session_case.camera_reference, session_case.station_frame,
+                                       pose.camera_from_station));
+  if (session_case.camera_from_end_effector)
+    json["end_effector"] = endEffectorJson(pose, session_case);
+  json["chain"] = chainJson(pose, session_case, alone);
+  json["decision"] = decisionJson(pose, reviewStatusOf(alone, session_case.id));
   json["checks"] = ordered_json::array();
   for (const JudgedCheck& judged : pose.checks) json["checks"].push_back(toJson(judged));
-  if (one.requirement) json["requirement"] = toJson(*one.requirement);
-  if (!one.image.label.empty()) json["image_label"] = toJson(one.image.label);
-  json["sha256"] = hashesJson(one);
+  if (session_case.requirement) json["requirement"] = toJson(*session_case.requirement);
+  if (!session_case.image.label.empty()) json["image_label"] = toJson(session_case.image.label);
+  json["sha256"] = hashesJson(session_case);
   if (run) json["run"] = runJson(*run);
-  if (const auto marks = session.annotations.find(one.id);
-      pose.source == PoseSource::kAnnotation && marks != session.annotations.end())
-    json["marks"] = toJson(*marks->second);
+  if (const auto annotations = session.annotations.find(session_case.id);
+      pose.source == PoseSource::kAnnotation && annotations != session.annotations.end())
+    json["annotations"] = toJson(*annotations->second);
   json["session"] = toJson(alone, file);
   json["written"] = {{"by", std::string("Boresight ") + kVersion}, {"time", utcNowText()}};
   json["signature"] = signatureOf(ordered_json::parse(prettyJson(json)));

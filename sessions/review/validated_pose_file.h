@@ -25,7 +25,7 @@ struct HandedPose {
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
   PoseCovariance covariance;
-  std::string run_digest;  ///< empty: the pose is the marks'
+  std::string run_digest;  ///< empty: the pose is the annotations'
   bool validated = false;
   std::string review_status;  ///< reviewStatusText: who validated it, or NOT VALIDATED and why
   double score = 1.0;         ///< 1 of a decided or annotated one, else the edge support of its run
@@ -33,9 +33,10 @@ struct HandedPose {
   std::vector<JudgedCheck> checks;  ///< as they were judged; none without a decision that holds
 };
 
-/// The pose of a decision that holds, else that of the last run if it converged, else the marks';
-/// without covariance and checks where nobody decided. InputError when there is none, a run's trace
-/// cannot be read, or the decision states another pose than its run's trace (or the marks).
+/// The pose of a decision that holds, else that of the last run if it converged, else the
+/// annotations'; without covariance and checks without a decision. InputError when there is none,
+/// a run's trace cannot be read, or the decision states another pose than its run's trace (or the
+/// annotations).
 HandedPose handedPose(const Session& session, const std::string& case_id);
 
 /// The same for several cases (all of them when none is named), in the order of the session; those
@@ -51,12 +52,13 @@ struct MeasuredPose {
   std::vector<Check> checks;  ///< as checkPose gives them
 };
 
-/// Reads the inputs of the pose's case, runs the localization again (or solves the marks again),
-/// repeats the runs of the rig's other cameras that the checks ask, and makes the checks; the
-/// convergence test with `basin_seeds` seeds, 0: without. Of `pose` only the case, the source and
-/// the run's digest are used, and no trace is read. InputError when something cannot be read or
-/// repeated, or a run gives another digest than the session states; `session_file` is for messages.
-MeasuredPose measurePose(const Session& session, const HandedPose& pose, int basin_seeds,
+/// Reads the inputs of the pose's case, runs the localization again (or solves the annotations
+/// again), repeats the runs of the rig's other cameras that the checks ask, and makes the checks;
+/// the convergence test with `convergence_seeds` seeds, 0: without. Of `pose` only the case, the
+/// source and the run's digest are used, and no trace is read. InputError when something cannot be
+/// read or repeated, or a run gives another digest than the session states; `session_file` is for
+/// messages.
+MeasuredPose measurePose(const Session& session, const HandedPose& pose, int convergence_seeds,
                          const std::filesystem::path& session_file);
 
 /// A pose to hand over, of which everything that can be measured was measured.
@@ -77,17 +79,18 @@ Session sessionOfCase(const Session& session, const std::string& case_id,
                       const std::string& run_digest);
 
 /// What of a stated pose is not as measured, as a sentence; "" when nothing. A run's pose and
-/// covariance agree to the last bits; those of marks, and figures of checks, to 1e-6 of their size.
+/// covariance agree to the last bits; those of annotations, and figures of checks, to 1e-6 of their
+/// size.
 std::string poseDifference(const HandedPose& stated, const Pose& measured);
 std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured);
-/// `with_basin` false leaves the checks of the convergence test out.
+/// `with_convergence` false leaves the checks of the convergence test out.
 std::string checksDifference(const HandedPose& stated, const std::vector<Check>& measured,
-                             bool with_basin);
+                             bool with_convergence);
 /// InputError unless `difference` is empty.
 void requireAsMeasured(const std::string& case_id, const std::string& difference);
 
-/// The file as JSON (README.md beside this file tells its members). It holds a session of this one
-/// case and its rig, so that whoever has the inputs can run it again and look; paths are relative
+/// The file as JSON (README.md lists its members). It holds a session of this one
+/// case and its rig, so that the run can be repeated with the inputs; paths are relative
 /// to `file`. `run` is the pose's, for its matches; without it they are left out.
 /// A pose that is not validated says so in `state` and `review_status`.
 nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
@@ -124,10 +127,10 @@ struct VerifyReport {
 
 /// Checks a validated_pose.json: its signature, the files that it names by their hashes, whether
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
-/// the run is run again (the marks are solved again), and its digest, pose, covariance, matches and
-/// every check are compared with what is stated; with `basin_again` the convergence test, too.
-/// InputError when it is no such file.
+/// the run is run again (the annotations are solved again), and its digest, pose, covariance,
+/// matches and every check are compared with what is stated; with `convergence_again` the
+/// convergence test, too. InputError when it is no such file.
 VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,
-                        bool basin_again = false);
+                        bool convergence_again = false);
 
 }  // namespace boresight::sessions

@@ -65,7 +65,7 @@ Document readDocument(const fs::path& file) {
   document.session = readSession(root.at("session"));
   document.pose = readHandedPose(root);
   if (document.session.findCase(document.pose.case_id) == nullptr)
-    root.failMember("case", "the session inside does not have it");
+    root.failMember("case", "the embedded session does not have it");
   return document;
 }
 
@@ -74,10 +74,9 @@ using Findings = std::vector<VerifyFinding>;
 void verifySignature(const Document& document, Findings& findings) {
   const auto stated = document.json.find("signature");
   const bool good = stated != document.json.end() && *stated == signatureOf(document.json);
-  findings.push_back(
-      {good, "signature",
-       good ? "the document is as it was signed"
-            : "the document has been changed since it was signed, or was never signed"});
+  findings.push_back({good, "signature",
+                      good ? "the document is unchanged since it was signed"
+                           : "the document was changed since it was signed, or was never signed"});
 }
 
 /// True when all files are what they were.
@@ -88,32 +87,31 @@ bool verifyInputs(const Document& document, Findings& findings) {
     findings.push_back({false, found.what, found.text});
     all = false;
   }
-  if (all)
-    findings.push_back({true, "inputs", "every file that it names has the hash that it names"});
+  if (all) findings.push_back({true, "inputs", "every named file has the stated hash"});
   return all;
 }
 
 /// Whether the decision inside is one that this program would have let pass.
 void verifyDecision(const ReviewStatus& status, Findings& findings) {
   if (status.decision == nullptr) {
-    findings.push_back({true, "decision", "nobody has decided on it"});
+    findings.push_back({true, "decision", "there is no decision"});
     return;
   }
   const Decision& decision = *status.decision;
   std::string wrong = status.dropped.empty() ? "" : "it no longer holds: " + status.dropped;
   for (const JudgedCheck& judged : decision.checks)
     if (decision.verdict == Verdict::kValidated && judged.check.state == CheckState::kFailed &&
-        judged.override_reason.empty())
-      wrong = "the check '" + judged.check.title + "' failed and was not passed over";
+        judged.waiver_reason.empty())
+      wrong = "the check '" + judged.check.title + "' failed and was not waived";
   if (decision.verdict == Verdict::kValidated && decision.checks.empty())
-    wrong = "no check was made of it";
+    wrong = "it has no checks";
   if (decision.approval && samePerson(decision.approval->by, decision.by))
-    wrong = decision.by + " approved what the same person had validated";
+    wrong = decision.by + " both validated and approved";
   findings.push_back(
-      {wrong.empty(), "decision", wrong.empty() ? "it rests on what the document holds" : wrong});
+      {wrong.empty(), "decision", wrong.empty() ? "it follows from the document" : wrong});
 }
 
-void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_basin,
+void verifyMeasured(const Document& document, const MeasuredPose& measured, bool with_convergence,
                     Findings& findings) {
   const auto add = [&findings](const std::string& what, const std::string& wrong,
                                const std::string& good) {
@@ -123,23 +121,23 @@ void verifyMeasured(const Document& document, const MeasuredPose& measured, bool
     const auto& together = document.session.lastRunOf(document.pose.case_id)->together;
     add("run", validationConcern(document.session, measured.subject),
         "the run" + (together ? " " + togetherText(together->views, document.pose.case_id) : "") +
-            " gives the same digest again");
+            " gives the same digest");
   }
   add("pose", poseDifference(document.pose, measured.subject.camera_from_station),
-      "it is the pose that comes out again");
+      "the measured pose is the same");
   add("covariance", covarianceDifference(document.pose, measured.subject.covariance),
-      "it is the covariance that comes out again");
-  add("checks", checksDifference(document.pose, measured.checks, with_basin),
-      "made again they are as stated");
+      "the measured covariance is the same");
+  add("checks", checksDifference(document.pose, measured.checks, with_convergence),
+      "measured again, they are the same");
 }
 
 /// Nothing when it cannot be measured, which is then found wrong.
-std::optional<MeasuredPose> measureAgain(const Document& document, int basin_seeds,
+std::optional<MeasuredPose> measureAgain(const Document& document, int convergence_seeds,
                                          Findings& findings) {
   try {
-    return measurePose(document.session, document.pose, basin_seeds, document.file);
+    return measurePose(document.session, document.pose, convergence_seeds, document.file);
   } catch (const InputError& error) {
-    findings.push_back({false, "run", std::string("it cannot be measured again: ") + error.what()});
+    findings.push_back({false, "run", std::string("it cannot be measured: ") + error.what()});
     return {};
   }
 }
@@ -148,33 +146,32 @@ std::optional<MeasuredPose> measureAgain(const Document& document, int basin_see
 void verifyMembers(const Document& document, const std::optional<MeasuredPose>& measured,
                    Findings& findings) {
   const auto run = measured ? measured->subject.run : std::nullopt;
-  const ordered_json anew = ordered_json::parse(
+  const ordered_json remeasured = ordered_json::parse(
       prettyJson(validatedPoseJson(document.session, document.pose, run, document.file)));
   std::string wrong;
-  for (const auto& [name, value] : anew.items()) {
+  for (const auto& [name, value] : remeasured.items()) {
     if (name == "written" || name == "signature") continue;
     if (!document.json.contains(name) || document.json[name] != value)
       wrong += (wrong.empty() ? "" : ", ") + name;
   }
   for (const auto& [name, value] : document.json.items())
-    if (!anew.contains(name) && (measured || name != "run"))
+    if (!remeasured.contains(name) && (measured || name != "run"))
       wrong += (wrong.empty() ? "" : ", ") + name;
-  findings.push_back({wrong.empty(), "contents",
-                      wrong.empty() ? "the members follow from each other"
-                                    : "these members do not follow from the rest: " + wrong});
+  findings.push_back(
+      {wrong.empty(), "contents",
+       wrong.empty() ? "the members are consistent" : "inconsistent members: " + wrong});
 }
 
 /// The run of a pose that has one, and what the document says of it.
 void verifyRunStated(const Document& document, Findings& findings) {
   if (document.pose.source != PoseSource::kRun) return;
   if (document.session.lastRunOf(document.pose.case_id) == nullptr)
-    findings.push_back(
-        {false, "run", "the session inside does not have the run that the pose is of"});
+    findings.push_back({false, "run", "the embedded session does not have the run of the pose"});
   if (!document.json.contains("run"))
     findings.push_back({false, "run", "the member run, with options and matches, is missing"});
 }
 
-/// What the session inside says of the pose; the document's own where nobody decided.
+/// What the session inside says of the pose; the document's own without a decision.
 void takeReviewStatus(Document& document, const ReviewStatus& status) {
   HandedPose& pose = document.pose;
   pose.validated = status.state == ReviewState::kValidated;
@@ -191,33 +188,32 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
 }
 
 /// No measurement tells a person, a time or a reason.
-void listNotProved(const Decision* decision, bool measured, bool with_basin,
+void listNotProved(const Decision* decision, bool measured, bool with_convergence,
                    std::vector<std::string>& list) {
-  if (!measured)
-    list.emplace_back("run, pose, covariance and checks: they were not measured again");
+  if (!measured) list.emplace_back("run, pose, covariance and checks: not measured");
   if (decision == nullptr) return;
   const std::string approved = decision->approval ? " and " + decision->approval->by : "";
   list.push_back("who: " + decision->by + approved +
-                 " (a name is text, and the signature is a checksum that anybody can write)");
+                 " (a name is text; the signature is a checksum without a key)");
   list.push_back("when: " + decision->time +
                  (decision->approval ? " and " + decision->approval->time : ""));
   for (const JudgedCheck& judged : decision->checks)
-    if (!judged.override_reason.empty())
+    if (!judged.waiver_reason.empty())
       list.push_back("reason: why the failed check '" + judged.check.title +
-                     "' was passed over: " + judged.override_reason);
-  if (measured && decision->basin_seeds > 0 && !with_basin)
-    list.push_back("convergence test: its " + std::to_string(decision->basin_seeds) +
-                   " further seeds were not run again (--full runs them)");
+                     "' was waived: " + judged.waiver_reason);
+  if (measured && decision->convergence_seeds > 0 && !with_convergence)
+    list.push_back("convergence test: its " + std::to_string(decision->convergence_seeds) +
+                   " further seeds were not run again (use --full)");
 }
 
 }  // namespace
 
 bool VerifyReport::good() const {
   return std::all_of(findings.begin(), findings.end(),
-                     [](const VerifyFinding& one) { return one.good; });
+                     [](const VerifyFinding& verify_finding) { return verify_finding.good; });
 }
 
-VerifyReport verifyPose(const fs::path& file, bool run_again, bool basin_again) {
+VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again) {
   Document document = readDocument(file);
   VerifyReport report;
   Findings& findings = report.findings;
@@ -229,13 +225,15 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool basin_again) 
   verifyDecision(status, findings);
   verifyRunStated(document, findings);
   const Decision* decision = status.judgedPose();
-  const int basin_seeds = basin_again && decision != nullptr ? decision->basin_seeds : 0;
-  const bool with_basin = basin_again || decision == nullptr || decision->basin_seeds == 0;
+  const int convergence_seeds =
+      convergence_again && decision != nullptr ? decision->convergence_seeds : 0;
+  const bool with_convergence =
+      convergence_again || decision == nullptr || decision->convergence_seeds == 0;
   std::optional<MeasuredPose> measured;
-  if (run_again && inputs) measured = measureAgain(document, basin_seeds, findings);
-  if (measured) verifyMeasured(document, *measured, with_basin, findings);
+  if (run_again && inputs) measured = measureAgain(document, convergence_seeds, findings);
+  if (measured) verifyMeasured(document, *measured, with_convergence, findings);
   verifyMembers(document, measured, findings);
-  listNotProved(status.decision, measured.has_value(), with_basin, report.not_proved);
+  listNotProved(status.decision, measured.has_value(), with_convergence, report.not_proved);
   return report;
 }
 

@@ -22,9 +22,9 @@ std::string supportText(const LocalizationTrace& trace) {
 std::string candidateText(const LocalizationTrace& trace) {
   if (!trace.converged() || trace.candidates.empty()) return "";
   const std::string all = std::to_string(trace.candidates.size());
-  for (const Alternative& one : alternativesOf(trace))
-    if (one.kind == AlternativeKind::kCandidate && one.chosen)
-      return " The pose comes from candidate " + std::to_string(one.number) + " of " + all +
+  for (const Alternative& alternative : alternativesOf(trace))
+    if (alternative.kind == AlternativeKind::kCandidate && alternative.chosen)
+      return " The pose comes from candidate " + std::to_string(alternative.number) + " of " + all +
              " of the search.";
   return " The pose comes from the seed; the search has " + all + " candidates.";
 }
@@ -34,8 +34,8 @@ std::string competingText(const LocalizationTrace& trace) {
   if (closest == nullptr) return "";
   const std::size_t count = trace.competing_poses.size();
   return (count == 1
-              ? std::string(" One competing pose looks alike; it has ")
-              : " " + std::to_string(count) + " competing poses look alike; the closest has ") +
+              ? std::string(" One competing pose is similar; it has ")
+              : " " + std::to_string(count) + " competing poses are similar; the closest has ") +
          nats(std::abs(closest->margin_nats), 1) +
          (closest->margin_nats < 0.0 ? " more evidence." : " less evidence.");
 }
@@ -60,7 +60,7 @@ const CompetingPose* closestCompetingPose(const LocalizationTrace& trace) {
   const auto& poses = trace.competing_poses;
   const auto closest = std::min_element(
       poses.begin(), poses.end(),
-      [](const auto& one, const auto& other) { return one.margin_nats < other.margin_nats; });
+      [](const auto& item, const auto& other) { return item.margin_nats < other.margin_nats; });
   return closest == poses.end() ? nullptr : &*closest;
 }
 

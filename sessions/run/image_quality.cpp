@@ -83,11 +83,12 @@ double edgeWidthOf(const ImageView& image, const BitImage* ignore, const cv::Mat
   std::vector<cv::Point> ridges;
   for (int y = 1; y + 1 < gray.rows; ++y)
     for (int x = 1; x + 1 < gray.cols; ++x) {
-      const float here = length(y, x);
-      if (here <= *limit || here <= 0.0F) continue;
-      const int dx = cvRound(along_x(y, x) / here);
-      const int dy = cvRound(along_y(y, x) / here);
-      if (here > length(y + dy, x + dx) && here >= length(y - dy, x - dx)) ridges.push_back({x, y});
+      const float current = length(y, x);
+      if (current <= *limit || current <= 0.0F) continue;
+      const int dx = cvRound(along_x(y, x) / current);
+      const int dy = cvRound(along_y(y, x) / current);
+      if (current > length(y + dy, x + dx) && current >= length(y - dy, x - dx))
+        ridges.push_back({x, y});
     }
   EdgeWidthMeter meter(image, ignore);
   const std::size_t stride = std::max<std::size_t>(1, ridges.size() / kMostEdgePixels);

@@ -8,41 +8,46 @@ namespace boresight::sessions {
 namespace {
 
 MatchDetails describeTemplate(const Template& item, std::int32_t index, int level) {
-  MatchDetails made;
-  made.index = index;
-  made.depth_m = static_cast<double>(item.depth_m);
-  made.distinctness = static_cast<double>(item.distinctness);
-  made.point_in_station_m = item.point_in_station_m;
-  made.predicted_px = fullImagePixel(item.center_x, item.center_y, level);
-  return made;
+  MatchDetails match_details;
+  match_details.index = index;
+  match_details.depth_m = static_cast<double>(item.depth_m);
+  match_details.distinctness = static_cast<double>(item.distinctness);
+  match_details.point_in_station_m = item.point_in_station_m;
+  match_details.predicted_px = fullImagePixel(item.center_x, item.center_y, level);
+  return match_details;
 }
 
 double share(std::int32_t part, std::int32_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
-void describeMatch(const Match& match, int level, MatchDetails& made) {
-  made.searched = match.searched;
+void describeMatch(const Match& match, int level, MatchDetails& match_details) {
+  match_details.searched = match.searched;
   if (!match.searched) return;
-  made.at_border = match.at_border;
-  made.found_px = fullImagePixel(match.x, match.y, level);
-  made.edge_share = share(match.peak.counts.edge_hits, match.norms.edges);
-  made.empty_share = share(match.peak.counts.empty_hits, match.norms.empties);
-  made.score = whsScore(match.peak.counts, match.norms);
+  match_details.at_border = match.at_border;
+  match_details.found_px = fullImagePixel(match.x, match.y, level);
+  match_details.edge_share = share(match.peak.counts.edge_hits, match.norms.edges);
+  match_details.empty_share = share(match.peak.counts.empty_hits, match.norms.empties);
+  match_details.score = whsScore(match.peak.counts, match.norms);
   if (!match.peak.has_second) return;
-  made.second_score = whsScore(match.peak.second_counts, match.norms);
+  match_details.second_score = whsScore(match.peak.second_counts, match.norms);
   const std::int64_t best = whsComparable(match.peak.counts, match.norms);
   const std::int64_t second = whsComparable(match.peak.second_counts, match.norms);
-  made.margin = best > 0 ? static_cast<double>(best - second) / static_cast<double>(best) : 0.0;
+  match_details.margin =
+      best > 0 ? static_cast<double>(best - second) / static_cast<double>(best) : 0.0;
 }
 
 /// An onboard record has scores without what they are made of.
-void describeScore(const RecordedScore& recorded, MatchDetails& made) {
-  made.edge_share = made.empty_share = made.second_score = made.margin = kUnknown;
-  made.score = recorded.score;
+void describeScore(const RecordedScore& recorded, MatchDetails& match_details) {
+  match_details.edge_share = match_details.empty_share = match_details.second_score =
+      match_details.margin = kUnknown;
+  match_details.score = recorded.score;
   if (!recorded.second_score) return;
-  made.second_score = *recorded.second_score;
-  made.margin = made.score > 0.0 ? (made.score - made.second_score) / made.score : 0.0;
+  match_details.second_score = *recorded.second_score;
+  match_details.margin =
+      match_details.score > 0.0
+          ? (match_details.score - match_details.second_score) / match_details.score
+          : 0.0;
 }
 
 }  // namespace

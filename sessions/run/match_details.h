@@ -12,7 +12,7 @@
 namespace boresight::sessions {
 
 /// A best score that exceeds the second by less than this share of itself could as well be the
-/// second: its match is worth a look. For people; no run decides by it.
+/// second: its match is worth a look. For display only.
 inline constexpr double kLowMargin = 0.05;
 
 /// What became of one template. Places are pixels of the full image; what the iteration has not

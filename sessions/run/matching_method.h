@@ -27,7 +27,7 @@ struct MatchQuery {
   /// Where the centre of something of this size (px, even) may lie when the hypothesis moves within
   /// the uncertainty; its point in the station's frame.
   SearchWindow windowOf(const Eigen::Vector3d& point_in_station_m, int side_px) const;
-  /// 3D point of a place of the render (px); false beside its matched parts.
+  /// 3D point of a place of the render (px); false outside its matched parts.
   [[nodiscard]] bool pointAt(const Eigen::Vector2d& place_px, Template& item) const;
   /// A pixel of the level of which some full-resolution pixel is ignored.
   bool ignored(int x, int y) const;
@@ -58,8 +58,8 @@ class MatchingMethod {
 };
 
 /// Stands between a localizer whose matches come from outside and the method that makes them: owns
-/// the shaded render and the pooled images. Whoever steps the localizer calls `serve()` before each
-/// step.
+/// the shaded render and the pooled images. The caller that steps the localizer calls `serve()`
+/// before each step.
 class OutsideMatching {
  public:
   /// Before the localizer's first step; both must outlive the object. `albedo_of_part`: of the

@@ -79,11 +79,11 @@ ColorImage drawOverlay(const ImageView& image, const Camera& camera, const MeshV
   const bool named = std::any_of(layers.begin(), layers.end(),
                                  [](const OverlayLayer& layer) { return !layer.label.empty(); });
   if (named) drawLegend(layers, labels, canvas);
-  ColorImage made;
-  made.width = canvas.cols;
-  made.height = canvas.rows;
-  made.bgr.assign(canvas.datastart, canvas.dataend);
-  return made;
+  ColorImage color_image;
+  color_image.width = canvas.cols;
+  color_image.height = canvas.rows;
+  color_image.bgr.assign(canvas.datastart, canvas.dataend);
+  return color_image;
 }
 
 void writeColorPng(const std::filesystem::path& file, const ColorImage& image) {

@@ -7,11 +7,11 @@ namespace boresight::sessions {
 namespace {
 
 BitMap emptyLike(const BitMap& map) {
-  BitMap made;
-  made.width = map.width;
-  made.height = map.height;
-  made.words.assign(map.words.size(), 0);
-  return made;
+  BitMap bit_map;
+  bit_map.width = map.width;
+  bit_map.height = map.height;
+  bit_map.words.assign(map.words.size(), 0);
+  return bit_map;
 }
 
 bool anyWithinOne(const BitImage& bits, int x, int y) {

@@ -113,12 +113,12 @@ LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, co
 }
 
 RecordInputs recordInputs(const LocalizationProblem& problem) {
-  RecordInputs made;
-  made.pixels = pixelsHash(problem.image, problem.color);
-  if (problem.ignore != nullptr) made.ignore = ignoreHash(*problem.ignore);
-  made.scene = sceneHash(problem.mesh);
-  made.camera = cameraHash(problem.camera);
-  return made;
+  RecordInputs record_inputs;
+  record_inputs.pixels = pixelsHash(problem.image, problem.color);
+  if (problem.ignore != nullptr) record_inputs.ignore = ignoreHash(*problem.ignore);
+  record_inputs.scene = sceneHash(problem.mesh);
+  record_inputs.camera = cameraHash(problem.camera);
+  return record_inputs;
 }
 
 std::string seedConcern(const Camera& camera, const MeshView& mesh,

@@ -9,8 +9,9 @@ RunPlan continuedPlan(const RunPlan& plan, std::int32_t iteration,
                       const LocalizerOptions& options) {
   if (iteration < 1) return options;
   RunPlan continued = plan;
-  std::erase_if(continued.changes,
-                [iteration](const OptionChange& one) { return one.iteration >= iteration; });
+  std::erase_if(continued.changes, [iteration](const OptionChange& option_change) {
+    return option_change.iteration >= iteration;
+  });
   if (!sameOptions(continued.last(), options)) continued.changes.push_back({iteration, options});
   return continued;
 }
@@ -22,14 +23,13 @@ std::string planProblem(const RunPlan& plan) {
   std::int32_t earliest = 1;
   for (const OptionChange& change : plan.changes) {
     if (change.iteration < earliest)
-      return "options change at iteration " + std::to_string(change.iteration) +
+      return "the options change at iteration " + std::to_string(change.iteration) +
              ", but that must be " + std::to_string(earliest) + " or later";
     if (const char* name = firstInvalidOption(change.options))
       return std::string(name) + " is out of its range";
     if (const char* name = firstFixedOption(*before, change.options))
       return std::string(name) +
-             " holds for a whole run and cannot change on its way: run anew from the start, or set "
-             "it back";
+             " cannot change during a run: run again from the start, or restore its value";
     before = &change.options;
     earliest = change.iteration + 1;
   }

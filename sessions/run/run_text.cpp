@@ -68,28 +68,27 @@ std::string leftUncertaintyText(const LocalizationTrace& trace) {
                          toMillimetres(std::abs(offset[worst])), kAxes[worst - 3],
                          factor * toMillimetres(trace.uncertainty.translation_m[worst - 3]), factor,
                          toMillimetres(trace.uncertainty.translation_m[worst - 3]));
-  return "the pose moved away from the seed by " + measured +
-         "; check the seed and the mesh, or state a larger uncertainty if the seed may be that far "
-         "off";
+  return "the pose left the seed's uncertainty: it moved by " + measured +
+         "; check seed and mesh, or state a larger uncertainty";
 }
 
 std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& last) {
   if (last.kind == IterationKind::kRefine) {
     return format(
-        "refinement found an image edge at %d of %d places along the rendered edges and used %d, "
-        "needed %d within %.1f px; check exposure and focus of the image, and the seed",
+        "too few image edges near the rendered edges: refinement found %d of %d and used %d, "
+        "needed %d within %.1f px; check exposure, focus and seed",
         last.refinement.found_count, last.refinement.sample_count, last.refinement.used_count,
         EdgeRefinement::kMinFound, last.threshold_px);
   }
   return format(
-      "no pose agrees with enough matches: %d matches, at most %d inliers at %.1f px, needed %d; "
-      "check seed and uncertainty, or the edges found in the image",
+      "too few inliers: %d matches, at most %d inliers at %.1f px, needed %d; check seed, "
+      "uncertainty and image edges",
       last.correspondence_count, last.pnp.inlier_count, last.threshold_px,
       trace.lastOptions().pnp.min_inliers);
 }
 
 std::string faultText(const LocalizationTrace& trace) {
-  std::string text = std::string("the run could not go on: ") + statusText(trace.fault);
+  std::string text = std::string("the run stopped: ") + statusText(trace.fault);
   if (trace.fault == Status::kCapacityExceeded)
     text += format(
         "; the render has more than %d edge pixels: raise render.max_edge_pixels, or "
@@ -97,14 +96,13 @@ std::string faultText(const LocalizationTrace& trace) {
         trace.lastOptions().render.max_edge_pixels);
   if (trace.fault == Status::kTooManyLayers)
     text += format(
-        "; in rows of the image more than %d faces of the mesh lie behind each other: use a "
-        "coarser "
-        "mesh, or its outer surfaces only",
+        "; more than %d faces of the mesh overlap in an image row: use a coarser mesh, or its "
+        "outer surfaces only",
         static_cast<int>(BandPainter::kMostLayers));
   if (trace.fault == Status::kArenaTooSmall) {
     text += format(
-        "; image, mask and mesh take %zu bytes and the options ask for %zu more, of %zu in all: "
-        "lower render.max_edge_pixels or loop.coarse_size_px, or use a coarser mesh or the default "
+        "; image, mask and mesh take %zu bytes and the options need %zu more, of %zu: lower "
+        "render.max_edge_pixels or loop.coarse_size_px, or use a coarser mesh or the default "
         "profile",
         trace.memory.inputs, trace.memory.use.total(), trace.memory.limit);
   }
@@ -113,13 +111,12 @@ std::string faultText(const LocalizationTrace& trace) {
 
 std::string notSupportedText(const LocalizationTrace& trace) {
   if (hasProbability(trace))
-    return probabilityText(trace) +
-           "; check mesh and camera, and state a larger uncertainty if the seed may be farther off";
+    return probabilityText(trace) + "; check mesh and camera, or state a larger uncertainty";
   const EdgeSupport& support = trace.support;
   return format(
-      "edge support is %.1f %%, needed %.1f %%: %.1f %% of the rendered edges are seen (%.1f %% by "
-      "chance), %.1f %% of the edges seen on the object are rendered (%.1f %% by chance); the "
-      "pose is probably wrong: check seed and mesh",
+      "the pose is probably wrong: edge support is %.1f %%, needed %.1f %%; %.1f %% of the "
+      "rendered edges are seen (%.1f %% by chance), %.1f %% of the edges seen on the object are "
+      "rendered (%.1f %% by chance); check seed and mesh",
       100.0 * support.share(), 100.0 * trace.lastOptions().support.min_support,
       100.0 * support.coverage(), 100.0 * support.chanceCoverage(), 100.0 * support.explanation(),
       100.0 * support.chanceExplanation());
@@ -128,19 +125,19 @@ std::string notSupportedText(const LocalizationTrace& trace) {
 std::string ambiguousText(const LocalizationTrace& trace) {
   const CompetingPose* other = closestCompetingPose(trace);
   if (other == nullptr || trace.iterations.empty())
-    return "another pose explains the image as well";
+    return "a competing pose explains the image as well";
   const Pose& best = trace.iterations.back()->camera_from_station;
   const Pose& competing = other->camera_from_station;
   const Eigen::Quaterniond turn = (competing.rotation * best.rotation.conjugate()).normalized();
-  return format("a pose %.1f mm away, turned by %.2f deg, explains the image ",
+  return format("a competing pose, %.1f mm and %.2f deg away, explains the image ",
                 toMillimetres((competing.translation_m - best.translation_m).norm()),
                 toDegrees(rotationLog(turn).norm())) +
          (other->margin_nats < 0.0
               ? format("better, by %.1f nats of evidence; ", -other->margin_nats)
               : format("nearly as well: %.1f nats less evidence, needed %.1f; ", other->margin_nats,
                        kLeastMargin_nats)) +
-         "the station looks alike from both: show more of what tells its features apart, or give a "
-         "closer seed; a mirrored mesh looks alike, too: check the mesh";
+         "both poses look alike: show more distinct features, give a closer seed, or check that "
+         "the mesh is not mirrored";
 }
 
 /// The widest edges, measured along their normals.
@@ -149,26 +146,27 @@ std::string blurredText(const LocalizationTrace& trace) {
       "along x", "22 deg below x", "45 deg below x", "67 deg below x",
       "along y", "67 deg above x", "45 deg above x", "22 deg above x"};
   const int widest = trace.edge_width.widestDirection();
-  if (widest < 0) return "the image's edges are too wide for a pose";
+  if (widest < 0) return "the image is too blurred for a pose";
   return format(
-      "the image is blurred: its edges on the object are %.1f px wide %s, at most %.0f px are "
-      "accepted; use a sharper image (motion or focus)",
+      "the image is blurred: its edges on the object are %.1f px wide %s, limit %.0f px; use a "
+      "sharper image",
       trace.edge_width.widest_px(), kAcross[widest], EdgeWidth::kWidest_px);
 }
 
 std::string cameraMismatchText(const LocalizationTrace& trace) {
   const double percent = 100.0 * trace.focal.change;
   return format(
-      "the edges ask for a focal length that is %.1f %% %s than the camera's (one sigma %.2f %%); "
-      "check the calibration and the mesh's proportions",
+      "the focal length estimated from the edges is %.1f %% %s than the camera's (one sigma %.2f "
+      "%%); check calibration and mesh proportions",
       std::abs(percent), percent < 0.0 ? "shorter" : "longer", 100.0 * trace.focal.sigma);
 }
 
 std::string iterationLimitText(const LocalizationTrace& trace, const IterationTrace& last) {
   const LoopOptions& loop = trace.lastOptions().loop;
   return format(
-      "after %d iterations the last correction was %.3f mm and %.3f deg; needed under %.3f mm and "
-      "%.3f deg %d times in a row; raise loop.max_iterations if corrections still shrink",
+      "the iteration limit of %d is reached: the last correction is %.3f mm and %.3f deg, needed "
+      "under %.3f mm and %.3f deg %d times in a row; raise loop.max_iterations if corrections "
+      "still shrink",
       loop.max_iterations, toMillimetres(last.correction_translation_m),
       toDegrees(last.correction_rotation_rad), toMillimetres(loop.converged_translation_m),
       toDegrees(loop.converged_rotation_rad), loop.converged_iterations);
@@ -178,18 +176,18 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
   const LocalizerOptions& options = trace.lastOptions();
   if (trace.status == LocalizationStatus::kTooFewEdges)
     return format(
-        "the render shows %d salient edge pixels, needed %d; is the station in view, and "
-        "is the mesh's unit right?",
+        "too few salient edges: the render has %d edge pixels, needed %d; check that the station "
+        "is in view, and the mesh's unit",
         last.edge_pixel_count, TemplateSelector::kMinEdgePixels);
   if (trace.status == LocalizationStatus::kTooFewTemplates)
     return format(
-        "%d templates of %d px could be placed on %d rendered edge pixels, needed %d; "
-        "try a smaller feature size, or a less strict ignore mask",
+        "too few templates: %d of %d px fit on %d rendered edge pixels, needed %d; use a smaller "
+        "feature size or a smaller ignore mask",
         last.template_count, last.template_side_px, last.edge_pixel_count,
         TemplateSelector::kMinCount);
   return format(
-      "%d of %d templates could be searched inside the image, needed %d; the station may "
-      "be at the image's border, or the template (%d px) too large",
+      "too few templates inside the image: %d of %d, needed %d; the station may be at the border, "
+      "or the template (%d px) too large",
       last.correspondence_count, last.template_count, options.pnp.min_inliers,
       last.template_side_px);
 }
@@ -201,8 +199,8 @@ std::string sentence(std::string text) {
   return text.back() == '.' ? text : text + ".";
 }
 
-std::string countText(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+std::string countText(std::size_t count, const char* item, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? item : many);
 }
 
 std::string convergedText(const LocalizationTrace& trace) {
@@ -213,7 +211,7 @@ std::string convergedText(const LocalizationTrace& trace) {
   text += trace.replayed ? "." : format(", %.2f s.", trace.seconds.total());
   if (trace.lastOptions().support.gate) text += " " + acceptanceText(trace);
   return text + format(
-                    " 1 sigma by the picture alone, at the camera, along its x, y, z: %.3f, %.3f, "
+                    " 1 sigma by the image only, at the camera, along its x, y, z: %.3f, %.3f, "
                     "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",
                     toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
                     1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
@@ -227,26 +225,25 @@ std::string failedText(const LocalizationTrace& trace) {
   return text;
 }
 
-/// An onboard run, so that nobody takes it for one of the ground.
+/// Labels an onboard run.
 std::string replayedText(const LocalizationTrace& trace) {
   const std::string begin = "Onboard record, replayed. ";
   if (trace.converged()) return begin + convergedText(trace);
   if (trace.finished && trace.iterations.empty())
     return begin + "It ended as " + localizationStatusText(trace.status) +
-           "; none of its iterations is known.";
+           "; its iterations are unknown.";
   if (trace.finished) return begin + failedText(trace);
   return begin + "It ends after " + countText(trace.iterations.size(), "iteration", "iterations") +
-         ": how the run ended is not known.";
+         ": its final status is unknown.";
 }
 
 std::string aloneText(const LocalizationTrace& trace) {
   if (trace.converged()) return convergedText(trace);
   if (trace.finished) return failedText(trace);
-  if (trace.iterations.empty())
-    return trace.edges ? "The image's edges are found." : "Nothing has run yet.";
+  if (trace.iterations.empty()) return trace.edges ? "The image's edges are found." : "No run yet.";
   const std::string number = std::to_string(trace.iterations.size());
   if (!trace.last_under_way) return "Iteration " + number + " is complete.";
-  return "Iteration " + number + " is under way, its last complete stage is " +
+  return "Iteration " + number + ": last complete stage is " +
          stageText(trace.iterations.back()->reached) + ".";
 }
 
@@ -281,13 +278,12 @@ std::string iterationTable(const LocalizationTrace& trace) {
                fixedText(toDegrees(iteration.correction_rotation_rad), 3),
                fixedText(iteration.rms_px(), 2)});
   }
-  return table.text() + (std::any_of(trace.iterations.begin(), trace.iterations.end(),
-                                     [](const auto& iteration) {
-                                       return iteration->kind == IterationKind::kRefine;
-                                     })
-                             ? "(refine: places along rendered edges, places where an edge was "
-                               "found, places used)\n"
-                             : "");
+  return table.text() +
+         (std::any_of(
+              trace.iterations.begin(), trace.iterations.end(),
+              [](const auto& iteration) { return iteration->kind == IterationKind::kRefine; })
+              ? "(refine: points along rendered edges, points with an image edge, points used)\n"
+              : "");
 }
 
 std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::string& name) {
@@ -313,7 +309,7 @@ std::string explanation(const LocalizationTrace& trace) {
   if (trace.status == LocalizationStatus::kFault || trace.iterations.empty())
     return faultText(trace);
   if (trace.edges && trace.edges->edge_count == 0)
-    return "the image has no edges; check its exposure and the options under edges";
+    return "the image has no edges; check its exposure and the options edges.*";
   const IterationTrace& last = *trace.iterations.back();
   switch (trace.status) {
     case LocalizationStatus::kLeftUncertainty:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run did, in words and tables for people.
+// Text and tables of a run.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ std::string poseText(const Pose& pose, const Matrix6d& covariance,
 /// two; empty for a run that converged.
 std::string explanation(const LocalizationTrace& trace);
 
-/// High-water mark of memory by stage, against the limit if there is one.
+/// High-water annotation of memory by stage, against the limit if there is one.
 std::string memoryTable(const LocalizationTrace& trace);
 
 /// Where a run stands, for a line that is always in view: how it ended with what speaks for the

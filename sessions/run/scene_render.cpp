@@ -17,7 +17,7 @@ RenderOptions optionsFor(const Camera& camera) {
 
 }  // namespace
 
-/// What renders need besides the mesh.
+/// Inputs of a render apart from the mesh.
 struct SceneRenderer::Equipment {
   std::unique_ptr<std::byte[]> memory;
   MeshAdjacency adjacency;
@@ -50,11 +50,11 @@ Status SceneRenderer::create(const Camera& camera, const MeshView& mesh) {
   Equipment counted;
   status = counted.create(camera, mesh, counter);
   if (status != Status::kOk) return status;
-  auto made = std::make_unique<Equipment>();
-  made->memory = std::make_unique_for_overwrite<std::byte[]>(counter.highWater());
-  Arena arena({made->memory.get(), counter.highWater()});
-  status = made->create(camera, mesh, arena);
-  if (status == Status::kOk) equipment_ = std::move(made);
+  auto result = std::make_unique<Equipment>();
+  result->memory = std::make_unique_for_overwrite<std::byte[]>(counter.highWater());
+  Arena arena({result->memory.get(), counter.highWater()});
+  status = result->create(camera, mesh, arena);
+  if (status == Status::kOk) equipment_ = std::move(result);
   return status;
 }
 

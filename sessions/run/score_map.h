@@ -10,7 +10,7 @@
 
 namespace boresight::sessions {
 
-/// WHS at every offset of a template's search window, for people who look; the flight loop keeps
+/// WHS at every offset of a template's search window, for display; the flight loop keeps
 /// the peaks alone.
 struct ScoreMap {
   SearchWindow window;  ///< at the iteration's level

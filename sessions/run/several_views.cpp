@@ -88,24 +88,24 @@ void SeveralViews::begin(const LocalizerOptions& options,
   for (std::size_t v = 0; v < traces.size(); ++v) {
     const View& view = problem_.views[v];
     camera_from_first_.push_back(view.camera_from_rig * first_from_rig.inverse());
-    LocalizationTrace& one = traces[v];
-    one.version = kVersion;
-    one.options = options;
-    one.camera = view.camera;
-    one.camera_from_station_seed = view.camera_from_rig * problem_.rig_from_station_seed;
-    one.camera_from_station = one.camera_from_station_seed;
-    one.uncertainty = problem_.uncertainty;
-    one.views = views;
-    one.own_view = v;
+    LocalizationTrace& trace = traces[v];
+    trace.version = kVersion;
+    trace.options = options;
+    trace.camera = view.camera;
+    trace.camera_from_station_seed = view.camera_from_rig * problem_.rig_from_station_seed;
+    trace.camera_from_station = trace.camera_from_station_seed;
+    trace.uncertainty = problem_.uncertainty;
+    trace.views = views;
+    trace.own_view = v;
   }
 }
 
 void SeveralViews::refuseAll(Status status) {
   joint.result.status = LocalizationStatus::kFault;
   joint.result.fault = status;
-  for (LocalizationTrace& one : traces) {
-    refuse(one, status);
-    for (ViewOutcome& view : one.views) view.status = localizationStatusText(one.status);
+  for (LocalizationTrace& trace : traces) {
+    refuse(trace, status);
+    for (ViewOutcome& view : trace.views) view.status = localizationStatusText(trace.status);
   }
 }
 
@@ -113,11 +113,11 @@ void SeveralViews::refuseAll(Status status) {
 void SeveralViews::describeViews() {
   for (std::size_t v = 0; v < traces.size(); ++v) {
     const Pass& of_view = localizer_->view(static_cast<int>(v));
-    LocalizationTrace& one = traces[v];
-    one.camera_from_station_seed = of_view.problem().camera_from_station_seed;
-    one.camera_from_station = one.camera_from_station_seed;
-    one.memory.inputs = inputBytes(of_view.problem());
-    one.memory.use = of_view.memory().use();
+    LocalizationTrace& trace = traces[v];
+    trace.camera_from_station_seed = of_view.problem().camera_from_station_seed;
+    trace.camera_from_station = trace.camera_from_station_seed;
+    trace.memory.inputs = inputBytes(of_view.problem());
+    trace.memory.use = of_view.memory().use();
   }
 }
 
@@ -135,42 +135,44 @@ void SeveralViews::noteIteration(const StepReport& report, const StageSeconds& s
   if (!report.iteration_complete) return;
   if (localizer_->iterationOf(0) == nullptr) return;
   for (std::size_t v = 0; v < traces.size(); ++v) {
-    IterationTrace made = traceOf(v, report.stage);
-    LocalizationTrace& one = traces[v];
+    IterationTrace iteration = traceOf(v, report.stage);
+    LocalizationTrace& trace = traces[v];
     const bool followed = localizer_->iterationOf(static_cast<int>(v)) != nullptr;
-    if (v > 0 && followed && one.iterations.empty()) one.uncertainty = made.uncertainty;
-    made.seconds = seconds;
-    one.iterations.push_back(std::make_shared<const IterationTrace>(std::move(made)));
+    if (v > 0 && followed && trace.iterations.empty()) trace.uncertainty = iteration.uncertainty;
+    iteration.seconds = seconds;
+    trace.iterations.push_back(std::make_shared<const IterationTrace>(std::move(iteration)));
   }
 }
 
 IterationTrace SeveralViews::traceOf(std::size_t view, Stage reached) const {
   const Iteration& leading = *localizer_->iterationOf(0);
   const Iteration* own = localizer_->iterationOf(static_cast<int>(view));
-  IterationTrace made = own != nullptr ? recordIteration(*own, reached, level_) : leftOut(view);
-  made.status = statusOf(view);
-  if (view == 0) return made;
-  if (!hasPose(leading, reached)) return made;
+  IterationTrace iteration =
+      own != nullptr ? recordIteration(*own, reached, level_) : leftOut(view);
+  iteration.status = statusOf(view);
+  if (view == 0) return iteration;
+  if (!hasPose(leading, reached)) return iteration;
   // What the next iteration begins from, and what the loop decides by: in the first view's camera.
-  made.camera_from_station = camera_from_first_[view] * leading.camera_from_station;
-  made.correction_translation_m = leading.correction_translation_m;
-  made.correction_rotation_rad = leading.correction_rotation_rad;
-  made.correction_image_px = leading.correction_image_px;
-  return made;
+  iteration.camera_from_station = camera_from_first_[view] * leading.camera_from_station;
+  iteration.correction_translation_m = leading.correction_translation_m;
+  iteration.correction_rotation_rad = leading.correction_rotation_rad;
+  iteration.correction_image_px = leading.correction_image_px;
+  return iteration;
 }
 
 /// Of a view that was not asked: the pose of the others alone.
 IterationTrace SeveralViews::leftOut(std::size_t view) const {
   const Iteration& leading = *localizer_->iterationOf(0);
-  IterationTrace made;
-  made.index = leading.index;
-  made.attempt = leading.attempt;
-  made.kind = leading.kind;
-  made.level = leading.level;
-  made.threshold_px = leading.threshold_px;
-  made.camera_from_station_before = camera_from_first_[view] * leading.camera_from_station_before;
-  made.camera_from_station = made.camera_from_station_before;
-  return made;
+  IterationTrace iteration;
+  iteration.index = leading.index;
+  iteration.attempt = leading.attempt;
+  iteration.kind = leading.kind;
+  iteration.level = leading.level;
+  iteration.threshold_px = leading.threshold_px;
+  iteration.camera_from_station_before =
+      camera_from_first_[view] * leading.camera_from_station_before;
+  iteration.camera_from_station = iteration.camera_from_station_before;
+  return iteration;
 }
 
 /// Why the view has no say in the iteration; else how that ended.
@@ -189,33 +191,33 @@ void SeveralViews::finish() {
 void SeveralViews::finish(std::size_t view) {
   const ViewsResult& result = localizer_->result();
   const ViewReport& report = result.views[view];
-  LocalizationTrace& one = traces[view];
-  one.finished = true;
-  one.attempts = result.attempts;
-  one.digest = viewDigest(*localizer_, view);
+  LocalizationTrace& trace = traces[view];
+  trace.finished = true;
+  trace.attempts = result.attempts;
+  trace.digest = viewDigest(*localizer_, view);
   if (result.status == LocalizationStatus::kFault) return;
   const Pass& of_view = localizer_->view(static_cast<int>(view));
-  one.status = report.status;
+  trace.status = report.status;
   const Workspace& seen = of_view.workspace();
-  one.candidates.assign(seen.candidates.begin(), seen.candidates.end());
-  one.support = report.support;
-  one.evidence = seen.evidence;
-  one.probability = report.probability;
-  one.edge_width = seen.edge_width;
-  one.focal = seen.focal;
-  one.arena_bytes = of_view.memory().highWaterBytes();
-  one.competing_poses.clear();
+  trace.candidates.assign(seen.candidates.begin(), seen.candidates.end());
+  trace.support = report.support;
+  trace.evidence = seen.evidence;
+  trace.probability = report.probability;
+  trace.edge_width = seen.edge_width;
+  trace.focal = seen.focal;
+  trace.arena_bytes = of_view.memory().highWaterBytes();
+  trace.competing_poses.clear();
   for (CompetingPose pose : result.competing_poses.items()) {
     pose.camera_from_station = problem_.views[view].camera_from_rig * pose.camera_from_station;
-    one.competing_poses.push_back(pose);
+    trace.competing_poses.push_back(pose);
   }
-  for (std::size_t v = 0; v < one.views.size(); ++v)
-    one.views[v].status = localizationStatusText(result.views[v].status);
+  for (std::size_t v = 0; v < trace.views.size(); ++v)
+    trace.views[v].status = localizationStatusText(result.views[v].status);
   if (!report.tookPart()) return;
-  one.camera_from_station = report.camera_from_station;
+  trace.camera_from_station = report.camera_from_station;
   const Matrix6d& of_first = localizer_->view(0).workspace().covariance;
   const Matrix6d moved = adjointOf(camera_from_first_[view]);
-  one.covariance = view == 0 ? of_first : Matrix6d(moved * of_first * moved.transpose());
+  trace.covariance = view == 0 ? of_first : Matrix6d(moved * of_first * moved.transpose());
 }
 
 }  // namespace

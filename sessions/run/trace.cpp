@@ -82,7 +82,7 @@ std::string leftOutText(const std::string& status) {
     return "too few of its edges are rendered or found";
   if (isStatus(status, LocalizationStatus::kTooFewTemplates)) return "too few templates";
   if (isStatus(status, LocalizationStatus::kTooFewMatches))
-    return "too few of its templates meet edges of the image";
+    return "too few of its templates match edges of the image";
   if (isStatus(status, LocalizationStatus::kPnpFailed))
     return "too few of its matches or edges agree with the pose of the others";
   if (isStatus(status, LocalizationStatus::kNotSupported))
@@ -94,10 +94,11 @@ std::string togetherText(const std::vector<ViewOutcome>& views, const std::strin
   const bool converged = std::any_of(views.begin(), views.end(),
                                      [](const ViewOutcome& view) { return view.tookPart(); });
   std::vector<std::string> names;
-  for (const ViewOutcome& one : views) {
-    if (one.case_id == own_case) continue;
-    const bool out = converged && !one.tookPart();
-    names.push_back(one.case_id + (out ? " (left out: " + leftOutText(one.status) + ")" : ""));
+  for (const ViewOutcome& view_outcome : views) {
+    if (view_outcome.case_id == own_case) continue;
+    const bool out = converged && !view_outcome.tookPart();
+    names.push_back(view_outcome.case_id +
+                    (out ? " (left out: " + leftOutText(view_outcome.status) + ")" : ""));
   }
   std::string text = "together with ";
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -124,7 +124,7 @@ enum class RecordLevel {
 struct IterationTrace {
   std::int32_t index =
       0;  ///< as the core counts; one that failed before its pose shares the next's
-  std::int32_t attempt = 0;  ///< a run that fails may start anew from its seed
+  std::int32_t attempt = 0;  ///< a failed run may restart from its seed
   IterationKind kind = IterationKind::kMatch;
   std::int32_t level = 0;
   Stage reached = Stage::kRender;  ///< the last stage that was worked on
@@ -184,7 +184,7 @@ struct LocalizationTrace {
   ContourEvidence evidence;  ///< of the same pose, of runs that search
   double probability = 0.0;  ///< that it is right, of runs that search
   EdgeWidth edge_width;      ///< where the same pose has its edges, of runs that search
-  FocalFit focal;            ///< beside the same pose, of runs that search
+  FocalFit focal;            ///< at the same pose, of runs that search
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
   Status fault = Status::kOk;
   Pose camera_from_station;  ///< best estimate; the seed unless converged

@@ -295,7 +295,7 @@ void fields(Archive& archive, Self& options) {
     archive.require(name == info.name, "an option that this version does not know");
     double value = static_cast<double>(field);
     archive.number(value);
-    archive.require(value >= info.minimum && value <= info.maximum, "an option out of its range");
+    archive.require(value >= info.minimum && value <= info.maximum, "an option outside its range");
     using Field = std::remove_reference_t<decltype(field)>;
     if constexpr (!std::is_const_v<Field>) field = static_cast<Field>(value);
   });
@@ -304,7 +304,7 @@ void fields(Archive& archive, Self& options) {
 template <class Archive, Is<OptionChange> Self>
 void fields(Archive& archive, Self& change) {
   archive.number(change.iteration);
-  archive.require(change.iteration > 0, "options that change before the run");
+  archive.require(change.iteration > 0, "option changes before the run");
   fields(archive, change.options);
 }
 

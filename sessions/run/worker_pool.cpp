@@ -13,37 +13,37 @@ WorkerPool::~WorkerPool() {
   for (std::jthread& thread : threads_) thread.request_stop();
 }
 
-void WorkerPool::run(int pieces, const Work& work, const std::stop_token& stop) {
+void WorkerPool::run(int tasks, const RunTask& run_task, const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  work_ = &work;
+  run_task_ = &run_task;
   stop_ = stop;
   next_ = 0;
-  pieces_ = pieces;
-  if (pieces > 1) begun_.notify_all();
-  takePieces(0, lock);
+  tasks_ = tasks;
+  if (tasks > 1) begun_.notify_all();
+  takeTasks(0, lock);
   done_.wait(lock, [this] { return busy_ == 0; });
-  work_ = nullptr;
+  run_task_ = nullptr;
   stop_ = {};
 }
 
 void WorkerPool::serve(int worker, const std::stop_token& ended) {
   std::unique_lock lock(mutex_);
-  while (begun_.wait(lock, ended, [this] { return work_ != nullptr && next_ < pieces_; }))
-    takePieces(worker, lock);
+  while (begun_.wait(lock, ended, [this] { return run_task_ != nullptr && next_ < tasks_; }))
+    takeTasks(worker, lock);
 }
 
-/// Called with the lock, which is released while a piece is worked on.
-void WorkerPool::takePieces(int worker, std::unique_lock<std::mutex>& lock) {
-  while (work_ != nullptr && next_ < pieces_) {
+/// Called with the lock, which is released while a task runs.
+void WorkerPool::takeTasks(int worker, std::unique_lock<std::mutex>& lock) {
+  while (run_task_ != nullptr && next_ < tasks_) {
     if (stop_.stop_requested()) {
-      next_ = pieces_;
+      next_ = tasks_;
       return;
     }
-    const int piece = next_++;
-    const Work& work = *work_;
+    const int task = next_++;
+    const RunTask& run_task = *run_task_;
     ++busy_;
     lock.unlock();
-    work(piece, worker);
+    run_task(task, worker);
     lock.lock();
     --busy_;
   }

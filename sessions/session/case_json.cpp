@@ -177,42 +177,42 @@ void fields(Archive& archive, Self& rig) {
 }
 
 template <class Archive, ConstOr<SessionCase> Self>
-void fields(Archive& archive, Self& one) {
-  archive.field("id", one.id, kNonEmptyText);
-  archive.optional("station", one.station, kNonEmptyText);
-  archive.object("image", one.image);
-  CameraFile camera{one.camera, std::nullopt, one.calibration_sigma};
+void fields(Archive& archive, Self& self) {
+  archive.field("id", self.id, kNonEmptyText);
+  archive.optional("station", self.station, kNonEmptyText);
+  archive.object("image", self.image);
+  CameraFile camera{self.camera, std::nullopt, self.calibration_sigma};
   archive.field("camera", camera, kCamera);
-  archive.list("parts", one.parts);
-  archive.optional("feature_size_m", one.feature_size_m, numberIn(1e-6, 100.0));
-  archive.optional("mesh_scale_sigma", one.mesh_scale_sigma, plainCodec(&readMeshScaleSigma));
-  archive.field("seed", one.camera_from_station_seed, kExactPose);
-  archive.field("uncertainty", one.uncertainty, kUncertainty);
-  archive.object("camera_reference", one.camera_reference);
-  archive.object("station_frame", one.station_frame);
-  archive.object("truth_frame", one.truth_frame);
-  archive.optional("truth", one.camera_from_station_truth, kExactPose);
-  archive.optional("truth_covariance", one.truth_covariance, kCovariance);
-  archive.optional("working", one.camera_from_station_working, kExactPose);
-  archive.object("ignore", one.ignore);
-  archive.optionalList("ignore_strokes", one.ignore_strokes);
-  archive.object("onboard_record", one.onboard_record);
-  archive.object("rig", one.rig);
-  archive.optional("tags", one.tags, listOf(kNonEmptyText));
-  archive.optional("requirement", one.requirement, kRequirement);
-  archive.optional("camera_from_end_effector", one.camera_from_end_effector, kExactPose);
-  archive.optionalPath("landmarks", one.landmarks, FileUse::kLandmarks);
+  archive.list("parts", self.parts);
+  archive.optional("feature_size_m", self.feature_size_m, numberIn(1e-6, 100.0));
+  archive.optional("mesh_scale_sigma", self.mesh_scale_sigma, plainCodec(&readMeshScaleSigma));
+  archive.field("seed", self.camera_from_station_seed, kExactPose);
+  archive.field("uncertainty", self.uncertainty, kUncertainty);
+  archive.object("camera_reference", self.camera_reference);
+  archive.object("station_frame", self.station_frame);
+  archive.object("truth_frame", self.truth_frame);
+  archive.optional("truth", self.camera_from_station_truth, kExactPose);
+  archive.optional("truth_covariance", self.truth_covariance, kCovariance);
+  archive.optional("working", self.camera_from_station_working, kExactPose);
+  archive.object("ignore", self.ignore);
+  archive.optionalList("ignore_strokes", self.ignore_strokes);
+  archive.object("onboard_record", self.onboard_record);
+  archive.object("rig", self.rig);
+  archive.optional("tags", self.tags, listOf(kNonEmptyText));
+  archive.optional("requirement", self.requirement, kRequirement);
+  archive.optional("camera_from_end_effector", self.camera_from_end_effector, kExactPose);
+  archive.optionalPath("landmarks", self.landmarks, FileUse::kLandmarks);
   if constexpr (Archive::kReads) {
-    one.camera = camera.camera;
-    one.calibration_sigma = camera.calibration_sigma;
-    if (std::none_of(one.parts.begin(), one.parts.end(),
+    self.camera = camera.camera;
+    self.calibration_sigma = camera.calibration_sigma;
+    if (std::none_of(self.parts.begin(), self.parts.end(),
                      [](const MeshInput& part) { return part.source.part.match; }))
       archive.json().failMember("parts", "no part is to be matched");
   }
 }
 
-ordered_json toJson(const SessionCase& one, const PathWriter& path) {
-  return fieldsJson(one, &path);
+ordered_json toJson(const SessionCase& session_case, const PathWriter& path) {
+  return fieldsJson(session_case, &path);
 }
 SessionCase readSessionCase(const JsonReader& json) { return readFields<SessionCase>(json); }
 

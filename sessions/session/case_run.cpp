@@ -23,24 +23,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<IgnoreMask> loadMask(const SessionCase& one, const GrayImage& image) {
-  if (!one.ignore && one.ignore_strokes.empty()) return std::nullopt;
+std::optional<IgnoreMask> loadMask(const SessionCase& session_case, const GrayImage& image) {
+  if (!session_case.ignore && session_case.ignore_strokes.empty()) return std::nullopt;
   IgnoreMask mask = emptyMask(image.width, image.height);
-  if (one.ignore) {
-    mask = readIgnoreMask(one.ignore->file, image.width, image.height);
-    requireKnown(one.ignore->file, "its bytes", mask.file_sha256, one.ignore->sha256);
+  if (session_case.ignore) {
+    mask = readIgnoreMask(session_case.ignore->file, image.width, image.height);
+    requireKnown(session_case.ignore->file, "its bytes", mask.file_sha256,
+                 session_case.ignore->sha256);
   }
-  applyStrokes(one.ignore_strokes, image.view(), mask);
+  applyStrokes(session_case.ignore_strokes, image.view(), mask);
   return mask;
 }
 
-std::shared_ptr<const LoadedCase> completed(const SessionCase& one, GrayImage image,
+std::shared_ptr<const LoadedCase> completed(const SessionCase& session_case, GrayImage image,
                                             SceneMesh scene) {
   auto loaded = std::make_shared<LoadedCase>();
-  loaded->source = one;
+  loaded->source = session_case;
   loaded->image = std::move(image);
   loaded->scene = std::move(scene);
-  loaded->ignore = loadMask(one, loaded->image);
+  loaded->ignore = loadMask(session_case, loaded->image);
   if (loaded->ignore) loaded->ignore_bits = loaded->ignore->view();
   return loaded;
 }
@@ -66,24 +67,26 @@ LocalizationProblem LoadedCase::problem() const {
                    source.camera_from_station_seed, source.uncertainty);
 }
 
-std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one) {
-  GrayImage image = loadImage(one.image);
-  return completed(one, std::move(image), readKnownScene(one.parts));
+std::shared_ptr<const LoadedCase> loadCase(const SessionCase& session_case) {
+  GrayImage image = loadImage(session_case.image);
+  return completed(session_case, std::move(image), readKnownScene(session_case.parts));
 }
 
-std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before, const SessionCase& one) {
-  const bool same_image = one.image == before.source.image;
-  const bool same_scene = one.parts == before.source.parts;
-  GrayImage image = same_image ? before.image : loadImage(one.image);
-  return completed(one, std::move(image), same_scene ? before.scene : readKnownScene(one.parts));
+std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before,
+                                             const SessionCase& session_case) {
+  const bool same_image = session_case.image == before.source.image;
+  const bool same_scene = session_case.parts == before.source.parts;
+  GrayImage image = same_image ? before.image : loadImage(session_case.image);
+  return completed(session_case, std::move(image),
+                   same_scene ? before.scene : readKnownScene(session_case.parts));
 }
 
 void requireRunnable(const LoadedCase& loaded) {
-  const SessionCase& one = loaded.source;
-  requireSameSize(loaded.image, one.camera);
-  requireField("case " + one.id, "camera", one.camera);
-  requireSensibleSeed(one.camera, loaded.scene, one.camera_from_station_seed, "case " + one.id,
-                      "seed");
+  const SessionCase& session_case = loaded.source;
+  requireSameSize(loaded.image, session_case.camera);
+  requireField("case " + session_case.id, "camera", session_case.camera);
+  requireSensibleSeed(session_case.camera, loaded.scene, session_case.camera_from_station_seed,
+                      "case " + session_case.id, "seed");
 }
 
 LocalizationTrace runCase(const Session& session, const LoadedCase& loaded, RecordLevel level,
@@ -105,16 +108,16 @@ LocalizationTrace runCase(const Session& session, const std::string& case_id, Re
 }
 
 RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& file) {
-  const SessionCase& one = knownCase(session, run.case_id);
+  const SessionCase& session_case = knownCase(session, run.case_id);
   const std::string place = "run " + run.digest;
-  if (run.inputs_sha256 != inputsDigest(one))
+  if (run.inputs_sha256 != inputsDigest(session_case))
     throw InputError(file, place, "the inputs of case " + run.case_id + " are no longer its own");
   if (run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together)))
     throw InputError(file, place,
                      "it was made " + togetherText(run.together->views, run.case_id) +
                          ", and one of these views is no longer there as it was");
   if (run.rerun) return *run.rerun;
-  const LocalizerOptions options = caseOptions(session, one, file);
+  const LocalizerOptions options = caseOptions(session, session_case, file);
   if (run.options_sha256 != optionsDigest(options))
     throw InputError(file, place, "the session's options are no longer its own");
   return options;
@@ -125,7 +128,7 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
                    const std::string& from) {
   if (trace.status == LocalizationStatus::kRunning)
     throw std::logic_error("a run that was stopped cannot be stored");
-  const SessionCase& one = knownCase(session, case_id);
+  const SessionCase& session_case = knownCase(session, case_id);
   RunRecord run;
   run.case_id = case_id;
   run.digest = trace.digest;
@@ -133,9 +136,10 @@ RunRecord storeRun(const Session& session, const std::string& case_id,
   run.status = localizationStatusText(trace.status);
   run.version = trace.version;
   run.time = utcNowText();
-  run.inputs_sha256 = inputsDigest(one);
+  run.inputs_sha256 = inputsDigest(session_case);
   run.options_sha256 = optionsDigest(trace.lastOptions());
-  const bool own_options = !sameOptions(trace.options, caseOptions(session, one, session_file));
+  const bool own_options =
+      !sameOptions(trace.options, caseOptions(session, session_case, session_file));
   if (own_options || !trace.changes.empty()) run.rerun = RerunRecord{trace.plan(), from};
   if (!isSha256Text(run.digest))
     throw OutputError(session_file, "case " + case_id + ": the run ended before it had a digest (" +

@@ -37,10 +37,11 @@ GrayImage loadImage(const ImageInput& input);
 
 /// Reads a case's inputs. InputError when one is missing, wrong, or no longer the one that the
 /// session was made with. An image of another size than its camera is loaded all the same.
-std::shared_ptr<const LoadedCase> loadCase(const SessionCase& one);
+std::shared_ptr<const LoadedCase> loadCase(const SessionCase& session_case);
 /// The same for a case that was edited, where what an edit left alone is taken from what was read
 /// before.
-std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before, const SessionCase& one);
+std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before,
+                                             const SessionCase& session_case);
 
 /// InputError when a run makes no sense: image and camera differ in size, the camera's distortion
 /// folds back in the image, the station is out of view, behind the camera, or of a size that only a

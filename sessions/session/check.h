@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is checked of a pose before somebody vouches for it.
+// Checks of a pose before its validation.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ enum class LimitSide { kAtMost, kAtLeast };
 
 struct Check {
   std::string id;     ///< stable, as files name it: "converged", "covariance_normal"
-  std::string title;  ///< for people: "Sigma along the view axis"
+  std::string title;  ///< for display: "Sigma along the view axis"
   CheckState state = CheckState::kNotApplicable;
   std::optional<double> figure;  ///< in `unit`; nothing where it is not a number
   std::optional<double> limit;   ///< in `unit`
@@ -43,7 +43,7 @@ int countOf(std::span<const Check> checks, CheckState state);
 /// None has failed, and one at least has passed.
 bool allPassed(std::span<const Check> checks);
 
-/// What a check is of: its id and its name for people.
+/// Id and displayed name of a check.
 struct CheckName {
   const char* id;
   const char* title;
@@ -67,7 +67,7 @@ std::string percentText(double share);
 /// A number for a sentence: three significant digits, no exponent where it can be avoided.
 std::string sentenceNumber(double value);
 
-/// A table for people: state, check and figure, below them why one failed or is not applicable, and
+/// A readable table: state, check and figure, below them why one failed or is not applicable, and
 /// how many there are of each state. With `all_sentences` every check's sentence follows it.
 std::string checksText(std::span<const Check> checks, bool all_sentences = false);
 

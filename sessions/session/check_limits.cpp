@@ -13,7 +13,7 @@ namespace {
 CheckPreset sampleTransfer() {
   CheckPreset preset;
   preset.name = kDefaultCheckPreset;
-  preset.help = "Putting a tube into its place: 0.4 mm and 0.25 deg.";
+  preset.help = "Insertion of a sample tube: 0.4 mm and 0.25 deg.";
   preset.requirement.normal_mm = 0.4;
   preset.requirement.lateral_mm = 0.4;
   preset.requirement.rotation_deg = 0.25;
@@ -23,7 +23,7 @@ CheckPreset sampleTransfer() {
 CheckPreset photographs() {
   CheckPreset preset;
   preset.name = "photographs";
-  preset.help = "Photographs whose truth and calibration are good to some pixels only.";
+  preset.help = "Photographs with truth and calibration good to a few pixels.";
   preset.requirement.projection_px = 5.0;
   // Meshes of toys and castings, glossy or printed surfaces: less is seen, more is not predicted.
   preset.limits.inlier_ratio_percent = 14.0;
@@ -31,7 +31,7 @@ CheckPreset photographs() {
   preset.limits.clutter_percent = 90.0;
   preset.limits.fall_off_percent = 8.0;
   // Printed boxes and things that look alike from many sides are hard to find.
-  preset.limits.basin_percent = 30.0;
+  preset.limits.convergence_percent = 30.0;
   return preset;
 }
 
@@ -44,19 +44,20 @@ const std::vector<CheckPreset>& checkPresets() {
 
 const CheckPreset* findCheckPreset(const std::string& name) {
   const auto& all = checkPresets();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&name](const CheckPreset& one) { return one.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&name](const CheckPreset& check_preset) {
+    return check_preset.name == name;
+  });
   return found == all.end() ? nullptr : &*found;
 }
 
 const CheckPreset& presetFor(const Requirement& requirement) {
-  const auto names = [](const Requirement& one) {
-    return std::array{one.normal_mm.has_value(), one.lateral_mm.has_value(),
-                      one.rotation_deg.has_value(), one.projection_px.has_value()};
+  const auto names = [](const Requirement& item) {
+    return std::array{item.normal_mm.has_value(), item.lateral_mm.has_value(),
+                      item.rotation_deg.has_value(), item.projection_px.has_value()};
   };
   const auto& all = checkPresets();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const CheckPreset& one) {
-    return names(one.requirement) == names(requirement);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CheckPreset& check_preset) {
+    return names(check_preset.requirement) == names(requirement);
   });
   return found == all.end() ? all.front() : *found;
 }
@@ -74,8 +75,8 @@ ReviewSettings withPreset(const ReviewSettings& settings, const std::string& pre
   return {preset, {}, settings.second_person};
 }
 
-Requirement requirementOf(const Session& session, const SessionCase& one) {
-  if (one.requirement) return *one.requirement;
+Requirement requirementOf(const Session& session, const SessionCase& session_case) {
+  if (session_case.requirement) return *session_case.requirement;
   const CheckPreset* preset = findCheckPreset(session.review.preset);
   if (preset == nullptr)
     throw InputError("session", "review.preset",

@@ -33,83 +33,86 @@ struct CheckLimits {
   double focal_percent = 0.5;
   double centre_px = 4.0;
   double agreement_percent = 100.0;
-  double basin_percent = 90.0;
-  double rival_percent = 115.0;
+  double convergence_percent = 90.0;
+  double competing_percent = 115.0;
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"check.last_correction_percent", "%", 0.0, 1000.0,
-                     "Most that the last correction may be of the first one, in the image; a first "
-                     "one below a pixel counts as a pixel."},
+                     "Largest last correction relative to the first one, in the image; a first "
+                     "correction below a pixel counts as a pixel."},
           self.last_correction_percent);
     visit(OptionInfo{"check.inlier_count", "", 0.0, 10000.0,
-                     "Inliers that the last matching iteration must have at least."},
+                     "Least number of inliers of the last matching iteration."},
           self.inlier_count);
     visit(OptionInfo{"check.inlier_ratio_percent", "%", 0.0, 100.0,
                      "Least share of inliers among the matches of that iteration."},
           self.inlier_ratio_percent);
     visit(OptionInfo{"check.inlier_spread_percent", "%", 0.0, 1000.0,
-                     "Least spread of the inliers over the image of the station, in the direction "
-                     "in which they spread least; 100: as wide as its edges."},
+                     "Least spread of the inliers in the image in their narrowest direction; 100: "
+                     "as wide as the station's edges."},
           self.inlier_spread_percent);
     visit(OptionInfo{"check.inlier_depth_percent", "%", 0.0, 1000.0,
-                     "The same along the view axis, of a station that has depth."},
+                     "Least spread of the inliers along the view axis, if the station has depth."},
           self.inlier_depth_percent);
     visit(OptionInfo{"check.border_percent", "%", 0.0, 100.0,
-                     "Most matches that may lie on the border of their search window: what they "
-                     "look for may lie beyond."},
+                     "Largest share of matches on the border of their search window, beyond which "
+                     "the true position may lie."},
           self.border_percent);
-    visit(OptionInfo{"check.peak_margin_percent", "%", 0.0, 100.0,
-                     "Least median, over the inliers, by which the best score exceeds the second."},
-          self.peak_margin_percent);
-    visit(OptionInfo{"check.sigmas", "", 0.0, 100.0,
-                     "So many standard deviations of the pose must fit into the requirement."},
-          self.sigmas);
+    visit(
+        OptionInfo{
+            "check.peak_margin_percent", "%", 0.0, 100.0,
+            "Least median, over the inliers, of the margin between best and second-best score."},
+        self.peak_margin_percent);
+    visit(
+        OptionInfo{"check.sigmas", "", 0.0, 100.0,
+                   "Number of standard deviations of the pose that must fit into the requirement."},
+        self.sigmas);
     visit(OptionInfo{"check.saturated_percent", "%", 0.0, 100.0,
                      "Largest share of saturated pixels in the box that the station fills."},
           self.saturated_percent);
-    visit(
-        OptionInfo{"check.range_gray", "", 0.0, 255.0,
-                   "Least range of gray levels in that box, from the 1st to the 99th percentile."},
-        self.range_gray);
+    visit(OptionInfo{"check.range_gray", "", 0.0, 255.0,
+                     "Least range of gray levels in the box that the station fills, from the 1st "
+                     "to the 99th percentile."},
+          self.range_gray);
     visit(OptionInfo{"check.coverage_percent", "%", 0.0, 100.0,
                      "Least share of the predicted edges that the image shows."},
           self.coverage_percent);
-    visit(OptionInfo{"check.clutter_percent", "%", 0.0, 100.0,
-                     "Most of the image's edges on the station that the pose may not predict."},
-          self.clutter_percent);
+    visit(
+        OptionInfo{
+            "check.clutter_percent", "%", 0.0, 100.0,
+            "Largest share of the image's edges on the station that the pose does not predict."},
+        self.clutter_percent);
     visit(OptionInfo{"check.explained_percent", "%", 0.0, 100.0,
-                     "Least share of the predicted edges that the image shows, or else of the "
-                     "image's edges on the station that are predicted."},
+                     "Least value of the larger share: predicted edges that are seen, or seen "
+                     "edges that are predicted."},
           self.explained_percent);
     visit(OptionInfo{"check.edge_width_px", "px", 0.5, 100.0,
-                     "Widest edges of the image, across the direction that widens them most."},
+                     "Largest width of the image's edges in the least sharp direction."},
           self.edge_width_px);
     visit(OptionInfo{"check.fall_off_percent", "%", 0.0, 100.0,
-                     "Least part of the edges seen that must be lost when the pose is displaced, "
-                     "whichever way."},
+                     "Least share of the seen edges that is lost when the pose is displaced in any "
+                     "direction."},
           self.fall_off_percent);
     visit(OptionInfo{"check.focal_percent", "%", 0.0, 100.0,
-                     "Most that the focal length may change, beyond chance, when the edges may "
-                     "choose it; and most that they may leave open where no calibration_sigma is "
-                     "stated."},
+                     "Largest significant change of the focal length when estimated from the "
+                     "edges; without calibration_sigma also its largest uncertainty."},
           self.focal_percent);
     visit(OptionInfo{"check.centre_px", "px", 0.0, 10000.0,
-                     "Most that the principal point may move, beyond chance, when the edges may "
-                     "choose it; and most that they may leave open where no calibration_sigma is "
-                     "stated."},
+                     "Largest significant shift of the principal point when estimated from the "
+                     "edges; without calibration_sigma also its largest uncertainty."},
           self.centre_px);
     visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
-                     "Most that this pose and another (annotation, truth, second camera) may be "
-                     "apart, of what the requirement and both covariances allow."},
+                     "Largest distance to another pose (annotation, truth, second camera), "
+                     "relative to requirement and covariances."},
           self.agreement_percent);
-    visit(OptionInfo{"check.basin_percent", "%", 0.0, 100.0,
-                     "Least share of further seeds that lead back to the same pose."},
-          self.basin_percent);
-    visit(OptionInfo{"check.rival_percent", "%", 0.0, 1000.0,
-                     "Most that another pose, or the station's mirror image, may show of its "
-                     "predicted edges, of the share that this pose shows."},
-          self.rival_percent);
+    visit(OptionInfo{"check.convergence_percent", "%", 0.0, 100.0,
+                     "Least share of further seeds that converge to the same pose."},
+          self.convergence_percent);
+    visit(OptionInfo{"check.competing_percent", "%", 0.0, 1000.0,
+                     "Largest edge coverage of a competing pose or a mirrored station, relative to "
+                     "that of this pose."},
+          self.competing_percent);
   }
 };
 
@@ -141,7 +144,7 @@ CheckLimits checkLimits(const std::string& preset, const OptionList& changed);
 ReviewSettings withPreset(const ReviewSettings& settings, const std::string& preset);
 
 /// A case's own requirement, else the preset's. InputError when there is no such preset.
-Requirement requirementOf(const Session& session, const SessionCase& one);
+Requirement requirementOf(const Session& session, const SessionCase& session_case);
 
 /// These limits, kept as what differs from the preset. std::invalid_argument when there is none.
 ReviewSettings withLimits(const ReviewSettings& settings, const CheckLimits& limits);

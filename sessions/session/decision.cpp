@@ -61,7 +61,7 @@ void fields(Archive& archive, Self& judged) {
   if (check.limit) archive.field("side", check.side, kSide);
   archive.optional("unit", check.unit, kAnyText);
   archive.field("sentence", check.sentence, kAnyText);
-  archive.optional("override_reason", judged.override_reason, kAnyText);
+  archive.optional("waiver_reason", judged.waiver_reason, kAnyText);
 }
 
 template <class Archive, ConstOr<Decision> Self>
@@ -75,7 +75,7 @@ void fields(Archive& archive, Self& decision) {
   archive.object("pose", decision.pose);
   archive.optional("input_fingerprint", decision.input_fingerprint, plainCodec(&readFingerprint));
   archive.optionalList("checks", decision.checks);
-  archive.optional("basin_seeds", decision.basin_seeds, integerIn(1, 1000));
+  archive.optional("convergence_seeds", decision.convergence_seeds, integerIn(1, 1000));
   archive.object("approval", decision.approval);
 }
 

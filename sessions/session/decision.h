@@ -21,10 +21,10 @@ enum class Verdict { kValidated, kRejected, kReopened };
 /// Where a pose comes from that is checked, decided on or exported.
 enum class PoseSource { kRun, kAnnotation };
 
-/// A check as it was when somebody decided.
+/// A check at the time of the decision.
 struct JudgedCheck {
   Check check;
-  std::string override_reason;  ///< why a failed one does not stand in the way, or empty
+  std::string waiver_reason;  ///< why a failed one does not stand in the way, or empty
 
   bool operator==(const JudgedCheck&) const = default;
 };
@@ -41,7 +41,8 @@ struct Approval {
 /// Covariance of a pose by its causes, which are independent: over (rotation rad, translation m),
 /// left perturbation, camera frame.
 struct PoseCovariance {
-  Matrix6d picture = Matrix6d::Zero();      ///< of the picture or the marks alone; zero: not known
+  Matrix6d picture =
+      Matrix6d::Zero();  ///< of the picture or the annotations alone; zero: not known
   Matrix6d mesh_scale = Matrix6d::Zero();   ///< of the mesh's scale, which no single image shows
   Matrix6d calibration = Matrix6d::Zero();  ///< of focal length and principal point
 
@@ -77,7 +78,8 @@ struct Decision {
   std::map<std::string, std::string> input_fingerprint = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
-  int basin_seeds = 0;  ///< further seeds that the checks rest on, to measure them again; 0: none
+  int convergence_seeds =
+      0;  ///< further seeds that the checks rest on, to measure them again; 0: none
 
   bool operator==(const Decision&) const = default;
 };
@@ -86,7 +88,7 @@ struct Decision {
 struct ReviewSettings {
   std::string preset = "sample_transfer";  ///< of limits (sessions/session/check_limits.h)
   OptionList limits;  ///< what differs from the preset, by name in the order of the alphabet
-  bool second_person = false;  ///< a validation counts once somebody else has approved it
+  bool second_person = false;  ///< a second person must approve a validation
 
   bool operator==(const ReviewSettings&) const = default;
 };

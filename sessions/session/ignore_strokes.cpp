@@ -122,17 +122,19 @@ void applyStrokes(const MaskStrokes& strokes, const ImageView& image, IgnoreMask
 }
 
 Session withStrokes(const Session& session, const std::string& case_id, MaskStrokes strokes) {
-  return withChanged(session, case_id,
-                     [&](SessionCase& one) { one.ignore_strokes = std::move(strokes); });
+  return withChanged(session, case_id, [&](SessionCase& session_case) {
+    session_case.ignore_strokes = std::move(strokes);
+  });
 }
 
 Session withStroke(const Session& session, const std::string& case_id, MaskStroke stroke) {
-  return withChanged(session, case_id,
-                     [&](SessionCase& one) { one.ignore_strokes.push_back(std::move(stroke)); });
+  return withChanged(session, case_id, [&](SessionCase& session_case) {
+    session_case.ignore_strokes.push_back(std::move(stroke));
+  });
 }
 
-MaskStrokes clearedStrokes(const SessionCase& one) {
-  if (!one.ignore) return {};
+MaskStrokes clearedStrokes(const SessionCase& session_case) {
+  if (!session_case.ignore) return {};
   MaskStroke all;
   all.kind = StrokeKind::kSaturation;
   all.erase = true;
@@ -142,17 +144,17 @@ MaskStrokes clearedStrokes(const SessionCase& one) {
 
 std::vector<std::string> casesOfSameCamera(const Session& session, const std::string& case_id) {
   std::vector<std::string> ids;
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return ids;
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) return ids;
   for (const auto& other : session.cases)
-    if (other->id != case_id && sameCamera(*other, *one)) ids.push_back(other->id);
+    if (other->id != case_id && sameCamera(*other, *session_case)) ids.push_back(other->id);
   return ids;
 }
 
 Session copyingStroke(const Session& session, const std::string& case_id, std::size_t stroke) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr || stroke >= one->ignore_strokes.size()) return session;
-  const MaskStroke& copied = one->ignore_strokes[stroke];
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr || stroke >= session_case->ignore_strokes.size()) return session;
+  const MaskStroke& copied = session_case->ignore_strokes[stroke];
   Session next = session;
   for (const std::string& id : casesOfSameCamera(session, case_id))
     if (!contains(session.findCase(id)->ignore_strokes, copied))
@@ -162,11 +164,11 @@ Session copyingStroke(const Session& session, const std::string& case_id, std::s
 
 MaskStrokes namedStrokesOfCamera(const Session& session, const std::string& case_id) {
   MaskStrokes named;
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return named;
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) return named;
   for (const std::string& id : casesOfSameCamera(session, case_id))
     for (const MaskStroke& stroke : session.findCase(id)->ignore_strokes)
-      if (!stroke.name.empty() && !contains(one->ignore_strokes, stroke) &&
+      if (!stroke.name.empty() && !contains(session_case->ignore_strokes, stroke) &&
           !contains(named, stroke))
         named.push_back(stroke);
   return named;

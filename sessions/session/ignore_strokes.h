@@ -28,7 +28,7 @@ struct MaskStroke {
   double radius_px = 8.0;               ///< of a brush
   int level = 255;                      ///< of a saturation, 0 .. 255
   std::vector<Eigen::Vector2d> points;  ///< px; none for a saturation
-  std::string name = {};                ///< for people, "gripper"; may be empty
+  std::string name = {};                ///< for display, "gripper"; may be empty
 
   bool operator==(const MaskStroke&) const = default;
 };
@@ -38,7 +38,7 @@ using MaskStrokes = std::vector<MaskStroke>;
 /// No pixel ignored.
 IgnoreMask emptyMask(int width, int height);
 
-/// Applies strokes in their order to a mask of the image's size, and counts anew. Only + - * and
+/// Applies strokes in their order to a mask of the image's size, and counts again. Only + - * and
 /// comparisons of doubles: the same pixels on every machine.
 void applyStrokes(const MaskStrokes& strokes, const ImageView& image, IgnoreMask& mask);
 
@@ -49,7 +49,7 @@ Session withStroke(const Session& session, const std::string& case_id, MaskStrok
 
 /// Strokes that leave no pixel ignored: none, or where the case has a mask image one that trusts
 /// every pixel of it again.
-MaskStrokes clearedStrokes(const SessionCase& one);
+MaskStrokes clearedStrokes(const SessionCase& session_case);
 
 /// Other cases whose pixels mean the same: of an equal camera and image size.
 std::vector<std::string> casesOfSameCamera(const Session& session, const std::string& case_id);

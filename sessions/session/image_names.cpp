@@ -41,19 +41,20 @@ bool sameParts(const SessionCase& a, const SessionCase& b) {
 std::vector<std::string> imageNames(const Session& session) {
   if (session.cases.empty()) return {};
   fs::path folder = session.cases[0]->image.source.file.parent_path();
-  for (const auto& one : session.cases)
-    folder = commonFolder(folder, one->image.source.file.parent_path());
+  for (const auto& session_case : session.cases)
+    folder = commonFolder(folder, session_case->image.source.file.parent_path());
   std::vector<std::string> names;
-  for (const auto& one : session.cases)
-    names.push_back(one->image.source.file.lexically_relative(folder).generic_string());
+  for (const auto& session_case : session.cases)
+    names.push_back(session_case->image.source.file.lexically_relative(folder).generic_string());
   return names;
 }
 
 std::vector<int> imageNumbers(const Session& session) {
   std::vector<int> numbers;
   std::set<int> seen;
-  for (const auto& one : session.cases)
-    if (const auto number = numberOf(one->image.source.file); number && seen.insert(*number).second)
+  for (const auto& session_case : session.cases)
+    if (const auto number = numberOf(session_case->image.source.file);
+        number && seen.insert(*number).second)
       numbers.push_back(*number);
   if (numbers.size() == session.cases.size()) return numbers;
   for (numbers.clear(); numbers.size() < session.cases.size();)
@@ -64,12 +65,12 @@ std::vector<int> imageNumbers(const Session& session) {
 std::vector<int> stationNumbers(const Session& session) {
   std::vector<const SessionCase*> stations;
   std::vector<int> numbers;
-  for (const auto& one : session.cases) {
-    const auto same =
-        std::find_if(stations.begin(), stations.end(),
-                     [&one](const SessionCase* other) { return sameParts(*one, *other); });
+  for (const auto& session_case : session.cases) {
+    const auto same = std::find_if(
+        stations.begin(), stations.end(),
+        [&session_case](const SessionCase* other) { return sameParts(*session_case, *other); });
     numbers.push_back(static_cast<int>(same - stations.begin()) + 1);
-    if (same == stations.end()) stations.push_back(&*one);
+    if (same == stations.end()) stations.push_back(&*session_case);
   }
   return numbers;
 }

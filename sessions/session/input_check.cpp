@@ -24,13 +24,14 @@ constexpr std::size_t kMaxSearched = 100000;
 
 /// Calls `visit(place, file, sha256)` for each file that a case depends on.
 template <class Case, class Visit>
-void forEachFile(Case& one, Visit&& visit) {
-  visit("image", one.image.source.file, one.image.source.sha256);
-  for (std::size_t i = 0; i < one.parts.size(); ++i)
-    visit("parts[" + std::to_string(i) + "]", one.parts[i].source.mesh, one.parts[i].sha256);
-  if (one.ignore) visit("ignore", one.ignore->file, one.ignore->sha256);
-  if (one.onboard_record)
-    visit("onboard_record", one.onboard_record->file, one.onboard_record->sha256);
+void forEachFile(Case& dataset_case, Visit&& visit) {
+  visit("image", dataset_case.image.source.file, dataset_case.image.source.sha256);
+  for (std::size_t i = 0; i < dataset_case.parts.size(); ++i)
+    visit("parts[" + std::to_string(i) + "]", dataset_case.parts[i].source.mesh,
+          dataset_case.parts[i].sha256);
+  if (dataset_case.ignore) visit("ignore", dataset_case.ignore->file, dataset_case.ignore->sha256);
+  if (dataset_case.onboard_record)
+    visit("onboard_record", dataset_case.onboard_record->file, dataset_case.onboard_record->sha256);
 }
 
 /// One file that a case depends on.
@@ -41,15 +42,16 @@ struct Dependency {
   const ImageInput* image = nullptr;  ///< of an image
 };
 
-std::vector<Dependency> dependenciesOf(const SessionCase& one) {
+std::vector<Dependency> dependenciesOf(const SessionCase& session_case) {
   std::vector<Dependency> all;
-  forEachFile(one, [&](const std::string& what, const fs::path& file, const std::string& sha256) {
-    all.push_back({what, file, sha256, all.empty() ? &one.image : nullptr});
-  });
+  forEachFile(session_case,
+              [&](const std::string& what, const fs::path& file, const std::string& sha256) {
+                all.push_back({what, file, sha256, all.empty() ? &session_case.image : nullptr});
+              });
   return all;
 }
 
-/// The file, and the one beside it that is part of the same image.
+/// The file, and its companion file of the same image.
 std::string namesOf(const Dependency& dependency) {
   const std::string other =
       dependency.image != nullptr ? otherFileText(dependency.file) : std::string();
@@ -87,9 +89,9 @@ std::optional<Finding> findingOf(const std::string& case_id, const Dependency& d
     finding.kind = state.missing ? FindingKind::kMissing : FindingKind::kUnreadable;
     finding.text += dependency.file.string() + ": " + (lost.empty() ? state.error : lost);
   } else if (changed) {
-    finding.text +=
-        namesOf(dependency) + " is not the file that the session was made with (its SHA-256 is " +
-        state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) + "...)";
+    finding.text += namesOf(dependency) + " differs from the session's file (its SHA-256 is " +
+                    state.sha256.substr(0, 12) + "..., not " + dependency.sha256.substr(0, 12) +
+                    "...)";
   } else {
     return {};
   }
@@ -159,11 +161,11 @@ std::string inputSha256(const fs::path& file) {
 std::vector<Finding> checkInputs(const Session& session) {
   std::map<fs::path, FileState> states;  // each file is hashed once, however many cases share it
   std::vector<Finding> findings;
-  for (const auto& one : session.cases)
-    for (const Dependency& dependency : dependenciesOf(*one)) {
+  for (const auto& session_case : session.cases)
+    for (const Dependency& dependency : dependenciesOf(*session_case)) {
       const auto [known, added] = states.try_emplace(dependency.file);
       if (added) known->second = stateOf(dependency.file);
-      if (auto found = findingOf(one->id, dependency, known->second))
+      if (auto found = findingOf(session_case->id, dependency, known->second))
         findings.push_back(std::move(*found));
     }
   std::error_code error;
@@ -180,8 +182,8 @@ std::vector<Relink> findMissing(const Session& session, const fs::path& session_
   std::vector<Relink> relinks;
   std::set<fs::path> seen;
   std::error_code error;
-  for (const auto& one : session.cases)
-    for (const Dependency& dependency : dependenciesOf(*one)) {
+  for (const auto& session_case : session.cases)
+    for (const Dependency& dependency : dependenciesOf(*session_case)) {
       if (fs::exists(dependency.file, error) || !seen.insert(dependency.file).second) continue;
       if (const auto found = search.find(dependency)) relinks.push_back({dependency.file, *found});
     }
@@ -196,34 +198,35 @@ std::vector<Relink> findMissing(const Session& session, const fs::path& session_
 
 Session relinked(const Session& session, const std::vector<Relink>& relinks) {
   const auto move = [&relinks](fs::path& file) {
-    const auto found = std::find_if(relinks.begin(), relinks.end(),
-                                    [&file](const Relink& one) { return one.missing == file; });
+    const auto found = std::find_if(relinks.begin(), relinks.end(), [&file](const Relink& relink) {
+      return relink.missing == file;
+    });
     if (found == relinks.end()) return false;
     file = found->found;
     return true;
   };
   Session next = session;
-  for (auto& one : next.cases) {
-    SessionCase changed = *one;
+  for (auto& session_case : next.cases) {
+    SessionCase changed = *session_case;
     bool moved = false;
     forEachFile(changed, [&](const std::string&, fs::path& file, const std::string&) {
       moved |= move(file);
     });
-    if (moved) one = std::move(changed);
+    if (moved) session_case = std::move(changed);
   }
   for (RunRecord& run : next.runs) move(run.file);
   return next;
 }
 
 Session acceptingInputs(const Session& session, const std::string& case_id) {
-  return withChanged(session, case_id, [](SessionCase& one) {
-    const GrayImage image = readImage(one.image.source.file, one.image.eight_bit);
-    one.image.source.sha256 = image.file_sha256;
-    one.image.pixels_sha256 = image.pixels_sha256;
-    one.image.width = image.width;
-    one.image.height = image.height;
-    for (MeshInput& part : one.parts) part.sha256 = inputSha256(part.source.mesh);
-    for (auto* input : {&one.ignore, &one.onboard_record})
+  return withChanged(session, case_id, [](SessionCase& session_case) {
+    const GrayImage image = readImage(session_case.image.source.file, session_case.image.eight_bit);
+    session_case.image.source.sha256 = image.file_sha256;
+    session_case.image.pixels_sha256 = image.pixels_sha256;
+    session_case.image.width = image.width;
+    session_case.image.height = image.height;
+    for (MeshInput& part : session_case.parts) part.sha256 = inputSha256(part.source.mesh);
+    for (auto* input : {&session_case.ignore, &session_case.onboard_record})
       if (*input) (*input)->sha256 = inputSha256((*input)->file);
   });
 }
@@ -248,9 +251,9 @@ SceneMesh readKnownScene(const std::vector<MeshInput>& inputs) {
 void requireKnown(const fs::path& file, const std::string& what, const std::string& found_sha256,
                   const std::string& known_sha256) {
   if (found_sha256 != known_sha256)
-    throw InputError(file, what +
-                               " are not those that the session was made with: relink the file, "
-                               "or accept it as it is now");
+    throw InputError(
+        file,
+        what + " differ from those of the session: relink the file, or accept it as it is now");
 }
 
 std::string otherFileText(const fs::path& image) {
@@ -275,23 +278,23 @@ std::string lostLabelText(const ImageInput& image) {
   } catch (const InputError&) {
   }
   const std::string stem = file.stem().string();
-  return "the label that it had when the session was made is no longer there: put " + stem +
-         ".lbl (or " + stem + ".xml) back beside it";
+  return "its former label is missing: put " + stem + ".lbl (or " + stem + ".xml) back next to it";
 }
 
 ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit) {
   const GrayImage read = readKnownImage(image, eight_bit);
-  ImageInput made = image;
-  made.eight_bit = eight_bit;
-  made.pixels_sha256 = read.pixels_sha256;
-  return made;
+  ImageInput image_input = image;
+  image_input.eight_bit = eight_bit;
+  image_input.pixels_sha256 = read.pixels_sha256;
+  return image_input;
 }
 
 Session withConversions(const Session& session, const std::vector<Conversion>& conversions) {
   Session next = session;
   for (const Conversion& conversion : conversions)
-    next = withChanged(next, conversion.case_id, [&](SessionCase& one) {
-      if (one.image.source == conversion.image.source) one.image = conversion.image;
+    next = withChanged(next, conversion.case_id, [&](SessionCase& session_case) {
+      if (session_case.image.source == conversion.image.source)
+        session_case.image = conversion.image;
     });
   return next;
 }

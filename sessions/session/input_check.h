@@ -18,7 +18,7 @@ struct Finding {
   std::string case_id;
   std::string what;  ///< place in the case: "image", "parts[0]", "ignore", "onboard_record", "run"
   std::filesystem::path file;
-  std::string text;  ///< one sentence for people
+  std::string text;  ///< one readable sentence
 
   bool operator==(const Finding&) const = default;
 };
@@ -46,7 +46,7 @@ std::vector<Relink> findMissing(const Session& session, const std::filesystem::p
 /// The same session with each missing path replaced by the found one; hashes stay.
 Session relinked(const Session& session, const std::vector<Relink>& relinks);
 
-/// The same session with the hashes that the case's files have now: somebody has looked and accepts
+/// The same session with the hashes that the case's files have now: the operator accepts
 /// them. Runs of the case become stale. InputError when a file cannot be read.
 Session acceptingInputs(const Session& session, const std::string& case_id);
 
@@ -62,11 +62,11 @@ SceneMesh readKnownScene(const std::vector<MeshInput>& inputs);
 void requireKnown(const std::filesystem::path& file, const std::string& what,
                   const std::string& found_sha256, const std::string& known_sha256);
 
-/// What beside the file belongs to the image: "its label DET.LBL", "its pixels DET.DAT"; "" for an
+/// Companion file of the image: "its label DET.LBL", "its pixels DET.DAT"; "" for an
 /// image of one file, and for one that cannot be read.
 std::string otherFileText(const std::filesystem::path& image);
 
-/// One sentence where the session knows a label and neither the file nor one beside it has it any
+/// One sentence where the session knows a label and neither the file nor a companion has it any
 /// more; else "".
 std::string lostLabelText(const ImageInput& image);
 

@@ -41,10 +41,9 @@ void flagCamera(const Camera& camera, CameraSheet& sheet) {
                                      std::abs(camera.cy - 0.5 * bottom) / camera.height);
   if (off_centre > 0.1)
     sheet.flags.push_back(
-        {"camera_off_centre",
-         "the principal point is " + fixedText(100.0 * off_centre, 0) +
-             " % of the image off its middle: is this camera of a sub-frame, or of another image "
-             "size?"});
+        {"camera_off_centre", "the principal point is " + fixedText(100.0 * off_centre, 0) +
+                                  " % of the image off its middle: check whether the camera is for "
+                                  "a sub-frame or another image size"});
   const double aspect = camera.fx / std::abs(camera.fy);
   if (aspect > 1.02 || 1.0 / aspect > 1.02)
     sheet.flags.push_back(
@@ -78,12 +77,12 @@ bool contains(const BoundingBox& bounds, const Eigen::Vector3d& point_m) {
          (point_m.array() <= bounds.maximum_m.array()).all();
 }
 
-void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet) {
+void flagSeed(const SessionCase& session_case, const SceneMesh& scene, InputSheet& sheet) {
   const BoundingBox bounds = matchedBounds(scene.view());
-  const Pose& seed = one.camera_from_station_seed;
+  const Pose& seed = session_case.camera_from_station_seed;
   const std::string scale = scaleConcern(bounds, seed);
-  if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": is the mesh's unit right?"});
-  const std::string concern = seedConcern(one.camera, scene.view(), seed);
+  if (!scale.empty()) sheet.flags.push_back({"mesh_scale", scale + ": check the mesh's unit"});
+  const std::string concern = seedConcern(session_case.camera, scene.view(), seed);
   if (!concern.empty()) {
     const bool behind = concern.find("behind") != std::string::npos;
     sheet.flags.push_back({behind ? "station_behind_camera" : "station_out_of_view", concern});
@@ -91,13 +90,14 @@ void flagSeed(const SessionCase& one, const SceneMesh& scene, InputSheet& sheet)
   const Eigen::Vector3d camera_in_station_m = seed.inverse().translation_m;
   if (contains(bounds, camera_in_station_m) && isInside(scene.view(), camera_in_station_m))
     sheet.flags.push_back({"camera_in_station",
-                           "the seed puts the camera inside the station: is the mesh's unit "
-                           "right, and the seed camera_from_station?"});
-  const double size_px = bounds.diagonal() / (seed * bounds.centre()).norm() * one.camera.fx;
+                           "the seed places the camera inside the station: check the mesh's unit, "
+                           "and that the seed is camera_from_station"});
+  const double size_px =
+      bounds.diagonal() / (seed * bounds.centre()).norm() * session_case.camera.fx;
   if (size_px < kSmallestStation_px)
-    sheet.flags.push_back({"station_small", "the station would be only " + fixedText(size_px, 1) +
-                                                " px large in the image at the seed: is the mesh's "
-                                                "unit right?"});
+    sheet.flags.push_back(
+        {"station_small", "the station would be only " + fixedText(size_px, 1) +
+                              " px large in the image at the seed: check the mesh's unit"});
 }
 
 /// Beyond these figures a pose is hardly ever found (resources/evidence/trust.md).
@@ -105,7 +105,7 @@ void flagQuality(const std::optional<ImageQuality>& quality, InputSheet& sheet) 
   if (!quality) return;  // seedConcern says why
   const CheckLimits limits;
   const auto flag = [&sheet](const char* code, const std::string& found, const char* remedy) {
-    sheet.flags.push_back({code, "where the seed shows the station " + found + ": " + remedy});
+    sheet.flags.push_back({code, "at the seed's position of the station " + found + ": " + remedy});
   };
   if (quality->edge_width_px > limits.edge_width_px)
     flag("image_blurred", "edges are " + fixedText(quality->edge_width_px, 1) + " px wide",
@@ -121,12 +121,13 @@ void flagQuality(const std::optional<ImageQuality>& quality, InputSheet& sheet) 
 
 void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const CameraSheet& camera,
               const std::optional<ImageQuality>& quality, InputSheet& sheet) {
-  const SessionCase& one = loaded.source;
+  const SessionCase& session_case = loaded.source;
   const GrayImage& image = loaded.image;
   const BoundingBox bounds = matchedBounds(loaded.scene.view());
   const Eigen::Vector3d extent_mm = kMillimetres * (bounds.maximum_m - bounds.minimum_m);
-  const double seed_distance_m = (one.camera_from_station_seed * bounds.centre()).norm();
-  const double view_width_mm = kMillimetres * seed_distance_m * one.camera.width / one.camera.fx;
+  const double seed_distance_m = (session_case.camera_from_station_seed * bounds.centre()).norm();
+  const double view_width_mm =
+      kMillimetres * seed_distance_m * session_case.camera.width / session_case.camera.fx;
   const auto add = [&sheet](const char* label, const std::string& value) {
     sheet.lines.push_back({label, value});
   };
@@ -142,15 +143,15 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
                   std::to_string(image_sheet.highest_gray) + ", " +
                   fixedText(100.0 * image_sheet.saturated_share, 2) + " % saturated");
   add("image at the seed", imageQualityText(quality));
-  add("camera", std::string(cameraModelName(one.camera.model)) + ", " +
-                    sizeText(one.camera.width, one.camera.height) + " px");
-  for (const LabelItem& line : frameLines(one)) add(line.name.c_str(), line.value);
+  add("camera", std::string(cameraModelName(session_case.camera.model)) + ", " +
+                    sizeText(session_case.camera.width, session_case.camera.height) + " px");
+  for (const LabelItem& line : frameLines(session_case)) add(line.name.c_str(), line.value);
   add("field of view", fixedText(camera.field_of_view_x_deg, 2) + " x " +
                            fixedText(camera.field_of_view_y_deg, 2) + " deg");
   for (const MeshInfo& info : loaded.scene.infos)
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
-  const InputSigmas sigmas(one);
+  const InputSigmas sigmas(session_case);
   add("scale, one sigma", meshScaleText(sigmas));
   add("calibration, one sigma", calibrationText(sigmas) +
                                     ": of the focal length and of the "
@@ -195,7 +196,7 @@ CameraSheet cameraSheet(const Camera& camera) {
                  "field of view " + fixedText(sheet.field_of_view_x_deg, 2) + " x " +
                      fixedText(sheet.field_of_view_y_deg, 2) + " deg, diagonal " +
                      (std::isfinite(diagonal_deg) ? fixedText(diagonal_deg, 2) + " deg"
-                                                  : "not to be told, as a corner sees nothing") +
+                                                  : "unknown, as a corner sees nothing") +
                      "; 1 px is " + fixedText(1000.0 / camera.fx, 3) + " mm at 1 m"};
   flagCamera(camera, sheet);
   return sheet;
@@ -205,11 +206,11 @@ bool looksLikeMosaic(const ImageView& image) {
   Differences along_rows, along_columns;
   for (int y = 0; y + 2 < image.height; ++y)
     for (int x = 0; x + 2 < image.width; ++x) {
-      const int here = image.at(x, y);
-      along_rows.next += std::abs(here - image.at(x + 1, y));
-      along_rows.second += std::abs(here - image.at(x + 2, y));
-      along_columns.next += std::abs(here - image.at(x, y + 1));
-      along_columns.second += std::abs(here - image.at(x, y + 2));
+      const int current = image.at(x, y);
+      along_rows.next += std::abs(current - image.at(x + 1, y));
+      along_rows.second += std::abs(current - image.at(x + 2, y));
+      along_columns.next += std::abs(current - image.at(x, y + 1));
+      along_columns.second += std::abs(current - image.at(x, y + 2));
     }
   return along_rows.alternate() && along_columns.alternate();
 }
@@ -245,41 +246,43 @@ ImageSheet imageSheet(const GrayImage& image) {
                                 "those pixels, or expose less"});
   if (*high - *low < 64)
     sheet.flags.push_back(
-        {"image_few_grays", "the image uses few gray levels: is its bit depth stated right?"});
+        {"image_few_grays", "the image uses few gray levels: check its bit depth"});
   for (const std::string& note : image.notes) sheet.flags.push_back({"image_note", note});
   if (image.sample_bits > 8 && !image.bit_depth_stated && !image.bit_depth_of_label)
-    sheet.flags.push_back({"image_bit_depth",
-                           "the samples have 16 bits and nothing says how many of them are used: "
-                           "state the bit depth"});
+    sheet.flags.push_back(
+        {"image_bit_depth",
+         "the samples have 16 bits, but the used bits are not stated: state the bit depth"});
   if (looksLikeMosaic(image.view()))
-    sheet.flags.push_back({"image_mosaic",
-                           "the pixels alternate like a Bayer mosaic: turn it into gray or colour "
-                           "before matching"});
+    sheet.flags.push_back(
+        {"image_mosaic",
+         "the pixels look like a Bayer mosaic: convert to gray or colour before matching"});
   return sheet;
 }
 
 InputSheet inputSheet(const LoadedCase& loaded) {
   InputSheet sheet;
-  const SessionCase& one = loaded.source;
+  const SessionCase& session_case = loaded.source;
   const GrayImage& image = loaded.image;
   const ImageSheet image_sheet = imageSheet(image);
-  const CameraSheet camera = cameraSheet(one.camera);
-  const std::optional<ImageQuality> quality = measureImageQuality(
-      image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
-      stationRegion(one.camera, loaded.scene.view(), one.camera_from_station_seed));
+  const CameraSheet camera = cameraSheet(session_case.camera);
+  const std::optional<ImageQuality> quality =
+      measureImageQuality(image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
+                          stationRegion(session_case.camera, loaded.scene.view(),
+                                        session_case.camera_from_station_seed));
   describe(loaded, image_sheet, camera, quality, sheet);
   sheet.flags = image_sheet.flags;
   flagQuality(quality, sheet);
-  if (image.width != one.camera.width || image.height != one.camera.height)
+  if (image.width != session_case.camera.width || image.height != session_case.camera.height)
     sheet.flags.push_back(
-        {"camera_size", "the camera is of " + sizeText(one.camera.width, one.camera.height) +
+        {"camera_size", "the camera is of " +
+                            sizeText(session_case.camera.width, session_case.camera.height) +
                             " px, but the image has " + sizeText(image.width, image.height)});
   sheet.flags.insert(sheet.flags.end(), camera.flags.begin(), camera.flags.end());
   for (const MeshInfo& info : loaded.scene.infos)
     for (const std::string& note : info.notes())
       sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
-  flagSeed(one, loaded.scene, sheet);
-  if (image.label) flagLabel(one, *image.label, sheet.flags);
+  flagSeed(session_case, loaded.scene, sheet);
+  if (image.label) flagLabel(session_case, *image.label, sheet.flags);
   return sheet;
 }
 

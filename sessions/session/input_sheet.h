@@ -17,10 +17,10 @@ namespace boresight::sessions {
 
 struct ImageLabel;
 
-/// Something that people should look at before they trust a result.
+/// A warning to review before a result is trusted.
 struct RedFlag {
   std::string code;  ///< for programs, e.g. "station_out_of_view"
-  std::string text;  ///< one line for people
+  std::string text;  ///< one readable line
 
   bool operator==(const RedFlag&) const = default;
 };
@@ -50,7 +50,7 @@ struct ImageSheet {
 };
 ImageSheet imageSheet(const GrayImage& image);
 
-/// What an image's label says, for people: identifiers, camera model with its frame, sub-frame,
+/// Contents of an image's label for display: identifiers, camera model with its frame, sub-frame,
 /// down-sampling, pixel origin, bits.
 std::vector<SheetLine> labelLines(const ImageLabel& label);
 
@@ -75,10 +75,11 @@ bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m);
 /// Adds `camera_label` where the case's camera is another one than the label's or stands elsewhere
 /// in the same frame, and `transform_label` where a transform that was given places a frame of the
 /// label elsewhere than the label does; takes `camera_off_centre` away where the camera is that of
-/// the sub-frame which the label states. Nothing is changed by it: what people gave counts.
-void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedFlag>& flags);
+/// the sub-frame which the label states. It changes nothing: the given values count.
+void flagLabel(const SessionCase& session_case, const ImageLabel& label,
+               std::vector<RedFlag>& flags);
 
 /// The same of the label of the case's image, as sentences; none where it has no label. InputError.
-std::vector<std::string> labelWarnings(const SessionCase& one);
+std::vector<std::string> labelWarnings(const SessionCase& session_case);
 
 }  // namespace boresight::sessions

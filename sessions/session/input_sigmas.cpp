@@ -47,11 +47,11 @@ Session withInputSigmas(const Session& session, const std::string& case_id,
   const SessionCase* chosen = session.findCase(case_id);
   if (chosen == nullptr) return session;
   Session next = session;
-  for (const auto& one : session.cases) {
-    SessionCase changed = *one;
-    if (one->parts == chosen->parts) changed.mesh_scale_sigma = mesh_scale_sigma;
-    if (one->camera == chosen->camera) changed.calibration_sigma = calibration_sigma;
-    if (!(changed == *one)) next = withCase(next, std::move(changed));
+  for (const auto& session_case : session.cases) {
+    SessionCase changed = *session_case;
+    if (session_case->parts == chosen->parts) changed.mesh_scale_sigma = mesh_scale_sigma;
+    if (session_case->camera == chosen->camera) changed.calibration_sigma = calibration_sigma;
+    if (!(changed == *session_case)) next = withCase(next, std::move(changed));
   }
   return next;
 }

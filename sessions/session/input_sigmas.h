@@ -17,7 +17,7 @@ struct InputSigmas {
   bool mesh_scale_stated = false;
   bool calibration_stated = false;
 
-  explicit InputSigmas(const SessionCase& one);
+  explicit InputSigmas(const SessionCase& session_case);
 };
 /// "0.02 %, assumed".
 std::string meshScaleText(const InputSigmas& sigmas);

@@ -31,24 +31,28 @@ std::optional<double> largestDifference_px(const Camera& a, const Camera& b, dou
   return largest_px;
 }
 
-std::string cameraConcern(const SessionCase& one, const CameraFile& label) {
+std::string cameraConcern(const SessionCase& session_case, const CameraFile& label) {
   const Camera& stated = label.camera;
-  if (stated.width != one.camera.width || stated.height != one.camera.height) return "";
-  const double distance_m = std::max(one.camera_from_station_seed.translation_m.norm(), 1e-3);
-  const auto difference_px = largestDifference_px(stated, one.camera, distance_m);
+  if (stated.width != session_case.camera.width || stated.height != session_case.camera.height)
+    return "";
+  const double distance_m =
+      std::max(session_case.camera_from_station_seed.translation_m.norm(), 1e-3);
+  const auto difference_px = largestDifference_px(stated, session_case.camera, distance_m);
   if (!difference_px || *difference_px > kAgreeing_px)
     return "the camera is not that of the image's label: " +
            (difference_px ? "at the seed's distance the two differ by up to " +
                                 fixedText(*difference_px, 1) + " px"
-                          : "the two see nothing in common");
-  if (!one.camera_reference || !label.reference || label.reference->frame.name.empty() ||
-      !(one.camera_reference->frame == label.reference->frame))
+                          : "they have no common field of view");
+  if (!session_case.camera_reference || !label.reference || label.reference->frame.name.empty() ||
+      !(session_case.camera_reference->frame == label.reference->frame))
     return "";
-  const double apart_m = (one.camera_reference->camera_from_reference.inverse().translation_m -
-                          label.reference->camera_from_reference.inverse().translation_m)
-                             .norm();
-  const double turned_rad = one.camera_reference->camera_from_reference.rotation.angularDistance(
-      label.reference->camera_from_reference.rotation);
+  const double apart_m =
+      (session_case.camera_reference->camera_from_reference.inverse().translation_m -
+       label.reference->camera_from_reference.inverse().translation_m)
+          .norm();
+  const double turned_rad =
+      session_case.camera_reference->camera_from_reference.rotation.angularDistance(
+          label.reference->camera_from_reference.rotation);
   if (apart_m <= kAgreeing_m && turned_rad <= kAgreeing_rad) return "";
   return "the camera is not that of the image's label: in " + frameText(label.reference->frame) +
          " it stands " + fixedText(1e3 * apart_m, 1) + " mm and " +
@@ -57,10 +61,11 @@ std::string cameraConcern(const SessionCase& one, const CameraFile& label) {
 
 /// What the label says of the transform's two frames, as target_from_source.
 std::optional<Pose> statedTransform(const FrameTransform& given, const ImageLabel& label) {
-  for (const LabelFrame& one : label.frames) {
-    if (one.reference == given.target && one.frame == given.source) return one.reference_from_frame;
-    if (one.reference == given.source && one.frame == given.target)
-      return one.reference_from_frame.inverse();
+  for (const LabelFrame& label_frame : label.frames) {
+    if (label_frame.reference == given.target && label_frame.frame == given.source)
+      return label_frame.reference_from_frame;
+    if (label_frame.reference == given.source && label_frame.frame == given.target)
+      return label_frame.reference_from_frame.inverse();
   }
   return std::nullopt;
 }
@@ -78,15 +83,17 @@ std::string transformConcern(const FrameTransform& given, const ImageLabel& labe
 
 }  // namespace
 
-void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedFlag>& flags) {
+void flagLabel(const SessionCase& session_case, const ImageLabel& label,
+               std::vector<RedFlag>& flags) {
   if (label.camera) {
-    const std::string concern = cameraConcern(one, *label.camera);
+    const std::string concern = cameraConcern(session_case, *label.camera);
     if (!concern.empty()) flags.push_back({"camera_label", concern});
     // Of a part of the detector, as the label says, the principal point may lie anywhere.
     if (concern.empty() && label.subframe && !label.subframe->whole())
       std::erase_if(flags, [](const RedFlag& flag) { return flag.code == "camera_off_centre"; });
   }
-  for (const std::optional<StationFrame>* given : {&one.station_frame, &one.truth_frame}) {
+  for (const std::optional<StationFrame>* given :
+       {&session_case.station_frame, &session_case.truth_frame}) {
     if (!*given || !(*given)->joined_by) continue;
     const RedFlag flag{"transform_label", transformConcern(*(*given)->joined_by, label)};
     if (!flag.text.empty() && std::find(flags.begin(), flags.end(), flag) == flags.end())
@@ -94,10 +101,10 @@ void flagLabel(const SessionCase& one, const ImageLabel& label, std::vector<RedF
   }
 }
 
-std::vector<std::string> labelWarnings(const SessionCase& one) {
-  if (!hasImageLabel(one.image.source.file)) return {};
+std::vector<std::string> labelWarnings(const SessionCase& session_case) {
+  if (!hasImageLabel(session_case.image.source.file)) return {};
   std::vector<RedFlag> flags;
-  flagLabel(one, readImageLabel(one.image.source.file), flags);
+  flagLabel(session_case, readImageLabel(session_case.image.source.file), flags);
   std::vector<std::string> warnings;
   for (const RedFlag& flag : flags) warnings.push_back(flag.text);
   return warnings;

@@ -24,16 +24,17 @@ std::vector<NamedPose> namedPoses(const std::optional<CameraReference>& camera_r
   if (!camera_reference) return {};
   const Pose reference_from_station =
       camera_reference->camera_from_reference.inverse() * camera_from_station;
-  std::vector<NamedPose> made = {
+  std::vector<NamedPose> named_poses = {
       {"camera_model", camera_reference->frame, reference_from_station, ""}};
-  if (!station_frame || !station_frame->joined_by) return made;
+  if (!station_frame || !station_frame->joined_by) return named_poses;
   const FrameTransform& join = *station_frame->joined_by;
   const bool forward = join.target == camera_reference->frame;
   const Pose given_from_reference =
       forward ? join.target_from_source.inverse() : join.target_from_source;
-  made.push_back({"station", station_frame->frame, given_from_reference * reference_from_station,
-                  join.file.string() + ": " + join.comment});
-  return made;
+  named_poses.push_back({"station", station_frame->frame,
+                         given_from_reference * reference_from_station,
+                         join.file.string() + ": " + join.comment});
+  return named_poses;
 }
 
 nlohmann::ordered_json toJson(const std::vector<NamedPose>& poses) {
@@ -50,16 +51,18 @@ std::string namedPoseTitle(const NamedPose& pose) {
   return "reference_from_station in " + frameText(pose.frame);
 }
 
-std::vector<LabelItem> frameLines(const SessionCase& one) {
-  if (!one.camera_reference) return {};
+std::vector<LabelItem> frameLines(const SessionCase& session_case) {
+  if (!session_case.camera_reference) return {};
   const Eigen::Vector3d centre_m =
-      one.camera_reference->camera_from_reference.inverse().translation_m;
+      session_case.camera_reference->camera_from_reference.inverse().translation_m;
   std::vector<LabelItem> lines = {
-      {"camera model in", frameText(one.camera_reference->frame) + ", its centre at " +
+      {"camera model in", frameText(session_case.camera_reference->frame) + ", its centre at " +
                               fixedText(centre_m.x(), 4) + " " + fixedText(centre_m.y(), 4) + " " +
                               fixedText(centre_m.z(), 4) + " m"}};
-  if (one.station_frame) lines.push_back({"station given in", givenText(*one.station_frame)});
-  if (one.truth_frame) lines.push_back({"truth given in", givenText(*one.truth_frame)});
+  if (session_case.station_frame)
+    lines.push_back({"station given in", givenText(*session_case.station_frame)});
+  if (session_case.truth_frame)
+    lines.push_back({"truth given in", givenText(*session_case.truth_frame)});
   return lines;
 }
 

@@ -33,6 +33,6 @@ std::string namedPoseTitle(const NamedPose& pose);
 
 /// In which frames the camera model and the seed were given, and what joined the two; nothing for a
 /// camera without a reference frame.
-std::vector<LabelItem> frameLines(const SessionCase& one);
+std::vector<LabelItem> frameLines(const SessionCase& session_case);
 
 }  // namespace boresight::sessions

@@ -9,14 +9,15 @@ namespace boresight::sessions {
 namespace {
 
 Session withRig(const Session& session, const std::string& case_id, std::optional<Rig> rig) {
-  return withChanged(session, case_id, [&](SessionCase& one) { one.rig = std::move(rig); });
+  return withChanged(session, case_id,
+                     [&](SessionCase& session_case) { session_case.rig = std::move(rig); });
 }
 
 /// A rig's name that no other rig has.
 std::string unusedRigId(const Session& session, const std::string& wanted) {
   const auto taken = [&](const std::string& id) {
-    for (const auto& one : session.cases)
-      if (one->rig && one->rig->id == id) return true;
+    for (const auto& session_case : session.cases)
+      if (session_case->rig && session_case->rig->id == id) return true;
     return false;
   };
   std::string id = wanted;
@@ -30,8 +31,10 @@ std::vector<std::string> casesOfRig(const Session& session, const std::string& c
   std::vector<std::string> ids;
   const SessionCase* chosen = session.findCase(case_id);
   if (chosen == nullptr || !chosen->rig) return ids;
-  for (const auto& one : session.cases)
-    if (one->id != case_id && one->rig && one->rig->id == chosen->rig->id) ids.push_back(one->id);
+  for (const auto& session_case : session.cases)
+    if (session_case->id != case_id && session_case->rig &&
+        session_case->rig->id == chosen->rig->id)
+      ids.push_back(session_case->id);
   return ids;
 }
 
@@ -47,9 +50,9 @@ const RunRecord* ownRunOf(const Session& session, const std::string& other,
   return last;
 }
 
-std::optional<Pose> linkOfTruths(const SessionCase& one, const SessionCase& other) {
-  if (!one.camera_from_station_truth || !other.camera_from_station_truth) return {};
-  return *other.camera_from_station_truth * one.camera_from_station_truth->inverse();
+std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other) {
+  if (!session_case.camera_from_station_truth || !other.camera_from_station_truth) return {};
+  return *other.camera_from_station_truth * session_case.camera_from_station_truth->inverse();
 }
 
 Session withRigLink(const Session& session, const std::string& case_id, const std::string& other_id,

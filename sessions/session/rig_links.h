@@ -20,7 +20,7 @@ const RunRecord* ownRunOf(const Session& session, const std::string& other,
 
 /// How one case's camera lies from another's as the true poses of both say; nothing where one of
 /// them has none.
-std::optional<Pose> linkOfTruths(const SessionCase& one, const SessionCase& other);
+std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other);
 
 /// The same session with `other_id` linked to the rig of `case_id`; a case without one becomes the
 /// reference of a new rig that has its name. `other_from_case` maps points of the case's camera

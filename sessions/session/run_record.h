@@ -31,7 +31,7 @@ struct TogetherRecord {
   bool operator==(const TogetherRecord&) const = default;
 };
 
-/// A run whose trace is a file of its own beside the session.
+/// A run whose trace is a separate file next to the session.
 struct RunRecord {
   std::string case_id;
   std::string digest;  ///< of the trace, which names its file

@@ -49,11 +49,11 @@ const Decision* Session::decisionOn(const std::string& case_id) const {
 
 const RunRecord* Session::lastRunOf(const std::string& case_id) const { return runs.find(case_id); }
 
-void setTruth(SessionCase& one, const Pose& camera_from_station,
+void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance) {
-  one.camera_from_station_truth = camera_from_station;
-  one.truth_frame.reset();
-  one.truth_covariance = covariance;
+  session_case.camera_from_station_truth = camera_from_station;
+  session_case.truth_frame.reset();
+  session_case.truth_covariance = covariance;
 }
 
 const RunRecord* findRun(const Session& session, const std::string& case_id,
@@ -82,7 +82,7 @@ Session withChanged(const Session& session, const std::string& case_id,
 Session withCase(const Session& session, SessionCase changed) {
   Session next = session;
   const auto found = std::find_if(next.cases.begin(), next.cases.end(),
-                                  [&](const auto& one) { return one->id == changed.id; });
+                                  [&](const auto& item) { return item->id == changed.id; });
   if (found != next.cases.end())
     *found = std::move(changed);
   else
@@ -92,16 +92,16 @@ Session withCase(const Session& session, SessionCase changed) {
 
 Session withoutCase(const Session& session, const std::string& case_id) {
   Session next = session;
-  next.cases.eraseIf([&](const auto& one) { return one->id == case_id; });
+  next.cases.eraseIf([&](const auto& item) { return item->id == case_id; });
   next.annotations.erase(case_id);
   next.rounds.erase(case_id);
-  next.decisions.eraseIf([&](const Decision& one) { return one.case_id == case_id; });
+  next.decisions.eraseIf([&](const Decision& decision) { return decision.case_id == case_id; });
   next.runs.eraseIf([&](const RunRecord& run) { return run.case_id == case_id; });
   if (next.view.case_id == case_id) next.view = {};
   return next;
 }
 
-Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation) {
+Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation) {
   Session next = session;
   put(case_id, std::move(annotation), next.annotations);
   return next;
@@ -137,23 +137,23 @@ LocalizerOptions sessionOptions(const Session& session, const std::filesystem::p
   return *options;
 }
 
-LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
+LocalizerOptions caseOptions(const Session& session, const SessionCase& session_case,
                              const std::filesystem::path& file) {
   LocalizerOptions options = sessionOptions(session, file);
-  if (options.templates.feature_size_m == 0.0 && one.feature_size_m)
-    options.templates.feature_size_m = *one.feature_size_m;
+  if (options.templates.feature_size_m == 0.0 && session_case.feature_size_m)
+    options.templates.feature_size_m = *session_case.feature_size_m;
   return options;
 }
 
-std::string inputsDigest(const SessionCase& one) {
+std::string inputsDigest(const SessionCase& session_case) {
   SessionCase inputs;
-  inputs.image.pixels_sha256 = one.image.pixels_sha256;
-  inputs.camera = one.camera;
-  inputs.parts = one.parts;
-  inputs.camera_from_station_seed = one.camera_from_station_seed;
-  inputs.uncertainty = one.uncertainty;
-  inputs.ignore = one.ignore;
-  inputs.ignore_strokes = one.ignore_strokes;
+  inputs.image.pixels_sha256 = session_case.image.pixels_sha256;
+  inputs.camera = session_case.camera;
+  inputs.parts = session_case.parts;
+  inputs.camera_from_station_seed = session_case.camera_from_station_seed;
+  inputs.uncertainty = session_case.uncertainty;
+  inputs.ignore = session_case.ignore;
+  inputs.ignore_strokes = session_case.ignore_strokes;
   // Where the files are makes no difference.
   inputs.image.source.file = "/";
   for (MeshInput& part : inputs.parts) part.source.mesh = "/";
@@ -183,12 +183,12 @@ std::string viewsDigest(const Session& session, const std::vector<std::string>& 
   for (std::size_t i = 0; i < case_ids.size(); ++i) {
     const SessionCase* found = session.findCase(case_ids[i]);
     if (found == nullptr || !found->rig) return "";
-    SessionCase one = *found;
+    SessionCase session_case = *found;
     if (i > 0) {
-      one.camera_from_station_seed = Pose();
-      one.uncertainty = {};
+      session_case.camera_from_station_seed = Pose();
+      session_case.uncertainty = {};
     }
-    writer.tag(inputsDigest(one).c_str());
+    writer.tag(inputsDigest(session_case).c_str());
     digestPose(found->rig->camera_from_rig, writer);
   }
   return hexText(writer.digest()).data();
@@ -196,20 +196,20 @@ std::string viewsDigest(const Session& session, const std::vector<std::string>& 
 
 Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file) {
-  const SessionCase* one = session.findCase(run.case_id);
-  if (one == nullptr) return {true, false};
+  const SessionCase* session_case = session.findCase(run.case_id);
+  if (session_case == nullptr) return {true, false};
   const bool others_changed =
       run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together));
-  return {others_changed || run.inputs_sha256 != inputsDigest(*one),
-          run.options_sha256 != optionsDigest(caseOptions(session, *one, file))};
+  return {others_changed || run.inputs_sha256 != inputsDigest(*session_case),
+          run.options_sha256 != optionsDigest(caseOptions(session, *session_case, file))};
 }
 
 std::vector<std::string> changedCases(const Session& before, const Session& after) {
   std::vector<std::string> changed;
-  for (const auto& one : after.cases) {
-    const SessionCase* former = before.findCase(one->id);
-    const auto& id = one->id;
-    const bool kept = former && *former == *one &&
+  for (const auto& session_case : after.cases) {
+    const SessionCase* former = before.findCase(session_case->id);
+    const auto& id = session_case->id;
+    const bool kept = former && *former == *session_case &&
                       same(valueOf(id, before.annotations), valueOf(id, after.annotations)) &&
                       same(valueOf(id, before.rounds), valueOf(id, after.rounds)) &&
                       same(before.decisionOn(id), after.decisionOn(id));
@@ -225,17 +225,20 @@ void StaleRuns::takeOptions(const Session& session) {
   options_digests_.clear();
 }
 
-bool StaleRuns::isStale(const RunRecord& run, const SharedValue<SessionCase>& one,
+bool StaleRuns::isStale(const RunRecord& run, const SharedValue<SessionCase>& shared_value,
                         const Session& session, const std::filesystem::path& file) {
   // Of a run together the other cases count, too.
   if (run.together) return stalenessOf(run, session, file).stale();
   takeOptions(session);
-  auto known = inputs_.find(one->id);
-  if (known == inputs_.end() || !known->second.one.sharesWith(one))
-    known = inputs_.insert_or_assign(one->id, Inputs{one, inputsDigest(*one)}).first;
+  auto known = inputs_.find(shared_value->id);
+  if (known == inputs_.end() || !known->second.one.sharesWith(shared_value))
+    known =
+        inputs_
+            .insert_or_assign(shared_value->id, Inputs{shared_value, inputsDigest(*shared_value)})
+            .first;
   if (run.inputs_sha256 != known->second.digest) return true;
-  std::string& options = options_digests_[one->feature_size_m.value_or(0.0)];
-  if (options.empty()) options = optionsDigest(caseOptions(session, *one, file));
+  std::string& options = options_digests_[shared_value->feature_size_m.value_or(0.0)];
+  if (options.empty()) options = optionsDigest(caseOptions(session, *shared_value, file));
   return run.options_sha256 != options;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operator's document: one plain value. What is done with it (files, journal, lock, undo) is in
-// the headers beside this one.
+// the other headers of this folder.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
 #include "sessions/annotation/annotation_round.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/dataset_file.h"
 #include "sessions/io/frame_transform.h"
@@ -48,7 +48,7 @@ struct ImageInput {
   bool operator==(const ImageInput&) const = default;
 };
 
-/// One part of the station. For glTF the hash includes the buffers beside the file.
+/// One part of the station. For glTF the hash includes the buffers next to the file.
 struct MeshInput {
   PartSource source;  ///< its path is absolute
   std::string sha256;
@@ -59,7 +59,7 @@ struct MeshInput {
 /// Everything that a run of one image is given, and what its result is judged by.
 struct SessionCase {
   std::string id;       ///< unique in the session, not empty
-  std::string station;  ///< a name for people, may be empty
+  std::string station;  ///< display name, may be empty
   ImageInput image;
   Camera camera;
   /// Of the CAHV family: where the camera model's frame is. No input of a run.
@@ -77,8 +77,8 @@ struct SessionCase {
   std::optional<Pose> camera_from_station_truth;
   /// Of a truth that was given in a named frame. No input of a run.
   std::optional<StationFrame> truth_frame;
-  /// Of a truth that was measured (by annotations): left perturbation, camera frame, as the marks
-  /// alone say. Nothing: it is exact. No input of a run.
+  /// Of a truth that was measured (by annotations): left perturbation, camera frame, as the
+  /// annotations alone say. Nothing: it is exact. No input of a run.
   std::optional<Matrix6d> truth_covariance;
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
   std::optional<InputFile> ignore;                  ///< mask image
@@ -89,18 +89,18 @@ struct SessionCase {
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
   /// landmarks.json with the station's named points, absolute; may not be there yet. No input of a
-  /// run, and people add to it as they annotate: its bytes are not known to the session.
+  /// run, and annotators add to it: its bytes are not known to the session.
   std::optional<std::filesystem::path> landmarks;
 
   bool operator==(const SessionCase&) const = default;
 };
 
 /// Gives a case this truth in place of a former one, with all that was said of that.
-void setTruth(SessionCase& one, const Pose& camera_from_station,
+void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance = std::nullopt);
 
-/// What a person marked in one case.
-using Annotation = Marks;
+/// What a person annotated in one case.
+using Annotation = Annotations;
 
 /// What of the view belongs to the document; windows and layout do not.
 struct DocumentView {
@@ -113,7 +113,9 @@ struct DocumentView {
 
 /// The case that something of a session is or belongs to.
 struct CaseIdOf {
-  const std::string& operator()(const SharedValue<SessionCase>& one) const { return one->id; }
+  const std::string& operator()(const SharedValue<SessionCase>& shared_value) const {
+    return shared_value->id;
+  }
   const std::string& operator()(const Decision& decision) const { return decision.case_id; }
   const std::string& operator()(const RunRecord& run) const { return run.case_id; }
 };
@@ -123,7 +125,7 @@ struct Session {
   OptionList options;  ///< what differs from the profile, by name in the order of the alphabet
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
-  /// By case: what people marked who are done, in that order; none is empty.
+  /// Completed annotation rounds by case, in order of completion; none is empty.
   std::map<std::string, SharedValue<AnnotationRounds>> rounds;
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
@@ -154,8 +156,9 @@ Session withCase(const Session& session, SessionCase changed);
 /// The same session without a case and all that refers to it.
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is taken away.
-Session withAnnotation(const Session& session, const std::string& case_id, Annotation annotation);
-/// The same session with the marks that people ended with in a case; no rounds are taken away.
+Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation);
+/// The same session with the completed annotation rounds of a case; no rounds are taken
+/// away.
 Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds);
 
 /// The same session with these options, kept as what differs from a profile that exists.
@@ -166,12 +169,12 @@ Session withOptions(const Session& session, const std::string& profile,
 /// session) when the profile or an option does not exist or cannot have its value.
 LocalizerOptions sessionOptions(const Session& session, const std::filesystem::path& file);
 /// The options that a case is run with: a feature size of 0 is replaced by the case's.
-LocalizerOptions caseOptions(const Session& session, const SessionCase& one,
+LocalizerOptions caseOptions(const Session& session, const SessionCase& session_case,
                              const std::filesystem::path& file);
 
 /// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts, seed, uncertainty;
 /// not names, truth, tags or requirement.
-std::string inputsDigest(const SessionCase& one);
+std::string inputsDigest(const SessionCase& session_case);
 
 /// In what a run differs from what would be run now.
 struct Staleness {
@@ -185,8 +188,8 @@ Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file);
 
 /// Ids of the later session's cases of which a person has changed something since the earlier one
-/// (the case itself, its marks or rounds, decisions on it); new ones too, in their order. Runs and
-/// the view do not count.
+/// (the case itself, its annotations or rounds, decisions on it); new ones too, in their order.
+/// Runs and the view do not count.
 std::vector<std::string> changedCases(const Session& before, const Session& after);
 
 /// `stalenessOf` for all cases of a session again and again as it is edited: what is known of cases
@@ -195,8 +198,8 @@ class StaleRuns {
  public:
   /// As `stalenessOf(run, session, file).stale()`; `one` is the run's case in the session.
   /// InputError of options that cannot be read.
-  bool isStale(const RunRecord& run, const SharedValue<SessionCase>& one, const Session& session,
-               const std::filesystem::path& file);
+  bool isStale(const RunRecord& run, const SharedValue<SessionCase>& shared_value,
+               const Session& session, const std::filesystem::path& file);
 
  private:
   struct Inputs {

@@ -34,7 +34,7 @@ Session ordered(Session session) {
 /// Proves that the text of a session can be opened again and is then the same.
 void requireReadable(const Session& session, const fs::path& file, const std::string& text) {
   if (!(readSession(JsonDocument(file, text).root()) == session))
-    throw std::logic_error("a session does not read back as it was written");
+    throw std::logic_error("a written session differs when read back");
 }
 
 fs::path asideName(const fs::path& journal) {
@@ -96,7 +96,7 @@ SessionDocument::SessionDocument(const fs::path& file)
 
 SessionDocument SessionDocument::open(const fs::path& file, Access access) {
   SessionDocument document(file);
-  // No lock file beside what is not there.
+  // No lock file without a session file.
   (void)readFileBytes(document.file_, SIZE_MAX, FileUse::kSession);
   if (access == Access::kEdit)
     document.takeLock();
@@ -112,7 +112,7 @@ SessionDocument SessionDocument::create(const fs::path& file, const Session& ses
   SessionDocument document(file);
   std::error_code error;
   if (fs::exists(fs::symlink_status(document.file_, error)))
-    throw OutputError(file, "there is a file of this name already");
+    throw OutputError(file, "the file exists");
   requireWritable(document.file_);
   document.takeLock();
   document.requireEditable();
@@ -129,7 +129,7 @@ void SessionDocument::takeLock() {
   try {
     lock_ = std::make_unique<FileLock>(lockFileOf(file_));
   } catch (const OutputError& error) {
-    read_only_reason_ = "nothing can be written beside it (" + error.reason() + ")";
+    read_only_reason_ = "nothing can be written next to it (" + error.reason() + ")";
     return;
   }
   if (!lock_->held())
@@ -137,8 +137,7 @@ void SessionDocument::takeLock() {
         "it is open already: " +
         (lock_->other() ? lock_->other()->text() : std::string("by another program"));
   else if (lock_->stale())
-    notices_.push_back("the last program that had it open did not close it: " +
-                       lock_->stale()->text());
+    notices_.push_back("the last program did not close it: " + lock_->stale()->text());
 }
 
 void SessionDocument::readSaved() {
@@ -163,7 +162,7 @@ void SessionDocument::readJournalBeside() {
       setJournalAside("it belongs to another state of the file");
     }
   } catch (const InputError& wrong) {
-    setJournalAside("it is damaged, or of another version than this program's (" + wrong.reason() +
+    setJournalAside("it is damaged, or from another version of the program (" + wrong.reason() +
                     ")");
   }
 }
@@ -184,8 +183,7 @@ void SessionDocument::setJournalAside(const std::string& why) {
 void SessionDocument::requireEditable() const {
   if (readOnly()) throw OutputError(file_, read_only_reason_);
   if (recovery_)
-    throw OutputError(file_,
-                      "unsaved edits of an earlier program wait to be recovered or declined");
+    throw OutputError(file_, "unsaved edits of an earlier program must be recovered or declined");
 }
 
 void SessionDocument::acceptRecovery() {
@@ -253,12 +251,12 @@ void SessionDocument::saveAs(const fs::path& file) {
   *this = std::move(other);
 }
 
-Session keepingRuns(const Session& target, const Session& now) {
+Session keepingRuns(const Session& target, const Session& current) {
   Session kept = target;
   kept.runs.clear();
-  for (const RunRecord& run : now.runs)
+  for (const RunRecord& run : current.runs)
     if (kept.findCase(run.case_id) != nullptr) kept.runs.push_back(run);
-  kept.view = now.view;
+  kept.view = current.view;
   if (kept.findCase(kept.view.case_id) == nullptr) kept.view = {};
   return kept;
 }

@@ -40,11 +40,11 @@ Recovery readJournal(const std::filesystem::path& file);
 
 enum class Access { kEdit, kReadOnly };
 
-/// An open session: its value, its file, and the journal and lock beside it. An edit is on the disk
+/// An open session: its value, its file, and its journal and lock. An edit is on the disk
 /// before `apply` returns; what is shown is what `session()` says. Not for several threads at once.
 class SessionDocument {
  public:
-  /// Opens a session file. With kEdit the lock is taken; where that cannot be (somebody else has
+  /// Opens a session file. With kEdit the lock is taken; where that cannot be (another program has
   /// it, the folder is read-only) the document opens read-only and says why. InputError when the
   /// file is not a session.
   static SessionDocument open(const std::filesystem::path& file, Access access = Access::kEdit);
@@ -57,7 +57,7 @@ class SessionDocument {
   bool modified() const { return !(session_ == saved_); }      ///< differs from the file
   bool readOnly() const { return !read_only_reason_.empty(); }
   const std::string& readOnlyReason() const { return read_only_reason_; }
-  /// What people should know of how it opened: a lock that a killed program left, a journal that
+  /// Notes on how it opened: a lock that a killed program left, a journal that
   /// was set aside.
   const std::vector<std::string>& notices() const { return notices_; }
 
@@ -110,7 +110,7 @@ struct SessionCommand {
 
 /// What undo or redo makes of `target` now: runs and what is looked at are not edits and stay as
 /// they are at present, except those of cases that `target` does not have.
-Session keepingRuns(const Session& target, const Session& now);
+Session keepingRuns(const Session& target, const Session& current);
 
 /// The undo stack of a document, of any length. Every step goes through SessionDocument::apply and
 /// so into the journal before it is shown; a step that throws has not happened.

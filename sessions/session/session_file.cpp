@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-fs::path beside(const fs::path& session_file, const char* extension) {
+fs::path companionFile(const fs::path& session_file, const char* extension) {
   fs::path name = session_file;
   if (name.extension() == ".json") name.replace_extension();
   name += extension;
@@ -47,11 +47,11 @@ void requireCase(const Session& session, const std::string& id, const JsonReader
   if (session.findCase(id) == nullptr) at.fail("there is no case '" + id + "'");
 }
 
-/// What people marked, by case.
-void readMarksOf(const JsonReader& json, Session& session) {
+/// Annotations by case.
+void readAnnotationsOf(const JsonReader& json, Session& session) {
   for (const auto& [id, annotation] : json.at("annotations").members()) {
     requireCase(session, id, annotation);
-    session.annotations.insert_or_assign(id, readMarks(annotation));
+    session.annotations.insert_or_assign(id, readAnnotations(annotation));
   }
   const auto rounds = json.find("rounds");
   if (!rounds) return;
@@ -59,7 +59,8 @@ void readMarksOf(const JsonReader& json, Session& session) {
     requireCase(session, id, list);
     AnnotationRounds all;
     for (const JsonReader& round : list.elements())
-      all.push_back({round.at("by").nonEmptyText(), readTime(round.at("time")), readMarks(round)});
+      all.push_back(
+          {round.at("by").nonEmptyText(), readTime(round.at("time")), readAnnotations(round)});
     if (all.empty()) list.fail("there is none: leave the case out");
     session.rounds.insert_or_assign(id, std::move(all));
   }
@@ -94,7 +95,7 @@ template <class Archive, ConstOr<TogetherRecord> Self>
 void fields(Archive& archive, Self& record) {
   archive.list("views", record.views);
   if constexpr (Archive::kReads)
-    if (record.views.size() < 2) archive.json().failMember("views", "names less than two");
+    if (record.views.size() < 2) archive.json().failMember("views", "has fewer than two");
   archive.field("inputs_sha256", record.inputs_sha256, kSha256);
 }
 
@@ -150,12 +151,12 @@ Session readMembers(const JsonReader& json) {
   Session session;
   readOptionsOf(json, session);
   for (const JsonReader& json_of_one : json.at("cases").elements()) {
-    SessionCase one = readSessionCase(json_of_one);
-    if (session.findCase(one.id) != nullptr)
-      json_of_one.failMember("id", "'" + one.id + "' is given twice");
-    session.cases.push_back(std::move(one));
+    SessionCase session_case = readSessionCase(json_of_one);
+    if (session.findCase(session_case.id) != nullptr)
+      json_of_one.failMember("id", "'" + session_case.id + "' is given twice");
+    session.cases.push_back(std::move(session_case));
   }
-  readMarksOf(json, session);
+  readAnnotationsOf(json, session);
   if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
   for (const JsonReader& decision : json.at("decisions").elements()) {
     session.decisions.push_back(readDecision(decision));
@@ -173,9 +174,11 @@ Session readMembers(const JsonReader& json) {
 
 }  // namespace
 
-fs::path journalFileOf(const fs::path& session_file) { return beside(session_file, ".journal"); }
-fs::path lockFileOf(const fs::path& session_file) { return beside(session_file, ".lock"); }
-fs::path runsFolderOf(const fs::path& session_file) { return beside(session_file, ".runs"); }
+fs::path journalFileOf(const fs::path& session_file) {
+  return companionFile(session_file, ".journal");
+}
+fs::path lockFileOf(const fs::path& session_file) { return companionFile(session_file, ".lock"); }
+fs::path runsFolderOf(const fs::path& session_file) { return companionFile(session_file, ".runs"); }
 
 fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
   return runsFolderOf(session_file) / (digest + ".trace");
@@ -184,8 +187,7 @@ fs::path runFileOf(const fs::path& session_file, const std::string& digest) {
 SavedSession readSessionFile(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kSession);
   if (asText(bytes).starts_with("PK\x03\x04"))
-    throw InputError(file,
-                     "an archive, as whs pack makes it: unpack it, and open the session in it");
+    throw InputError(file, "an archive of whs pack: unpack it, then open its session");
   const JsonDocument document(file, asText(bytes));
   return {readSession(document.root()), sha256Text(bytes)};
 }
@@ -207,15 +209,16 @@ ordered_json toJson(const Session& session, const fs::path& file) {
   json["profile"] = session.profile;
   json["options"] = toJson(session.options);
   json["cases"] = ordered_json::array();
-  for (const auto& one : session.cases) json["cases"].push_back(toJson(*one, path));
+  for (const auto& session_case : session.cases)
+    json["cases"].push_back(toJson(*session_case, path));
   json["annotations"] = ordered_json::object();
   for (const auto& [id, annotation] : session.annotations)
     json["annotations"][id] = toJson(*annotation);
   for (const auto& [id, rounds] : session.rounds)
     for (const AnnotationRound& round : *rounds) {
-      ordered_json one = {{"by", round.by}, {"time", round.time}};
-      one.update(toJson(round.marks));
-      json["rounds"][id].push_back(one);
+      ordered_json value = {{"by", round.by}, {"time", round.time}};
+      value.update(toJson(round.annotations));
+      json["rounds"][id].push_back(value);
     }
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
   json["decisions"] = ordered_json::array();

@@ -39,7 +39,7 @@ std::string writeSessionFile(const std::filesystem::path& file, const Session& s
 
 class PathWriter;
 
-nlohmann::ordered_json toJson(const SessionCase& one, const PathWriter& path);
+nlohmann::ordered_json toJson(const SessionCase& session_case, const PathWriter& path);
 /// The reverse, without whether its id is given twice. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 
@@ -53,7 +53,7 @@ nlohmann::ordered_json toJson(const std::vector<LabelItem>& label);
 inline constexpr const char* kSessionFormat = "boresight-session";
 inline constexpr int kSessionVersion = 1;
 
-/// What the session file holds (README.md beside this file); paths relative to the folder of
+/// What the session file holds (README.md); paths relative to the folder of
 /// `file`. Numbers read back as the same bits. OutputError when a text is not UTF-8.
 nlohmann::ordered_json toJson(const Session& session, const std::filesystem::path& file);
 

@@ -44,44 +44,46 @@ InputFile maskInput(const fs::path& file, const ImageInput& image) {
   return {wholePath(file), readIgnoreMask(file, image.width, image.height).file_sha256};
 }
 
-SessionCase caseOf(const Dataset& dataset, const Case& one, const ImageInput& image,
+SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const ImageInput& image,
                    const std::vector<MeshInput>& parts) {
-  if (!one.uncertainty)
-    throw InputError(dataset.file, "cases." + one.id + ".uncertainty",
+  if (!dataset_case.uncertainty)
+    throw InputError(dataset.file, "cases." + dataset_case.id + ".uncertainty",
                      "neither the case nor its station states one");
-  SessionCase made;
-  made.id = one.id;
-  made.station = one.station;
-  made.image = image;
-  made.camera = dataset.cameras.at(one.camera);
-  if (const auto known = dataset.camera_references.find(one.camera);
+  SessionCase session_case;
+  session_case.id = dataset_case.id;
+  session_case.station = dataset_case.station;
+  session_case.image = image;
+  session_case.camera = dataset.cameras.at(dataset_case.camera);
+  if (const auto known = dataset.camera_references.find(dataset_case.camera);
       known != dataset.camera_references.end())
-    made.camera_reference = known->second;
-  if (const auto known = dataset.calibration_sigmas.find(one.camera);
+    session_case.camera_reference = known->second;
+  if (const auto known = dataset.calibration_sigmas.find(dataset_case.camera);
       known != dataset.calibration_sigmas.end())
-    made.calibration_sigma = known->second;
-  made.parts = parts;
-  made.feature_size_m = dataset.stations.at(one.station).feature_size_m;
-  made.mesh_scale_sigma = dataset.stations.at(one.station).mesh_scale_sigma;
-  made.camera_from_station_seed = one.seed_camera_from_station;
-  made.station_frame = one.station_frame;
-  made.uncertainty = *one.uncertainty;
-  made.camera_from_station_truth = one.truth_camera_from_station;
-  made.truth_frame = one.truth_frame;
-  made.truth_covariance = one.truth_covariance;
-  if (one.ignore) made.ignore = maskInput(*one.ignore, made.image);
-  made.rig = one.rig;
-  made.tags = one.tags;
-  made.requirement = one.requirement;
-  made.camera_from_end_effector = one.camera_from_end_effector;
-  return made;
+    session_case.calibration_sigma = known->second;
+  session_case.parts = parts;
+  session_case.feature_size_m = dataset.stations.at(dataset_case.station).feature_size_m;
+  session_case.mesh_scale_sigma = dataset.stations.at(dataset_case.station).mesh_scale_sigma;
+  session_case.camera_from_station_seed = dataset_case.seed_camera_from_station;
+  session_case.station_frame = dataset_case.station_frame;
+  session_case.uncertainty = *dataset_case.uncertainty;
+  session_case.camera_from_station_truth = dataset_case.truth_camera_from_station;
+  session_case.truth_frame = dataset_case.truth_frame;
+  session_case.truth_covariance = dataset_case.truth_covariance;
+  if (dataset_case.ignore)
+    session_case.ignore = maskInput(*dataset_case.ignore, session_case.image);
+  session_case.rig = dataset_case.rig;
+  session_case.tags = dataset_case.tags;
+  session_case.requirement = dataset_case.requirement;
+  session_case.camera_from_end_effector = dataset_case.camera_from_end_effector;
+  return session_case;
 }
 
 /// By what all of its cases ask for; the default when they ask for different things or nothing.
 std::string presetOfAll(const Session& session) {
   std::string preset;
-  for (const auto& one : session.cases) {
-    const std::string own = one->requirement ? presetFor(*one->requirement).name : "";
+  for (const auto& session_case : session.cases) {
+    const std::string own =
+        session_case->requirement ? presetFor(*session_case->requirement).name : "";
     if (own.empty() || (!preset.empty() && own != preset)) return kDefaultCheckPreset;
     preset = own;
   }
@@ -92,36 +94,36 @@ std::string presetOfAll(const Session& session) {
 
 MadeCase makeCase(const CaseFiles& files) {
   MadeCase result;
-  SessionCase& made = result.made;
-  made.id = files.id.empty() ? files.image.stem().string() : files.id;
-  made.image = imageInput(files.image, files.eight_bit);
+  SessionCase& session_case = result.made;
+  session_case.id = files.id.empty() ? files.image.stem().string() : files.id;
+  session_case.image = imageInput(files.image, files.eight_bit);
   const CameraFile camera = readChosenCamera(files.camera, files.image);
-  made.camera = camera.camera;
-  made.camera_reference = camera.reference;
-  made.calibration_sigma = camera.calibration_sigma;
-  made.parts = meshInputs(files.parts);
-  made.feature_size_m = files.feature_size_m;
-  made.mesh_scale_sigma = files.mesh_scale_sigma;
+  session_case.camera = camera.camera;
+  session_case.camera_reference = camera.reference;
+  session_case.calibration_sigma = camera.calibration_sigma;
+  session_case.parts = meshInputs(files.parts);
+  session_case.feature_size_m = files.feature_size_m;
+  session_case.mesh_scale_sigma = files.mesh_scale_sigma;
   PoseFrames frames{camera.reference};
   for (const fs::path& file : files.transforms)
     frames.transforms.push_back(readFrameTransform(file));
   const PoseFile seed = readPose(files.seed, frames);
-  made.camera_from_station_seed = seed.camera_from_station;
-  made.station_frame = seed.station_frame;
+  session_case.camera_from_station_seed = seed.camera_from_station;
+  session_case.station_frame = seed.station_frame;
   const DeclaredUncertainty stated = seed.uncertainty.value_or(DeclaredUncertainty());
-  made.uncertainty = files.uncertainty.value_or(stated);
-  made.uncertainty.pivot = files.pivot.value_or(stated.pivot);
+  session_case.uncertainty = files.uncertainty.value_or(stated);
+  session_case.uncertainty.pivot = files.pivot.value_or(stated.pivot);
   if (!files.uncertainty && !seed.uncertainty)
     result.notes.push_back("the seed states no uncertainty; taking 0.03 m and 5 deg");
   const std::string projected = projectionNote(seed.rotation_deviation);
   if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);
   if (files.truth) {
     const PoseFile truth = readPose(*files.truth, frames);
-    made.camera_from_station_truth = truth.camera_from_station;
-    made.truth_frame = truth.station_frame;
-    made.truth_covariance = truth.covariance;
+    session_case.camera_from_station_truth = truth.camera_from_station;
+    session_case.truth_frame = truth.station_frame;
+    session_case.truth_covariance = truth.covariance;
   }
-  if (files.ignore) made.ignore = maskInput(*files.ignore, made.image);
+  if (files.ignore) session_case.ignore = maskInput(*files.ignore, session_case.image);
   return result;
 }
 
@@ -136,13 +138,16 @@ Session makeSession(const Dataset& dataset, const std::vector<std::string>& case
   Session session;
   std::map<fs::path, ImageInput> images;
   std::map<std::string, std::vector<MeshInput>> parts;
-  for (const Case& one : dataset.cases) {
-    if (!case_ids.empty() && std::find(case_ids.begin(), case_ids.end(), one.id) == case_ids.end())
+  for (const Case& dataset_case : dataset.cases) {
+    if (!case_ids.empty() &&
+        std::find(case_ids.begin(), case_ids.end(), dataset_case.id) == case_ids.end())
       continue;
-    if (!parts.contains(one.station))
-      parts[one.station] = meshInputs(dataset.stations.at(one.station).parts);
-    if (!images.contains(one.image)) images[one.image] = imageInput(one.image, {});
-    session.cases.push_back(caseOf(dataset, one, images[one.image], parts[one.station]));
+    if (!parts.contains(dataset_case.station))
+      parts[dataset_case.station] = meshInputs(dataset.stations.at(dataset_case.station).parts);
+    if (!images.contains(dataset_case.image))
+      images[dataset_case.image] = imageInput(dataset_case.image, {});
+    session.cases.push_back(
+        caseOf(dataset, dataset_case, images[dataset_case.image], parts[dataset_case.station]));
   }
   session.review.preset = presetOfAll(session);
   return session;
@@ -159,8 +164,8 @@ std::filesystem::path examplesFolder() {
     }
   }
   throw InputError(program,
-                   "the examples are neither in share/boresight/examples beside the "
-                   "program nor in the source tree above it");
+                   "the examples are neither in share/boresight/examples next to the program nor "
+                   "in the source tree above it");
 }
 
 }  // namespace boresight::sessions

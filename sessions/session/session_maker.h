@@ -30,7 +30,7 @@ struct CaseFiles {
   std::optional<double> mesh_scale_sigma;
 };
 
-/// A case with the hashes of its files as they are now, and what people should be told (a seed that
+/// A case with the hashes of its files as they are now, and the notes for the operator (a seed that
 /// states no uncertainty, a matrix that is not quite a rotation).
 struct MadeCase {
   SessionCase made;
@@ -50,7 +50,7 @@ Session makeSession(const Dataset& dataset, const std::vector<std::string>& case
 Session makeSession(const std::filesystem::path& dataset_file,
                     const std::vector<std::string>& case_ids = {});
 
-/// The folder of the examples that ship: share/boresight/examples beside an installed program,
+/// The folder of the examples that ship: share/boresight/examples next to an installed program,
 /// sessions/examples above one that runs from its build tree. InputError when there is neither.
 std::filesystem::path examplesFolder();
 

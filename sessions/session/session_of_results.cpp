@@ -25,23 +25,23 @@ constexpr int kShareDecimals = 4;
 
 /// The one method that a session can run.
 const MethodFacts& whsOf(const ResultsFacts& facts) {
-  const auto found = std::find_if(facts.methods.begin(), facts.methods.end(),
-                                  [](const MethodFacts& one) { return one.method == "whs"; });
+  const auto found =
+      std::find_if(facts.methods.begin(), facts.methods.end(),
+                   [](const MethodFacts& method_facts) { return method_facts.method == "whs"; });
   if (found == facts.methods.end())
-    throw InputError(facts.file, "it holds no runs of the method whs, which alone can be repeated");
+    throw InputError(facts.file, "it has no runs of the method whs; only these can be repeated");
   if (!found->mesh_of.empty() || !found->mirror.empty())
-    throw InputError(
-        facts.file,
-        "its runs were made with deliberately wrong meshes: there is nothing to look at");
+    throw InputError(facts.file,
+                     "its runs used deliberately wrong meshes, which sessions do not support");
   return *found;
 }
 
 void requireSameDataset(const ResultsFacts& facts) {
   if (std::filesystem::is_directory(facts.dataset.dataset))
     throw InputError(facts.file, "its runs are of the BOP folder " + facts.dataset.dataset +
-                                     ", and sessions are made of a dataset.json only");
-  const std::string now = sha256Text(readFileBytes(facts.dataset.dataset, kMaxJsonBytes));
-  if (now != facts.dataset.dataset_sha256)
+                                     ", but sessions need a dataset.json");
+  const std::string current = sha256Text(readFileBytes(facts.dataset.dataset, kMaxJsonBytes));
+  if (current != facts.dataset.dataset_sha256)
     throw InputError(facts.file, "its dataset " + facts.dataset.dataset +
                                      " has changed since: evaluate again into a new file");
 }
@@ -86,8 +86,8 @@ std::string resultTag(const ListedResult& result) {
   return tag;
 }
 
-std::optional<ListedResult> listedResult(const SessionCase& one) {
-  for (const std::string& tag : one.tags) {
+std::optional<ListedResult> listedResult(const SessionCase& session_case) {
+  for (const std::string& tag : session_case.tags) {
     if (!std::string_view(tag).starts_with(kTag)) continue;
     ListedResult result;
     const std::size_t colon = tag.find(':', kTag.size());
@@ -111,19 +111,19 @@ Session sessionOfResults(const std::filesystem::path& results_file) {
   const std::vector<RunResult> runs = troubledFirst(results_file);
   std::vector<std::string> ids;
   for (const RunResult& run : runs) ids.push_back(run.case_id);
-  if (ids.empty()) throw InputError(results_file, "none of its runs could begin");
+  if (ids.empty()) throw InputError(results_file, "none of its runs could start");
   Session session = makeSession(facts.dataset.dataset, ids);
   std::map<std::string, SharedValue<SessionCase>> by_id;
-  for (const auto& one : session.cases) by_id.emplace(one->id, one);
+  for (const auto& session_case : session.cases) by_id.emplace(session_case->id, session_case);
   session.cases.clear();
   for (const RunResult& run : runs) {
     const auto found = by_id.find(run.case_id);
     if (found == by_id.end()) continue;
-    SessionCase one = *found->second;
-    one.id = resultCaseId(run);
-    if (run.reseed > 0) one.camera_from_station_seed = run.camera_from_station_seed;
-    one.tags.push_back(resultTag(listedResult(run)));
-    session.cases.push_back(std::move(one));
+    SessionCase session_case = *found->second;
+    session_case.id = resultCaseId(run);
+    if (run.reseed > 0) session_case.camera_from_station_seed = run.camera_from_station_seed;
+    session_case.tags.push_back(resultTag(listedResult(run)));
+    session.cases.push_back(std::move(session_case));
   }
   return withOptionsOf(session, facts, method);
 }

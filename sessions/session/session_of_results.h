@@ -24,7 +24,7 @@ ListedResult listedResult(const RunResult& run);
 /// As one of a case's tags, "result:converged:0.37" or "result:pnp_failed", and back; nothing when
 /// there is no such tag.
 std::string resultTag(const ListedResult& result);
-std::optional<ListedResult> listedResult(const SessionCase& one);
+std::optional<ListedResult> listedResult(const SessionCase& session_case);
 
 /// "bc-000012", or "bc-000012 seed 3" for a further seed.
 std::string resultCaseId(const RunResult& run);

@@ -123,9 +123,9 @@ constexpr std::size_t kMostPadding = 3;  ///< of a glTF buffer, to a multiple of
 
 void requireSame(const fs::path& file, const std::string& found, const std::string& known) {
   if (found != known)
-    throw InputError(file,
-                     "it is not the file that the session was made with: accept it as it is now, "
-                     "or bring back the other one");
+    throw InputError(
+        file,
+        "it differs from the session's file: accept it as it is now, or restore the former file");
 }
 
 /// Folders below which a session may take files along.
@@ -149,7 +149,7 @@ class Folders {
     }
     throw InputError(file, (real == file ? "it lies" : "it leads to " + real.string() + ",") +
                                " outside the session's folder and those of its inputs: copy it "
-                               "there, and name the copy");
+                               "there, and use the copy");
   }
 
  private:
@@ -164,11 +164,13 @@ class Packer {
         name_(session_file.filename()),
         top_(runsFolderOf(name_).stem().string()) {
     folders_.add(fs::absolute(session_file).parent_path());
-    for (const auto& one : session.cases) {
-      folders_.add(one->image.source.file.parent_path());
-      for (const MeshInput& part : one->parts) folders_.add(part.source.mesh.parent_path());
-      if (one->ignore) folders_.add(one->ignore->file.parent_path());
-      if (one->onboard_record) folders_.add(one->onboard_record->file.parent_path());
+    for (const auto& session_case : session.cases) {
+      folders_.add(session_case->image.source.file.parent_path());
+      for (const MeshInput& part : session_case->parts)
+        folders_.add(part.source.mesh.parent_path());
+      if (session_case->ignore) folders_.add(session_case->ignore->file.parent_path());
+      if (session_case->onboard_record)
+        folders_.add(session_case->onboard_record->file.parent_path());
     }
   }
 
@@ -197,23 +199,25 @@ class Packer {
     }
   }
 
-  void packCase(SessionCase& one, const std::string& member) {
-    inMember(member + ".image", [&] { packImage(one.image); });
-    for (std::size_t i = 0; i < one.parts.size(); ++i)
-      inMember(member + ".parts[" + std::to_string(i) + "]", [&] { packMesh(one.parts[i]); });
-    if (one.ignore)
+  void packCase(SessionCase& session_case, const std::string& member) {
+    inMember(member + ".image", [&] { packImage(session_case.image); });
+    for (std::size_t i = 0; i < session_case.parts.size(); ++i)
+      inMember(member + ".parts[" + std::to_string(i) + "]",
+               [&] { packMesh(session_case.parts[i]); });
+    if (session_case.ignore)
       inMember(member + ".ignore", [&] {
-        packInput(*one.ignore, [&](const fs::path& file) {
-          (void)readIgnoreMask(file, one.image.width, one.image.height);
+        packInput(*session_case.ignore, [&](const fs::path& file) {
+          (void)readIgnoreMask(file, session_case.image.width, session_case.image.height);
         });
       });
-    if (one.onboard_record)
+    if (session_case.onboard_record)
       inMember(member + ".onboard_record", [&] {
-        packInput(*one.onboard_record, [](const fs::path& file) {
+        packInput(*session_case.onboard_record, [](const fs::path& file) {
           (void)parseRecord(file, readFileBytes(file, kMaxPackedBytes));
         });
       });
-    if (one.landmarks) inMember(member + ".landmarks", [&] { packLandmarks(one); });
+    if (session_case.landmarks)
+      inMember(member + ".landmarks", [&] { packLandmarks(session_case); });
   }
 
   /// Where a label is another file than the pixels, both.
@@ -270,13 +274,13 @@ class Packer {
   }
 
   /// As they are now: the session does not know their hash.
-  void packLandmarks(SessionCase& one) {
-    const fs::path file = *one.landmarks;
+  void packLandmarks(SessionCase& session_case) {
+    const fs::path file = *session_case.landmarks;
     std::error_code error;
     if (!fs::exists(file, error)) {
-      made_.notes.push_back("the landmarks of case " + one.id +
+      made_.notes.push_back("the landmarks of case " + session_case.id +
                             " are missing and were left out: " + file.string());
-      one.landmarks.reset();
+      session_case.landmarks.reset();
       return;
     }
     const fs::path real = folders_.resolved(file);
@@ -284,7 +288,7 @@ class Packer {
     const std::string sha256 = sha256Text(readFileBytes(real, kMaxPackedBytes));
     const std::string name = inputFolder(sha256) + "/" + file.filename().string();
     add(name, file, sha256);
-    one.landmarks = place(name);
+    session_case.landmarks = place(name);
   }
 
   void packRun(RunRecord run, std::vector<RunRecord>& runs) {
@@ -331,11 +335,11 @@ SessionPack planPack(const Session& session, const fs::path& session_file) {
 
 void writePack(const SessionPack& pack, const fs::path& archive) {
   ZipWriter zip(archive);
-  for (const PackedFile& one : pack.files) {
-    const std::vector<std::uint8_t> bytes = readFileBytes(one.file, kMaxPackedBytes);
-    if (sha256Text(bytes) != one.sha256)
-      throw InputError(one.file, "it has changed while it was packed: pack again");
-    zip.add(one.name, bytes);
+  for (const PackedFile& packed_file : pack.files) {
+    const std::vector<std::uint8_t> bytes = readFileBytes(packed_file.file, kMaxPackedBytes);
+    if (sha256Text(bytes) != packed_file.sha256)
+      throw InputError(packed_file.file, "it changed during packing: pack again");
+    zip.add(packed_file.name, bytes);
   }
   const auto* text = reinterpret_cast<const std::uint8_t*>(pack.session_text.data());
   zip.add(pack.session_name, {text, pack.session_text.size()});

@@ -20,7 +20,7 @@ struct PackedFile {
 /// with every file that it names (once, under the beginning of its hash, so that files of the same
 /// name do not meet), and the traces of its runs.
 struct SessionPack {
-  std::vector<PackedFile> files;   ///< besides the session
+  std::vector<PackedFile> files;   ///< without the session
   std::string session_name;        ///< in the archive
   std::string session_text;        ///< names its files relatively
   std::vector<std::string> notes;  ///< traces and landmarks that are missing and are left out

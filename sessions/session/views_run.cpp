@@ -14,9 +14,9 @@ namespace {
 
 /// The same meshes in the same places, whatever their files are called.
 bool sameStation(const SessionCase& a, const SessionCase& b) {
-  const auto same = [](const MeshInput& one, MeshInput other) {
-    other.source.mesh = one.source.mesh;
-    return one == other;
+  const auto same = [](const MeshInput& mesh_input, MeshInput other) {
+    other.source.mesh = mesh_input.source.mesh;
+    return mesh_input == other;
   };
   return a.feature_size_m == b.feature_size_m &&
          std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), same);
@@ -51,35 +51,35 @@ std::vector<LocalizationTrace> runLoaded(const LoadedViews& loaded, const Locali
 }  // namespace
 
 std::string whyAlone(const Session& session, const std::string& case_id) {
-  const SessionCase* one = session.findCase(case_id);
-  if (one == nullptr) return "There is no such case.";
-  if (!one->rig)
-    return "The case is of no rig: link it to the other views (Annotation, Rig), or name a rig in "
+  const SessionCase* session_case = session.findCase(case_id);
+  if (session_case == nullptr) return "There is no such case.";
+  if (!session_case->rig)
+    return "The case has no rig: link it to the other views (Annotation, Rig), or state a rig in "
            "dataset.json.";
   const std::vector<std::string> others = casesOfRig(session, case_id);
-  if (others.empty()) return "The session has no other view of rig " + one->rig->id + ".";
+  if (others.empty()) return "The session has no other view of rig " + session_case->rig->id + ".";
   if (others.size() + 1 > kMaxViews)
-    return "Rig " + one->rig->id + " has " + std::to_string(others.size() + 1) +
+    return "Rig " + session_case->rig->id + " has " + std::to_string(others.size() + 1) +
            " views; at most " + std::to_string(kMaxViews) + " are solved together.";
   for (const std::string& id : others)
-    if (!sameStation(*one, *session.findCase(id)))
+    if (!sameStation(*session_case, *session.findCase(id)))
       return "Case " + id + " of the same rig has another station.";
   return "";
 }
 
 ViewsProblem LoadedViews::problem() const {
   const LocalizationProblem first = cases.front()->problem();
-  ViewsProblem made;
-  made.views = views;
-  made.mesh = first.mesh;
-  made.rig_from_station_seed = rigSeed(cases.front()->source);
-  made.uncertainty = first.uncertainty;
-  return made;
+  ViewsProblem views_problem;
+  views_problem.views = views;
+  views_problem.mesh = first.mesh;
+  views_problem.rig_from_station_seed = rigSeed(cases.front()->source);
+  views_problem.uncertainty = first.uncertainty;
+  return views_problem;
 }
 
 std::vector<std::string> LoadedViews::ids() const {
   std::vector<std::string> ids;
-  for (const auto& one : cases) ids.push_back(one->source.id);
+  for (const auto& session_case : cases) ids.push_back(session_case->source.id);
   return ids;
 }
 
@@ -95,12 +95,12 @@ std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> f
   auto loaded = std::make_shared<LoadedViews>();
   loaded->cases.push_back(std::move(first));
   // What the first has of the same files is taken from there.
-  for (const SessionCase& one : others)
-    loaded->cases.push_back(reloadCase(*loaded->cases.front(), one));
-  for (const auto& one : loaded->cases) {
-    requireSameSize(one->image, one->source.camera);
-    requireField("case " + one->source.id, "camera", one->source.camera);
-    loaded->views.push_back(viewOf(*one));
+  for (const SessionCase& session_case : others)
+    loaded->cases.push_back(reloadCase(*loaded->cases.front(), session_case));
+  for (const auto& session_case : loaded->cases) {
+    requireSameSize(session_case->image, session_case->source.camera);
+    requireField("case " + session_case->source.id, "camera", session_case->source.camera);
+    loaded->views.push_back(viewOf(*session_case));
   }
   return loaded;
 }
@@ -109,9 +109,9 @@ std::vector<LocalizationTrace> runViews(const Session& session, const std::strin
                                         const std::stop_token& stop) {
   const std::string alone = whyAlone(session, case_id);
   if (!alone.empty()) throw InputError("case " + case_id, "rig", alone);
-  const SessionCase& one = *session.findCase(case_id);
-  const LocalizerOptions options = caseOptions(session, one, "session");
-  const auto first = loadCase(one);
+  const SessionCase& session_case = *session.findCase(case_id);
+  const LocalizerOptions options = caseOptions(session, session_case, "session");
+  const auto first = loadCase(session_case);
   requireRunnable(*first);
   return runLoaded(*loadViews(first, otherViews(session, case_id)), options, stop);
 }
@@ -138,12 +138,12 @@ LocalizationTrace repeatRun(const RunRecord& run, const Session& session,
   std::vector<SessionCase> others;
   for (std::size_t i = 1; i < ids.size(); ++i) others.push_back(*session.findCase(ids[i]));
   const auto views = loadViews(loadCase(*session.findCase(ids.front())), others);
-  for (const LocalizationTrace& one : runLoaded(*views, plan.options, {})) {
-    if (one.views[one.own_view].case_id != run.case_id) continue;
-    if (one.views != run.together->views)
+  for (const LocalizationTrace& trace : runLoaded(*views, plan.options, {})) {
+    if (trace.views[trace.own_view].case_id != run.case_id) continue;
+    if (trace.views != run.together->views)
       throw InputError(session_file, "run " + run.digest,
-                       "its views do not end as its member together states");
-    return one;
+                       "its views contradict its member together");
+    return trace;
   }
   throw InputError(session_file, "run " + run.digest, "its own case is not among its views");
 }

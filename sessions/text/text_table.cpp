@@ -44,7 +44,7 @@ std::string TextTable::text() const {
     widths.resize(std::max(widths.size(), row.size()), 0);
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   }
-  std::string made;
+  std::string text;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     std::string line;
     for (std::size_t i = 0; i < rows_[r].size(); ++i) {
@@ -53,13 +53,13 @@ std::string TextTable::text() const {
       line += (i > 0 ? "  " : "") + (i == 0 ? cell + padding : padding + cell);
     }
     line.erase(line.find_last_not_of(' ') + 1);
-    made += line + "\n";
+    text += line + "\n";
     if (r > 0) continue;
     std::size_t total = 0;
     for (const std::size_t width : widths) total += width + 2;
-    made += std::string(total > 2 ? total - 2 : 0, '-') + "\n";
+    text += std::string(total > 2 ? total - 2 : 0, '-') + "\n";
   }
-  return made;
+  return text;
 }
 
 std::string csvField(const std::string& text) {

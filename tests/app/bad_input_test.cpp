@@ -65,7 +65,7 @@ TEST_F(BadInput, NamesAFileThatIsMissing) {
   expectRefused({{"--truth", "/no/such/truth.json"}}, "/no/such/truth.json: ", "");
 }
 
-/// Whose other end nobody opens: reading would wait for ever.
+/// A pipe without a writer: reading would block for ever.
 TEST_F(BadInput, NamesAPipeAndADeviceWithoutReadingThem) {
   const std::filesystem::path pipe = inputs_ / "pipe.ply";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -126,7 +126,7 @@ TEST_F(BadInput, RefusesAMeshOfManyFacesBehindEachOther) {
            {"--seed", seedWith("[[1,0,0,0],[0,-1,0,0],[0,0,-1,1.0],[0,0,0,1]]")}});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_THAT(refused.err, HasSubstr("layers.ply"));
-  EXPECT_THAT(refused.err, HasSubstr("behind each other"));
+  EXPECT_THAT(refused.err, HasSubstr("overlap in an image row"));
 }
 
 TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
@@ -137,8 +137,8 @@ TEST_F(BadInput, AsksForTheUnitOfAMeshThatStatesNone) {
 }
 
 TEST_F(BadInput, DoubtsTheUnitOfAMeshAThousandTimesTooSmallOrTooLarge) {
-  expectRefused({{"--mesh-unit", "mm"}}, "model.ply: mesh_unit", "is the unit right?");
-  expectRefused({{"--mesh-unit", "km"}}, "model.ply: mesh_unit", "is the unit right?");
+  expectRefused({{"--mesh-unit", "mm"}}, "model.ply: mesh_unit", "check the unit");
+  expectRefused({{"--mesh-unit", "km"}}, "model.ply: mesh_unit", "check the unit");
 }
 
 TEST_F(BadInput, RefusesASeedThatIsNoRigidTransform) {
@@ -169,7 +169,7 @@ TEST_F(BadInput, NamesAnOptionThatIsOutOfRangeOrUnknown) {
   expectRefused({{"--config", config(R"("templates.count": 0)")}},
                 "config.json: options.templates.count", "");
   expectRefused({{"--config", config(R"("templates.colour": 1)")}},
-                "config.json: options.templates.colour", "no such option");
+                "config.json: options.templates.colour", "unknown option");
 }
 
 TEST_F(BadInput, NamesAnOutputThatCannotBeWritten) {
@@ -257,7 +257,7 @@ class Overwrite : public testing::Test {
     const ProgramRun run = runWhs(arguments);
     EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.err;
     EXPECT_EQ(run.errorLines(), 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("which would be lost; name another file"));
+    EXPECT_THAT(run.err, HasSubstr("which would be overwritten; give another file"));
     for (const std::string& word : words) EXPECT_THAT(run.err, HasSubstr(word)) << arguments[0];
     EXPECT_TRUE(contents() == before) << arguments[0] << " changed a file";
   }
@@ -306,7 +306,7 @@ TEST_F(Overwrite, OfInputsByOtherCommandsIsRefused) {
   expectRefused({"views", "--dataset", dataset, "--out", dataset}, {"--dataset", "--out"});
 }
 
-TEST_F(Overwrite, OfMarksBySolveIsRefused) {
+TEST_F(Overwrite, OfAnnotationsBySolveIsRefused) {
   const std::string points = file("points.json"), camera = file("stations/os/camera.json");
   folder_.write("points.json",
                 R"({"format": "boresight-points", "version": 1, "points": [
@@ -334,7 +334,7 @@ TEST_F(Overwrite, OfASessionAndItsInputsIsRefused) {
   expectRefused({"queue", session, "--csv", session}, {"session and --csv"});
 }
 
-TEST_F(Overwrite, OfMarksAndRunsOfASessionIsRefused) {
+TEST_F(Overwrite, OfAnnotationsAndRunsOfASessionIsRefused) {
   fs::copy(exampleFolder().parent_path() / "annotated.boresight.json", folder_.path());
   const std::string session = file("annotated.boresight.json");
   expectRefused({"export", session, "--case", "bc-000028", "--points", session}, {"--points"});

@@ -23,16 +23,16 @@ const std::filesystem::path kRendered = BORESIGHT_SYNTHETIC_EXAMPLE;
 class WhsBop : public testing::Test {
  protected:
   WhsBop() {
-    const sessions::Case& one = *dataset_.findCase("bc-000000");
-    truth_ = *one.truth_camera_from_station;
+    const sessions::Case& dataset_case = *dataset_.findCase("bc-000000");
+    truth_ = *dataset_case.truth_camera_from_station;
     sessions::PosedImage image;
     image.id = 4;
-    image.camera = dataset_.cameras.at(one.camera);
+    image.camera = dataset_.cameras.at(dataset_case.camera);
     image.camera_from_station = truth_;
     const std::filesystem::path scene = folder_ / "set/test/000003";
     std::filesystem::create_directories(scene / "gray");
     sessions::writeBopScene(scene, {{{image, 5}}});
-    std::filesystem::copy_file(one.image, scene / "gray/000004.png");
+    std::filesystem::copy_file(dataset_case.image, scene / "gray/000004.png");
     writeModel(sessions::readStationScene(dataset_.stations.at("bc")));
   }
 
@@ -106,14 +106,14 @@ TEST_F(WhsBop, BecomesASession) {
   EXPECT_EQ(session.cases[0]->parts.at(0).source.mesh_unit, "mm");
 }
 
-TEST_F(WhsBop, RefusesWhatItCannotMean) {
+TEST_F(WhsBop, AmbiguousSelection_IsRefused) {
   const std::string out = folder_ / "r.sqlite";
   const std::string file = kRendered / "dataset.json";
   EXPECT_THAT(runWhs({"evaluate", "--dataset", file, "--scene", "3", "--out", out}, 2).err,
               HasSubstr("choose of a BOP folder"));
   const ProgramRun csv =
       runWhs({"evaluate", "--dataset", file, "--bop-csv", folder_ / "r.csv", "--out", out}, 3);
-  EXPECT_THAT(csv.err, HasSubstr("is not of a BOP dataset"));
+  EXPECT_THAT(csv.err, HasSubstr("is not part of a BOP dataset"));
   const ProgramRun scene = runWhs({"info", set_, "--scene", "9"}, 3);
   EXPECT_THAT(scene.err, HasSubstr("has no scene 000009"));
 }

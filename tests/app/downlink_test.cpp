@@ -103,9 +103,9 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   // Three sigma across the view axis are 0.42 mm at the camera, 0.4 mm are required.
   const ProgramRun decided =
       runWhs({"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment",
-              "right", "--pass-over", "covariance_lateral=0.02 mm over"});
+              "right", "--waive", "covariance_lateral=0.02 mm over"});
   EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err
-                                  << runWhs({"check", session_, "--basin", "0"}).out;
+                                  << runWhs({"check", session_, "--convergence-test", "0"}).out;
   const std::string file = folder_ / "pose.json";
   runWhs({"export", session_, "--case", "sol12", "--pose", file}, 0);
   runWhs({"verify", file}, 0);
@@ -175,7 +175,7 @@ TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
 
 TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
   // The label states where the rover is in the site; the transform that is given later lies 10 mm
-  // beside it.
+  // next to it.
   const Eigen::Quaterniond& turn = siteFromRover().rotation;
   folder_.write(
       "1F483288473.IMG",
@@ -210,8 +210,8 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
   EXPECT_EQ(warned.exit_code, 0) << warned.err;
   EXPECT_EQ(warned.err, "whs: " + warning + "\n");
   EXPECT_EQ(json::parse(folder_.read("result.json"))["warnings"], json::array({warning}));
-  const ProgramRun made = runWhs(newArguments(true), 0);
-  EXPECT_EQ(made.err, "whs: case sol12: " + warning + "\n");
+  const ProgramRun run = runWhs(newArguments(true), 0);
+  EXPECT_EQ(run.err, "whs: case sol12: " + warning + "\n");
 }
 
 TEST_F(Downlink, IsDescribedWithAllThatBelongsToIt) {
@@ -256,10 +256,10 @@ TEST_F(Downlink, OfADataSetIsEvaluated) {
   dataset["stations"]["os"] = {{"mesh", (exampleFolder() / "os" / "model.ply").string()},
                                {"mesh_unit", "m"},
                                {"feature_size_m", 0.018}};
-  json one = {{"id", "sol12"}, {"station", "os"}, {"image", "1F483288473.IMG"}};
-  one["seed"] = json::parse(folder_.read("seed.json"));
-  one["truth"]["camera_from_station"] = json::parse(sessions::toJson(truth_).dump());
-  dataset["cases"] = json::array({one});
+  json value = {{"id", "sol12"}, {"station", "os"}, {"image", "1F483288473.IMG"}};
+  value["seed"] = json::parse(folder_.read("seed.json"));
+  value["truth"]["camera_from_station"] = json::parse(sessions::toJson(truth_).dump());
+  dataset["cases"] = json::array({value});
   const std::string file = folder_.write("dataset.json", dataset.dump()).string();
   const std::string out = folder_ / "r.jsonl";
   runWhs({"evaluate", "--dataset", file, "--out", folder_ / "r.sqlite", "--jsonl", out}, 0);
@@ -268,7 +268,7 @@ TEST_F(Downlink, OfADataSetIsEvaluated) {
 
 TEST_F(Downlink, WithoutALabelACameraIsAskedFor) {
   EXPECT_THAT(runWhs(localizeArguments({{"--camera", ""}}), 3).err,
-              HasSubstr("the image has no label that could tell it"));
+              HasSubstr("the image has no label with a camera model"));
 }
 
 TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
@@ -294,7 +294,7 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   EXPECT_THAT(runWhs({"camera", other_ending, "--out", folder_ / "left.json"}, 0).err,
               HasSubstr("the covariance of left.cahvore stays behind"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
-              HasSubstr("the vectors are those of a cahvor model"));
+              HasSubstr("the vectors belong to a cahvor model"));
   runWhs({"camera", image_.string()}, 2);
   runWhs({"camera", text, "--as", "pinhole", "--out", text}, 2);
 }
@@ -315,9 +315,9 @@ struct Runs {
 
   void edit(void (*change)(sessions::SessionCase&, const Runs&)) const {
     auto document = sessions::SessionDocument::open(session);
-    sessions::SessionCase one = *document.session().findCase(kOsCase);
-    change(one, *this);
-    document.apply(sessions::withCase(document.session(), one), "Change");
+    sessions::SessionCase session_case = *document.session().findCase(kOsCase);
+    change(session_case, *this);
+    document.apply(sessions::withCase(document.session(), session_case), "Change");
     document.save();
   }
 };
@@ -338,8 +338,8 @@ TEST(WhsCompare, TakesRecordsTracesAndRunsOfSessions) {
   EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kOsCase, "--rerun"}), 0);
   EXPECT_EQ(exitOf({runs.record, runs.session, "--case", kOsCase, "--run", "0000000"}), 3);
   EXPECT_EQ(exitOf({runs.session, "--case", kOsCase}), 3) << "no record is attached";
-  runs.edit([](sessions::SessionCase& one, const Runs& made) {
-    one.onboard_record = {made.record, sessions::inputSha256(made.record)};
+  runs.edit([](sessions::SessionCase& session_case, const Runs& result) {
+    session_case.onboard_record = {result.record, sessions::inputSha256(result.record)};
   });
   EXPECT_EQ(exitOf({runs.session, "--case", kOsCase}), 0);
   EXPECT_EQ(exitOf({runs.session}), 2);
@@ -350,23 +350,23 @@ TEST(WhsCompare, TakesRecordsTracesAndRunsOfSessions) {
 
 TEST(WhsNew, AttachesAnOnboardRecordToItsOneCase) {
   const Runs runs;
-  const std::string made = runs.folder / "made.boresight.json";
+  const std::string text = runs.folder / "made.boresight.json";
   const std::string dataset = exampleFolder() / "dataset.json";
-  runWhs({"new", "--dataset", dataset, "--record", runs.record, "--out", made}, 2);
-  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.trace, "--out", made},
+  runWhs({"new", "--dataset", dataset, "--record", runs.record, "--out", text}, 2);
+  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.trace, "--out", text},
          3);
-  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.record, "--out", made},
+  runWhs({"new", "--dataset", dataset, "--case", kOsCase, "--record", runs.record, "--out", text},
          0);
-  runWhs({"compare", made, "--case", kOsCase, "--rerun"}, 0);
+  runWhs({"compare", text, "--case", kOsCase, "--rerun"}, 0);
 }
 
 TEST(WhsCompare, DoesNotTakeARunOfOtherInputsForTheCases) {
   const Runs runs;
-  runs.edit([](sessions::SessionCase& one, const Runs&) {
-    one.camera_from_station_seed.translation_m.x() += 1e-4;
+  runs.edit([](sessions::SessionCase& session_case, const Runs&) {
+    session_case.camera_from_station_seed.translation_m.x() += 1e-4;
   });
   EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase}, 3).err,
-              HasSubstr("no longer its own"));
+              HasSubstr("have changed since the run"));
   EXPECT_THAT(runWhs({"compare", runs.record, runs.session, "--case", kOsCase, "--rerun"}, 6).out,
               HasSubstr("first difference: seed"));
 }

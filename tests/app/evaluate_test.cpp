@@ -31,9 +31,9 @@ class WhsEvaluate : public testing::Test {
   }
   std::vector<nlohmann::json> lines() const {
     std::istringstream stream(folder_.read("r.jsonl"));
-    std::vector<nlohmann::json> made;
-    for (std::string line; std::getline(stream, line);) made.push_back(nlohmann::json::parse(line));
-    return made;
+    std::vector<nlohmann::json> json;
+    for (std::string line; std::getline(stream, line);) json.push_back(nlohmann::json::parse(line));
+    return json;
   }
 
   const std::filesystem::path dataset_ = exampleFolder() / "dataset.json";
@@ -113,7 +113,7 @@ int killAfter(const Arguments& arguments, const std::filesystem::path& results, 
   return held();
 }
 
-TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
+TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
   const Arguments options = {"--reseed", "5", "--jobs", "2", "--set", "loop.max_iterations=1"};
   const Arguments arguments = evaluateArguments(dataset_, options);
   int held = 0;
@@ -125,11 +125,11 @@ TEST_F(WhsEvaluate, GoesOnAfterItWasKilledWithoutRedoingOrLosingARun) {
   }
   ASSERT_GE(held, 1);
   EXPECT_THAT(runWhs(arguments, 0).err,
-              HasSubstr("going on, " + std::to_string(held) + " of 12 runs are there"));
+              HasSubstr("resumed, " + std::to_string(held) + " of 12 runs are done"));
   const sessions::Results results = sessions::readResults(folder_ / "r.sqlite");
   ASSERT_EQ(results.runs.size(), 12u);
   std::int64_t done = 0;
-  for (const sessions::Sitting& sitting : results.facts.sittings) done += sitting.runs;
+  for (const sessions::BatchRun& batch_run : results.facts.batch_runs) done += batch_run.runs;
   EXPECT_EQ(done, 12) << "none was done twice";
   const auto resumed = lines();
 
@@ -153,8 +153,7 @@ TEST_F(WhsEvaluate, RefusesToGoOnWithOtherOptions) {
   EXPECT_EQ(other.errorLines(), 1) << other.err;
   EXPECT_THAT(other.err, HasSubstr("loop.max_iterations 1, not 2; name another file"));
   EXPECT_EQ(folder_.read("r.sqlite"), before);
-  EXPECT_THAT(runWhs(evaluateArguments(dataset_, quick), 0).err,
-              HasSubstr("2 of 2 runs are there already"));
+  EXPECT_THAT(runWhs(evaluateArguments(dataset_, quick), 0).err, HasSubstr("2 of 2 runs are done"));
 }
 
 TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
@@ -170,12 +169,12 @@ TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
   }
   const ProgramRun merged = runWhs(merge, 0);
   EXPECT_THAT(merged.out, HasSubstr("4 runs"));
-  const auto one = sessions::readResults(folder_ / "r.sqlite").runs;
+  const auto value = sessions::readResults(folder_ / "r.sqlite").runs;
   const auto joined = sessions::readResults(folder_ / "merged.sqlite").runs;
-  ASSERT_EQ(one.size(), joined.size());
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].case_id, joined[i].case_id);
-    EXPECT_EQ(one[i].digest, joined[i].digest);
+  ASSERT_EQ(value.size(), joined.size());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    EXPECT_EQ(value[i].case_id, joined[i].case_id);
+    EXPECT_EQ(value[i].digest, joined[i].digest);
   }
   runWhs({"evaluate", "--dataset", dataset_.string(), "--shard", "3/2", "--out", folder_ / "x"}, 2);
 }
@@ -285,7 +284,7 @@ TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {
       HasSubstr("2 cases"));
   EXPECT_THAT(folder_.read("q.boresight.json"), HasSubstr("loop.max_iterations"));
   EXPECT_THAT(runWhs({"queue", file("q.boresight.json")}).out,
-              HasSubstr("not run here; in the results: iteration_limit"));
+              HasSubstr("not run in this session; in the results: iteration_limit"));
 }
 
 TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {
@@ -309,8 +308,8 @@ TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {
       const ProgramRun run = runWhs(arguments);
       EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.out;
       EXPECT_EQ(run.errorLines(), 1) << run.err;
-      EXPECT_THAT(run.err, AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not one that whs "
-                                                                        "evaluate makes")));
+      EXPECT_THAT(run.err,
+                  AllOf(HasSubstr("r.sqlite: its "), HasSubstr("is not from whs evaluate")));
       EXPECT_EQ(run.out, "");
     }
     EXPECT_FALSE(std::filesystem::exists(file("m.sqlite")));

@@ -147,7 +147,7 @@ TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
       localizeArguments({{"--profile", "flight"}, {"--set", "render.max_edge_pixels=1000000"}}), 4);
   EXPECT_EQ(asking.errorLines(), 1) << asking.err;
   EXPECT_THAT(asking.err, AllOf(HasSubstr("arena_too_small"), HasSubstr("bytes"),
-                                HasSubstr("10000000 in all"), HasSubstr("lower")));
+                                HasSubstr("of 10000000"), HasSubstr("lower")));
   EXPECT_THAT(asking.out, Not(HasSubstr("digest")));
 }
 
@@ -202,7 +202,7 @@ TEST(WhsLocalize, SeesOnlyWhatTheIgnoreMaskLeaves) {
   EXPECT_EQ(run.errorLines(), 1) << run.err;
 }
 
-// Methods beside WHS, on the command line.
+// Other methods, on the command line.
 
 TEST(WhsMethods, ResultNamesTheMethodAndItsOptions) {
   const TemporaryFolder folder;
@@ -254,10 +254,10 @@ class WhsProblem : public testing::Test {
  protected:
   /// The example's orbiting sample with a few arguments replaced.
   Arguments arguments(const std::map<std::string, std::string>& replaced = {}) const {
-    Arguments made = localizeArguments(replaced);
-    made[0] = "problem";
-    made.insert(made.end(), {"--out", problem_, "--image-out", image_});
-    return made;
+    Arguments arguments = localizeArguments(replaced);
+    arguments[0] = "problem";
+    arguments.insert(arguments.end(), {"--out", problem_, "--image-out", image_});
+    return arguments;
   }
 
   ProgramRun drive() const { return runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, image_}); }
@@ -288,7 +288,7 @@ TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
   EXPECT_TRUE(folder_.read("problem.bin") == std::string(expected.begin(), expected.end()));
 }
 
-TEST_F(WhsProblem, DriverDoesNotPassOverLostOutput) {
+TEST_F(WhsProblem, Driver_WithLostOutput_Fails) {
   runWhs(arguments(), 0);
   const std::string command = std::string(BORESIGHT_FLIGHT_DRIVER) + " '" + problem_ + "' '" +
                               image_ + "' >/dev/full 2>/dev/null";

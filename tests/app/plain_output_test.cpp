@@ -39,15 +39,15 @@ class PlainOutput : public testing::Test {
       object[to] = object[from];
       object.erase(from);
     };
-    for (json& one : dataset["cases"]) {
-      const std::string folder = one["image"].get<std::string>().substr(0, 2);
+    for (json& item : dataset["cases"]) {
+      const std::string folder = item["image"].get<std::string>().substr(0, 2);
       const std::string image = hostile(folder) + ".png";
-      std::filesystem::copy(exampleFolder() / one["image"].get<std::string>(), folder_ / image);
-      one["id"] = hostile(one["id"]);
-      one["image"] = image;
-      one["station"] = hostile(one["station"]);
-      one["camera"] = hostile(one["camera"]);
-      one["tags"] = {hostile("tag")};
+      std::filesystem::copy(exampleFolder() / item["image"].get<std::string>(), folder_ / image);
+      item["id"] = hostile(item["id"]);
+      item["image"] = image;
+      item["station"] = hostile(item["station"]);
+      item["camera"] = hostile(item["camera"]);
+      item["tags"] = {hostile("tag")};
     }
     for (const std::string station : {"bc", "os"}) {
       const std::string mesh = hostile(station) + ".ply";
@@ -80,9 +80,9 @@ TEST_F(PlainOutput, OfSessionsIsText) {
   run({"info", file("dataset.json")});
   runWhs({"new", "--dataset", file("dataset.json"), "--out", session}, 0);
   run({"run", session});
-  run({"check", session, "--case", case_, "--basin", "0", "--sentences"}, 0);
-  run({"decide", session, "--case", case_, "--validate", "--basin", "8", "--by", hostile("Ada"),
-       "--comment", hostile("right")});
+  run({"check", session, "--case", case_, "--convergence-test", "0", "--sentences"}, 0);
+  run({"decide", session, "--case", case_, "--validate", "--convergence-test", "8", "--by",
+       hostile("Ada"), "--comment", hostile("right")});
   run({"info", session});
   run({"queue", session, "--csv", file("q.csv")});
   run({"run", session, "--case", case_});
@@ -118,15 +118,15 @@ class LostOutput : public testing::Test {
     for (const std::string& argument : arguments) command += " '" + argument + "'";
     const int status =
         std::system((command + " >/dev/full 2>'" + (folder_ / "err").string() + "'").c_str());
-    ProgramRun made;
-    if (WIFEXITED(status)) made.exit_code = WEXITSTATUS(status);
-    made.err = folder_.read("err");
-    return made;
+    ProgramRun result;
+    if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+    result.err = folder_.read("err");
+    return result;
   }
   const TemporaryFolder folder_;
 };
 
-TEST_F(LostOutput, IsNotPassedOver) {
+TEST_F(LostOutput, FailsTheProgram) {
   const std::filesystem::path example = exampleFolder() / "os";
   for (const Arguments& arguments :
        {localizeArguments(), Arguments{"info", example / "image.png"}, Arguments{"options"},

@@ -11,7 +11,7 @@
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/turned_view.h"
 
 namespace boresight::test {
@@ -46,14 +46,14 @@ TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
   alone = sessions::withoutRigLink(alone, session.cases[0]->id);
   sessions::writeSessionFile(file, alone);
   EXPECT_THAT(runWhs({"run", file, "--views", "--case", session.cases[0]->id}, 3).err,
-              HasSubstr("of no rig"));
+              HasSubstr("has no rig"));
 }
 
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
   const TemporaryFolder folder;
   const std::string file = folder.write("s.json", "mine");
   const ProgramRun there = runWhs({"new", "--dataset", kDataset, "--out", file}, 3);
-  EXPECT_THAT(there.err, HasSubstr("there is a file of this name already"));
+  EXPECT_THAT(there.err, HasSubstr("the file exists"));
   EXPECT_EQ(folder.read("s.json"), "mine");
   const std::string out = folder / "t.json";
   runWhs({"new", "--out", out}, 2);
@@ -82,7 +82,7 @@ TEST(WhsNew, SaysAtOnceWhatARunWouldRefuse) {
   seed["camera_from_station"][2][3] = -0.4;
   const ProgramRun behind = make(os / "camera.json", folder.write("seed.json", seed.dump()));
   EXPECT_EQ(behind.exit_code, 0) << "a person can move it";
-  EXPECT_THAT(behind.err, HasSubstr("no run begins like this: case image: seed: "));
+  EXPECT_THAT(behind.err, HasSubstr("a run cannot start from this seed: case image: seed: "));
 }
 
 TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
@@ -139,7 +139,7 @@ TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {
   runWhs({"run", file, "--again", "xyz"}, 3);
   EXPECT_THAT(runWhs({"run", file, "--again", ""}).out, HasSubstr("converged"));
   EXPECT_THAT(runWhs({"info", file}).out,
-              HasSubstr("other options from its iteration 3 on, going on from run " + plain));
+              HasSubstr("other options from its iteration 3 on, continued from run " + plain));
 }
 
 TEST(WhsRun, RefusesWhatItMustNotTouch) {
@@ -158,7 +158,7 @@ TEST(WhsRun, RefusesWhatItMustNotTouch) {
     document.apply(next, "Look at it");
   }
   EXPECT_THAT(runWhs({"run", file}, 3).err, HasSubstr("1 edits were never saved"));
-  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 edits are in its journal"));
+  EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("1 unsaved edits are in its journal"));
   runWhs({"pack", file, "--out", folder / "p.zip"}, 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "p.zip"));
 }
@@ -173,10 +173,10 @@ TEST(WhsPack, MakesAnArchiveAndRefusesChangedInputs) {
   EXPECT_EQ(folder.read("s.zip").substr(0, 2), "PK");
   folder.write("stations/os/model.ply", folder.read("stations/bc/model.ply"));
   EXPECT_THAT(runWhs({"pack", file, "--out", folder / "t.zip"}, 3).err,
-              HasSubstr("stations/os/model.ply: it is not the file"));
+              HasSubstr("stations/os/model.ply: it differs from the session's file"));
   EXPECT_FALSE(std::filesystem::exists(folder / "t.zip"));
   const ProgramRun run = runWhs({"run", file, "--case", kOsCase}, 3);
-  EXPECT_THAT(run.err, HasSubstr("its bytes are not those that the session was made with"));
+  EXPECT_THAT(run.err, HasSubstr("its bytes differ from those of the session"));
   EXPECT_THAT(runWhs({"info", file}).out, HasSubstr("! "));
 }
 
@@ -184,12 +184,12 @@ TEST(WhsInfo, ReadsTheInputsOfABoundedNumberOfCases) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
   Session session = sessions::readSessionFile(file).session;
-  sessions::SessionCase one = *session.cases[0];
-  one.image.source.file = folder / "none.png";
+  sessions::SessionCase session_case = *session.cases[0];
+  session_case.image.source.file = folder / "none.png";
   session.cases.clear();
   for (int i = 0; i < 250; ++i) {
-    one.id = "case-" + std::to_string(i);
-    session.cases.push_back(one);
+    session_case.id = "case-" + std::to_string(i);
+    session.cases.push_back(session_case);
   }
   sessions::writeSessionFile(file, session);
   const ProgramRun run = runWhs({"info", file}, 0);
@@ -203,16 +203,16 @@ TEST(WhsPack, TakesLandmarksAlongWhereTheyAre) {
   const TemporaryFolder folder;
   const std::string file = newSession(folder);
   sessions::Session session = sessions::readSessionFile(file).session;
-  sessions::SessionCase one = *session.cases[0];
-  one.landmarks = folder.write(
+  sessions::SessionCase session_case = *session.cases[0];
+  session_case.landmarks = folder.write(
       "named points.json", R"({"format": "boresight-landmarks", "version": 1, "landmarks": []})");
-  sessions::writeSessionFile(file, withCase(session, one));
+  sessions::writeSessionFile(file, withCase(session, session_case));
   const ProgramRun packed = runWhs({"pack", file, "--out", folder / "s.zip"}, 0);
   EXPECT_EQ(packed.errorLines(), 0);
   EXPECT_THAT(folder.read("s.zip"), HasSubstr("/named points.json"));
-  std::filesystem::remove(*one.landmarks);
+  std::filesystem::remove(*session_case.landmarks);
   EXPECT_THAT(runWhs({"pack", file, "--out", folder / "t.zip"}, 0).err,
-              HasSubstr("the landmarks of case " + one.id + " are missing"));
+              HasSubstr("the landmarks of case " + session_case.id + " are missing"));
   EXPECT_THAT(folder.read("t.zip"), Not(HasSubstr("/named points.json")));
 }
 
@@ -234,7 +234,7 @@ class WhsExchange : public testing::Test {
 
   TemporaryFolder folder_;
   std::string file_ = folder_ / "s.boresight.json";
-  Session session_ = markedExample(0.2);
+  Session session_ = annotatedExample(0.2);
   std::string bc_ = caseOfStation(session_, "bc");
   std::string os_ = caseOfStation(session_, "os");
 };
@@ -246,19 +246,20 @@ TEST_F(WhsExchange, TakesPosesOutAndInAgain) {
     EXPECT_EQ(out.out, bc_ + "\n");
     // Another folder of this name is not touched.
     runWhs({"export", file_, form, folder, "--case", bc_}, 3);
-    EXPECT_THAT(runWhs({"import", file_, form, folder}, 3).err, HasSubstr("another truth already"));
+    EXPECT_THAT(runWhs({"import", file_, form, folder}, 3).err,
+                HasSubstr("already has another truth"));
     const ProgramRun in = runWhs({"import", file_, form, folder, "--replace"}, 0);
     EXPECT_EQ(in.out, bc_ + "\n");
     const auto error = perturbationBetween(*saved().findCase(bc_)->camera_from_station_truth,
                                            *session_.findCase(bc_)->camera_from_station_truth);
-    EXPECT_GT(error.norm(), 1e-7);  // the marks are noisy
+    EXPECT_GT(error.norm(), 1e-7);  // the annotations are noisy
     EXPECT_LT(error.norm(), 5e-3);
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.boresight.journal"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.boresight.lock"));
 }
 
-TEST_F(WhsExchange, TakesMarksOutAndInAgain) {
+TEST_F(WhsExchange, TakesAnnotationsOutAndInAgain) {
   const std::string points = folder_ / "points.csv";
   runWhs({"export", file_, "--points", points, "--case", bc_}, 0);
   runWhs({"import", file_, "--points", points, "--case", os_, "--replace"}, 0);

@@ -8,10 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/solution_file.h"
 #include "sessions/run/scene_render.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
 #include "tests/app/run_whs.h"
@@ -63,11 +63,11 @@ TEST(WhsRender, DrawsWhatTheCoreRenders) {
 }
 
 /// Points of the example's mesh where the true pose projects them.
-sessions::Marks trueMarks(std::size_t count) {
+sessions::Annotations trueAnnotations(std::size_t count) {
   const ExampleCase example("os");
-  sessions::Marks marks;
+  sessions::Annotations annotations;
   const auto& vertices = example.scene.vertices_in_station_m;
-  for (std::size_t i = 0; i < vertices.size() && marks.points.size() < count; i += 97) {
+  for (std::size_t i = 0; i < vertices.size() && annotations.points.size() < count; i += 97) {
     sessions::PointPair point;
     point.id = "p" + std::to_string(i);
     point.point_in_station_m = vertices[i].cast<double>();
@@ -76,25 +76,26 @@ sessions::Marks trueMarks(std::size_t count) {
                  pixel))
       continue;
     point.pixel = pixel;
-    marks.points.push_back(point);
+    annotations.points.push_back(point);
   }
-  return marks;
+  return annotations;
 }
 
 class WhsSolve : public testing::Test {
  protected:
-  ProgramRun solve(const sessions::Marks& marks, int exit_code, const Arguments& more = {}) const {
-    sessions::writeMarks(folder_ / "points.json", marks);
+  ProgramRun solve(const sessions::Annotations& annotations, int exit_code,
+                   const Arguments& more = {}) const {
+    sessions::writeAnnotations(folder_ / "points.json", annotations);
     Arguments arguments = {"solve", "--points", folder_ / "points.json", "--camera",
                            kExample / "camera.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runWhs(arguments, exit_code);
   }
 
-  /// A session of the example's cases with marks of one of them.
-  std::string markedSession(const sessions::Marks& marks) const {
+  /// A session of the example's cases with annotations of one of them.
+  std::string annotatedSession(const sessions::Annotations& annotations) const {
     const sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
-    sessions::writeSessionFile(folder_ / "s.json", withAnnotation(session, kOsCase, marks));
+    sessions::writeSessionFile(folder_ / "s.json", withAnnotations(session, kOsCase, annotations));
     return folder_ / "s.json";
   }
 
@@ -102,10 +103,10 @@ class WhsSolve : public testing::Test {
 };
 
 TEST_F(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
-  sessions::Marks marks = trueMarks(10);
-  *marks.points[3].pixel += Eigen::Vector2d(120.0, -80.0);
-  EXPECT_THAT(solve(marks, 0, {"--robust", "--out", folder_ / "pose.json"}).out,
-              AllOf(HasSubstr("10 marks"), HasSubstr("120.000"), HasSubstr(" !")));
+  sessions::Annotations annotations = trueAnnotations(10);
+  *annotations.points[3].pixel += Eigen::Vector2d(120.0, -80.0);
+  EXPECT_THAT(solve(annotations, 0, {"--robust", "--out", folder_ / "pose.json"}).out,
+              AllOf(HasSubstr("10 annotations"), HasSubstr("120.000"), HasSubstr(" !")));
   const Vector6d error =
       perturbationBetween(ExampleCase("os").truth.camera_from_station,
                           sessions::readPose(folder_ / "pose.json").camera_from_station);
@@ -113,35 +114,35 @@ TEST_F(WhsSolve, FindsThePoseDespiteAMistakenPoint) {
 }
 
 TEST_F(WhsSolve, SaysWhereItsSigmasAreAndKeepsTheCovarianceWithThePose) {
-  sessions::Marks marks = trueMarks(10);
-  *marks.points[3].pixel += Eigen::Vector2d(1.0, -1.0);
-  EXPECT_THAT(solve(marks, 0, {"--out", folder_ / "pose.json"}).out,
+  sessions::Annotations annotations = trueAnnotations(10);
+  *annotations.points[3].pixel += Eigen::Vector2d(1.0, -1.0);
+  EXPECT_THAT(solve(annotations, 0, {"--out", folder_ / "pose.json"}).out,
               AllOf(HasSubstr("1 sigma at the camera"),
-                    HasSubstr("without: how far the middle of the marked places moves")));
+                    HasSubstr("without: change of the annotations' centre")));
   const auto covariance = sessions::readPose(folder_ / "pose.json").covariance;
   ASSERT_TRUE(covariance);
   EXPECT_GT(covariance->diagonal().minCoeff(), 0.0);
 }
 
 TEST_F(WhsSolve, LeavesOutDisabledPointsAndAsksForFour) {
-  sessions::Marks marks = trueMarks(5);
-  marks.points[0].enabled = false;
-  marks.points[1].enabled = false;
-  EXPECT_THAT(solve(marks, 4).err, HasSubstr("one image needs 4"));
+  sessions::Annotations annotations = trueAnnotations(5);
+  annotations.points[0].enabled = false;
+  annotations.points[1].enabled = false;
+  EXPECT_THAT(solve(annotations, 4).err, HasSubstr("one image needs at least 4"));
   // Three do where there is a first guess.
-  solve(marks, 0, {"--seed", kExample / "seed.json"});
+  solve(annotations, 0, {"--seed", kExample / "seed.json"});
 }
 
 TEST_F(WhsSolve, SaysWhenNoPoseAgrees) {
-  sessions::Marks marks = trueMarks(6);
-  for (sessions::PointPair& point : marks.points)
-    point.point_in_station_m = marks.points[0].point_in_station_m;
-  const ProgramRun run = solve(marks, 4);
+  sessions::Annotations annotations = trueAnnotations(6);
+  for (sessions::PointPair& point : annotations.points)
+    point.point_in_station_m = annotations.points[0].point_in_station_m;
+  const ProgramRun run = solve(annotations, 4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
 }
 
 TEST_F(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
-  sessions::writeMarks(folder_ / "points.json", trueMarks(6));
+  sessions::writeAnnotations(folder_ / "points.json", trueAnnotations(6));
   const std::string view = R"("camera": ")" + (kExample / "camera.json").string() +
                            R"(", "points": "points.json", "camera_from_rig":
       [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})";
@@ -150,32 +151,32 @@ TEST_F(WhsSolve, SolvesTwoCamerasOfARigAsOne) {
                     R"(, {"name": "b", )" + view + "]}");
   EXPECT_THAT(
       runWhs({"solve", "--rig", folder_ / "rig.json", "--out", folder_ / "pose.json"}, 0).out,
-      HasSubstr("12 marks"));
+      HasSubstr("12 annotations"));
   runWhs({"solve"}, 2);
   runWhs({"solve", "--points", folder_ / "points.json"}, 2);
 }
 
 TEST_F(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
-  sessions::Marks marks = trueMarks(8);
-  *marks.points[2].pixel += Eigen::Vector2d(0.4, -0.3);
-  const std::string file = markedSession(marks);
+  sessions::Annotations annotations = trueAnnotations(8);
+  *annotations.points[2].pixel += Eigen::Vector2d(0.4, -0.3);
+  const std::string file = annotatedSession(annotations);
   const sessions::Session session = sessions::readSessionFile(file).session;
   const ProgramRun run = runWhs({"solve", "--session", file, "--case", kOsCase, "--json",
                                  folder_ / "s.solution.json", "--out", folder_ / "pose.json"},
                                 0);
-  const auto solved = sessions::solveCaseMarks(session, kOsCase, true, false);
-  const sessions::MarksSolution& solution = *solved.result.solution;
-  EXPECT_EQ(run.out,
-            sessions::solutionText(solved.marks.views, solution, solved.left_out, solved.warnings));
+  const auto solved = sessions::solveCaseAnnotations(session, kOsCase, true, false);
+  const sessions::AnnotationsSolution& solution = *solved.result.solution;
+  EXPECT_EQ(run.out, sessions::solutionText(solved.annotations.views, solution, solved.left_out,
+                                            solved.warnings));
   const auto json = nlohmann::json::parse(folder_.read("s.solution.json"));
   EXPECT_EQ(json["solved"], true);
   EXPECT_EQ(json["rms_px"], solution.rms_px);
-  EXPECT_EQ(json["marks"].size(), 8u);
-  EXPECT_EQ(json["marks"][2]["id"], marks.points[2].id);
-  EXPECT_EQ(json["marks"][2]["residual_px"][0], solution.marks[2].residual_px.x());
-  EXPECT_EQ(json["marks"][2]["residual_mm"][1], solution.marks[2].residual_mm.y());
-  EXPECT_EQ(json["marks"][7]["without"]["translation_mm"], solved.left_out[7].translation_mm);
-  const Matrix6d covariance = cameraCovariance(solution, solved.marks.views[0]);
+  EXPECT_EQ(json["annotations"].size(), 8u);
+  EXPECT_EQ(json["annotations"][2]["id"], annotations.points[2].id);
+  EXPECT_EQ(json["annotations"][2]["residual_px"][0], solution.annotations[2].residual_px.x());
+  EXPECT_EQ(json["annotations"][2]["residual_mm"][1], solution.annotations[2].residual_mm.y());
+  EXPECT_EQ(json["annotations"][7]["without"]["translation_mm"], solved.left_out[7].translation_mm);
+  const Matrix6d covariance = cameraCovariance(solution, solved.annotations.views[0]);
   EXPECT_EQ(json["views"][0]["name"], kOsCase);
   EXPECT_EQ(json["views"][0]["covariance"][1][4], covariance(1, 4));
   EXPECT_EQ(json["views"][0]["sigma_mm"][2], 1000.0 * std::sqrt(covariance(5, 5)));
@@ -189,7 +190,7 @@ TEST_F(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
 }
 
 TEST_F(WhsSolve, SaysWhyACaseHasNoPose) {
-  const std::string file = markedSession(trueMarks(2));
+  const std::string file = annotatedSession(trueAnnotations(2));
   const ProgramRun run =
       runWhs({"solve", "--session", file, "--case", kOsCase, "--json", folder_ / "out.json"}, 4);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
@@ -197,7 +198,7 @@ TEST_F(WhsSolve, SaysWhyACaseHasNoPose) {
   EXPECT_EQ(json["solved"], false);
   EXPECT_THAT(run.err, HasSubstr(json["reason"].get<std::string>()));
   EXPECT_EQ(json["warnings"][0]["kind"], "too_few");
-  runWhs({"solve", "--session", file, "--case", "nobody"}, 3);
+  runWhs({"solve", "--session", file, "--case", "unknown"}, 3);
   runWhs({"solve", "--session", file}, 2);
   runWhs({"solve", "--session", file, "--case", kOsCase, "--seed", "x.json"}, 2);
   runWhs({"solve", "--alone"}, 2);
@@ -210,7 +211,7 @@ TEST(WhsInfo, DescribesEveryKindOfFile) {
              0)
           .out,
       AllOf(HasSubstr("PNG, 1024 x 1024 px"), HasSubstr("brown_conrady"),
-            HasSubstr("field of view"), HasSubstr("faces"), HasSubstr("does not state"),
+            HasSubstr("field of view"), HasSubstr("faces"), HasSubstr("is not stated"),
             HasSubstr("uncertainty"), HasSubstr("2 cases, 2 stations")));
 }
 
@@ -264,7 +265,7 @@ TEST(WhsInfo, TellsOfWhatIsInAnImageAndNotUsed) {
                     HasSubstr("the file holds further images (pages)")));
 }
 
-/// Whose other end nobody opens: reading would wait for ever.
+/// A pipe without a writer: reading would block for ever.
 TEST(Whs, RefusesPipesOfEveryKindOfInput) {
   const TemporaryFolder folder;
   const auto pipe = [&folder](const std::string& name) {
@@ -318,13 +319,13 @@ TEST(WhsBench, WritesWhatItMeasured) {
   EXPECT_EQ(json["format"], "boresight-bench");
   // Two stations, by portable and by the best kernels.
   ASSERT_EQ(json["localizations"].size(), 4u);
-  for (const auto& one : json["localizations"]) {
-    EXPECT_THAT(run.out, HasSubstr(one["name"].get<std::string>()));
-    EXPECT_GT(one["per_second"], 0.0);
-    EXPECT_GT(one["arena_bytes"], 1000000);
-    EXPECT_EQ(one["digest"].get<std::string>().size(), 64u);
+  for (const auto& item : json["localizations"]) {
+    EXPECT_THAT(run.out, HasSubstr(item["name"].get<std::string>()));
+    EXPECT_GT(item["per_second"], 0.0);
+    EXPECT_GT(item["arena_bytes"], 1000000);
+    EXPECT_EQ(item["digest"].get<std::string>().size(), 64u);
     for (const char* stage : {"initialization", "rendering", "matching", "pose", "refinement"})
-      EXPECT_GT(one["mean_seconds"][stage], 0.0) << one["name"] << " " << stage;
+      EXPECT_GT(item["mean_seconds"][stage], 0.0) << item["name"] << " " << stage;
   }
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
     EXPECT_EQ(json["localizations"][i]["kernels"], "portable");

@@ -28,14 +28,14 @@ class WhsViews : public testing::Test {
     json dataset = json::parse(std::ifstream(folder / "dataset.json"));
     for (json& station : dataset["stations"])
       station["mesh"] = (folder / station["mesh"].get<std::string>()).string();
-    json one = dataset["cases"][0];
-    one["image"] = (folder / one["image"].get<std::string>()).string();
+    json value = dataset["cases"][0];
+    value["image"] = (folder / value["image"].get<std::string>()).string();
     dataset["cases"] = json::array();
     for (const Pose& camera_from_rig : cameras_from_rig) {
-      one["id"] = "view-" + std::to_string(dataset["cases"].size());
-      one["rig"]["id"] = "pair";
-      one["rig"]["camera_from_rig"] = json::parse(sessions::toJson(camera_from_rig).dump());
-      dataset["cases"].push_back(one);
+      value["id"] = "view-" + std::to_string(dataset["cases"].size());
+      value["rig"]["id"] = "pair";
+      value["rig"]["camera_from_rig"] = json::parse(sessions::toJson(camera_from_rig).dump());
+      dataset["cases"].push_back(value);
     }
     return folder_.write("dataset.json", dataset.dump()).string();
   }
@@ -50,10 +50,10 @@ class WhsViews : public testing::Test {
     return sessions::readTransform(document.root());
   }
   static Matrix6d covarianceOf(const json& rows) {
-    Matrix6d made;
+    Matrix6d result;
     for (int i = 0; i < 36; ++i)
-      made(i / 6, i % 6) = rows[static_cast<std::size_t>(i / 6)][static_cast<std::size_t>(i % 6)];
-    return made;
+      result(i / 6, i % 6) = rows[static_cast<std::size_t>(i / 6)][static_cast<std::size_t>(i % 6)];
+    return result;
   }
 
   const TemporaryFolder folder_;
@@ -61,20 +61,20 @@ class WhsViews : public testing::Test {
 
 TEST_F(WhsViews, ThePoseIsTheRigsWhereverItsFrameLies) {
   const Pose camera_from_rig{rotationExp({0.3, -0.5, 1.1}), {0.2, -0.1, 0.4}};
-  const json one = solved({Pose()});
+  const json value = solved({Pose()});
   const json other = solved({camera_from_rig});
-  EXPECT_EQ(one["status"], "converged");
+  EXPECT_EQ(value["status"], "converged");
   EXPECT_EQ(other["status"], "converged");
   const Pose camera_from_station = camera_from_rig * poseOf(other["rig_from_station"]);
   const Pose of_view = poseOf(other["views"][0]["camera_from_station"]);
   EXPECT_LT(perturbationBetween(of_view, camera_from_station).norm(), 1e-12);
-  const Matrix6d covariance = covarianceOf(one["covariance"]);
+  const Matrix6d covariance = covarianceOf(value["covariance"]);
   const Matrix6d turn = adjointOf(camera_from_rig);
   const Matrix6d back = turn * covarianceOf(other["covariance"]) * turn.transpose();
   // The detour changes the seed's last bits, which moves any run's pose by up to two sigma: other
   // edge places are looked at. Covariances are sums over these places, known to a third.
   const Vector6d difference =
-      perturbationBetween(poseOf(one["rig_from_station"]), camera_from_station);
+      perturbationBetween(poseOf(value["rig_from_station"]), camera_from_station);
   for (int i = 0; i < 6; ++i) {
     EXPECT_LT(std::abs(difference[i]), 3.0 * std::sqrt(covariance(i, i)));
     EXPECT_NEAR(back(i, i) / covariance(i, i), 1.0, 0.5);

@@ -3,10 +3,10 @@
 //
 //   check_calibration measure DATASET OUT.jsonl [EVERY]   runs what OUT does not have yet; what is
 //   made wrong
-//                                                   only of every so many cases
-//   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses anew
-//   check_calibration basin DATASET OUT.jsonl NEW.jsonl SEEDS  adds the basin test to what passes
-//   check_calibration judge OUT.jsonl ...                 by the limits as they are now
+//                                                   only of every n-th case
+//   check_calibration recheck DATASET OUT.jsonl NEW.jsonl  measures the edges of the poses again
+//   check_calibration convergence DATASET OUT.jsonl NEW.jsonl SEEDS  adds the convergence test to
+//   what passes check_calibration judge OUT.jsonl ...                 by the limits as they are now
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -56,8 +56,8 @@ const std::map<std::string, double CheckLimits::*>& limitsByCheck() {
       {"edge_coverage", &CheckLimits::coverage_percent},
       {"edge_clutter", &CheckLimits::clutter_percent},
       {"edge_explained", &CheckLimits::explained_percent},
-      {"basin_returned", &CheckLimits::basin_percent},
-      {"basin_rival", &CheckLimits::rival_percent},
+      {"convergence_returned", &CheckLimits::convergence_percent},
+      {"convergence_competing", &CheckLimits::competing_percent},
       {"edge_fall_off", &CheckLimits::fall_off_percent},
       {"camera_focal", &CheckLimits::focal_percent},
       {"camera_centre", &CheckLimits::centre_px}};
@@ -195,12 +195,12 @@ using nlohmann::ordered_json;
 using sessions::Session;
 using sessions::SessionCase;
 
-const SessionCase& lender(const Session& session, const SessionCase& one) {
+const SessionCase& lender(const Session& session, const SessionCase& session_case) {
   const SessionCase* first = nullptr;
   bool passed = false;
   for (const auto& other : session.cases) {
-    passed = passed || other->id == one.id;
-    if (other->station == one.station) continue;
+    passed = passed || other->id == session_case.id;
+    if (other->station == session_case.station) continue;
     if (first == nullptr) first = &*other;
     if (passed) return *other;
   }
@@ -209,14 +209,14 @@ const SessionCase& lender(const Session& session, const SessionCase& one) {
 
 ordered_json errorJson(const CheckedVariant& variant, const Pose& camera_from_station,
                        bool& meets) {
-  const SessionCase& one = variant.loaded->source;
+  const SessionCase& session_case = variant.loaded->source;
   sessions::PoseError error = sessions::poseError(
-      variant.camera_from_station_true, camera_from_station, one.camera_from_end_effector);
-  if (one.requirement->projection_px)
+      variant.camera_from_station_true, camera_from_station, session_case.camera_from_end_effector);
+  if (session_case.requirement->projection_px)
     error.projection_px = sessions::projectionError(
         variant.true_camera, variant.camera_from_station_true, camera_from_station,
         sessions::matchedVertices(variant.loaded->scene.view()));
-  meets = sessions::meetsRequirement(error, *one.requirement);
+  meets = sessions::meetsRequirement(error, *session_case.requirement);
   return sessions::toJson(error);
 }
 
@@ -256,11 +256,11 @@ sessions::ReviewSubject subjectOf(const CheckedVariant& variant, const Pose& cam
   return subject;
 }
 
-ordered_json checksJson(const sessions::ReviewSubject& subject, int basin_seeds = 0) {
+ordered_json checksJson(const sessions::ReviewSubject& subject, int convergence_seeds = 0) {
   ordered_json json = ordered_json::array();
-  std::optional<sessions::BasinResult> basin;
-  if (basin_seeds > 0) basin = basinTest(subject, basin_seeds);
-  for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits(), basin))
+  std::optional<sessions::ConvergenceResult> convergence;
+  if (convergence_seeds > 0) convergence = convergenceTest(subject, convergence_seeds);
+  for (const sessions::Check& check : checkPose(subject, sessions::CheckLimits(), convergence))
     json.push_back(sessions::toJson(sessions::JudgedCheck{check, ""}));
   return json;
 }
@@ -301,8 +301,9 @@ std::string keyOf(const ordered_json& json) {
 
 Session sessionOf(const std::string& dataset) { return sessions::makeSession(dataset); }
 
-bool isPhotograph(const SessionCase& one) {
-  return std::find(one.tags.begin(), one.tags.end(), "real") != one.tags.end();
+bool isPhotograph(const SessionCase& session_case) {
+  return std::find(session_case.tags.begin(), session_case.tags.end(), "real") !=
+         session_case.tags.end();
 }
 
 int measure(const std::string& dataset, const std::string& out, std::size_t every) {
@@ -311,14 +312,16 @@ int measure(const std::string& dataset, const std::string& out, std::size_t ever
   for (const ordered_json& line : linesOf(out)) done.insert(keyOf(line));
   std::ofstream stream(out, std::ios::app);
   for (std::size_t i = 0; i < session.cases.size(); ++i) {
-    const SessionCase& one = *session.cases[i];
-    for (const std::string& name : variantNames(isPhotograph(one))) {
+    const SessionCase& session_case = *session.cases[i];
+    for (const std::string& name : variantNames(isPhotograph(session_case))) {
       const bool may_be_right = name == "right" || name.starts_with("reseed");
       if (!may_be_right && i % every != 0) continue;
-      ordered_json json = {{"case", one.id}, {"station", one.station}, {"variant", name}};
-      json["set"] = isPhotograph(one) ? "photographs" : "synthetic";
+      ordered_json json = {
+          {"case", session_case.id}, {"station", session_case.station}, {"variant", name}};
+      json["set"] = isPhotograph(session_case) ? "photographs" : "synthetic";
       if (done.contains(keyOf(json))) continue;
-      json.update(measured(makeVariant(session, one, lender(session, one), name)));
+      json.update(
+          measured(makeVariant(session, session_case, lender(session, session_case), name)));
       stream << json.dump() << std::endl;
       std::cerr << keyOf(json) << " " << json["status"] << std::endl;
     }
@@ -330,29 +333,30 @@ bool isOfEdges(const std::string& id) {
   return id.starts_with("edge_") || id.starts_with("camera_");
 }
 
-bool isOfBasin(const std::string& id) { return id.starts_with("basin_"); }
+bool isOfConvergence(const std::string& id) { return id.starts_with("convergence_"); }
 
-/// Measures anew what `which` names, of the lines for which `when`, and keeps the others.
+/// Measures the checks that `which` selects again, on lines that `when` selects; keeps the others.
 int measureAnew(const std::string& dataset, const std::string& from, const std::string& to,
                 const std::function<bool(const ordered_json&)>& when,
-                const std::function<bool(const std::string&)>& which, int basin_seeds) {
+                const std::function<bool(const std::string&)>& which, int convergence_seeds) {
   const Session session = sessionOf(dataset);
   const std::size_t done = linesOf(to).size();
   std::ofstream stream(to, std::ios::app);
   std::size_t number = 0;
   for (ordered_json line : linesOf(from)) {
     if (number++ < done) continue;
-    const SessionCase* one = session.findCase(line["case"].get<std::string>());
-    if (one != nullptr && line.contains("pose") && when(line)) {
+    const SessionCase* session_case = session.findCase(line["case"].get<std::string>());
+    if (session_case != nullptr && line.contains("pose") && when(line)) {
       const CheckedVariant variant =
-          makeVariant(session, *one, lender(session, *one), line["variant"].get<std::string>());
+          makeVariant(session, *session_case, lender(session, *session_case),
+                      line["variant"].get<std::string>());
       const auto pose_json = nlohmann::json::parse(line["pose"].dump());
       const Pose pose = sessions::readExactPose(sessions::JsonReader(from, pose_json, "pose"));
       line["right_in_image"] = !variant.wrong_mesh && meetsInImage(variant, pose);
       ordered_json kept = ordered_json::array();
       for (const ordered_json& check : line["checks"])
         if (!which(check["id"].get<std::string>())) kept.push_back(check);
-      for (const ordered_json& check : checksJson(subjectOf(variant, pose), basin_seeds))
+      for (const ordered_json& check : checksJson(subjectOf(variant, pose), convergence_seeds))
         if (which(check["id"].get<std::string>())) kept.push_back(check);
       line["checks"] = kept;
     }
@@ -374,20 +378,20 @@ int main(int argc, char** argv) {
       return boresight::test::measureAnew(
           arguments[1], arguments[2], arguments[3], [](const auto&) { return true; },
           boresight::test::isOfEdges, 0);
-    if (arguments.size() == 5 && arguments[0] == "basin")
+    if (arguments.size() == 5 && arguments[0] == "convergence")
       return boresight::test::measureAnew(
           arguments[1], arguments[2], arguments[3],
           [](const auto& line) { return boresight::test::passes(nlohmann::json(line)); },
-          boresight::test::isOfBasin, std::stoi(arguments[4]));
+          boresight::test::isOfConvergence, std::stoi(arguments[4]));
     if (arguments.size() >= 2 && arguments[0] == "judge")
       return boresight::test::judge({arguments.begin() + 1, arguments.end()});
   } catch (const std::exception& error) {
     std::cerr << error.what() << std::endl;
     return 1;
   }
-  std::cerr
-      << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | basin DATASET "
-         "FROM TO SEEDS | judge OUT ..."
-      << std::endl;
+  std::cerr << "check_calibration measure DATASET OUT [EVERY] | recheck DATASET FROM TO | "
+               "convergence DATASET "
+               "FROM TO SEEDS | judge OUT ..."
+            << std::endl;
   return 2;
 }

@@ -16,13 +16,13 @@ using sessions::SessionCase;
 
 /// What a variant is made from: a copy of a case as it was read, with changes.
 std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
-  auto made = std::make_shared<LoadedCase>();
-  made->source = loaded.source;
-  made->image = loaded.image;
-  made->scene = loaded.scene;
-  made->ignore = loaded.ignore;
-  if (made->ignore) made->ignore_bits = made->ignore->view();
-  return made;
+  auto result = std::make_shared<LoadedCase>();
+  result->source = loaded.source;
+  result->image = loaded.image;
+  result->scene = loaded.scene;
+  result->ignore = loaded.ignore;
+  if (result->ignore) result->ignore_bits = result->ignore->view();
+  return result;
 }
 
 /// Mirrored through the station's origin, or through the middle of its box.
@@ -70,10 +70,11 @@ void occlude(LoadedCase& loaded, const Pose& camera_from_station, double share) 
 }
 
 void reseed(LoadedCase& loaded, const Pose& camera_from_station_true, double scale, int number) {
-  SessionCase& one = loaded.source;
-  one.camera_from_station_seed = sessions::seedForOffset(
-      camera_from_station_true, sessions::drawOffset(one.uncertainty, scale, one.id, number),
-      one.uncertainty.pivot, matchedBounds(loaded.scene.view()).centre());
+  SessionCase& session_case = loaded.source;
+  session_case.camera_from_station_seed = sessions::seedForOffset(
+      camera_from_station_true,
+      sessions::drawOffset(session_case.uncertainty, scale, session_case.id, number),
+      session_case.uncertainty.pivot, matchedBounds(loaded.scene.view()).centre());
 }
 
 void change(LoadedCase& loaded, const SessionCase& other, const Pose& truth,
@@ -116,22 +117,23 @@ std::vector<std::string> variantNames(bool photographs) {
   return names;
 }
 
-CheckedVariant makeVariant(const sessions::Session& session, const SessionCase& one,
+CheckedVariant makeVariant(const sessions::Session& session, const SessionCase& session_case,
                            const SessionCase& other, const std::string& variant) {
-  const auto read = sessions::loadCase(one);
+  const auto read = sessions::loadCase(session_case);
   auto loaded = copyOf(*read);
-  const bool photograph = std::find(one.tags.begin(), one.tags.end(), "real") != one.tags.end();
-  CheckedVariant made;
-  made.variant = variant;
-  made.camera_from_station_true = one.camera_from_station_truth.value();
-  made.true_camera = one.camera;
-  change(*loaded, other, made.camera_from_station_true, variant, photograph);
+  const bool photograph = std::find(session_case.tags.begin(), session_case.tags.end(), "real") !=
+                          session_case.tags.end();
+  CheckedVariant checked_variant;
+  checked_variant.variant = variant;
+  checked_variant.camera_from_station_true = session_case.camera_from_station_truth.value();
+  checked_variant.true_camera = session_case.camera;
+  change(*loaded, other, checked_variant.camera_from_station_true, variant, photograph);
   loaded->source.camera_from_station_truth.reset();
-  made.wrong_mesh = variant == "other mesh";
-  made.options = sessions::caseOptions(session, one, "session");
-  made.options.support.gate = variant == "right" || variant.starts_with("reseed");
-  made.loaded = std::move(loaded);
-  return made;
+  checked_variant.wrong_mesh = variant == "other mesh";
+  checked_variant.options = sessions::caseOptions(session, session_case, "session");
+  checked_variant.options.support.gate = variant == "right" || variant.starts_with("reseed");
+  checked_variant.loaded = std::move(loaded);
+  return checked_variant;
 }
 
 }  // namespace boresight::test

@@ -26,7 +26,8 @@ struct CheckedVariant {
 std::vector<std::string> variantNames(bool photographs);
 
 /// Makes one. `other` lends its mesh to "mesh of another station".
-CheckedVariant makeVariant(const sessions::Session& session, const sessions::SessionCase& one,
+CheckedVariant makeVariant(const sessions::Session& session,
+                           const sessions::SessionCase& session_case,
                            const sessions::SessionCase& other, const std::string& variant);
 
 }  // namespace boresight::test

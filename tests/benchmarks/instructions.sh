@@ -75,7 +75,7 @@ stages() {
   # The acceptance of the pose is part of the refinement.
   refine=$(($(inclusive Pass::stepRefine) + $(inclusive Pass::stepSupport) +
     $(inclusive CompetingPoseTest::step)))
-  # What a step does besides the other stages is the edges of the image.
+  # The rest of a step is the computation of the image's edges.
   first=$((begin + step - search - render - match - pose - refine))
   # Other methods match outside of the core's steps.
   match=$((match + $(inclusive sessions::OutsideMatching::serve)))

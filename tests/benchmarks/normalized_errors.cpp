@@ -35,21 +35,22 @@ struct Sums {
   }
 };
 
-bool isAsked(const sessions::Case& one, const std::vector<std::string>& tags) {
-  if (!one.truth_camera_from_station || !one.uncertainty) return false;
-  return std::all_of(tags.begin(), tags.end(), [&one](const std::string& tag) {
-    return tag[0] == '-' ? !one.hasTag(tag.substr(1)) : one.hasTag(tag);
+bool isAsked(const sessions::Case& dataset_case, const std::vector<std::string>& tags) {
+  if (!dataset_case.truth_camera_from_station || !dataset_case.uncertainty) return false;
+  return std::all_of(tags.begin(), tags.end(), [&dataset_case](const std::string& tag) {
+    return tag[0] == '-' ? !dataset_case.hasTag(tag.substr(1)) : dataset_case.hasTag(tag);
   });
 }
 
-sessions::LocalizationTrace run(const sessions::Dataset& dataset, const sessions::Case& one,
+sessions::LocalizationTrace run(const sessions::Dataset& dataset,
+                                const sessions::Case& dataset_case,
                                 const sessions::SceneMesh& scene) {
-  const sessions::GrayImage image = sessions::readCaseImage(dataset, one);
+  const sessions::GrayImage image = sessions::readCaseImage(dataset, dataset_case);
   const LocalizationProblem problem =
-      sessions::problemOf(image, nullptr, dataset.cameras.at(one.camera), scene.view(),
-                          one.seed_camera_from_station, *one.uncertainty);
+      sessions::problemOf(image, nullptr, dataset.cameras.at(dataset_case.camera), scene.view(),
+                          dataset_case.seed_camera_from_station, *dataset_case.uncertainty);
   LocalizerOptions options = defaultProfile();
-  const sessions::Station& station = dataset.stations.at(one.station);
+  const sessions::Station& station = dataset.stations.at(dataset_case.station);
   if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;
   return sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kSummary);
 }
@@ -74,14 +75,16 @@ int measure(const std::string& file, const std::vector<std::string>& tags) {
   const sessions::Dataset dataset = sessions::readDataset(file);
   std::map<std::string, sessions::SceneMesh> scenes;
   std::map<std::string, Sums> all;
-  for (const sessions::Case& one : dataset.cases) {
-    if (!isAsked(one, tags)) continue;
-    if (!scenes.contains(one.station))
-      scenes[one.station] = sessions::readStationScene(dataset.stations.at(one.station));
-    const sessions::LocalizationTrace trace = run(dataset, one, scenes[one.station]);
+  for (const sessions::Case& dataset_case : dataset.cases) {
+    if (!isAsked(dataset_case, tags)) continue;
+    if (!scenes.contains(dataset_case.station))
+      scenes[dataset_case.station] =
+          sessions::readStationScene(dataset.stations.at(dataset_case.station));
+    const sessions::LocalizationTrace trace =
+        run(dataset, dataset_case, scenes[dataset_case.station]);
     if (trace.status != LocalizationStatus::kConverged) continue;
-    all[one.station].add(
-        perturbationBetween(trace.camera_from_station, *one.truth_camera_from_station),
+    all[dataset_case.station].add(
+        perturbationBetween(trace.camera_from_station, *dataset_case.truth_camera_from_station),
         trace.covariance);
   }
   print(all);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many renders a second somebody who nudges a pose sees: nudge_rate DATASET CASE [SECONDS].
+// Renders per second while a pose is nudged: nudge_rate DATASET CASE [SECONDS].
 // Poses come at 60 a second, as a held key sends them at most.
 #include <QCoreApplication>
 #include <QElapsedTimer>
@@ -26,14 +26,14 @@ std::shared_ptr<const sessions::LoadedCase> load(const char* file, const char* i
 
 int main(int argc, char** argv) {
   const QCoreApplication application(argc, argv);
-  const auto one = argc > 2 ? load(argv[1], argv[2]) : nullptr;
-  if (!one) {
+  const auto value = argc > 2 ? load(argv[1], argv[2]) : nullptr;
+  if (!value) {
     std::fputs("usage: nudge_rate DATASET CASE [SECONDS]\n", stderr);
     return 2;
   }
   const int seconds = argc > 3 ? std::atoi(argv[3]) : 5;
   ui::PoseRenderer renderer;
-  renderer.setCase(one);
+  renderer.setCase(value);
   int moving = 0;
   QElapsedTimer rested;
   QElapsedTimer clock;
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     std::printf(
         "%d x %d, %zu faces: %d renders at half resolution in %d s (%.1f a second); full "
         "resolution %lld ms after the last move\n",
-        render->edges.width, render->edges.height, one->scene.faces.size(), moving, seconds,
+        render->edges.width, render->edges.height, value->scene.faces.size(), moving, seconds,
         static_cast<double>(moving) / seconds, static_cast<long long>(rested.elapsed()));
     QCoreApplication::quit();
   });
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
       rested.start();
       return;
     }
-    Pose pose = one->source.camera_from_station_seed;
+    Pose pose = value->source.camera_from_station_seed;
     pose.translation_m.x() += 0.01 * std::sin(0.005 * static_cast<double>(clock.elapsed()));
     renderer.setPose(pose);
   });

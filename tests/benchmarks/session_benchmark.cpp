@@ -23,10 +23,10 @@ sessions::Session sessionOf(const std::filesystem::path& dataset, std::int64_t c
   sessions::Session many = few;
   many.cases.clear();
   for (std::int64_t i = 0; i < count; ++i) {
-    sessions::SessionCase one = *few.cases[static_cast<std::size_t>(i) % few.cases.size()];
-    one.id = "case-" + std::to_string(i);
-    one.camera_from_station_seed.translation_m.x() += 1e-7 * static_cast<double>(i);
-    many.cases.push_back(one);
+    sessions::SessionCase session_case = *few.cases[static_cast<std::size_t>(i) % few.cases.size()];
+    session_case.id = "case-" + std::to_string(i);
+    session_case.camera_from_station_seed.translation_m.x() += 1e-7 * static_cast<double>(i);
+    many.cases.push_back(session_case);
   }
   return many;
 }

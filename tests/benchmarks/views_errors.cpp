@@ -32,26 +32,26 @@ struct RigRun {
   double seconds = 0.0;
 };
 
-std::shared_ptr<LoadedCase> copyOf(const LoadedCase& one) {
+std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded_case) {
   auto copy = std::make_shared<LoadedCase>();
-  copy->source = one.source;
-  copy->image = one.image;
-  copy->scene = one.scene;
-  copy->ignore = one.ignore;
+  copy->source = loaded_case.source;
+  copy->image = loaded_case.image;
+  copy->scene = loaded_case.scene;
+  copy->ignore = loaded_case.ignore;
   if (copy->ignore) copy->ignore_bits = copy->ignore->view();
   return copy;
 }
 
 RigRun localizeViews(const Rig& rig) {
   sessions::LoadedViews loaded;
-  for (const auto& one : rig) {
+  for (const auto& item : rig) {
     View view;
-    view.image = one->image.view();
-    view.ignore = one->ignore ? &one->ignore_bits : nullptr;
-    view.camera = one->source.camera;
-    view.camera_from_rig = one->source.rig->camera_from_rig;
+    view.image = item->image.view();
+    view.ignore = item->ignore ? &item->ignore_bits : nullptr;
+    view.camera = item->source.camera;
+    view.camera_from_rig = item->source.rig->camera_from_rig;
     loaded.views.push_back(view);
-    loaded.cases.push_back(one);
+    loaded.cases.push_back(item);
   }
   LocalizerOptions options = defaultProfile();
   options.templates.feature_size_m = rig.front()->source.feature_size_m.value_or(0.0);
@@ -74,14 +74,15 @@ void noteRun(const Rig& rig, const RigRun& run, Row& row) {
   ++row.converged;
   bool within = true;
   for (std::size_t v = 0; v < rig.size(); ++v) {
-    const sessions::SessionCase& one = rig[v]->source;
-    const sessions::PoseError error =
-        sessions::poseError(one.camera_from_station_truth.value(),
-                            run.result.views[v].camera_from_station, one.camera_from_end_effector);
+    const sessions::SessionCase& session_case = rig[v]->source;
+    const sessions::PoseError error = sessions::poseError(
+        session_case.camera_from_station_truth.value(), run.result.views[v].camera_from_station,
+        session_case.camera_from_end_effector);
     row.normal_mm.push_back(error.normal_mm);
     row.lateral_mm.push_back(error.lateral_mm);
     row.rotation_mrad.push_back(error.rotation_mrad);
-    within = within && (!one.requirement || sessions::meetsRequirement(error, *one.requirement));
+    within = within && (!session_case.requirement ||
+                        sessions::meetsRequirement(error, *session_case.requirement));
   }
   if (!within) ++row.beyond;
 }
@@ -122,9 +123,10 @@ void runSpoiled(const Rig& rig, std::map<std::string, Row>& rows) {
 }
 
 std::string statisticsText(const std::vector<double>& values) {
-  const sessions::Statistics made = sessions::statistics(values);
+  const sessions::Statistics statistics = sessions::statistics(values);
   char text[64];
-  std::snprintf(text, sizeof(text), "%.3f / %.3f / %.3f", made.mean, made.deviation, made.maximum);
+  std::snprintf(text, sizeof(text), "%.3f / %.3f / %.3f", statistics.mean, statistics.deviation,
+                statistics.maximum);
   return text;
 }
 
@@ -143,14 +145,14 @@ void print(const std::map<std::string, Row>& rows) {
 int run(const std::string& file, int every) {
   const sessions::Dataset dataset = sessions::readDataset(file);
   std::map<std::string, std::vector<std::string>> cases;
-  for (const sessions::Case& one : dataset.cases)
-    if (one.rig) cases[one.rig->id].push_back(one.id);
+  for (const sessions::Case& dataset_case : dataset.cases)
+    if (dataset_case.rig) cases[dataset_case.rig->id].push_back(dataset_case.id);
   std::map<std::string, Row> rows;
   int index = 0;
   for (const auto& [id, case_ids] : cases) {
     Rig rig;
-    for (const auto& one : sessions::makeSession(dataset, case_ids).cases)
-      rig.push_back(copyOf(*sessions::loadCase(*one)));
+    for (const auto& session_case : sessions::makeSession(dataset, case_ids).cases)
+      rig.push_back(copyOf(*sessions::loadCase(*session_case)));
     runWhole(rig, rows);
     if (every > 0 && index++ % every == 0) runSpoiled(rig, rows);
     std::cout << "up to " << id << "\n\n";

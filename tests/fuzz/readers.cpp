@@ -11,8 +11,8 @@
 
 #include "core/base/crc32.h"
 #include "core/base/digest.h"
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
 #include "sessions/io/cahvor_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/config_file.h"
@@ -131,7 +131,7 @@ constexpr FuzzedReader kReaders[] = {
     {"journal", "journal", [](const Path& file) { (void)sessions::readJournal(file); }},
     {"label_tree", "label.json", readTree},
     {"landmarks", "landmarks.json", [](const Path& file) { (void)sessions::readLandmarks(file); }},
-    {"marks", "marks.json", [](const Path& file) { (void)sessions::readMarks(file); }},
+    {"annotations", "points.json", [](const Path& file) { (void)sessions::readAnnotations(file); }},
     {"mesh_glb", "mesh.glb", readMetres},
     {"mesh_gltf", "mesh.gltf", readMetres},
     {"mesh_obj", "mesh.obj", readMetres},

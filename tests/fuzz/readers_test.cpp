@@ -150,15 +150,15 @@ TEST_P(Readers, SayWhatIsWrongWithEveryMutantAndNothingElse) {
 TEST_P(Readers, RefuseAnEmptyFile) { ASSERT_NO_THROW(feed(GetParam(), {}, folder_.path())); }
 
 /// A seal that were wrong would keep all mutants out.
-TEST(Seals, LeaveWholeFilesAsTheyAre) {
+TEST(Seals, ValidFiles_KeepTheirChecksums) {
   int sealed = 0;
   for (const FuzzedReader& reader : fuzzedReaders()) {
     if (reader.seal == nullptr) continue;
     ++sealed;
     for (const Bytes& bytes : corpusOf(reader.name)) {
-      Bytes made = bytes;
-      reader.seal(made);
-      EXPECT_EQ(made, bytes) << reader.name;
+      Bytes result = bytes;
+      reader.seal(result);
+      EXPECT_EQ(result, bytes) << reader.name;
     }
   }
   EXPECT_EQ(sealed, 2);
@@ -166,7 +166,7 @@ TEST(Seals, LeaveWholeFilesAsTheyAre) {
 
 INSTANTIATE_TEST_SUITE_P(All, Readers,
                          testing::ValuesIn(fuzzedReaders().begin(), fuzzedReaders().end()),
-                         [](const auto& made) { return std::string(made.param.name); });
+                         [](const auto& result) { return std::string(result.param.name); });
 
 }  // namespace
 }  // namespace boresight::test

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Run inside a new Debian by debian_package.sh: installs /tmp/boresight.deb and uses what it brings,
-# as somebody who may not write where it is installed.
+# as a user without write access to the installation.
 set -euo pipefail
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 examples=/usr/share/boresight/examples

@@ -27,7 +27,7 @@ struct SameBitsCase {
   Vector6d seed_from_truth = Vector6d::Zero();  ///< (rotation rad, translation m) about the camera
   Arguments extra = {};
   bool ignore = false;
-  std::size_t triangles = 0;  ///< split the mesh into so many; 0: as it is
+  std::size_t triangles = 0;  ///< number of triangles after splitting; 0: not split
 };
 
 Camera cameraOf(CameraModel model, int width, int height, double focal_length_px,
@@ -47,10 +47,10 @@ Camera cameraOf(CameraModel model, int width, int height, double focal_length_px
 
 Vector6d offset(double rx_deg, double ry_deg, double rz_deg, double tx_mm, double ty_mm,
                 double tz_mm) {
-  Vector6d made;
-  made << rx_deg * kDegree_rad, ry_deg * kDegree_rad, rz_deg * kDegree_rad, tx_mm * 1e-3,
+  Vector6d result;
+  result << rx_deg * kDegree_rad, ry_deg * kDegree_rad, rz_deg * kDegree_rad, tx_mm * 1e-3,
       ty_mm * 1e-3, tz_mm * 1e-3;
-  return made;
+  return result;
 }
 
 std::vector<SameBitsCase> allCases() {
@@ -196,32 +196,33 @@ bool writeExpectation(const fs::path& folder, const Arguments& arguments) {
   return run.exit_code == 0;
 }
 
-bool writeCase(const SameBitsCase& one, const fs::path& folder) {
+bool writeCase(const SameBitsCase& same_bits_case, const fs::path& folder) {
   fs::create_directories(folder);
-  ExampleCase example(one.station);
-  fs::path mesh = exampleFolder() / one.station / "model.ply";
-  if (one.triangles > 0) {
-    splitTriangles(example.scene, one.triangles);
+  ExampleCase example(same_bits_case.station);
+  fs::path mesh = exampleFolder() / same_bits_case.station / "model.ply";
+  if (same_bits_case.triangles > 0) {
+    splitTriangles(example.scene, same_bits_case.triangles);
     mesh = folder / "model.ply";
     writePly(mesh, example.scene);
   }
-  sessions::writeCamera(folder / "camera.json", one.camera);
-  sessions::writePng(folder / "image.png", resample(example.image, example.camera, one.camera),
-                     one.camera.width, one.camera.height, 1);
-  const Pose seed = displacedAboutPivot(example.truth.camera_from_station, one.seed_from_truth,
-                                        Eigen::Vector3d::Zero());
+  sessions::writeCamera(folder / "camera.json", same_bits_case.camera);
+  sessions::writePng(folder / "image.png",
+                     resample(example.image, example.camera, same_bits_case.camera),
+                     same_bits_case.camera.width, same_bits_case.camera.height, 1);
+  const Pose seed = displacedAboutPivot(example.truth.camera_from_station,
+                                        same_bits_case.seed_from_truth, Eigen::Vector3d::Zero());
   sessions::writePose(folder / "seed.json", seed, example.seed.uncertainty);
   Arguments arguments = {"--image",        folder / "image.png",
                          "--camera",       folder / "camera.json",
                          "--mesh",         mesh,
                          "--mesh-unit",    "m",
                          "--seed",         folder / "seed.json",
-                         "--feature-size", one.station == "bc" ? "0.015" : "0.018"};
-  if (one.ignore) {
-    writeMask(folder / "ignore.png", one.camera);
+                         "--feature-size", same_bits_case.station == "bc" ? "0.015" : "0.018"};
+  if (same_bits_case.ignore) {
+    writeMask(folder / "ignore.png", same_bits_case.camera);
     arguments.insert(arguments.end(), {"--ignore", folder / "ignore.png"});
   }
-  arguments.insert(arguments.end(), one.extra.begin(), one.extra.end());
+  arguments.insert(arguments.end(), same_bits_case.extra.begin(), same_bits_case.extra.end());
   return writeExpectation(folder, arguments);
 }
 
@@ -229,26 +230,27 @@ bool writeCase(const SameBitsCase& one, const fs::path& folder) {
 bool writeDataCase(const std::string& id, const fs::path& data, const fs::path& folder) {
   fs::create_directories(folder);
   const sessions::Dataset dataset = sessions::readDataset(data / "synthetic" / "dataset.json");
-  const sessions::Case* one = dataset.findCase(id);
-  if (one == nullptr) throw std::runtime_error("the data has no case " + id);
-  const sessions::Station& station = dataset.stations.at(one->station);
+  const sessions::Case* dataset_case = dataset.findCase(id);
+  if (dataset_case == nullptr) throw std::runtime_error("the data has no case " + id);
+  const sessions::Station& station = dataset.stations.at(dataset_case->station);
   const sessions::PartSource& part = station.parts.at(0);
-  sessions::writeCamera(folder / "camera.json", dataset.cameras.at(one->camera));
-  sessions::writePose(folder / "seed.json", one->seed_camera_from_station, one->uncertainty);
+  sessions::writeCamera(folder / "camera.json", dataset.cameras.at(dataset_case->camera));
+  sessions::writePose(folder / "seed.json", dataset_case->seed_camera_from_station,
+                      dataset_case->uncertainty);
   return writeExpectation(
-      folder, {"--image", one->image, "--camera", folder / "camera.json", "--mesh", part.mesh,
-               "--mesh-unit", part.mesh_unit, "--seed", folder / "seed.json", "--feature-size",
-               std::to_string(station.feature_size_m.value_or(0.0))});
+      folder, {"--image", dataset_case->image, "--camera", folder / "camera.json", "--mesh",
+               part.mesh, "--mesh-unit", part.mesh_unit, "--seed", folder / "seed.json",
+               "--feature-size", std::to_string(station.feature_size_m.value_or(0.0))});
 }
 
 /// Cases are worth comparing when most of them go through every stage.
 void writeAll(const fs::path& folder) {
   fs::remove_all(folder);
   int converged = 0;
-  for (const SameBitsCase& one : allCases()) {
-    const bool done = writeCase(one, folder / one.name);
+  for (const SameBitsCase& same_bits_case : allCases()) {
+    const bool done = writeCase(same_bits_case, folder / same_bits_case.name);
     converged += done ? 1 : 0;
-    std::printf("%s: %s\n", one.name.c_str(), done ? "converged" : "not converged");
+    std::printf("%s: %s\n", same_bits_case.name.c_str(), done ? "converged" : "not converged");
   }
   if (converged < 5) throw std::runtime_error("fewer than five cases converge");
   const char* data = std::getenv("BORESIGHT_DATA");
@@ -263,9 +265,9 @@ void writeAll(const fs::path& folder) {
 }
 
 void writeLargest(const fs::path& folder) {
-  const SameBitsCase one = largestCase();
+  const SameBitsCase same_bits_case = largestCase();
   fs::remove_all(folder);
-  if (!writeCase(one, folder / one.name))
+  if (!writeCase(same_bits_case, folder / same_bits_case.name))
     throw std::runtime_error("the largest case does not converge");
 }
 

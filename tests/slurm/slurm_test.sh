@@ -46,7 +46,7 @@ isOver() { [ -z "$(squeue --noheader --jobs "$merge" 2>/dev/null)" ]; }
 waitFor "the merge" isOver
 grep -q "queued again" "$folder/many.sqlite.shards/shard-1.log" ||
   { echo "the killed task was not queued again" >&2; exit 1; }
-grep -Eq "going on, [0-9]+ of 8 runs are there already" "$folder/many.sqlite.shards/shard-1.log" ||
+grep -Eq "resumed, [0-9]+ of 8 runs are done" "$folder/many.sqlite.shards/shard-1.log" ||
   { echo "the task did not go on with the $held runs that it had" >&2; exit 1; }
 
 compared=$("$whs" tables "$folder/one.sqlite" --against "$folder/many.sqlite")

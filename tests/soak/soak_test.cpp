@@ -58,7 +58,7 @@ ProcessFigures processFigures() {
           .heap_bytes = static_cast<std::int64_t>(heap.uordblks + heap.hblkhd)};
 }
 
-/// After so many runs everything has happened once: each seed of each station.
+/// Runs until every code path has run once: each seed of each station.
 constexpr int kSeeds = 4;
 constexpr int kStations = 2;
 constexpr int kRound = kSeeds * kStations;
@@ -129,11 +129,11 @@ TEST(Soak, LocalizationsLeaveNothingBehind) {
     const std::string digest = runOnce(folder, run);
     if (run < kRound) digests.push_back(digest);
     ASSERT_EQ(digest, digests[static_cast<std::size_t>(run % kRound)]) << "run " << run;
-    const ProcessFigures now = processFigures();
-    if (run < settled) first_peak_bytes = std::max(first_peak_bytes, now.resident_bytes);
-    if (run >= runs - settled) last_peak_bytes = std::max(last_peak_bytes, now.resident_bytes);
-    if (run + 1 == settled) first = now;
-    if ((run + 1) % settled == 0) print(run + 1, now);
+    const ProcessFigures current = processFigures();
+    if (run < settled) first_peak_bytes = std::max(first_peak_bytes, current.resident_bytes);
+    if (run >= runs - settled) last_peak_bytes = std::max(last_peak_bytes, current.resident_bytes);
+    if (run + 1 == settled) first = current;
+    if ((run + 1) % settled == 0) print(run + 1, current);
   }
   const ProcessFigures last = processFigures();
   print(runs, last);

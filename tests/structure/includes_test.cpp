@@ -108,7 +108,7 @@ TEST(Floors, IncludesUpwardsAndSidewardsAreFaults) {
   EXPECT_NE(fault("core/base/math.h", "sessions/io/errors.h"), "");
   EXPECT_NE(fault("sessions/io/errors.h", "sessions/session/session.h"), "");
   EXPECT_NE(fault("sessions/io/labels/image_label.h", "sessions/run/runner.h"), "");
-  EXPECT_NE(fault("sessions/record/onboard_record.h", "sessions/annotation/marks.h"), "");
+  EXPECT_NE(fault("sessions/record/onboard_record.h", "sessions/annotation/annotations.h"), "");
   EXPECT_NE(fault("sessions/review/queue.h", "ui/state/document.h"), "");
   EXPECT_NE(fault("sessions/review/queue.h", "QtCore/QString"), "");
   EXPECT_NE(fault("ui/panels/pose_panel.cpp", "vtkActor.h"), "");

@@ -14,7 +14,7 @@
 
 namespace boresight::test {
 
-/// A CAHVOR camera that sees about what the example's does, its optical axis beside A.
+/// A CAHVOR camera that sees about what the example's does, its optical axis off A.
 inline Camera labelCamera() {
   Camera camera;
   camera.model = CameraModel::kCahvor;

@@ -39,14 +39,14 @@ struct ExampleCase {
 
   /// Points into this case.
   LocalizationProblem problem() const {
-    LocalizationProblem made;
-    made.image = image.view();
-    made.camera = camera;
-    made.mesh = scene.view();
-    made.camera_from_station_seed = seed.camera_from_station;
-    made.uncertainty = sessions::seedUncertainty(seed.uncertainty.value(), seed.camera_from_station,
-                                                 matchedBounds(scene.view()).centre());
-    return made;
+    LocalizationProblem localization_problem;
+    localization_problem.image = image.view();
+    localization_problem.camera = camera;
+    localization_problem.mesh = scene.view();
+    localization_problem.camera_from_station_seed = seed.camera_from_station;
+    localization_problem.uncertainty = sessions::seedUncertainty(
+        seed.uncertainty.value(), seed.camera_from_station, matchedBounds(scene.view()).centre());
+    return localization_problem;
   }
 };
 

@@ -21,18 +21,18 @@ inline std::shared_ptr<const sessions::LocalizationTrace> runOfExample(
 
 /// The same, run once per program: the station "os" with the default options.
 inline std::shared_ptr<const sessions::LocalizationTrace> exampleRun() {
-  static const auto made = runOfExample("os");
-  return made;
+  static const auto result = runOfExample("os");
+  return result;
 }
 
 /// The same from the seed alone, without a search.
 inline std::shared_ptr<const sessions::LocalizationTrace> exampleRunOfSeed() {
-  static const auto made = [] {
+  static const auto result = [] {
     LocalizerOptions options = defaultProfile();
     options.search.enabled = false;
     return runOfExample("os", options);
   }();
-  return made;
+  return result;
 }
 
 /// The same as a value.
@@ -49,11 +49,11 @@ void editIteration(sessions::LocalizationTrace& trace, std::size_t index, Change
 /// A run as it was after its first `count` iterations.
 inline std::shared_ptr<const sessions::LocalizationTrace> firstIterations(
     const sessions::LocalizationTrace& whole, std::size_t count) {
-  auto made = std::make_shared<sessions::LocalizationTrace>(whole);
-  made->iterations.resize(count);
-  made->status = LocalizationStatus::kRunning;
-  made->finished = false;
-  return made;
+  auto result = std::make_shared<sessions::LocalizationTrace>(whole);
+  result->iterations.resize(count);
+  result->status = LocalizationStatus::kRunning;
+  result->finished = false;
+  return result;
 }
 
 }  // namespace boresight::test

@@ -13,8 +13,8 @@ namespace boresight::test {
 /// A station of the example that ships, as the desktop program holds a case.
 inline std::shared_ptr<const sessions::LoadedCase> loadedExample(const std::string& station) {
   const sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
-  for (const auto& one : session.cases) {
-    if (one->station == station) return sessions::loadCase(*one);
+  for (const auto& session_case : session.cases) {
+    if (session_case->station == station) return sessions::loadCase(*session_case);
   }
   return nullptr;
 }

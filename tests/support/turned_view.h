@@ -17,28 +17,28 @@ namespace boresight::test {
 inline Pose halfTurn() { return {Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0), Eigen::Vector3d::Zero()}; }
 
 /// Gives a case another image, of the same size, written into a folder.
-inline void giveImage(sessions::SessionCase& one, const std::vector<std::uint8_t>& pixels,
+inline void giveImage(sessions::SessionCase& session_case, const std::vector<std::uint8_t>& pixels,
                       const std::filesystem::path& file) {
-  sessions::writePng(file, pixels, one.image.width, one.image.height, 1);
-  one.image.source = {file, sessions::inputSha256(file)};
-  one.image.pixels_sha256 = sessions::readImage(file).pixels_sha256;
+  sessions::writePng(file, pixels, session_case.image.width, session_case.image.height, 1);
+  session_case.image.source = {file, sessions::inputSha256(file)};
+  session_case.image.pixels_sha256 = sessions::readImage(file).pixels_sha256;
 }
 
 /// The same shot by a camera that stands on its head in the same place: the image turned round,
 /// pixel by pixel, with a camera that has its centre and tangential distortion accordingly.
-inline sessions::SessionCase turnedRound(const sessions::SessionCase& one,
+inline sessions::SessionCase turnedRound(const sessions::SessionCase& session_case,
                                          const std::filesystem::path& folder) {
-  sessions::SessionCase turned = one;
-  turned.id = one.id + "-turned";
+  sessions::SessionCase turned = session_case;
+  turned.id = session_case.id + "-turned";
   Camera& camera = turned.camera;
   camera.cx = camera.width - 1 - camera.cx;
   camera.cy = camera.height - 1 - camera.cy;
   camera.distortion[2] = -camera.distortion[2];
   camera.distortion[3] = -camera.distortion[3];
-  turned.camera_from_station_seed = halfTurn() * one.camera_from_station_seed;
-  if (one.camera_from_station_truth)
-    turned.camera_from_station_truth = halfTurn() * *one.camera_from_station_truth;
-  std::vector<std::uint8_t> pixels = sessions::readImage(one.image.source.file).pixels;
+  turned.camera_from_station_seed = halfTurn() * session_case.camera_from_station_seed;
+  if (session_case.camera_from_station_truth)
+    turned.camera_from_station_truth = halfTurn() * *session_case.camera_from_station_truth;
+  std::vector<std::uint8_t> pixels = sessions::readImage(session_case.image.source.file).pixels;
   std::reverse(pixels.begin(), pixels.end());
   giveImage(turned, pixels, folder / (turned.id + ".png"));
   return turned;
@@ -48,8 +48,8 @@ inline sessions::SessionCase turnedRound(const sessions::SessionCase& one,
 inline sessions::Session sessionOfTwoViews(const std::filesystem::path& folder) {
   const sessions::Session all = sessions::makeSession(exampleFolder() / "dataset.json");
   sessions::Session two;
-  for (const auto& one : all.cases)
-    if (one->station == "os" && two.cases.empty()) two.cases.push_back(one);
+  for (const auto& session_case : all.cases)
+    if (session_case->station == "os" && two.cases.empty()) two.cases.push_back(session_case);
   const std::string id = two.cases[0]->id;
   two = withCase(two, turnedRound(*two.cases[0], folder));
   return sessions::withRigLink(two, id, id + "-turned", halfTurn());

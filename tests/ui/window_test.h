@@ -53,7 +53,7 @@ class WindowTest : public ::testing::Test {
     ASSERT_TRUE(window_.document().create(file_, session));
     ASSERT_TRUE(wait([this] { return window_.state().currentCase() && resting(); }));
   }
-  /// Runs the shown case by its key; the session then has so many runs.
+  /// Runs the shown case by its key; the session then has this number of runs.
   bool runToTheEnd(std::size_t runs) {
     QTest::keyClick(&window_, Qt::Key_F5);
     return wait([&] { return window_.document().session().runs.size() == runs && resting(); });

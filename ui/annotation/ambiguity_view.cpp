@@ -9,22 +9,22 @@
 #include <QtWidgets>
 
 #include "sessions/annotation/edge_band.h"
-#include "ui/annotation/mark_content.h"
+#include "ui/annotation/annotation_content.h"
 #include "ui/views/display_image.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr double kRoundMarks = 0.35;  // of the marks' box, round it
-constexpr double kLeastSide_px = 64;  // px of the image
+constexpr double kRoundAnnotations = 0.35;  // of the annotations' box, round it
+constexpr double kLeastSide_px = 64;        // px of the image
 constexpr double kStep_px = 4.0;
 
-QRectF areaOf(const sessions::Marks& marks) {
+QRectF areaOf(const sessions::Annotations& annotations) {
   QRectF box;
-  for (const sessions::PointPair& point : marks.points)
+  for (const sessions::PointPair& point : annotations.points)
     if (point.used()) box |= QRectF(point.pixel->x() - 0.5, point.pixel->y() - 0.5, 1.0, 1.0);
-  const double side =
-      std::max((1.0 + 2.0 * kRoundMarks) * std::max(box.width(), box.height()), kLeastSide_px);
+  const double side = std::max(
+      (1.0 + 2.0 * kRoundAnnotations) * std::max(box.width(), box.height()), kLeastSide_px);
   return {box.center().x() - 0.5 * side, box.center().y() - 0.5 * side, side, side};
 }
 
@@ -60,18 +60,19 @@ void AmbiguityView::showSolution() {
   const auto other_pose = other();
   setVisible(pose && other_pose);
   if (!pose || !other_pose || !state_.currentCase()) return;
-  const sessions::MarksSolution& solution = *controller_.solution()->result.solution;
+  const sessions::AnnotationsSolution& solution = *controller_.solution()->result.solution;
   ui_.oursCaption->setText(tr("this: %1 px rms").arg(QString::number(solution.rms_px, 'f', 3)));
   ui_.otherCaption->setText(
       tr("other: %1 px rms").arg(QString::number(solution.ambiguous->rms_px, 'f', 3)));
-  const sessions::Marks& marks = controller_.solution()->marks.views.front().marks;
-  area_ = areaOf(marks);
-  const MarkLook look = {{}, {}, state_.currentCase()->source.camera, *pose};
+  const sessions::Annotations& annotations =
+      controller_.solution()->annotations.views.front().annotations;
+  area_ = areaOf(annotations);
+  const AnnotationLook look = {{}, {}, state_.currentCase()->source.camera, *pose};
   for (ImageView* view : {ui_.bestPicture, ui_.otherPicture}) {
     view->setImage(grayImage(state_.currentCase()->image.view()));
-    setMarks(*view, LayerId::kPoints, markSigns(marks, look));
+    setMarks(*view, LayerId::kPoints, annotationSigns(annotations, look));
   }
-  zoomToMarks();
+  zoomToAnnotations();
   if (snapper_.mesh()) drawEdges({*pose, *other_pose});
 }
 
@@ -93,7 +94,7 @@ void AmbiguityView::drawEdges(const std::array<Pose, 2>& camera_from_station) {
       });
 }
 
-void AmbiguityView::zoomToMarks() {
+void AmbiguityView::zoomToAnnotations() {
   for (ImageView* view : {ui_.bestPicture, ui_.otherPicture}) {
     ViewTransform transform;
     transform.zoomAt({}, std::min(view->width(), view->height()) / area_.width());
@@ -104,7 +105,7 @@ void AmbiguityView::zoomToMarks() {
 
 void AmbiguityView::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  if (!area_.isEmpty()) zoomToMarks();
+  if (!area_.isEmpty()) zoomToAnnotations();
 }
 
 }  // namespace boresight::ui

@@ -13,8 +13,8 @@
 
 namespace boresight::ui {
 
-/// Both poses that marks in a plane allow, side by side: the image round the marks with the model's
-/// edges under each pose. Hidden while there is one pose only.
+/// Both poses that annotations in a plane allow, side by side: the image round the annotations with
+/// the model's edges under each pose. Hidden while there is one pose only.
 class AmbiguityView : public QWidget {
   Q_OBJECT
 
@@ -32,13 +32,13 @@ class AmbiguityView : public QWidget {
  private:
   void showSolution();
   void drawEdges(const std::array<Pose, 2>& camera_from_station);
-  void zoomToMarks();
+  void zoomToAnnotations();
   std::optional<Pose> other() const;
 
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;
-  QRectF area_;  ///< a square round the marks in the image, px
+  QRectF area_;  ///< a square round the annotations in the image, px
   TaskRunner runner_;
   Ui::AmbiguityView ui_;
 };

@@ -5,67 +5,70 @@
 #include <utility>
 
 #include "core/geometry/mesh.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
 
 namespace boresight::ui {
 namespace {
 
+using sessions::Annotations;
 using sessions::LinePair;
-using sessions::Marks;
 using sessions::PointPair;
 
-const QString kSolving = QStringLiteral("solve marks");
+const QString kSolving = QStringLiteral("solve annotations");
 
-bool sameViews(const sessions::CaseMarks& a, const sessions::CaseMarks& b) {
+bool sameViews(const sessions::CaseAnnotations& a, const sessions::CaseAnnotations& b) {
   if (a.case_ids != b.case_ids || a.views.size() != b.views.size()) return false;
   for (std::size_t i = 0; i < a.views.size(); ++i)
-    if (!(a.views[i].marks == b.views[i].marks && a.views[i].camera == b.views[i].camera &&
+    if (!(a.views[i].annotations == b.views[i].annotations &&
+          a.views[i].camera == b.views[i].camera &&
           a.views[i].camera_from_rig == b.views[i].camera_from_rig))
       return false;
   return true;
 }
 
 bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
-  return sameViews(a.marks, b.marks) && a.one == b.one && a.landmarks == b.landmarks &&
+  return sameViews(a.annotations, b.annotations) && a.one == b.one && a.landmarks == b.landmarks &&
          a.rounds == b.rounds && a.robust == b.robust &&
          a.camera_from_station_guess == b.camera_from_station_guess;
 }
 
 RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQuestion& asked) {
-  RoundAnswer made;
-  made.by = round.by;
-  made.time = round.time;
-  const sessions::MarkedView& at_work = asked.marks.views.front();
-  made.repeatability = sessions::repeatability(round.marks, at_work.marks);
-  sessions::MarkedView view = at_work;
+  RoundAnswer round_answer;
+  round_answer.by = round.by;
+  round_answer.time = round.time;
+  const sessions::AnnotatedView& at_work = asked.annotations.views.front();
+  round_answer.repeatability = sessions::repeatability(round.annotations, at_work.annotations);
+  sessions::AnnotatedView view = at_work;
   view.camera_from_rig = Pose();
-  view.marks = round.marks;
-  sessions::SolveMarksOptions options;
+  view.annotations = round.annotations;
+  sessions::SolveAnnotationsOptions options;
   options.robust = asked.robust;
   options.rig_from_station_guess = asked.camera_from_station_guess;
-  const sessions::MarksResult result = sessions::solveMarks({&view, 1}, options);
-  if (result.solution) made.camera_from_station = result.solution->camera_from_station.front();
-  return made;
+  const sessions::AnnotationsResult result = sessions::solveAnnotations({&view, 1}, options);
+  if (result.solution)
+    round_answer.camera_from_station = result.solution->camera_from_station.front();
+  return round_answer;
 }
 
 AnnotationAnswer solve(const AnnotationQuestion& asked) {
-  AnnotationAnswer made;
+  AnnotationAnswer annotation_answer;
   const MeshView mesh = asked.one->scene.view();
-  auto solution = std::make_shared<sessions::CaseMarksSolution>(
-      sessions::solveCaseMarks(asked.marks, asked.camera_from_station_guess,
-                               sessions::boxCorners(matchedBounds(mesh)), asked.robust));
+  auto solution = std::make_shared<sessions::CaseAnnotationsSolution>(
+      sessions::solveCaseAnnotations(asked.annotations, asked.camera_from_station_guess,
+                                     sessions::boxCorners(matchedBounds(mesh)), asked.robust));
   if (const auto pose = solution->camera_from_station()) {
-    const sessions::MarkedView& view = solution->marks.views.front();
-    made.covariance = solution->covariance();
-    made.proposals = sessions::proposeMarks(asked.landmarks, view.marks, mesh, view.camera, *pose,
-                                            &*made.covariance);
+    const sessions::AnnotatedView& view = solution->annotations.views.front();
+    annotation_answer.covariance = solution->covariance();
+    annotation_answer.proposals =
+        sessions::proposeAnnotations(asked.landmarks, view.annotations, mesh, view.camera, *pose,
+                                     &*annotation_answer.covariance);
   }
   for (const sessions::AnnotationRound& round : asked.rounds)
-    made.rounds.push_back(answerOf(round, asked));
-  made.solution = std::move(solution);
-  return made;
+    annotation_answer.rounds.push_back(answerOf(round, asked));
+  annotation_answer.solution = std::move(solution);
+  return annotation_answer;
 }
 
 }  // namespace
@@ -83,18 +86,18 @@ AnnotationController::AnnotationController(Document& document, ViewState& state,
 }
 
 const PointPair* AnnotationController::selectedPoint() const {
-  return sessions::findPoint(marks_, selected_);
+  return sessions::findPoint(annotations_, selected_);
 }
 
 const LinePair* AnnotationController::selectedLine() const {
-  return sessions::findLine(marks_, selected_);
+  return sessions::findLine(annotations_, selected_);
 }
 
 std::optional<Pose> AnnotationController::solvedPose() const {
   return answer_.solution ? answer_.solution->camera_from_station() : std::nullopt;
 }
 
-/// The document's marks are shown, unless a gesture is about to replace them.
+/// The document's annotations are shown, unless a gesture is about to replace them.
 void AnnotationController::showDocument() {
   const std::string id = shownCaseId(document_, state_);
   const bool other_case = id != case_id_;
@@ -109,13 +112,13 @@ void AnnotationController::showDocument() {
   }
   const auto& annotations = document_.session().annotations;
   const auto found = annotations.find(id);
-  const Marks now = found == annotations.end() ? Marks() : *found->second;
-  const bool differs = !moving_ && !(now == marks_);
-  if (differs) marks_ = now;
+  const Annotations current = found == annotations.end() ? Annotations() : *found->second;
+  const bool differs = !moving_ && !(current == annotations_);
+  if (differs) annotations_ = current;
   if (!selected_.empty() && !selectedPoint() && !selectedLine()) selected_.clear();
   showLandmarks();
   if (other_case || differs) {
-    Q_EMIT marksChanged();
+    Q_EMIT annotationsChanged();
     Q_EMIT selectionChanged();
   }
   if (other_case) Q_EMIT solutionChanged();
@@ -123,8 +126,8 @@ void AnnotationController::showDocument() {
 }
 
 void AnnotationController::showLandmarks() {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_);
-  const auto file = one ? one->landmarks : std::nullopt;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
+  const auto file = session_case ? session_case->landmarks : std::nullopt;
   if (file == landmarks_file_) return;
   landmarks_file_ = file;
   landmarks_.clear();
@@ -135,28 +138,29 @@ void AnnotationController::showLandmarks() {
   }
 }
 
-/// Solves what the marks, the rig, the landmarks and the rounds are now, if that is news.
+/// Solves what the annotations, the rig, the landmarks and the rounds are now, if that is news.
 void AnnotationController::askIfChanged(bool anyway) {
   if (case_id_.empty()) return;
-  AnnotationQuestion now;
+  AnnotationQuestion current;
   try {
-    now.marks = sessions::caseMarks(document_.session(), case_id_, together_);
+    current.annotations = sessions::caseAnnotations(document_.session(), case_id_, together_);
   } catch (const std::exception& error) {
     Q_EMIT told(QString::fromUtf8(error.what()));
     return;
   }
-  now.marks.views.front().marks = marks_;
-  now.one = state_.currentCase();
-  now.camera_from_station_guess = sessions::marksGuess(*document_.session().findCase(case_id_));
-  now.landmarks = landmarks_;
-  now.rounds = roundsOfCase();
-  now.robust = robust_;
-  if (!anyway && asked_ && sameQuestion(*asked_, now)) return;
-  asked_ = now;
+  current.annotations.views.front().annotations = annotations_;
+  current.one = state_.currentCase();
+  current.camera_from_station_guess =
+      sessions::annotationsGuess(*document_.session().findCase(case_id_));
+  current.landmarks = landmarks_;
+  current.rounds = roundsOfCase();
+  current.robust = robust_;
+  if (!anyway && asked_ && sameQuestion(*asked_, current)) return;
+  asked_ = current;
   stale_ = true;
   Q_EMIT solutionChanged();
   runner_.start(
-      kSolving, [question = std::move(now)](const std::stop_token&) { return solve(question); },
+      kSolving, [question = std::move(current)](const std::stop_token&) { return solve(question); },
       [this](const AnnotationAnswer& answer) { take(answer); });
 }
 
@@ -196,11 +200,12 @@ void AnnotationController::setSigma(double sigma_px) {
   if (sigma_px > 0.0) sigma_px_ = sigma_px;
 }
 
-bool AnnotationController::commit(const Marks& marks, const QString& text) {
+bool AnnotationController::commit(const Annotations& annotations, const QString& text) {
   if (case_id_.empty()) return false;
   moving_ = false;
   pause_.stop();
-  return document_.edit(sessions::withAnnotation(document_.session(), case_id_, marks), text);
+  return document_.edit(sessions::withAnnotations(document_.session(), case_id_, annotations),
+                        text);
 }
 
 }  // namespace boresight::ui

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of the document: marks, annotation rounds, landmarks, and the use of a solved pose.
+// Edits of the document: annotations, annotation rounds, landmarks, and the use of a solved pose.
 #include "ui/annotation/annotation_controller.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "sessions/annotation/annotations.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks.h"
-#include "sessions/annotation/marks_on_image.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/text/utc_time.h"
 #include "ui/models/text.h"
@@ -15,17 +15,18 @@
 
 namespace boresight::ui {
 
+using sessions::Annotations;
 using sessions::LinePair;
-using sessions::Marks;
 using sessions::PointPair;
 
 namespace {
 
-Marks withPair(const Marks& marks, const std::string& id, const PointPair& point) {
-  return sessions::withPoint(marks, id, point);
+Annotations withPair(const Annotations& annotations, const std::string& id,
+                     const PointPair& point) {
+  return sessions::withPoint(annotations, id, point);
 }
-Marks withPair(const Marks& marks, const std::string& id, const LinePair& line) {
-  return sessions::withLine(marks, id, line);
+Annotations withPair(const Annotations& annotations, const std::string& id, const LinePair& line) {
+  return sessions::withLine(annotations, id, line);
 }
 
 char letterOf(const PointPair& /*kind*/) { return 'p'; }
@@ -38,23 +39,23 @@ template <class Pair, class Side>
 std::string AnnotationController::place(const Pair* chosen, std::optional<Side> Pair::*side,
                                         const Side& value, const QString& text) {
   const bool completes = chosen && !(chosen->*side) && !chosen->locked;
-  Pair made = completes ? *chosen : Pair();
+  Pair pair = completes ? *chosen : Pair();
   if (!completes) {
-    made.id = sessions::unusedId(marks_, letterOf(made));
-    made.sigma_px = sigma_px_;
+    pair.id = sessions::unusedId(annotations_, letterOf(pair));
+    pair.sigma_px = sigma_px_;
   }
-  made.*side = value;
-  if (!commit(withPair(marks_, made.id, made), text.arg(fromText(made.id)))) return {};
-  select(made.id);
-  return made.id;
+  pair.*side = value;
+  if (!commit(withPair(annotations_, pair.id, pair), text.arg(fromText(pair.id)))) return {};
+  select(pair.id);
+  return pair.id;
 }
 
 std::string AnnotationController::placeInImage(const Eigen::Vector2d& pixel) {
   finishMove();
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (case_id_.empty() || !one) return {};
-  if (!sessions::isInImage(one->source.camera, pixel)) {
-    Q_EMIT told(tr("This place lies outside the image; click on the image itself."));
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (case_id_.empty() || !loaded_case) return {};
+  if (!sessions::isInImage(loaded_case->source.camera, pixel)) {
+    Q_EMIT told(tr("This position is outside the image; click on the image."));
     return {};
   }
   return place(selectedPoint(), &PointPair::pixel, pixel, tr("Place %1 on the image"));
@@ -71,7 +72,7 @@ std::string AnnotationController::placeLineInImage(const sessions::ImageLine& li
   finishMove();
   if (case_id_.empty()) return {};
   if ((line.end - line.start).norm() < 1.0) {
-    Q_EMIT told(tr("A line needs two places at least a pixel apart."));
+    Q_EMIT told(tr("A line needs two points at least a pixel apart."));
     return {};
   }
   return place(selectedLine(), &LinePair::line, line, tr("Place %1 on the image"));
@@ -83,10 +84,10 @@ std::string AnnotationController::placeEdgeOnStation(const sessions::ModelEdge& 
   return place(selectedLine(), &LinePair::edge, edge, tr("Place %1 on the station"));
 }
 
-/// Whether a mark exists and is not locked.
+/// Whether an annotation exists and is not locked.
 bool AnnotationController::mayChange(const std::string& id) {
-  const PointPair* point = sessions::findPoint(marks_, id);
-  const LinePair* line = sessions::findLine(marks_, id);
+  const PointPair* point = sessions::findPoint(annotations_, id);
+  const LinePair* line = sessions::findLine(annotations_, id);
   if (!point && !line) return false;
   if (!(point ? point->locked : line->locked)) return true;
   Q_EMIT told(tr("%1 is locked; unlock it in the table to change it.").arg(fromText(id)));
@@ -96,12 +97,12 @@ bool AnnotationController::mayChange(const std::string& id) {
 bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vector2d& pixel,
                                        int end) {
   if (!mayChange(id)) return false;
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one || !sessions::isInImage(one->source.camera, pixel)) return false;
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case || !sessions::isInImage(loaded_case->source.camera, pixel)) return false;
   select(id);
-  marks_ = sessions::withMoved(marks_, id, end, pixel);
+  annotations_ = sessions::withMoved(annotations_, id, end, pixel);
   moving_ = true;
-  Q_EMIT marksChanged();
+  Q_EMIT annotationsChanged();
   askIfChanged(false);
   return true;
 }
@@ -109,7 +110,7 @@ bool AnnotationController::dragInImage(const std::string& id, const Eigen::Vecto
 void AnnotationController::finishMove() {
   pause_.stop();
   if (!std::exchange(moving_, false)) return;
-  if (!commit(marks_, tr("Move %1").arg(fromText(selected_)))) showDocument();
+  if (!commit(annotations_, tr("Move %1").arg(fromText(selected_)))) showDocument();
 }
 
 bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
@@ -123,14 +124,15 @@ bool AnnotationController::nudge(const Eigen::Vector2d& by_px, int end) {
   return true;
 }
 
-/// Whether an edit of the table may give a mark this id.
+/// Whether an edit of the table may give an annotation this id.
 bool AnnotationController::mayReplace(const std::string& replaced, const std::string& id) {
   if (id.empty()) {
-    Q_EMIT told(tr("A mark needs a name."));
+    Q_EMIT told(tr("An annotation needs a name."));
     return false;
   }
-  if (id != replaced && (sessions::findPoint(marks_, id) || sessions::findLine(marks_, id))) {
-    Q_EMIT told(tr("There is a mark \"%1\" already; take another name.").arg(fromText(id)));
+  if (id != replaced &&
+      (sessions::findPoint(annotations_, id) || sessions::findLine(annotations_, id))) {
+    Q_EMIT told(tr("The annotation \"%1\" exists; use another name.").arg(fromText(id)));
     return false;
   }
   return true;
@@ -141,7 +143,7 @@ bool AnnotationController::replace(const Pair* before, const Pair& after, const 
   if (!before || !mayReplace(before->id, after.id)) return false;
   const bool chosen = selected_ == before->id;
   const std::string id = after.id;
-  if (!commit(withPair(marks_, before->id, after), text)) return false;
+  if (!commit(withPair(annotations_, before->id, after), text)) return false;
   if (chosen) select(id);
   return true;
 }
@@ -149,26 +151,27 @@ bool AnnotationController::replace(const Pair* before, const Pair& after, const 
 bool AnnotationController::replacePoint(const std::string& replaced, const PointPair& point,
                                         const QString& text) {
   finishMove();
-  return replace(sessions::findPoint(marks_, replaced), point, text);
+  return replace(sessions::findPoint(annotations_, replaced), point, text);
 }
 
 bool AnnotationController::replaceLine(const std::string& replaced, const LinePair& line,
                                        const QString& text) {
   finishMove();
-  return replace(sessions::findLine(marks_, replaced), line, text);
+  return replace(sessions::findLine(annotations_, replaced), line, text);
 }
 
 void AnnotationController::remove(const std::string& id) {
   finishMove();
-  if (mayChange(id)) commit(sessions::withoutMark(marks_, id), tr("Remove %1").arg(fromText(id)));
+  if (mayChange(id))
+    commit(sessions::withoutAnnotation(annotations_, id), tr("Remove %1").arg(fromText(id)));
 }
 
-void AnnotationController::setMarks(const Marks& marks, const QString& text) {
+void AnnotationController::setAnnotations(const Annotations& annotations, const QString& text) {
   finishMove();
-  commit(marks, text);
+  commit(annotations, text);
 }
 
-PointPair AnnotationController::markOf(const sessions::Landmark& landmark) const {
+PointPair AnnotationController::annotationOf(const sessions::Landmark& landmark) const {
   PointPair point;
   point.id = landmark.name;
   point.point_in_station_m = landmark.point_in_station_m;
@@ -180,10 +183,10 @@ PointPair AnnotationController::markOf(const sessions::Landmark& landmark) const
 void AnnotationController::confirm(const sessions::Proposal& proposal,
                                    const Eigen::Vector2d& pixel) {
   finishMove();
-  PointPair point = markOf(proposal.landmark);
+  PointPair point = annotationOf(proposal.landmark);
   point.pixel = pixel;
   const std::string id = point.id;
-  if (commit(sessions::withPoint(marks_, id, point), tr("Confirm %1").arg(fromText(id))))
+  if (commit(sessions::withPoint(annotations_, id, point), tr("Confirm %1").arg(fromText(id))))
     select(id);
 }
 
@@ -194,32 +197,34 @@ int AnnotationController::seenProposals() const {
 
 void AnnotationController::confirmSeen() {
   finishMove();
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one) return;
-  Marks confirmed = marks_;
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case) return;
+  Annotations confirmed = annotations_;
   int found = 0;
   const int seen = seenProposals();
   for (const sessions::Proposal& proposal : answer_.proposals) {
-    if (!proposal.seen || sessions::findPoint(marks_, proposal.landmark.name)) continue;
-    const auto pixel = sessions::featureOf(proposal, one->image.view());
+    if (!proposal.seen || sessions::findPoint(annotations_, proposal.landmark.name)) continue;
+    const auto pixel = sessions::featureOf(proposal, loaded_case->image.view());
     if (!pixel) continue;
     ++found;
-    PointPair point = markOf(proposal.landmark);
+    PointPair point = annotationOf(proposal.landmark);
     point.pixel = *pixel;
     confirmed = sessions::withPoint(std::move(confirmed), point.id, point);
   }
   if (found > 0) commit(confirmed, tr("Confirm %1 landmarks").arg(found));
-  Q_EMIT told(tr("%1 of %2 landmarks show as a corner or an ellipse where they should be; place "
-                 "the others by hand.")
-                  .arg(found)
-                  .arg(seen));
+  Q_EMIT told(
+      tr("%1 of %2 landmarks match a corner or an ellipse of the image; place the others by hand.")
+          .arg(found)
+          .arg(seen));
 }
 
 void AnnotationController::begin(const sessions::Landmark& landmark) {
   finishMove();
-  const PointPair point = markOf(landmark);
-  if (sessions::findPoint(marks_, point.id) || sessions::findLine(marks_, point.id)) return;
-  if (commit(sessions::withPoint(marks_, point.id, point), tr("Begin %1").arg(fromText(point.id))))
+  const PointPair point = annotationOf(landmark);
+  if (sessions::findPoint(annotations_, point.id) || sessions::findLine(annotations_, point.id))
+    return;
+  if (commit(sessions::withPoint(annotations_, point.id, point),
+             tr("Begin %1").arg(fromText(point.id))))
     select(landmark.name);
 }
 
@@ -230,21 +235,22 @@ sessions::AnnotationRounds AnnotationController::roundsOfCase() const {
 }
 
 void AnnotationController::setRounds(sessions::AnnotationRounds rounds,
-                                     const sessions::Marks& marks, const QString& text) {
+                                     const sessions::Annotations& annotations,
+                                     const QString& text) {
   if (case_id_.empty()) return;
-  const sessions::Session with_marks =
-      sessions::withAnnotation(document_.session(), case_id_, marks);
-  document_.edit(sessions::withRounds(with_marks, case_id_, std::move(rounds)), text);
+  const sessions::Session with_annotations =
+      sessions::withAnnotations(document_.session(), case_id_, annotations);
+  document_.edit(sessions::withRounds(with_annotations, case_id_, std::move(rounds)), text);
 }
 
 void AnnotationController::putAside(const QString& by) {
   finishMove();
   const std::string name = by.trimmed().toStdString();
-  if (name.empty() || marks_.empty()) return;
+  if (name.empty() || annotations_.empty()) return;
   sessions::AnnotationRounds rounds = roundsOfCase();
-  rounds.push_back({name, sessions::utcNowText(), marks_});
-  setRounds(std::move(rounds), sessions::blindMarks(marks_),
-            tr("Put the marks of %1 aside").arg(by.trimmed()));
+  rounds.push_back({name, sessions::utcNowText(), annotations_});
+  setRounds(std::move(rounds), sessions::blindAnnotations(annotations_),
+            tr("Set the annotations of %1 aside").arg(by.trimmed()));
 }
 
 void AnnotationController::takeUp(int round) {
@@ -252,8 +258,8 @@ void AnnotationController::takeUp(int round) {
   const sessions::AnnotationRounds rounds = roundsOfCase();
   if (round < 0 || round >= static_cast<int>(rounds.size())) return;
   const sessions::AnnotationRound& taken = rounds[static_cast<std::size_t>(round)];
-  setRounds(sessions::keepingMarks(rounds, marks_, sessions::utcNowText()), taken.marks,
-            tr("Take up the marks of %1").arg(fromText(taken.by)));
+  setRounds(sessions::keepingAnnotations(rounds, annotations_, sessions::utcNowText()),
+            taken.annotations, tr("Continue the annotations of %1").arg(fromText(taken.by)));
 }
 
 void AnnotationController::removeRound(int round) {
@@ -262,31 +268,30 @@ void AnnotationController::removeRound(int round) {
   if (round < 0 || round >= static_cast<int>(rounds.size())) return;
   const QString by = fromText(rounds[static_cast<std::size_t>(round)].by);
   rounds.erase(rounds.begin() + round);
-  setRounds(std::move(rounds), marks_, tr("Remove the marks of %1").arg(by));
+  setRounds(std::move(rounds), annotations_, tr("Remove the annotations of %1").arg(by));
 }
 
 void AnnotationController::useAsTruth() {
   finishMove();
   const std::optional<Pose> solved = solvedPose();
-  const sessions::SessionCase* one = document_.session().findCase(case_id_);
-  if (!one || !solved) return;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
+  if (!session_case || !solved) return;
   if (stale_) {
     Q_EMIT told(tr("The pose is being solved again; try again in a moment."));
     return;
   }
-  const bool replaces = one->camera_from_station_truth.has_value();
+  const bool replaces = session_case->camera_from_station_truth.has_value();
   const std::string excess = answer_.solution->sigmaExcess();
-  sessions::SessionCase changed = *one;
+  sessions::SessionCase changed = *session_case;
   sessions::setTruth(changed, *solved, answer_.covariance);
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
-                 tr("Take the annotated pose of %1 as its truth").arg(fromText(case_id_)));
+                 tr("Use the annotated pose of %1 as its truth").arg(fromText(case_id_)));
   QString text =
-      (replaces ? tr("The annotated pose has replaced the truth that %1 had; Undo brings it "
-                     "back.")
-                : tr("The annotated pose is the truth of %1 now."))
+      (replaces ? tr("The annotated pose has replaced the truth of %1; Undo restores it.")
+                : tr("The annotated pose is now the truth of %1."))
           .arg(fromText(case_id_));
   if (!excess.empty())
-    text += tr(" Its one sigma is %1: it can hardly judge a result.").arg(fromText(excess));
+    text += tr(" Its one sigma is %1, too large to judge a result.").arg(fromText(excess));
   Q_EMIT told(text);
 }
 
@@ -305,10 +310,10 @@ void AnnotationController::unlinkCase() {
 }
 
 void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_);
-  if (!one) return;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
+  if (!session_case) return;
   landmarks_file_.reset();  // read again, also where only its content has changed
-  const std::vector<sessions::MeshInput> parts = one->parts;
+  const std::vector<sessions::MeshInput> parts = session_case->parts;
   sessions::Session session = document_.session();
   for (const auto& each : document_.session().cases) {
     if (!(each->parts == parts)) continue;

@@ -10,7 +10,7 @@
 #include <QtWidgets>
 
 #include "core/base/math.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/session/rig_links.h"
 #include "ui/models/text.h"
@@ -22,22 +22,22 @@
 namespace boresight::ui {
 namespace {
 
-using sessions::MarksSolution;
+using sessions::AnnotationsSolution;
 
 constexpr double kMradPerDegree = 1e3 * kDegree_rad;
 
 QString solutionText(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
 
 /// In the order of `GeometryWeakness`.
-constexpr std::array<const char*, 7> kWeaknesses = {"too few marks",
-                                                    "no mark to spare",
+constexpr std::array<const char*, 7> kWeaknesses = {"too few annotations",
+                                                    "no redundancy",
                                                     "all on one line",
                                                     "all in one plane",
                                                     "all in one corner of the station",
                                                     "all at one depth",
                                                     "imprecise"};
 
-QString warningsHtml(const sessions::CaseMarksSolution& solution) {
+QString warningsHtml(const sessions::CaseAnnotationsSolution& solution) {
   QStringList items;
   for (const sessions::GeometryWarning& warning : solution.warnings)
     items << QStringLiteral("<li>%1%2</li>")
@@ -49,25 +49,25 @@ QString warningsHtml(const sessions::CaseMarksSolution& solution) {
 }
 
 /// Where translations are judged.
-QString placeText(const sessions::CaseMarks& marks) {
-  return marks.camera_from_end_effector ? solutionText("end effector") : solutionText("camera");
+QString placeText(const sessions::CaseAnnotations& annotations) {
+  return annotations.camera_from_end_effector ? solutionText("end effector")
+                                              : solutionText("camera");
 }
 
 QString sigmaHtml(const AnnotationAnswer& answer) {
-  const MarksSolution& solution = *answer.solution->result.solution;
-  const sessions::CaseMarks& marks = answer.solution->marks;
-  const auto sigma = answer.covariance
-                         ? sessions::poseSigma(*answer.covariance, marks.camera_from_end_effector)
-                         : std::nullopt;
+  const AnnotationsSolution& solution = *answer.solution->result.solution;
+  const sessions::CaseAnnotations& annotations = answer.solution->annotations;
+  const auto sigma = answer.covariance ? sessions::poseSigma(*answer.covariance,
+                                                             annotations.camera_from_end_effector)
+                                       : std::nullopt;
   if (!sigma) return {};
-  const QString title = solutionText(
-                            "One sigma at the %1, by the marks alone (noise %2 times what their "
-                            "sigmas say)")
-                            .arg(placeText(marks))
-                            .arg(QString::number(solution.noise_factor, 'f', 2));
-  QVector<QStringList> rows = sigmaRows(*sigma, marks.requirement);
+  const QString title =
+      solutionText("One sigma at the %1, from the annotations (noise %2 times their stated sigmas)")
+          .arg(placeText(annotations))
+          .arg(QString::number(solution.noise_factor, 'f', 2));
+  QVector<QStringList> rows = sigmaRows(*sigma, annotations.requirement);
   // Without an end effector these are the camera's own already.
-  const auto at_camera = marks.camera_from_end_effector
+  const auto at_camera = annotations.camera_from_end_effector
                              ? sessions::poseSigma(*answer.covariance, std::nullopt)
                              : std::nullopt;
   if (at_camera)
@@ -83,8 +83,8 @@ QStringList poseCells(const Pose& pose) {
   return cells;
 }
 
-QString ambiguityHtml(const sessions::CaseMarksSolution& solved) {
-  const MarksSolution& solution = *solved.result.solution;
+QString ambiguityHtml(const sessions::CaseAnnotationsSolution& solved) {
+  const AnnotationsSolution& solution = *solved.result.solution;
   const auto other_pose = solved.ambiguous_camera_from_station();
   if (!other_pose) return {};
   const QStringList ours = poseCells(solution.camera_from_station.front());
@@ -97,32 +97,32 @@ QString ambiguityHtml(const sessions::CaseMarksSolution& solved) {
   for (int i = 0; i < names.size(); ++i) rows.append({names[i], ours[i], other[i]});
   rows.append({solutionText("rms, px"), QString::number(solution.rms_px, 'f', 3),
                QString::number(solution.ambiguous->rms_px, 'f', 3)});
-  return titledTable(solutionText("Two poses explain marks in a plane"), rows);
+  return titledTable(solutionText("Coplanar annotations fit two poses"), rows);
 }
 
-QString viewsHtml(const sessions::CaseMarksSolution& solved) {
-  const auto& views = solved.marks.views;
+QString viewsHtml(const sessions::CaseAnnotationsSolution& solved) {
+  const auto& views = solved.annotations.views;
   if (views.size() < 2) return {};
   QVector<QStringList> rows;
   for (std::size_t i = 0; i < views.size(); ++i) {
     double squares_px2 = 0.0;
     int count = 0;
-    for (const sessions::SolvedMark& mark : solved.result.solution->marks) {
-      if (mark.address.view != i || !mark.projected) continue;
-      squares_px2 += mark.residual_px.squaredNorm();
+    for (const sessions::SolvedAnnotation& annotation : solved.result.solution->annotations) {
+      if (annotation.address.view != i || !annotation.projected) continue;
+      squares_px2 += annotation.residual_px.squaredNorm();
       ++count;
     }
     const double rms_px = count > 0 ? std::sqrt(squares_px2 / (2.0 * count)) : 0.0;
-    rows.append({fromText(views[i].name).toHtmlEscaped(), solutionText("%1 marks").arg(count),
+    rows.append({fromText(views[i].name).toHtmlEscaped(), solutionText("%1 annotations").arg(count),
                  solutionText("%1 px rms").arg(QString::number(rms_px, 'f', 3))});
   }
   return titledTable(solutionText("Cameras solved together"), rows);
 }
 
 QStringList differenceRow(const QString& name, const Pose& other, const Pose& annotated,
-                          const sessions::CaseMarks& marks, const QString& more) {
+                          const sessions::CaseAnnotations& annotations, const QString& more) {
   const sessions::PoseError error =
-      sessions::poseError(other, annotated, marks.camera_from_end_effector);
+      sessions::poseError(other, annotated, annotations.camera_from_end_effector);
   return {name.toHtmlEscaped(), QString::number(error.normal_mm, 'f', 3),
           QString::number(error.lateral_mm, 'f', 3),
           QString::number(error.geodesic_mrad / kMradPerDegree, 'f', 4), more};
@@ -130,43 +130,43 @@ QStringList differenceRow(const QString& name, const Pose& other, const Pose& an
 
 QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others,
                      const Pose& annotated) {
-  const sessions::CaseMarks& marks = answer.solution->marks;
+  const sessions::CaseAnnotations& annotations = answer.solution->annotations;
   QVector<QStringList> rows;
   for (const ComparedPose& other : others)
-    rows << differenceRow(other.name, other.camera_from_station, annotated, marks, {});
+    rows << differenceRow(other.name, other.camera_from_station, annotated, annotations, {});
   for (const RoundAnswer& round : answer.rounds) {
-    const int shared = static_cast<int>(round.repeatability.marks.size());
+    const int shared = static_cast<int>(round.repeatability.annotations.size());
     const QString repeated = shared > 0
-                                 ? solutionText("%1 marks, %2 px per mark and axis")
+                                 ? solutionText("%1 annotations, %2 px per annotation and axis")
                                        .arg(shared)
                                        .arg(QString::number(round.repeatability.sigma_px, 'f', 3))
-                                 : solutionText("no mark in common");
+                                 : solutionText("no annotation in common");
     const QString name = solutionText("round of %1").arg(fromText(round.by));
     if (round.camera_from_station)
-      rows << differenceRow(name, *round.camera_from_station, annotated, marks, repeated);
+      rows << differenceRow(name, *round.camera_from_station, annotated, annotations, repeated);
     else
       rows.append({name.toHtmlEscaped(), solutionText("no pose"), QString(), QString(), repeated});
   }
   if (rows.isEmpty()) return {};
   rows.prepend({QString(), solutionText("normal, mm"), solutionText("lateral, mm"),
                 solutionText("angle, deg"), QString()});
-  return titledTable(solutionText("The annotated pose is from, at the %1").arg(placeText(marks)),
-                     rows);
+  return titledTable(
+      solutionText("Distance of the annotated pose at the %1").arg(placeText(annotations)), rows);
 }
 
 }  // namespace
 
 QString solutionHeadline(const AnnotationAnswer& answer, bool stale) {
   if (!answer.solution)
-    return stale ? solutionText("Solving ...") : solutionText("Nothing is marked yet.");
-  const sessions::MarksResult& result = answer.solution->result;
+    return stale ? solutionText("Solving ...") : solutionText("No annotations yet.");
+  const sessions::AnnotationsResult& result = answer.solution->result;
   QString text = fromText(result.reason);
   if (result.solution)
-    text = solutionText("Solved from %1 marks, %2 px rms.")
-               .arg(result.solution->marks.size())
+    text = solutionText("Solved from %1 annotations, %2 px rms.")
+               .arg(result.solution->annotations.size())
                .arg(QString::number(result.solution->rms_px, 'f', 3));
   else if (text.isEmpty())
-    text = solutionText("Nothing is marked yet.");
+    text = solutionText("No annotations yet.");
   return stale ? solutionText("Stale, solving again: %1").arg(text) : text;
 }
 
@@ -180,7 +180,7 @@ QString geometryMeterText(const AnnotationAnswer& answer) {
   const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
   return solutionText("Geometry: %1 %2")
       .arg(sign)
-      .arg(weak.isEmpty() ? solutionText("nothing weak") : weak.join(QStringLiteral(", ")));
+      .arg(weak.isEmpty() ? solutionText("no weakness") : weak.join(QStringLiteral(", ")));
 }
 
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others) {
@@ -204,16 +204,16 @@ LandmarksMenu::LandmarksMenu(AnnotationController& controller, QWidget* parent)
 void LandmarksMenu::fill() {
   clear();
   addAction(tr("Open ..."), this, &LandmarksMenu::openRequested);
-  addAction(tr("Save the marks as landmarks ..."), this, &LandmarksMenu::saveRequested);
+  addAction(tr("Save as landmarks ..."), this, &LandmarksMenu::saveRequested);
   addSeparator();
   QAction* confirm =
-      addAction(tr("Mark all that the image shows (%1)").arg(controller_.seenProposals()),
+      addAction(tr("Annotate all visible landmarks (%1)").arg(controller_.seenProposals()),
                 &controller_, &AnnotationController::confirmSeen);
   confirm->setEnabled(controller_.seenProposals() > 0);
   addSeparator();
   bool any = false;
   for (const sessions::Landmark& landmark : controller_.landmarks()) {
-    if (sessions::findPoint(controller_.marks(), landmark.name)) continue;
+    if (sessions::findPoint(controller_.annotations(), landmark.name)) continue;
     any = true;
     QAction* begin = addAction(tr("Begin %1").arg(fromText(landmark.name)), this, [this, landmark] {
       controller_.setMode(PlaceMode::kPoint);
@@ -223,7 +223,7 @@ void LandmarksMenu::fill() {
   }
   if (!any)
     addAction(controller_.landmarks().empty() ? tr("No landmarks are open")
-                                              : tr("Every landmark has a mark here"))
+                                              : tr("Every landmark is annotated in this image"))
         ->setEnabled(false);
 }
 
@@ -289,14 +289,15 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
   ui_.splitter->setSizes({500, 400});
   auto* rig = new RigMenu(document, state, controller, this);
   connect(rig, &RigMenu::openRequested, this, &AnnotationPanel::openCaseRequested);
-  ui_.markFiles->setMenu(files_menu_);
+  ui_.annotationFiles->setMenu(files_menu_);
   ui_.landmarks->setMenu(landmarks_menu_);
   ui_.rounds->setMenu(new QMenu(this));
   ui_.rig->setMenu(rig);
   buildTable();
   connectTools();
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationPanel::showMode);
-  connect(&controller_, &AnnotationController::marksChanged, this, &AnnotationPanel::showMarks);
+  connect(&controller_, &AnnotationController::annotationsChanged, this,
+          &AnnotationPanel::showAnnotations);
   connect(&controller_, &AnnotationController::selectionChanged, this,
           &AnnotationPanel::showSelection);
   connect(&controller_, &AnnotationController::solutionChanged, this,
@@ -305,11 +306,11 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
       ViewChange::kCase | ViewChange::kSnapshot | ViewChange::kCursor | ViewChange::kNudgedPose,
       this, &AnnotationPanel::showSolution);
   showMode();
-  showMarks();
+  showAnnotations();
   showSolution();
 }
 
-QTableView& AnnotationPanel::table() { return *ui_.marks; }
+QTableView& AnnotationPanel::table() { return *ui_.annotations; }
 
 void AnnotationPanel::addBeside(QWidget* widget) {
   ui_.splitter->addWidget(widget);
@@ -341,22 +342,23 @@ void AnnotationPanel::connectTools() {
 }
 
 void AnnotationPanel::buildTable() {
-  setUpTable(*ui_.marks, filter_);
-  ui_.marks->installEventFilter(this);
-  ui_.marks->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
-  ui_.marks->sortByColumn(-1, Qt::AscendingOrder);
-  ui_.showMarks->addItems(MarksModel::showNames());
-  connect(ui_.showMarks, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+  setUpTable(*ui_.annotations, filter_);
+  ui_.annotations->installEventFilter(this);
+  ui_.annotations->setEditTriggers(QAbstractItemView::DoubleClicked |
+                                   QAbstractItemView::EditKeyPressed);
+  ui_.annotations->sortByColumn(-1, Qt::AscendingOrder);
+  ui_.showAnnotations->addItems(AnnotationsModel::showNames());
+  connect(ui_.showAnnotations, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           [this](int index) {
-            filter_.setCondition([this, show = static_cast<MarksModel::Show>(index)](int row) {
-              return model_.isShown(row, show);
-            });
-            showMarks();
+            filter_.setCondition([this, show = static_cast<AnnotationsModel::Show>(index)](
+                                     int row) { return model_.isShown(row, show); });
+            showAnnotations();
           });
-  connect(ui_.marks->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+  connect(ui_.annotations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &AnnotationPanel::chooseRow);
-  connect(&model_, &MarksModel::pointEdited, &controller_, &AnnotationController::replacePoint);
-  connect(&model_, &MarksModel::lineEdited, &controller_, &AnnotationController::replaceLine);
+  connect(&model_, &AnnotationsModel::pointEdited, &controller_,
+          &AnnotationController::replacePoint);
+  connect(&model_, &AnnotationsModel::lineEdited, &controller_, &AnnotationController::replaceLine);
 }
 
 void AnnotationPanel::showMode() {
@@ -364,12 +366,12 @@ void AnnotationPanel::showMode() {
   ui_.placeLines->setChecked(controller_.mode() == PlaceMode::kLine);
 }
 
-void AnnotationPanel::showMarks() {
+void AnnotationPanel::showAnnotations() {
   const int before = model_.rowCount();
   showing_ = true;
-  model_.setMarks(controller_.marks());
+  model_.setAnnotations(controller_.annotations());
   showing_ = false;
-  if (model_.rowCount() != before) ui_.marks->resizeColumnsToContents();
+  if (model_.rowCount() != before) ui_.annotations->resizeColumnsToContents();
   ui_.count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
   showSelection();
 }
@@ -378,10 +380,10 @@ void AnnotationPanel::showSelection() {
   const int row = model_.rowOf(controller_.selected());
   const QModelIndex shown = filter_.mapFromSource(model_.index(row, 0));
   showing_ = true;
-  const int column = std::max(ui_.marks->currentIndex().column(), 0);
+  const int column = std::max(ui_.annotations->currentIndex().column(), 0);
   const QModelIndex current = shown.isValid() ? shown.siblingAtColumn(column) : shown;
-  if (current != ui_.marks->currentIndex()) ui_.marks->setCurrentIndex(current);
-  if (shown.isValid()) ui_.marks->scrollTo(current);
+  if (current != ui_.annotations->currentIndex()) ui_.annotations->setCurrentIndex(current);
+  if (shown.isValid()) ui_.annotations->scrollTo(current);
   showing_ = false;
 }
 
@@ -391,16 +393,16 @@ void AnnotationPanel::chooseRow(const QModelIndex& current) {
 }
 
 std::vector<ComparedPose> AnnotationPanel::otherPoses() const {
-  std::vector<ComparedPose> made;
-  if (!state_.currentCase()) return made;
+  std::vector<ComparedPose> compared_poses;
+  if (!state_.currentCase()) return compared_poses;
   const auto add = [&](const QString& name, PoseRole role) {
-    if (const auto pose = poseOf(state_, role)) made.push_back({name, *pose});
+    if (const auto pose = poseOf(state_, role)) compared_poses.push_back({name, *pose});
   };
   add(tr("seed"), PoseRole::kSeed);
   add(tr("run, iteration %1").arg(state_.cursor().iteration + 1), PoseRole::kEstimate);
   add(tr("nudged"), PoseRole::kNudged);
   add(tr("truth"), PoseRole::kTruth);
-  return made;
+  return compared_poses;
 }
 
 void AnnotationPanel::showSolution() {
@@ -415,38 +417,38 @@ void AnnotationPanel::showSolution() {
   const bool solved = controller_.solvedPose().has_value();
   ui_.annotationAsTruth->setEnabled(solved && !controller_.stale());
   ui_.annotationAsSeed->setEnabled(solved && !controller_.stale());
-  const ViewState::CasePtr& one = state_.currentCase();
-  ui_.together->setVisible(one && one->source.rig);
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  ui_.together->setVisible(loaded_case && loaded_case->source.rig);
 }
 
 void AnnotationPanel::showRounds() {
   QMenu& menu = *ui_.rounds->menu();
   menu.clear();
-  QAction* aside = menu.addAction(tr("Put these marks aside, begin a blind round ..."), this,
+  QAction* aside = menu.addAction(tr("Set annotations aside, begin a blind round ..."), this,
                                   &AnnotationPanel::askForName);
-  aside->setEnabled(!controller_.marks().empty());
+  aside->setEnabled(!controller_.annotations().empty());
   menu.addSeparator();
   for (int i = 0; i < static_cast<int>(controller_.answer().rounds.size()); ++i) {
     const auto& round = controller_.answer().rounds[static_cast<std::size_t>(i)];
-    QMenu* one =
+    QMenu* q_menu =
         menu.addMenu(QStringLiteral("%1, %2").arg(fromText(round.by), fromText(round.time)));
-    one->addAction(tr("Take up"), this, [this, i] { controller_.takeUp(i); });
-    one->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
+    q_menu->addAction(tr("Continue"), this, [this, i] { controller_.takeUp(i); });
+    q_menu->addAction(tr("Remove"), this, [this, i] { controller_.removeRound(i); });
   }
 }
 
 void AnnotationPanel::askForName() {
   bool accepted = false;
   const QString name =
-      QInputDialog::getText(this, tr("Put these marks aside"), tr("Who placed them?"),
+      QInputDialog::getText(this, tr("Set annotations aside"), tr("Name of the annotator"),
                             QLineEdit::Normal, qEnvironmentVariable("USER"), &accepted);
   if (accepted) controller_.putAside(name);
 }
 
 /// Letters typed at the table look for a row; they do not switch layers. Enter goes on to the
-/// chosen mark in the image.
+/// chosen annotation in the image.
 bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == ui_.marks && event->type() == QEvent::KeyPress) {
+  if (watched == ui_.annotations && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !controller_.selected().empty()) {
       controller_.setMode(controller_.selectedLine() ? PlaceMode::kLine : PlaceMode::kPoint);
@@ -454,7 +456,7 @@ bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
   }
-  if (watched == ui_.marks && event->type() == QEvent::ShortcutOverride) {
+  if (watched == ui_.annotations && event->type() == QEvent::ShortcutOverride) {
     const auto& key = *static_cast<QKeyEvent*>(event);
     const bool plain = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier;
     if (plain && !key.text().isEmpty() && key.text().front().isLetterOrNumber()) event->accept();
@@ -469,7 +471,7 @@ void AnnotationPanel::keyPressEvent(QKeyEvent* event) {
   }
   if (event->key() == Qt::Key_Space && !controller_.selected().empty()) {
     const int row = model_.rowOf(controller_.selected());
-    const QModelIndex on = model_.index(row, MarksModel::kOn);
+    const QModelIndex on = model_.index(row, AnnotationsModel::kOn);
     const bool is_on = on.data(Qt::CheckStateRole).toInt() == Qt::Checked;
     model_.setData(on, is_on ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
     return;

@@ -12,7 +12,7 @@
 
 #include "sessions/io/dataset_file.h"
 #include "ui/annotation/annotation_controller.h"
-#include "ui/models/marks_model.h"
+#include "ui/models/annotations_model.h"
 
 namespace boresight::ui {
 
@@ -24,20 +24,21 @@ struct ComparedPose {
   Pose camera_from_station;
 };
 
-/// "Solved from 8 marks, 0.21 px rms.", or why there is no pose.
+/// "Solved from 8 annotations, 0.21 px rms.", or why there is no pose.
 QString solutionHeadline(const AnnotationAnswer& answer, bool stale);
 
-/// "Geometry: all in one plane, all at one depth.": what of the marks is weak, in a few words that
-/// stand there before and after solving.
+/// "Geometry: all in one plane, all at one depth.": what of the annotations is weak, in a few words
+/// that stand there before and after solving.
 QString geometryMeterText(const AnnotationAnswer& answer);
 
-/// Everything else that an annotator reads of a solution: what is weak in the marks, one sigma
-/// against the requirement, the second pose of a plane beside the first, residuals per camera, and
-/// how far the other poses (seed, run, truth) and rounds are. Colour never says anything alone.
+/// Everything else that an annotator reads of a solution: what is weak in the annotations, one
+/// sigma against the requirement, the second pose of a plane next to the first, residuals per
+/// camera, and how far the other poses (seed, run, truth) and rounds are. Colour never says
+/// anything alone.
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others);
 
-/// The station's named points that this image has no mark of: where they should be is confirmed,
-/// or one is begun by name and then clicked. Also where landmarks come from and go to.
+/// The station's named points that this image has no annotation of: where they should be is
+/// confirmed, or one is begun by name and then clicked. Also where landmarks come from and go to.
 class LandmarksMenu : public QMenu {
   Q_OBJECT
 
@@ -76,7 +77,8 @@ class RigMenu : public QMenu {
   AnnotationController& controller_;
 };
 
-/// The annotator's desk: tools, the table of marks, and what the pose that solves them is worth.
+/// The annotator's desk: tools, the table of annotations, and what the pose that solves them is
+/// worth.
 class AnnotationPanel : public QWidget {
   Q_OBJECT
 
@@ -85,12 +87,12 @@ class AnnotationPanel : public QWidget {
                   QWidget* parent = nullptr);
 
   QTableView& table();
-  /// The menu of marks and poses from and to files; to be filled.
+  /// The menu of annotations and poses from and to files; to be filled.
   QMenu& filesMenu() { return *files_menu_; }
   LandmarksMenu& landmarksMenu() { return *landmarks_menu_; }
-  /// Something beside the summary that shows itself when it has something to show.
+  /// A widget next to the summary, shown when it has contents.
   void addBeside(QWidget* widget);
-  /// Asks whose marks these are, and puts them aside.
+  /// Asks whose annotations these are, and puts them aside.
   void askForName();
 
  Q_SIGNALS:
@@ -107,7 +109,7 @@ class AnnotationPanel : public QWidget {
   void buildTable();
   void connectTools();
   void showMode();
-  void showMarks();
+  void showAnnotations();
   void showSelection();
   void showSolution();
   void showRounds();
@@ -116,7 +118,7 @@ class AnnotationPanel : public QWidget {
 
   AnnotationController& controller_;
   ViewState& state_;
-  MarksModel model_;
+  AnnotationsModel model_;
   RowsFilter filter_;
   QMenu* files_menu_;
   LandmarksMenu* landmarks_menu_;

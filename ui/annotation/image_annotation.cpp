@@ -5,8 +5,8 @@
 
 #include <QPainter>
 
+#include "ui/annotation/annotation_tool.h"
 #include "ui/annotation/loupe.h"
-#include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/models/text.h"
 #include "ui/run/pose_renderer.h"
@@ -39,21 +39,21 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
       state_(state),
       snapper_(snapper),
       view_(&image.view()),
-      tool_(new MarkTool(image.view(), controller, state, snapper, this)),
+      tool_(new AnnotationTool(image.view(), controller, state, snapper, this)),
       loupe_(new Loupe(image.view())),
       edges_(new PoseRenderer(this)) {
   image_.view().setOverlay([this](QPainter& painter) { paint(painter); });
-  connect(tool_, &MarkTool::aimChanged, this, &ImageAnnotation::lookThroughLoupe);
+  connect(tool_, &AnnotationTool::aimChanged, this, &ImageAnnotation::lookThroughLoupe);
   connect(&image_.display(), &DisplayImage::pictureChanged, this, &ImageAnnotation::showSamples);
   connect(&image_.display(), &DisplayImage::levelsChanged, this, &ImageAnnotation::showSamples);
   connect(&image_.view(), &ImageView::itemClicked, this, [this](LayerId layer, int item) {
-    if (layer == LayerId::kPoints) controller_.select(idOfSign(controller_.marks(), item));
+    if (layer == LayerId::kPoints) controller_.select(idOfSign(controller_.annotations(), item));
   });
-  for (auto signal : {&AnnotationController::marksChanged, &AnnotationController::selectionChanged,
-                      &AnnotationController::modeChanged})
-    connect(&controller_, signal, this, &ImageAnnotation::showMarks);
+  for (auto signal : {&AnnotationController::annotationsChanged,
+                      &AnnotationController::selectionChanged, &AnnotationController::modeChanged})
+    connect(&controller_, signal, this, &ImageAnnotation::showAnnotations);
   state_.onChange(ViewChange::kCase | ViewChange::kCursor | ViewChange::kNudgedPose, this,
-                  &ImageAnnotation::showMarks);
+                  &ImageAnnotation::showAnnotations);
   connect(&controller_, &AnnotationController::solutionChanged, this,
           &ImageAnnotation::showSolution);
   state_.onChange(ViewChange::kCase, this, &ImageAnnotation::showSolution);
@@ -62,7 +62,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
   connect(edges_, &PoseRenderer::rendered, this,
           [this](const std::shared_ptr<const sessions::RenderTrace>& render, int level) {
             std::vector<LayerBits> bits = bitsOf(render, false);
-            for (LayerBits& one : bits) one.level = level;
+            for (LayerBits& entry : bits) entry.level = level;
             image_.setBits(LayerId::kAnnotationEdges, std::move(bits));
             loupe_->update();
           });
@@ -77,7 +77,7 @@ ImageAnnotation::~ImageAnnotation() {
 void ImageAnnotation::setMagnification(double magnification) {
   if (magnification == magnification_) return;
   magnification_ = magnification;
-  showMarks();
+  showAnnotations();
 }
 
 /// The file's samples where they are read, else what the core sees.
@@ -93,32 +93,33 @@ void ImageAnnotation::showSamples() {
   }
 }
 
-MarkLook ImageAnnotation::look() const {
-  MarkLook made;
-  made.selected = controller_.selected();
-  made.camera = state_.currentCase()->source.camera;
-  made.camera_from_station = tool_->stationPose();
-  if (controller_.solution()) made.outliers = controller_.solution()->outlierMarks();
-  return made;
+AnnotationLook ImageAnnotation::look() const {
+  AnnotationLook annotation_look;
+  annotation_look.selected = controller_.selected();
+  annotation_look.camera = state_.currentCase()->source.camera;
+  annotation_look.camera_from_station = tool_->stationPose();
+  if (controller_.solution())
+    annotation_look.outliers = controller_.solution()->outlierAnnotations();
+  return annotation_look;
 }
 
-void ImageAnnotation::showMarks() {
+void ImageAnnotation::showAnnotations() {
   if (!state_.currentCase()) {
-    for (const LayerId id : {LayerId::kPoints, LayerId::kProposals, LayerId::kMarkResiduals})
+    for (const LayerId id : {LayerId::kPoints, LayerId::kProposals, LayerId::kAnnotationResiduals})
       image_.setMarks(id, {});
     return;
   }
-  const MarkLook shown = look();
-  const sessions::Marks& marks = controller_.marks();
-  image_.setMarks(LayerId::kPoints, markSigns(marks, shown));
+  const AnnotationLook shown = look();
+  const sessions::Annotations& annotations = controller_.annotations();
+  image_.setMarks(LayerId::kPoints, annotationSigns(annotations, shown));
   image_.setMarks(LayerId::kProposals, proposalSigns(controller_.answer().proposals));
   std::vector<Mark> residuals;
   if (const std::optional<Pose> solved = controller_.solvedPose()) {
-    const sessions::MarkedView view{{}, shown.camera, {}, marks};
-    residuals = residualSigns(sessions::markVectors(view, *solved), shown, magnification_,
+    const sessions::AnnotatedView view{{}, shown.camera, {}, annotations};
+    residuals = residualSigns(sessions::annotationVectors(view, *solved), shown, magnification_,
                               controller_.stale());
   }
-  image_.setMarks(LayerId::kMarkResiduals, std::move(residuals));
+  image_.setMarks(LayerId::kAnnotationResiduals, std::move(residuals));
   lookThroughLoupe();
 }
 
@@ -141,10 +142,10 @@ void ImageAnnotation::showSolution() {
     }
   }
   askForBand();
-  showMarks();
+  showAnnotations();
 }
 
-/// A band of old marks would be a wrong answer: a stale one is taken away.
+/// A band of old annotations would be a wrong answer: a stale one is taken away.
 void ImageAnnotation::askForBand() {
   const AnnotationController::SolutionPtr& solution = controller_.solution();
   const bool wanted = image_.style(LayerId::kAnnotationBand).visible && solution &&
@@ -160,8 +161,8 @@ void ImageAnnotation::askForBand() {
   runner_.start(
       QStringLiteral("band"),
       [solution, mesh = snapper_.mesh()](const std::stop_token&) {
-        const sessions::MarksSolution& solved = *solution->result.solution;
-        const sessions::MarkedView& view = solution->marks.views.front();
+        const sessions::AnnotationsSolution& solved = *solution->result.solution;
+        const sessions::AnnotatedView& view = solution->annotations.views.front();
         return sessions::edgeBand(*mesh, view.camera, solved.camera_from_station.front(),
                                   sessions::cameraCovariance(solved, view));
       },
@@ -183,15 +184,16 @@ QString ImageAnnotation::nextStep() const {
   const QString id = QString::fromStdString(controller_.selected());
   if (controller_.mode() == PlaceMode::kLine) {
     const sessions::LinePair* line = controller_.selectedLine();
-    if (line && !line->line) return tr("%1: click two places of the line in the image").arg(id);
+    if (line && !line->line) return tr("%1: click two points of the line in the image").arg(id);
     if (line && !line->edge) return tr("%1: Ctrl+click its edge of the station").arg(id);
-    return tr("Lines: click two places of an edge in the image, or Ctrl+click one of the station");
+    return tr(
+        "Lines: click two points of an edge in the image, or Ctrl+click an edge of the station");
   }
   const sessions::PointPair* point = controller_.selectedPoint();
-  if (point && !point->pixel) return tr("%1: click its place in the image").arg(id);
+  if (point && !point->pixel) return tr("%1: click its position in the image").arg(id);
   if (point && !point->point_in_station_m)
-    return tr("%1: Ctrl+click its place on the station, or pick it in the scene").arg(id);
-  return tr("Points: click a place in the image, or Ctrl+click one of the station");
+    return tr("%1: Ctrl+click its position on the station, or pick it in the scene").arg(id);
+  return tr("Points: click a point in the image, or Ctrl+click a point of the station");
 }
 
 void ImageAnnotation::paint(QPainter& painter) const {
@@ -203,7 +205,7 @@ void ImageAnnotation::paint(QPainter& painter) const {
     paintBox(painter, at, nextStep());
     at.ry() -= line + 2;
   }
-  const Layer& residuals = image_.view().layer(LayerId::kMarkResiduals);
+  const Layer& residuals = image_.view().layer(LayerId::kAnnotationResiduals);
   if (residuals.style.visible && !residuals.marks.empty()) paintResidualScale(painter, at);
   tool_->paint(painter, loupe_->isVisible() ? QRectF(loupe_->geometry()) : QRectF());
 }
@@ -214,7 +216,7 @@ void ImageAnnotation::paintResidualScale(QPainter& painter, const QPointF& at) c
   const double length = value_px * screen_per_px;
   const QString text = tr("residuals x %1:  %2 px").arg(magnification_).arg(value_px);
   const QRectF box = paintBox(painter, at, text, length + 10.0);
-  const QColor color = image_.style(LayerId::kMarkResiduals).color;
+  const QColor color = image_.style(LayerId::kAnnotationResiduals).color;
   painter.setPen(QPen(color, 2.0));
   const double x = box.right() - length - 6.0;
   const double y = box.center().y();

@@ -5,20 +5,20 @@
 #include <QPointer>
 
 #include "sessions/annotation/edge_band.h"
+#include "ui/annotation/annotation_content.h"
 #include "ui/annotation/annotation_controller.h"
-#include "ui/annotation/mark_content.h"
 
 namespace boresight::ui {
 
 class ImagePanel;
 class ImageView;
 class Loupe;
-class MarkTool;
+class AnnotationTool;
 class PoseRenderer;
 class StationSnapper;
 
-/// Annotating on the image: the tool that marks with the pointer, the loupe, and the layers that
-/// show marks, residuals, proposals, the solved pose's edges and their band.
+/// Annotating on the image: the tool that annotates with the pointer, the loupe, and the layers
+/// that show annotations, residuals, proposals, the solved pose's edges and their band.
 class ImageAnnotation : public QObject {
   Q_OBJECT
 
@@ -27,7 +27,7 @@ class ImageAnnotation : public QObject {
                   StationSnapper& snapper, QObject* parent = nullptr);
   ~ImageAnnotation() override;
 
-  MarkTool& tool() { return *tool_; }
+  AnnotationTool& tool() { return *tool_; }
   Loupe& loupe() { return *loupe_; }
 
   /// How much residuals are magnified on the image.
@@ -38,11 +38,11 @@ class ImageAnnotation : public QObject {
   using Band = std::vector<sessions::BandPiece>;
 
   void showSamples();
-  void showMarks();
+  void showAnnotations();
   void showSolution();
   void askForBand();
   void lookThroughLoupe();
-  MarkLook look() const;
+  AnnotationLook look() const;
   void paint(QPainter& painter) const;
   QString nextStep() const;
   void paintResidualScale(QPainter& painter, const QPointF& at) const;
@@ -52,7 +52,7 @@ class ImageAnnotation : public QObject {
   ViewState& state_;
   StationSnapper& snapper_;
   QPointer<ImageView> view_;  ///< may go before this does
-  MarkTool* tool_;
+  AnnotationTool* tool_;
   Loupe* loupe_;
   PoseRenderer* edges_;
   ViewState::CasePtr rendered_case_;

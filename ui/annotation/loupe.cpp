@@ -88,8 +88,8 @@ void putLoupeAside(QWidget& loupe, const LoupeSize& size, const QPoint& place, b
   const int side = on_raster(std::clamp(size.share * shorter, size.least, size.most));
   const QRect at_right(on_raster(view.width() - side - kMargin), kMargin, side, side);
   const QRect at_left(kMargin, kMargin, side, side);
-  const QRect& now = left ? at_left : at_right;
-  if (now.adjusted(-kShyness, -kShyness, kShyness, kShyness).contains(place)) left = !left;
+  const QRect& current = left ? at_left : at_right;
+  if (current.adjusted(-kShyness, -kShyness, kShyness, kShyness).contains(place)) left = !left;
   loupe.setGeometry(left ? at_left : at_right);
 }
 
@@ -112,7 +112,8 @@ constexpr int kSmallestText = 9;
 constexpr double kEdgeDot = 0.16;  ///< of an image pixel
 const LayerId kEdgeLayers[] = {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kIterationEdges,
                                LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
-const LayerId kMarkLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals, LayerId::kPoints};
+const LayerId kAnnotationLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals,
+                                     LayerId::kPoints};
 
 }  // namespace
 
@@ -149,7 +150,7 @@ void Loupe::setSwitchedOn(bool on) {
   Q_EMIT changed();
 }
 
-void Loupe::lookAt(const std::optional<QPointF>& pixel, const MarkAim& aim) {
+void Loupe::lookAt(const std::optional<QPointF>& pixel, const AnnotationAim& aim) {
   pixel_ = pixel;
   aim_ = aim;
   showOrHide();
@@ -167,10 +168,10 @@ void Loupe::putAside() {
 }
 
 ViewTransform Loupe::transform() const {
-  ViewTransform made;
-  made.zoomAt(QPointF(0.0, 0.0), magnification() / devicePixelRatioF());
-  if (pixel_) made.centreOn(*pixel_, size());
-  return made;
+  ViewTransform view_transform;
+  view_transform.zoomAt(QPointF(0.0, 0.0), magnification() / devicePixelRatioF());
+  if (pixel_) view_transform.centreOn(*pixel_, size());
+  return view_transform;
 }
 
 bool Loupe::eventFilter(QObject* watched, QEvent* event) {
@@ -234,7 +235,7 @@ void Loupe::paintEdges(QPainter& painter, const ViewTransform& transform) const 
 }
 
 void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const {
-  for (const LayerId id : kMarkLayers) {
+  for (const LayerId id : kAnnotationLayers) {
     const Layer& layer = view_.layer(id);
     if (!layer.style.visible) continue;
     painter.setOpacity(layer.style.opacity);
@@ -246,7 +247,7 @@ void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const 
   painter.setOpacity(1.0);
 }
 
-/// Where the mark would go, else what the cross is on.
+/// Where the annotation would go, else what the cross is on.
 void Loupe::paintText(QPainter& painter) const {
   const QPointF at =
       aim_.side == AimSide::kNone ? *pixel_ : QPointF(aim_.pixel.x(), aim_.pixel.y());

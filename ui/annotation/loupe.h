@@ -9,7 +9,7 @@
 #include <QWidget>
 
 #include "sessions/io/image_file.h"
-#include "ui/annotation/mark_aim.h"
+#include "ui/annotation/annotation_aim.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
@@ -42,8 +42,8 @@ class ImageView;
 
 /// A piece of the image, magnified, in a corner of the image view away from the pointer: image
 /// pixels as squares, in their own contrast, under a cross that stands at a fraction of a pixel,
-/// with marks and rendered edges as the view shows them. The magnification counts screen pixels per
-/// image pixel; Ctrl+wheel over the view changes it.
+/// with annotations and rendered edges as the view shows them. The magnification counts screen
+/// pixels per image pixel; Ctrl+wheel over the view changes it.
 class Loupe : public QWidget {
   Q_OBJECT
 
@@ -64,7 +64,7 @@ class Loupe : public QWidget {
 
   /// Puts a place (px) under the cross; `aim` is where a click there would go. Nothing: nowhere,
   /// and the loupe hides.
-  void lookAt(const std::optional<QPointF>& pixel, const MarkAim& aim);
+  void lookAt(const std::optional<QPointF>& pixel, const AnnotationAim& aim);
   const std::optional<QPointF>& place() const { return pixel_; }
   /// Between image pixels and this widget's coordinates.
   ViewTransform transform() const;
@@ -89,7 +89,7 @@ class Loupe : public QWidget {
   double magnification_ = 8.0;
   bool on_ = true;
   std::optional<QPointF> pixel_;
-  MarkAim aim_;
+  AnnotationAim aim_;
   bool left_ = false;  ///< in the left corner
 };
 

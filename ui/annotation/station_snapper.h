@@ -12,9 +12,9 @@
 
 namespace boresight::ui {
 
-/// What of the current case's mesh a mark may snap to: its corners, edges and circles, found once
-/// for all views and off the UI's thread. Image and scene both ask here, each with the camera and
-/// the pose that it draws with.
+/// What of the current case's mesh an annotation may snap to: its corners, edges and circles, found
+/// once for all views and off the UI's thread. Image and scene both ask here, each with the camera
+/// and the pose that it draws with.
 class StationSnapper : public QObject {
   Q_OBJECT
 

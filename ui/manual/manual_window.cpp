@@ -113,7 +113,7 @@ ManualWindow::ManualWindow(const QString& folder, QWidget* parent)
   resize(1000, 800);
   if (folder_.isEmpty())
     browser_->setPlainText(
-        tr("The manual is not there: share/boresight/manual is neither next to the program nor in "
+        tr("The manual is missing: share/boresight/manual is neither next to the program nor in "
            "its build tree. Install the program again, or build the target 'manual'."));
 }
 
@@ -175,9 +175,9 @@ void ManualWindow::find(bool backward) {
   if (words.isEmpty() || browser_->find(words, flags)) return;
   const QStringList pages = manualPages(folder_);
   const int count = static_cast<int>(pages.size());
-  const int here = std::max(0, static_cast<int>(pages.indexOf(browser_->source().fileName())));
+  const int current = std::max(0, static_cast<int>(pages.indexOf(browser_->source().fileName())));
   for (int i = 1; i <= count; ++i) {  // this page again at last
-    const QString& page = pages[(here + (backward ? count - i : i)) % count];
+    const QString& page = pages[(current + (backward ? count - i : i)) % count];
     if (!manualText(folder_ + QLatin1Char('/') + page).contains(words, Qt::CaseInsensitive))
       continue;
     goTo(page);

@@ -13,7 +13,7 @@ class QUrl;
 
 namespace boresight::ui {
 
-/// The manual's folder: share/boresight/manual beside an installed program or in the build tree of
+/// The manual's folder: share/boresight/manual next to an installed program or in the build tree of
 /// one that was not installed. "" when there is none.
 QString manualFolder();
 

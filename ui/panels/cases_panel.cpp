@@ -41,8 +41,8 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
   return {
       {tr("Case"), tr("The image's name."), -1, [](Row row) { return row.id; }},
       {tr("State"),
-       tr("What has become of the case: new, running, converged, failed, annotated, validated, "
-          "rejected. Stale: its inputs or options have changed since its run."),
+       tr("State of the case: new, running, converged, failed, annotated, validated, rejected. "
+          "Stale: its inputs or options have changed since its run."),
        -1,
        [](Row row) {
          return CasesModel::stateText(row.state) +
@@ -50,15 +50,15 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
        },
        [](Row row) { return static_cast<int>(row.state); }},
       {tr("Normal,\nmm"),
-       tr("Error of the result along the view axis at the end effector (at the camera where that "
-          "is not known), in mm, where the truth is known."),
+       tr("Error of the result along the view axis at the end effector (at the camera if that is "
+          "unknown), in mm, if the truth is known."),
        3, error(&CaseRow::normal_mm)},
       {tr("Lateral,\nmm"),
-       tr("Error of the result across the view axis at the end effector (at the camera where that "
-          "is not known), in mm, where the truth is known."),
+       tr("Error of the result across the view axis at the end effector (at the camera if that is "
+          "unknown), in mm, if the truth is known."),
        3, error(&CaseRow::lateral_mm)},
       {tr("Turned,\ndeg"),
-       tr("Angle between the view axes of the result and the truth, in degrees, where that is "
+       tr("Angle between the view axes of the result and the truth, in degrees, if the truth is "
           "known."),
        3, error(&CaseRow::rotation_deg)},
   };
@@ -127,10 +127,10 @@ CasesPanel::CasesPanel(QWidget* parent) : QWidget(parent) {
 void CasesPanel::applyFilter() {
   const int state = ui_.state->currentIndex() - 1;
   filter_.setCondition([this, state, text = ui_.text->text().trimmed()](int row) {
-    const CaseRow& one = model_.at(row);
-    return (state < 0 || one.state == static_cast<CaseState>(state)) &&
-           (one.id.contains(text, Qt::CaseInsensitive) ||
-            one.station.contains(text, Qt::CaseInsensitive));
+    const CaseRow& case_row = model_.at(row);
+    return (state < 0 || case_row.state == static_cast<CaseState>(state)) &&
+           (case_row.id.contains(text, Qt::CaseInsensitive) ||
+            case_row.station.contains(text, Qt::CaseInsensitive));
   });
   setCurrent(current_);
 }

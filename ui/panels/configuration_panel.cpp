@@ -35,7 +35,7 @@ ConfigurationPanel::ConfigurationPanel(ViewState& view, QWidget* parent)
   connect(ui_.resetAll, &QPushButton::clicked, this, [this] { setProfile(profile_); });
   connect(&ui_.options->options(), &OptionsModel::edited, this, &ConfigurationPanel::change);
   connect(ui_.options, &OptionsTable::helpChanged, this, [this](const QString& help) {
-    ui_.help->setText(help.isEmpty() ? tr("Choose an option to read what it does.") : help);
+    ui_.help->setText(help.isEmpty() ? tr("Select an option to read its description.") : help);
   });
   connect(ui_.stale, &Banner::actionRequested, this, &ConfigurationPanel::runAgainRequested);
   view_.onChange(ViewChange::kSnapshot, this, &ConfigurationPanel::showStale);
@@ -78,11 +78,12 @@ void ConfigurationPanel::change(const std::string& name, const std::string& valu
 QStringList ConfigurationPanel::differences() const {
   const auto* run = view_.snapshot().get();
   if (run == nullptr) return {};
-  LocalizerOptions now = options_;
-  if (!(now.templates.feature_size_m > 0.0)) now.templates.feature_size_m = case_feature_size_m_;
+  LocalizerOptions current = options_;
+  if (!(current.templates.feature_size_m > 0.0))
+    current.templates.feature_size_m = case_feature_size_m_;
   QStringList names;
   for (const auto& option : sessions::listOptions(run->lastOptions())) {
-    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), now)) {
+    for (const auto& [name, value] : sessions::changedOptions(run->lastOptions(), current)) {
       if (name != option.name) continue;
       names.append(tr("%1 (was %2)").arg(fromText(name), fromText(valueText(option, value))));
     }

@@ -19,52 +19,50 @@ namespace {
 
 QString tr(const char* text) { return AlternativesModel::tr(text); }
 
-QString endedText(const Alternative& one) {
-  if (one.chosen) return tr("chosen");
-  return one.has_pose ? tr("not chosen") : tr("no pose");
+QString endedText(const Alternative& alternative) {
+  if (alternative.chosen) return tr("chosen");
+  return alternative.has_pose ? tr("not chosen") : tr("no pose");
 }
 
 std::vector<TableColumn<Alternative>> alternativeColumns() {
   using Row = const Alternative&;
-  const auto ofOthers = [](Row one, int count) {
-    return one.kind == AlternativeKind::kRolled ? count : kUnknown;
+  const auto ofOthers = [](Row row, int count) {
+    return row.kind == AlternativeKind::kRolled ? count : kUnknown;
   };
   return {
       {tr("Pose"),
-       tr("A competing pose: it shows about the same edges as the result. A candidate: a pose that "
-          "the search found. A rolled hypothesis: the render turned about "
-          "the view."),
+       tr("Competing pose: it shows about the same edges as the result. Candidate: a pose of the "
+          "global search. Rolled hypothesis: the render turned about the view axis."),
        -1, alternativeTitle},
       {tr("Iteration"),
-       tr("The iteration that weighed it, counted from 1 over all attempts; competing poses "
-          "are compared with the result."),
+       tr("Iteration that evaluated it, counted from 1 over all attempts; competing poses are "
+          "compared with the result."),
        -1,
-       [](Row one) {
-         if (one.kind == AlternativeKind::kCandidate) return tr("search");
-         return one.iteration < 0 ? tr("result") : QString::number(one.iteration + 1);
+       [](Row row) {
+         if (row.kind == AlternativeKind::kCandidate) return tr("search");
+         return row.iteration < 0 ? tr("result") : QString::number(row.iteration + 1);
        }},
-      {tr("Ended"), tr("Whether the run went on with it."), -1, endedText},
+      {tr("Ended"), tr("Whether the run continued with it."), -1, endedText},
       {tr("Behind, nats"),
-       tr("Evidence of the result beyond that of a competing pose, in nats; below %1 the run is "
-          "ambiguous, below zero the competing pose is the better one.")
+       tr("Evidence of the result minus that of the competing pose, in nats; below %1 the run is "
+          "ambiguous, below zero the competing pose is better.")
            .arg(kLeastMargin_nats),
-       0, [](Row one) { return one.margin_nats; }},
+       0, [](Row row) { return row.margin_nats; }},
       {tr("Similarity"),
        tr("Share of the rendered edges that a competing pose has in common with the result."), 2,
-       [](Row one) { return one.similarity; }},
+       [](Row row) { return row.similarity; }},
       {tr("Evidence, nats"),
-       tr("How strongly the image's edges support a candidate: mean over its edges and half of "
-          "the weakest quadrant, in nats."),
-       2, [](Row one) { return one.evidence_nats; }},
+       tr("Support of a candidate by the image's edges: mean over its edges and half of the "
+          "weakest quadrant, in nats."),
+       2, [](Row row) { return row.evidence_nats; }},
       {tr("Inliers"), tr("Matches that agree with its pose."), 0,
-       [=](Row one) { return ofOthers(one, one.inliers); }},
+       [=](Row row) { return ofOthers(row, row.inliers); }},
       {tr("Matches"), tr("Templates that could be searched."), 0,
-       [=](Row one) { return ofOthers(one, one.matches); }},
-      {tr("Apart, mm"),
-       tr("How far the station's origin lies from where the chosen pose puts it, mm."), 2,
-       [](Row one) { return 1e3 * one.apart_m; }},
-      {tr("Apart, deg"), tr("How far it is turned from the chosen pose, in degrees."), 2,
-       [](Row one) { return one.apart_rad / kDegree_rad; }},
+       [=](Row row) { return ofOthers(row, row.matches); }},
+      {tr("Apart, mm"), tr("Distance of the station's origin from that of the chosen pose, mm."), 2,
+       [](Row row) { return 1e3 * row.apart_m; }},
+      {tr("Apart, deg"), tr("Rotation from the chosen pose, in degrees."), 2,
+       [](Row row) { return row.apart_rad / kDegree_rad; }},
   };
 }
 
@@ -73,8 +71,9 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
 AlternativesModel::AlternativesModel(QObject* parent) : RowsModel(alternativeColumns(), parent) {}
 
 int AlternativesModel::firstRowOf(int iteration) const {
-  return firstRow(
-      [iteration](const Alternative& one) { return iteration >= 0 && one.iteration == iteration; });
+  return firstRow([iteration](const Alternative& alternative) {
+    return iteration >= 0 && alternative.iteration == iteration;
+  });
 }
 
 QVariant AlternativesModel::look(const Alternative& row, int /*column*/, int role) const {
@@ -95,8 +94,8 @@ HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(par
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(
-      tr("Other poses that a run compares: those that compete with its result, candidates of the "
-         "search, rolled hypotheses. The chosen row is drawn on the image."));
+      tr("Other poses of the run: competing poses, candidates of the search, rolled hypotheses. "
+         "The selected row is drawn on the image."));
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_) choose(current.isValid() ? current.row() : -1);

@@ -64,7 +64,7 @@ void InputSheetPanel::showFlags(const std::vector<sessions::RedFlag>& flags) {
   QStringList sentences;
   for (const sessions::RedFlag& flag : flags)
     sentences.append(QStringLiteral("⚠ ") + fromText(flag.text));
-  ui_.flags->setText(flags.empty() ? tr("✓ Nothing looks wrong with the inputs.")
+  ui_.flags->setText(flags.empty() ? tr("✓ No warnings about the inputs.")
                                    : sentences.join(QLatin1Char('\n')));
   QFont font = this->font();
   font.setBold(!flags.empty());

@@ -20,7 +20,7 @@ class InputSigmasDialog : public QDialog {
   Q_OBJECT
 
  public:
-  InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent);
+  InputSigmasDialog(const sessions::SessionCase& session_case, QWidget* parent);
 
   std::optional<double> meshScaleSigma() const;
   std::optional<sessions::CalibrationSigma> calibrationSigma() const;
@@ -43,7 +43,7 @@ class InputSheetPanel : public QWidget {
   QString text() const;
 
  Q_SIGNALS:
-  /// Somebody wants to state how well mesh and camera are known.
+  /// The operator asks to state the uncertainty of mesh and camera.
   void sigmasRequested();
 
  private:

@@ -62,7 +62,7 @@ struct StageText {
 };
 constexpr StageText kStageTexts[] = {
     {Stage::kRender, QT_TR_NOOP("Render"),
-     QT_TR_NOOP("Show the edges rendered from the iteration's first pose.")},
+     QT_TR_NOOP("Show the edges rendered from the iteration's initial pose.")},
     {Stage::kTemplates, QT_TR_NOOP("Templates"),
      QT_TR_NOOP("Show the templates cut from the render.")},
     {Stage::kMatch, QT_TR_NOOP("Match"),
@@ -70,7 +70,7 @@ constexpr StageText kStageTexts[] = {
     {Stage::kPose, QT_TR_NOOP("Pose"),
      QT_TR_NOOP("Show the pose solved from the matches, its inliers and residuals.")},
     {Stage::kRefine, QT_TR_NOOP("Refine"),
-     QT_TR_NOOP("Show the pose moved until rendered edges meet the image's own.")},
+     QT_TR_NOOP("Show the pose refined until rendered and image edges meet.")},
 };
 
 const StageText& textOf(Stage stage) {
@@ -178,65 +178,68 @@ using sessions::kUnknown;
 namespace {
 
 /// Whether a pose came out of the iteration.
-bool isSolved(const IterationTrace& one) {
-  return one.reached >= Stage::kPose && one.status != LocalizationStatus::kPnpFailed &&
-         one.status != LocalizationStatus::kFault;
+bool isSolved(const IterationTrace& iteration) {
+  return iteration.reached >= Stage::kPose && iteration.status != LocalizationStatus::kPnpFailed &&
+         iteration.status != LocalizationStatus::kFault;
 }
 
-const HypothesisSummary* chosenOf(const IterationTrace& one) {
-  const auto chosen = static_cast<std::size_t>(one.chosen_hypothesis);
-  if (one.kind == IterationKind::kRefine || chosen >= one.hypotheses.size()) return nullptr;
-  return &one.hypotheses[chosen];
+const HypothesisSummary* chosenOf(const IterationTrace& iteration) {
+  const auto chosen = static_cast<std::size_t>(iteration.chosen_hypothesis);
+  if (iteration.kind == IterationKind::kRefine || chosen >= iteration.hypotheses.size())
+    return nullptr;
+  return &iteration.hypotheses[chosen];
 }
 
 /// "+40.0 deg".
-QString placeText(const HypothesisSummary& one) {
-  const double turn_deg = one.roll_rad / kDegree_rad;
+QString placeText(const HypothesisSummary& hypothesis_summary) {
+  const double turn_deg = hypothesis_summary.roll_rad / kDegree_rad;
   return QLatin1String(turn_deg < 0.0 ? "" : "+") + numberText(turn_deg, 1) +
          QStringLiteral(" deg");
 }
 
-double ofPose(const IterationTrace& one, double value) { return isSolved(one) ? value : kUnknown; }
+double ofPose(const IterationTrace& iteration, double value) {
+  return isSolved(iteration) ? value : kUnknown;
+}
 
-double ofStage(const IterationTrace& one, Stage stage, double value) {
-  return one.reached >= stage ? value : kUnknown;
+double ofStage(const IterationTrace& iteration, Stage stage, double value) {
+  return iteration.reached >= stage ? value : kUnknown;
 }
 
 /// Counts of a refinement are of places along edges.
-double countOf(const IterationTrace& one, Stage stage, int of_match, int of_refinement) {
-  const bool refines = one.kind == IterationKind::kRefine;
-  return ofStage(one, refines ? Stage::kRefine : stage, refines ? of_refinement : of_match);
+double countOf(const IterationTrace& iteration, Stage stage, int of_match, int of_refinement) {
+  const bool refines = iteration.kind == IterationKind::kRefine;
+  return ofStage(iteration, refines ? Stage::kRefine : stage, refines ? of_refinement : of_match);
 }
 
-double ofMatch(const IterationTrace& one, Stage stage, double value) {
-  return one.kind == IterationKind::kMatch ? ofStage(one, stage, value) : kUnknown;
+double ofMatch(const IterationTrace& iteration, Stage stage, double value) {
+  return iteration.kind == IterationKind::kMatch ? ofStage(iteration, stage, value) : kUnknown;
 }
 
-QString hypothesisText(const IterationTrace& one) {
-  const HypothesisSummary* chosen = chosenOf(one);
+QString hypothesisText(const IterationTrace& iteration) {
+  const HypothesisSummary* chosen = chosenOf(iteration);
   if (chosen == nullptr) return {};
-  return IterationsModel::tr("%1 (of %2)").arg(placeText(*chosen)).arg(one.hypotheses.size());
+  return IterationsModel::tr("%1 (of %2)").arg(placeText(*chosen)).arg(iteration.hypotheses.size());
 }
 
 /// One line per hypothesis, the one chosen marked.
-QString hypothesesList(const IterationTrace& one) {
+QString hypothesesList(const IterationTrace& iteration) {
   constexpr auto tr = [](const char* text) { return IterationsModel::tr(text); };
-  if (chosenOf(one) == nullptr) return {};
+  if (chosenOf(iteration) == nullptr) return {};
   QStringList lines;
-  for (std::size_t i = 0; i < one.hypotheses.size(); ++i) {
-    const HypothesisSummary& each = one.hypotheses[i];
+  for (std::size_t i = 0; i < iteration.hypotheses.size(); ++i) {
+    const HypothesisSummary& each = iteration.hypotheses[i];
     QString line =
         tr("%1: %2 of %3 inliers").arg(placeText(each)).arg(each.inliers).arg(each.matches);
     if (!each.solved) line += tr(", no pose");
-    if (static_cast<int>(i) == one.chosen_hypothesis) line += tr(" (chosen)");
+    if (static_cast<int>(i) == iteration.chosen_hypothesis) line += tr(" (chosen)");
     lines << line;
   }
   return lines.join(QLatin1Char('\n'));
 }
 
-QString kindText(const IterationTrace& one) {
-  return one.kind == IterationKind::kRefine ? IterationsModel::tr("refine")
-                                            : IterationsModel::tr("match");
+QString kindText(const IterationTrace& iteration) {
+  return iteration.kind == IterationKind::kRefine ? IterationsModel::tr("refine")
+                                                  : IterationsModel::tr("match");
 }
 
 using Line = const IterationRow&;
@@ -254,78 +257,79 @@ std::vector<TableColumn<IterationRow>> iterationColumns() {
   constexpr auto tr = [](const char* text) { return IterationsModel::tr(text); };
   return {
       {tr("Iteration"),
-       tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. An attempt "
-          "that fails is followed by one from the seed."),
+       tr("Attempt and iteration: 2.3 is the third iteration of the second attempt. After a failed "
+          "attempt the next starts from the seed."),
        -1, [](Line row) { return row.name; }},
       {tr("Kind"),
-       tr("match: templates are searched and a pose is solved from them; refine: the pose moves "
-          "until rendered edges meet the image's own."),
+       tr("match: templates are searched and a pose is solved from them; refine: the pose is "
+          "adjusted until rendered and image edges meet."),
        -1, text(kindText)},
       {tr("Hypothesis"),
-       tr("Which render the iteration went on with: its turn in degrees, and how many there were. "
-          "Point at a cell for all of them."),
+       tr("Roll of the render that the iteration used, in degrees, and number of renders. Hover "
+          "over a cell to list all."),
        -1, text(hypothesisText)},
       {tr("Level"),
        tr("Level of the image pyramid: 0 is the full image, each further one has half its size."),
-       0, number([](Trace one) -> double { return one.level; })},
-      {tr("Moved, mm"), tr("How far this iteration moved the pose, in mm."), 3,
-       number([](Trace one) { return ofPose(one, 1e3 * one.correction_translation_m); })},
-      {tr("Turned, deg"), tr("How far this iteration turned the pose, in degrees."), 3,
-       number([](Trace one) { return ofPose(one, one.correction_rotation_rad / kDegree_rad); })},
+       0, number([](Trace trace) -> double { return trace.level; })},
+      {tr("Moved, mm"), tr("Translation by this iteration, in mm."), 3,
+       number([](Trace trace) { return ofPose(trace, 1e3 * trace.correction_translation_m); })},
+      {tr("Turned, deg"), tr("Rotation by this iteration, in degrees."), 3, number([](Trace trace) {
+         return ofPose(trace, trace.correction_rotation_rad / kDegree_rad);
+       })},
       {tr("In image, px"),
-       tr("How far the correction moves the scene in the image: mean over the corners of its box, "
-          "in pixels of the full image."),
-       2, number([](Trace one) { return ofPose(one, one.correction_image_px); })},
+       tr("Shift of the scene in the image by the correction: mean over the corners of its box, in "
+          "pixels of the full image."),
+       2, number([](Trace trace) { return ofPose(trace, trace.correction_image_px); })},
       {tr("Templates"),
-       tr("Templates cut from the render; of a refinement: places along the rendered edges."), 0,
-       number([](Trace one) {
-         return countOf(one, Stage::kTemplates, one.template_count, one.refinement.sample_count);
+       tr("Templates cut from the render; of a refinement: points along the rendered edges."), 0,
+       number([](Trace trace) {
+         return countOf(trace, Stage::kTemplates, trace.template_count,
+                        trace.refinement.sample_count);
        })},
       {tr("Matches"),
-       tr("Templates that could be searched in the image; of a refinement: places where an image "
-          "edge was found."),
-       0, number([](Trace one) {
-         return countOf(one, Stage::kMatch, one.searched_count, one.refinement.found_count);
+       tr("Templates searched in the image; of a refinement: points with an image edge."), 0,
+       number([](Trace trace) {
+         return countOf(trace, Stage::kMatch, trace.searched_count, trace.refinement.found_count);
        })},
-      {tr("Inliers"),
-       tr("Matches that agree with the pose; of a refinement: places that were used."), 0,
-       number([](Trace one) {
-         return countOf(one, Stage::kPose, one.support(), one.refinement.used_count);
+      {tr("Inliers"), tr("Matches that agree with the pose; of a refinement: points used."), 0,
+       number([](Trace trace) {
+         return countOf(trace, Stage::kPose, trace.support(), trace.refinement.used_count);
        })},
       {tr("Threshold, px"),
-       tr("Residual up to which a match is an inlier, in pixels of the full image; of a "
-          "refinement: how far an edge is looked for."),
-       1, number([](Trace one) { return one.threshold_px; })},
+       tr("Largest residual of an inlier, in pixels of the full image; of a refinement: search "
+          "radius for an edge."),
+       1, number([](Trace trace) { return trace.threshold_px; })},
       {tr("Best score"), tr("Highest similarity S of a match; 2 is perfect."), 3,
-       number([](Trace one) { return ofMatch(one, Stage::kMatch, one.best_score); })},
+       number([](Trace trace) { return ofMatch(trace, Stage::kMatch, trace.best_score); })},
       {tr("Mean score"), tr("Mean similarity S over the matches; 2 is perfect."), 3,
-       number([](Trace one) { return ofMatch(one, Stage::kMatch, one.mean_score); })},
+       number([](Trace trace) { return ofMatch(trace, Stage::kMatch, trace.mean_score); })},
       {tr("RMS, px"), tr("Root mean square residual of the inliers, in pixels of the full image."),
-       2, number([](Trace one) { return ofPose(one, one.rms_px()); })},
+       2, number([](Trace trace) { return ofPose(trace, trace.rms_px()); })},
       {tr("Render, ms"), tr("Wall time of rendering the scene's edges, in ms."), 0,
-       number([](Trace one) { return 1e3 * one.seconds.rendering; })},
+       number([](Trace trace) { return 1e3 * trace.seconds.rendering; })},
       {tr("Match, ms"), tr("Wall time of choosing and searching templates, in ms."), 0,
-       number(
-           [](Trace one) { return ofMatch(one, Stage::kTemplates, 1e3 * one.seconds.matching); })},
-      {tr("Pose, ms"), tr("Wall time of solving for the pose, or of refining it, in ms."), 0,
-       number([](Trace one) {
-         return ofStage(one, Stage::kPose, 1e3 * (one.seconds.pose + one.seconds.refinement));
+       number([](Trace trace) {
+         return ofMatch(trace, Stage::kTemplates, 1e3 * trace.seconds.matching);
        })},
-      {tr("Status"), tr("How the iteration ended, or the last stage of it that is complete."), -1,
+      {tr("Pose, ms"), tr("Wall time of solving for the pose, or of refining it, in ms."), 0,
+       number([](Trace trace) {
+         return ofStage(trace, Stage::kPose, 1e3 * (trace.seconds.pose + trace.seconds.refinement));
+       })},
+      {tr("Status"), tr("Status of the iteration, or its last complete stage."), -1,
        [](Line row) { return row.status; }},
   };
 }
 
 QString statusText(const sessions::LocalizationTrace& run, std::size_t index) {
-  const IterationTrace& one = *run.iterations[index];
+  const IterationTrace& iteration = *run.iterations[index];
   const bool last = index + 1 == run.iterations.size();
   if (last && run.last_under_way)
-    return IterationsModel::tr("%1 done").arg(QString::fromLatin1(stageText(one.reached)));
+    return IterationsModel::tr("%1 done").arg(QString::fromLatin1(stageText(iteration.reached)));
   // The end of the run is not noted in the iteration that brought it.
   const LocalizationStatus status =
-      last && one.status == LocalizationStatus::kRunning ? run.status : one.status;
+      last && iteration.status == LocalizationStatus::kRunning ? run.status : iteration.status;
   if (status == LocalizationStatus::kRunning)
-    return last ? IterationsModel::tr("halted") : IterationsModel::tr("went on");
+    return last ? IterationsModel::tr("halted") : IterationsModel::tr("continued");
   return QString::fromLatin1(localizationStatusText(status))
       .replace(QLatin1Char('_'), QLatin1Char(' '));
 }
@@ -347,10 +351,10 @@ void IterationsModel::setSnapshot(SnapshotPtr snapshot) {
   if (snapshot) rows.push_back({tr("seed"), nullptr, {}});
   int number = 0;
   for (std::size_t i = 0; snapshot && i < snapshot->iterations.size(); ++i) {
-    const auto& one = snapshot->iterations[i];
-    number = i > 0 && one->attempt == snapshot->iterations[i - 1]->attempt ? number + 1 : 1;
-    rows.push_back(
-        {QStringLiteral("%1.%2").arg(one->attempt + 1).arg(number), one, statusText(*snapshot, i)});
+    const auto& value = snapshot->iterations[i];
+    number = i > 0 && value->attempt == snapshot->iterations[i - 1]->attempt ? number + 1 : 1;
+    rows.push_back({QStringLiteral("%1.%2").arg(value->attempt + 1).arg(number), value,
+                    statusText(*snapshot, i)});
   }
   const bool goes_on = continues(snapshot_.get(), snapshot.get());
   snapshot_ = std::move(snapshot);
@@ -390,8 +394,8 @@ void IterationsPanel::buildTable() {
           &IterationsPanel::chooseRow);
   auto* hint = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));
   hint->setText(
-      tr("Run the case to its end (F5), an iteration (F6) or a stage (F7) at a time: each "
-         "iteration becomes a row here, and every view shows the chosen one."));
+      tr("Run the case to its end (F5), by an iteration (F6) or a stage (F7). Each iteration is a "
+         "row; every view shows the selected one."));
 }
 
 void IterationsPanel::buildPlots() {

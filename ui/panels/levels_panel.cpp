@@ -75,18 +75,19 @@ void LevelsPanel::showLevels() {
   updateConversion();
 }
 
-void LevelsPanel::setCase(const sessions::SessionCase* one, const sessions::GrayImage* image,
-                          int cases_of_camera) {
+void LevelsPanel::setCase(const sessions::SessionCase* session_case,
+                          const sessions::GrayImage* image, int cases_of_camera) {
   const int bits = image ? image->bit_depth : 8;
-  const bool same_rule = one ? current_ == one->image.eight_bit : !current_;
+  const bool same_rule = session_case ? current_ == session_case->image.eight_bit : !current_;
   const bool keeps = same_rule && cases_of_camera == cases_of_camera_ && bits == current_bits_;
   current_.reset();
-  if (one) current_ = one->image.eight_bit;
+  if (session_case) current_ = session_case->image.eight_bit;
   current_bits_ = bits;
   bits_of_label_ = image && image->bit_depth_of_label;
   cases_of_camera_ = cases_of_camera;
-  ui_.conversionRule->setText(one && image ? tr("Now: %1").arg(QString::fromStdString(image->rule))
-                                           : tr("No case that can be edited is open."));
+  ui_.conversionRule->setText(session_case && image
+                                  ? tr("Now: %1").arg(QString::fromStdString(image->rule))
+                                  : tr("No editable case is open."));
   if (!keeps) showConversion();
   updateConversion();
 }

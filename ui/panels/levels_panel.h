@@ -22,7 +22,7 @@ class LevelsPanel : public QWidget {
 
   /// nullptr: no conversion can be edited. `image` is the case's as it was read: its rule and depth
   /// are those that hold now, which a label may have stated.
-  void setCase(const sessions::SessionCase* one, const sessions::GrayImage* image,
+  void setCase(const sessions::SessionCase* session_case, const sessions::GrayImage* image,
                int cases_of_camera);
 
  Q_SIGNALS:

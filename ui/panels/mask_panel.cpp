@@ -18,7 +18,8 @@ MaskPanel::MaskPanel(MaskEditor& editor, QWidget* parent) : QWidget(parent), edi
   ui_.setupUi(this);
   ui_.takeStroke->setMenu(new QMenu(ui_.takeStroke));
   (new EmptyHint(*ui_.strokes))
-      ->setText(tr("Nothing yet: paint with the brush, draw a polygon, or ignore bright pixels."));
+      ->setText(
+          tr("No strokes yet: paint with the brush, draw a polygon, or ignore bright pixels."));
   connect(ui_.brush, &QToolButton::clicked, this,
           [this](bool on) { editor_.setTool(on ? MaskTool::kBrush : MaskTool::kNone); });
   connect(ui_.polygon, &QToolButton::clicked, this,
@@ -42,14 +43,14 @@ void MaskPanel::showTool() {
   ui_.brush->setChecked(editor_.tool() == MaskTool::kBrush);
   ui_.polygon->setChecked(editor_.tool() == MaskTool::kPolygon);
   ui_.erase->setChecked(editor_.erases());
-  ui_.saturated->setText(editor_.erases() ? tr("Trust again") : tr("Ignore"));
+  ui_.saturated->setText(editor_.erases() ? tr("Use again") : tr("Ignore"));
   const QSignalBlocker blocker(ui_.brushSize);
   ui_.brushSize->setValue(2.0 * editor_.radius_px());
 }
 
-void MaskPanel::setCase(const sessions::SessionCase* one, const MaskStrokes& named,
+void MaskPanel::setCase(const sessions::SessionCase* session_case, const MaskStrokes& named,
                         int cases_of_camera) {
-  case_ = one ? std::optional(*one) : std::nullopt;
+  case_ = session_case ? std::optional(*session_case) : std::nullopt;
   named_ = named;
   cases_of_camera_ = cases_of_camera;
   showStrokes();
@@ -57,7 +58,7 @@ void MaskPanel::setCase(const sessions::SessionCase* one, const MaskStrokes& nam
 
 void MaskPanel::setIgnored(std::int64_t ignored, std::int64_t pixels) {
   if (!case_ || ignored < 0 || pixels <= 0) {
-    ui_.maskSummary->setText(case_ ? QString() : tr("No case that can be edited is open."));
+    ui_.maskSummary->setText(case_ ? QString() : tr("No editable case is open."));
     return;
   }
   const QString file =

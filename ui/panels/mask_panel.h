@@ -22,9 +22,9 @@ class MaskPanel : public QWidget {
   explicit MaskPanel(MaskEditor& editor, QWidget* parent = nullptr);
 
   /// nullptr: nothing can be edited. `named` are strokes that other cases of the camera offer.
-  void setCase(const sessions::SessionCase* one, const sessions::MaskStrokes& named,
+  void setCase(const sessions::SessionCase* session_case, const sessions::MaskStrokes& named,
                int cases_of_camera);
-  /// Pixels that are ignored, of so many; -1: not known yet.
+  /// Number of ignored pixels and of all pixels; -1: not known yet.
   void setIgnored(std::int64_t ignored, std::int64_t pixels);
 
  public Q_SLOTS:

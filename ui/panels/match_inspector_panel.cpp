@@ -38,8 +38,8 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   histogram_ = new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"),
                                  tr("used"), ui_.refinement);
   histogram_->setToolTip(
-      tr("Distance of the image's edges from the rendered ones after this refinement, in pixels of "
-         "the full image. A good pose has a narrow peak at 0."));
+      tr("Distance of the image's edges from the rendered edges after this refinement, in pixels "
+         "of the full image. A good pose has a narrow peak at 0."));
   ui_.refinementRow->addWidget(histogram_, 1);
   connect(ui_.show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
     showing_ = true;
@@ -79,8 +79,8 @@ void MatchInspectorPanel::showIteration() {
   } else if (model_.rowCount() > 0) {
     ui_.pages->setCurrentWidget(ui_.matches);
   } else {
-    ui_.hint->setText(!view_.snapshot() ? tr("Nothing has run yet.")
-                      : !iteration_     ? tr("The seed has no matches; choose an iteration.")
+    ui_.hint->setText(!view_.snapshot() ? tr("No run yet.")
+                      : !iteration_     ? tr("The seed has no matches; select an iteration.")
                                         : tr("This iteration has no templates yet."));
     ui_.pages->setCurrentWidget(ui_.nothing);
   }
@@ -116,7 +116,7 @@ void MatchInspectorPanel::showTemplate() {
   showing_ = false;
   const auto* run = view_.snapshot().get();
   if (selected < 0 || selected >= model_.rowCount() || !run || !run->edges) {
-    ui_.match->showNote(tr("Choose a template in the table or in the image."));
+    ui_.match->showNote(tr("Select a template in the table or in the image."));
     return;
   }
   ui_.match->showMatch(run->edges, iteration_, selected);

@@ -20,50 +20,50 @@ std::vector<TableColumn<MatchDetails>> templateColumns() {
   constexpr auto tr = [](const char* text) { return TemplatesModel::tr(text); };
   return {
       {tr("Template"), tr("Number of the template, from 1."), 0,
-       [](Row one) { return one.index + 1; }},
+       [](Row row) { return row.index + 1; }},
       {tr("x, px"),
-       tr("Predicted place of its centre, pixels of the full image to the right of the centre of "
-          "the top-left pixel."),
-       1, [](Row one) { return one.predicted_px.x(); }},
+       tr("Predicted position of its centre, pixels of the full image to the right of the centre "
+          "of the top-left pixel."),
+       1, [](Row row) { return row.predicted_px.x(); }},
       {tr("y, px"),
-       tr("Predicted place of its centre, pixels of the full image below the centre of the "
+       tr("Predicted position of its centre, pixels of the full image below the centre of the "
           "top-left pixel."),
-       1, [](Row one) { return one.predicted_px.y(); }},
+       1, [](Row row) { return row.predicted_px.y(); }},
       {tr("Depth, m"), tr("Distance of its point from the camera along the view axis, in metres."),
-       3, [](Row one) { return one.depth_m; }},
+       3, [](Row row) { return row.depth_m; }},
       {tr("Distinctness"),
-       tr("How many edge pixels hold the template in its weakest direction; 0 slides along a "
-          "straight edge."),
-       1, [](Row one) { return one.distinctness; }},
-      {tr("dx, px"), tr("From the predicted to the found place, in pixels of the full image."), 2,
-       [](Row one) { return one.moved_px().x(); }},
-      {tr("dy, px"), tr("From the predicted to the found place, in pixels of the full image."), 2,
-       [](Row one) { return one.moved_px().y(); }},
+       tr("Number of edge pixels that constrain the template in its weakest direction; 0: it "
+          "slides along a straight edge."),
+       1, [](Row row) { return row.distinctness; }},
+      {tr("dx, px"), tr("From the predicted to the found position, in pixels of the full image."),
+       2, [](Row row) { return row.moved_px().x(); }},
+      {tr("dy, px"), tr("From the predicted to the found position, in pixels of the full image."),
+       2, [](Row row) { return row.moved_px().y(); }},
       {tr("Score S"),
-       tr("Weighted Hamming similarity at the found place, S+/c+ plus S-/c-; 2 is perfect."), 3,
-       [](Row one) { return one.score; }},
+       tr("Weighted Hamming similarity at the found position, S+/c+ plus S-/c-; 2 is perfect."), 3,
+       [](Row row) { return row.score; }},
       {tr("S+/c+"), tr("Share of the template's edge pixels that meet an edge of the image."), 3,
-       [](Row one) { return one.edge_share; }},
-      {tr("S-/c-"), tr("Share of the template's empty pixels inside its mask that meet none."), 3,
-       [](Row one) { return one.empty_share; }},
+       [](Row row) { return row.edge_share; }},
+      {tr("S-/c-"), tr("Share of the template's empty pixels inside its mask that meet no edge."),
+       3, [](Row row) { return row.empty_share; }},
       {tr("Margin, %"),
-       tr("By how much the best score exceeds the second peak's, in per cent of the best; a low "
-          "one may be the wrong place."),
-       1, [](Row one) { return 100.0 * one.margin; }},
+       tr("Margin of the best score over the second peak, in per cent of the best; a small margin "
+          "may be a wrong position."),
+       1, [](Row row) { return 100.0 * row.margin; }},
       {tr("Residual, px"),
-       tr("Distance of the found place from where the solved pose puts the point, in pixels of the "
-          "full image."),
-       2, [](Row one) { return one.residual_px; }},
+       tr("Distance of the found position from the point's projection in the solved pose, in "
+          "pixels of the full image."),
+       2, [](Row row) { return row.residual_px; }},
       {tr("Verdict"), tr("Whether the match agrees with the solved pose within the threshold."), -1,
-       [](Row one) { return TemplatesModel::verdictOf(one); },
-       [](Row one) {
-         return one.inlier ? 0 : one.solved ? 1 : one.searched ? 2 : 3;
+       [](Row row) { return TemplatesModel::verdictOf(row); },
+       [](Row row) {
+         return row.inlier ? 0 : row.solved ? 1 : row.searched ? 2 : 3;
        }},
       {tr("Border"),
-       tr("The peak lies on the border of the search window: the true place may lie beyond, and "
-          "the seed's uncertainty may be stated too small."),
-       -1, [](Row one) { return one.at_border ? TemplatesModel::tr("at border") : QString(); },
-       [](Row one) { return one.at_border ? 0 : 1; }},
+       tr("The peak lies on the border of the search window: the true position may lie outside; "
+          "the stated uncertainty may be too small."),
+       -1, [](Row row) { return row.at_border ? TemplatesModel::tr("at border") : QString(); },
+       [](Row row) { return row.at_border ? 0 : 1; }},
   };
 }
 
@@ -118,7 +118,7 @@ QString pairText(const Eigen::Vector2d& pixel, int decimals) {
                                       numberText(pixel.y(), decimals));
 }
 
-/// The score beside the second peak's.
+/// The score next to that of the second peak.
 QString scoreText(const MatchDetails& details) {
   const QString score = numberText(details.score, 3);
   if (std::isnan(details.margin)) return MatchView::tr("%1, no second peak").arg(score);
@@ -174,7 +174,7 @@ void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
         if (map)
           ui_.map->setMap(std::make_shared<const sessions::ScoreMap>(std::move(*map)), marks);
         else
-          ui_.map->setNote(tr("The run's record does not hold what the score map needs."));
+          ui_.map->setNote(tr("The run's record has no data for the score map."));
       });
 }
 

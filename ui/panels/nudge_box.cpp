@@ -279,8 +279,8 @@ void NudgeBox::showOffset() {
   ui_.nudgePad->setEnabled(state_.currentCase() != nullptr);
   ui_.nudgePad->setText(
       ui_.nudgePad->hasFocus()
-          ? tr("<b>Keys nudge now.</b> Arrows, Page Up and Page Down move; with Ctrl they "
-               "turn. Shift: coarse, Alt: fine.")
+          ? tr("<b>Keys nudge.</b> Arrows, Page Up, Page Down: move; with Ctrl: turn. Shift: "
+               "coarse, Alt: fine.")
           : tr("Click here to nudge with the keys: arrows, Page Up, Page Down; Ctrl, "
                "Shift, Alt."));
 }

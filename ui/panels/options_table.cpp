@@ -108,10 +108,10 @@ class OptionDelegate : public QStyledItemDelegate {
 
 OptionsModel::OptionsModel(QObject* parent) : RowsModel(optionColumns(), parent) {}
 
-void OptionsModel::setOptions(const std::vector<OptionDescription>& now,
+void OptionsModel::setOptions(const std::vector<OptionDescription>& current,
                               const std::vector<OptionDescription>& by_default) {
   std::vector<OptionRow> rows;
-  for (const OptionDescription& option : now) rows.push_back({option, by_default[rows.size()]});
+  for (const OptionDescription& option : current) rows.push_back({option, by_default[rows.size()]});
   setRowsByKey(std::move(rows), [](const OptionRow& row) { return row.now.name; });
 }
 
@@ -191,10 +191,10 @@ OptionsTable::OptionsTable(QWidget* parent) : QTableView(parent) {
   connect(selectionModel(), &QItemSelectionModel::currentChanged, this, &OptionsTable::showHelp);
 }
 
-void OptionsTable::setOptions(const std::vector<OptionDescription>& now,
+void OptionsTable::setOptions(const std::vector<OptionDescription>& current,
                               const std::vector<OptionDescription>& by_default) {
   const bool fitted = model_.rowCount() > 0;
-  model_.setOptions(now, by_default);
+  model_.setOptions(current, by_default);
   showHelp();
   if (fitted) return;
   resizeColumnsToContents();

@@ -29,7 +29,7 @@ class OptionsModel : public RowsModel<OptionRow> {
   explicit OptionsModel(QObject* parent = nullptr);
 
   /// Both lists hold the same options in the same order.
-  void setOptions(const std::vector<sessions::OptionDescription>& now,
+  void setOptions(const std::vector<sessions::OptionDescription>& current,
                   const std::vector<sessions::OptionDescription>& by_default);
   int changedCount() const;
   /// Asks for the default of a row; nothing where it is the value already.
@@ -57,7 +57,7 @@ class OptionsTable : public QTableView {
   explicit OptionsTable(QWidget* parent = nullptr);
 
   OptionsModel& options() { return model_; }
-  void setOptions(const std::vector<sessions::OptionDescription>& now,
+  void setOptions(const std::vector<sessions::OptionDescription>& current,
                   const std::vector<sessions::OptionDescription>& by_default);
   /// Shows the options whose name or help holds every word; all of them, or those that differ from
   /// their default.

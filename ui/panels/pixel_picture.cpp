@@ -189,7 +189,8 @@ QString ScoreMapView::textAt(const QPointF& widget) const {
   const int x = map_->window.x_min + std::min(static_cast<int>(inside.x()), picture().width() - 1);
   const int y = map_->window.y_min + std::min(static_cast<int>(inside.y()), picture().height() - 1);
   const WhsCounts& counts = map_->countsAt(x, y);
-  return tr("%1, %2 px from the predicted place (level %3)\nS = %4\nS+/c+ = %5/%6, S-/c- = %7/%8")
+  return tr("%1, %2 px from the predicted position (level %3)\nS = %4\nS+/c+ = %5/%6, S-/c- = "
+            "%7/%8")
       .arg(x - marks_.predicted_x)
       .arg(y - marks_.predicted_y)
       .arg(map_->level)

@@ -88,8 +88,7 @@ void PoseComparison::setJudgement(const PoseJudgement& judgement) {
   judgement_ = judgement;
   const QString place =
       QString::fromUtf8(sessions::judgedPlace(judgement_.camera_from_end_effector));
-  ui_.sure->setTitle(
-      tr("One sigma of the current pose at the %1, by the picture alone").arg(place));
+  ui_.sure->setTitle(tr("One sigma of the current pose at the %1, by the image only").arg(place));
   ui_.apart->setTitle(tr("Difference at the %1").arg(place));
   showSigma();
   showDifference();

@@ -72,7 +72,7 @@ void PastePoseDialog::parse() {
           .arg(mm.y(), 0, 'f', 2)
           .arg(mm.z(), 0, 'f', 2)
           .arg(rotationLog(parsed_.camera_from_station.rotation).norm() / kDegree_rad, 0, 'f', 2);
-  if (mm.z() <= 0.0) text += tr(" That is behind the camera.");
+  if (mm.z() <= 0.0) text += tr(" It is behind the camera.");
   if (parsed_.rotation_deviation > 1e-6)
     text += tr(" The matrix was %1 off a rotation and was projected to the nearest one.")
                 .arg(parsed_.rotation_deviation, 0, 'g', 2);
@@ -92,7 +92,7 @@ constexpr std::array<FormText, 3> kForms = {{
     {sessions::PoseForm::kMatrix, "copyMatrix", QT_TR_NOOP("Matrix")},
 }};
 
-/// The rotation beside the translation in metres, row by row.
+/// Rotation and translation in metres, row by row.
 QString matrixRows(const Pose& pose) {
   const Eigen::Matrix3d rotation = pose.matrix();
   QStringList rows;
@@ -213,11 +213,11 @@ void PosePanel::showMatrix() {
 }
 
 void PosePanel::showNamedPoses(PoseRole role) {
-  const ViewState::CasePtr& one = state_.currentCase();
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
   QStringList texts;
-  if (one && pose(role))
-    for (const sessions::NamedPose& named :
-         sessions::namedPoses(one->source.camera_reference, one->source.station_frame, *pose(role)))
+  if (loaded_case && pose(role))
+    for (const sessions::NamedPose& named : sessions::namedPoses(
+             loaded_case->source.camera_reference, loaded_case->source.station_frame, *pose(role)))
       texts << fromText(sessions::namedPoseTitle(named)) + QLatin1Char('\n') +
                    matrixRows(named.reference_from_station);
   ui_.namedPoses->setText(texts.join(QStringLiteral("\n\n")));

@@ -79,7 +79,7 @@ namespace {
 
 constexpr int kMostShown = 2;  // warnings
 
-/// A tick beside "NOT VALIDATED" would be read as a yes: what converged, but has not been
+/// A tick next to "NOT VALIDATED" would be read as a yes: what converged, but has not been
 /// validated, is an open circle here.
 QString signOf(const sessions::ReviewStatus& status) {
   if (!status.dropped.empty()) return QStringLiteral("⚠");
@@ -123,7 +123,7 @@ QString Banner::text() const { return text_->text(); }
 
 void Banner::showRun(const sessions::LocalizationTrace* run) {
   if (run == nullptr) {
-    setMessage(QStringLiteral("○"), tr("Nothing has run yet."), Tone::kPlain);
+    setMessage(QStringLiteral("○"), tr("No run yet."), Tone::kPlain);
     return;
   }
   const QString text = fromText(sessions::runStatusText(*run));

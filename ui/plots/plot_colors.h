@@ -9,8 +9,8 @@ namespace boresight::ui {
 /// The palette with a ground that leans towards a colour and leaves the text readable.
 QPalette tinted(const QPalette& base, const QColor& towards);
 
-/// Colours that people who confuse red and green tell apart (Okabe and Ito 2008), in a lighter
-/// variant on dark ground. Shapes and lines differ besides.
+/// Colours for red-green colour blindness (Okabe and Ito 2008), in a lighter
+/// variant on dark ground. Shapes and lines differ, too.
 struct PlotColors {
   QColor first;   ///< blue
   QColor second;  ///< orange

@@ -121,7 +121,7 @@ void DoublePlot::setPoints(int place_count, const QVector<QPointF>& left,
   plot_->replot();
 }
 
-/// As many names as have room beside each other.
+/// As many names as fit in a row.
 void DoublePlot::nameIterations() {
   const int last = std::max(0, place_count_ - 1);
   const QString widest = (name_of_ ? name_of_(last) : QString::number(last)) + QLatin1Char(' ');

@@ -25,9 +25,10 @@ OnboardController::OnboardController(Document& document, ViewState& state, TaskR
 }
 
 std::filesystem::path OnboardController::file() const {
-  const ViewState::CasePtr& one = state_.currentCase();
-  return one && one->source.onboard_record ? one->source.onboard_record->file
-                                           : std::filesystem::path();
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  return loaded_case && loaded_case->source.onboard_record
+             ? loaded_case->source.onboard_record->file
+             : std::filesystem::path();
 }
 
 bool OnboardController::showsOnboard() const {
@@ -35,8 +36,8 @@ bool OnboardController::showsOnboard() const {
 }
 
 void OnboardController::caseChanged() {
-  const ViewState::CasePtr& one = state_.currentCase();
-  const std::string id = one ? one->source.id : std::string();
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  const std::string id = loaded_case ? loaded_case->source.id : std::string();
   if (std::exchange(case_id_, id) != id) {
     ground_.reset();
     ground_case_.reset();
@@ -46,10 +47,10 @@ void OnboardController::caseChanged() {
 
 /// Whatever of the case was edited: what is shown is made of all of it.
 void OnboardController::readAgain() {
-  const ViewState::CasePtr one = state_.currentCase();
+  const ViewState::CasePtr loaded_case = state_.currentCase();
   tasks_.cancel(compareKey());
   comparison_.reset();
-  const auto attached = one ? one->source.onboard_record : std::nullopt;
+  const auto attached = loaded_case ? loaded_case->source.onboard_record : std::nullopt;
   const bool another = read_ != attached;
   read_ = attached;
   if (another || !attached) {
@@ -64,16 +65,16 @@ void OnboardController::readAgain() {
   }
   tasks_.start(
       reviewKey(),
-      [one, file = *attached](const std::stop_token& stop) -> ReviewPtr {
-        return sessions::reviewRecord(file.file, file.sha256, one->problem(), stop);
+      [loaded_case, file = *attached](const std::stop_token& stop) -> ReviewPtr {
+        return sessions::reviewRecord(file.file, file.sha256, loaded_case->problem(), stop);
       },
-      [this, one](ReviewPtr review) { takeReview(one, std::move(review), {}); },
-      [this, one](const QString& problem) { takeReview(one, nullptr, problem); });
+      [this, loaded_case](ReviewPtr review) { takeReview(loaded_case, std::move(review), {}); },
+      [this, loaded_case](const QString& problem) { takeReview(loaded_case, nullptr, problem); });
 }
 
-void OnboardController::takeReview(const ViewState::CasePtr& one, ReviewPtr review,
+void OnboardController::takeReview(const ViewState::CasePtr& loaded_case, ReviewPtr review,
                                    const QString& problem) {
-  if (one != state_.currentCase()) return;
+  if (loaded_case != state_.currentCase()) return;
   review_ = std::move(review);
   problem_ = problem;
   if (showsOnboard()) {
@@ -99,23 +100,21 @@ void OnboardController::snapshotChanged() {
 /// A run that is noted says so by the hash of its inputs; one that has just ended was made with the
 /// case as it was then.
 bool OnboardController::groundIsOfTheCase() const {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one || !ground_) return false;
-  const std::string inputs = sessions::inputsDigest(one->source);
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case || !ground_) return false;
+  const std::string inputs = sessions::inputsDigest(loaded_case->source);
   for (const sessions::RunRecord& run : document_.session().runs)
-    if (run.case_id == one->source.id && run.digest == ground_->digest)
+    if (run.case_id == loaded_case->source.id && run.digest == ground_->digest)
       return run.inputs_sha256 == inputs;
   return ground_case_ && sessions::inputsDigest(ground_case_->source) == inputs;
 }
 
 QString OnboardController::whyNotCompared() const {
   if (!review_ || comparison_) return {};
-  if (!ground_) return tr("Nothing to compare with: the case has no run on the ground yet.");
+  if (!ground_) return tr("No comparison: the case has no run on the ground.");
   if (!ground_->finished) return tr("The run on the ground has not ended.");
   if (!groundIsOfTheCase())
-    return tr(
-        "The run on the ground was made with other inputs than the case has now: run it "
-        "again.");
+    return tr("The inputs have changed since the run on the ground: run the case again.");
   return tr("Comparing ...");
 }
 
@@ -129,22 +128,22 @@ void OnboardController::compareAgain() {
         return std::make_shared<const sessions::RecordComparison>(
             sessions::compareWithGround(*review, *run, one->problem()));
       },
-      [this](ComparisonPtr made) {
-        comparison_ = std::move(made);
+      [this](ComparisonPtr comparison_ptr) {
+        comparison_ = std::move(comparison_ptr);
         Q_EMIT changed();
       });
 }
 
 void OnboardController::attachAs(std::optional<sessions::InputFile> record, const QString& text) {
-  const sessions::SessionCase* one = shownCase(document_, state_);
-  if (!one) {
+  const sessions::SessionCase* session_case = shownCase(document_, state_);
+  if (!session_case) {
     Q_EMIT failed(tr("Open the case that the record belongs to first."));
     return;
   }
-  sessions::SessionCase next = *one;
+  sessions::SessionCase next = *session_case;
   next.onboard_record = std::move(record);
   document_.edit(sessions::withCase(document_.session(), std::move(next)),
-                 text.arg(QString::fromStdString(one->id)));
+                 text.arg(QString::fromStdString(session_case->id)));
 }
 
 void OnboardController::attach(const std::filesystem::path& file) {
@@ -158,7 +157,9 @@ void OnboardController::attach(const std::filesystem::path& file) {
   }
 }
 
-void OnboardController::detach() { attachAs(std::nullopt, tr("Take the onboard record from %1")); }
+void OnboardController::detach() {
+  attachAs(std::nullopt, tr("Remove the onboard record from %1"));
+}
 
 void OnboardController::showOnboard() {
   if (!review_) return;
@@ -175,7 +176,7 @@ void OnboardController::showGround() {
 void OnboardController::rerun() {
   if (!review_) return;
   if (!review_->plan.has_options) {
-    Q_EMIT failed(tr("The record has no options: it cannot be run again as it was."));
+    Q_EMIT failed(tr("The record has no options, so that its run cannot be repeated."));
     return;
   }
   Q_EMIT rerunRequested(review_->plan.plan);

@@ -66,7 +66,7 @@ class OnboardController : public QObject {
   void caseChanged();
   void snapshotChanged();
   void readAgain();
-  void takeReview(const ViewState::CasePtr& one, ReviewPtr review, const QString& problem);
+  void takeReview(const ViewState::CasePtr& loaded_case, ReviewPtr review, const QString& problem);
   bool groundIsOfTheCase() const;
   void compareAgain();
   void attachAs(std::optional<sessions::InputFile> record, const QString& text);

@@ -148,11 +148,13 @@ void OnboardPanel::showTable(const sessions::RecordComparison* comparison) {
   ui_.comparison->setVisible(comparison != nullptr);
   ui_.comparison->setRowCount(0);
   if (comparison == nullptr) return;
-  for (const IterationComparison& one : comparison->iterations)
+  for (const IterationComparison& iteration_comparison : comparison->iterations)
     addRow(*ui_.comparison,
-           {QString::number(one.index + 1), shareText(one.found_alike, one.templates),
-            shareText(one.inliers_both, one.inliers_either), numberText(one.translation_mm, 4),
-            numberText(one.rotation_mrad, 4)});
+           {QString::number(iteration_comparison.index + 1),
+            shareText(iteration_comparison.found_alike, iteration_comparison.templates),
+            shareText(iteration_comparison.inliers_both, iteration_comparison.inliers_either),
+            numberText(iteration_comparison.translation_mm, 4),
+            numberText(iteration_comparison.rotation_mrad, 4)});
   const QString sigmas = comparison->pose_sigmas
                              ? tr("%1 sigmas").arg(numberText(*comparison->pose_sigmas, 2))
                              : QStringLiteral("–");

@@ -47,18 +47,16 @@ PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, Ta
 
 void PoseExport::addTo(QMenu& menu) {
   QAction* pose = menu.addAction(tr("&Pose for hand-over..."), this, &PoseExport::askForPose);
-  pose->setStatusTip(
-      tr("The shown case's pose with its checks, who decided on it and where it "
-         "comes from, as JSON"));
+  pose->setStatusTip(tr("Pose of the shown case with checks, decision and provenance, as JSON"));
   QAction* report = menu.addAction(tr("&Report (PDF)..."), this, &PoseExport::askForReport);
   report->setStatusTip(
-      tr("The shown case's pose on two pages: overlay, inputs, decision, checks, residuals"));
+      tr("Pose of the shown case on two pages: overlay, inputs, decision, checks, residuals"));
   QAction* bop = menu.addAction(tr("&BOP results (CSV)..."), this, &PoseExport::askForBopResults);
-  bop->setStatusTip(tr("The poses of all cases that have one, as the BOP challenges take them"));
+  bop->setStatusTip(tr("All poses in the format of the BOP challenges"));
   QAction* colmap = menu.addAction(tr("&COLMAP text model..."), this, &PoseExport::askForColmap);
-  colmap->setStatusTip(tr("The poses of all cases that have one, as a model for COLMAP"));
+  colmap->setStatusTip(tr("All poses as a COLMAP text model"));
   connect(&menu, &QMenu::aboutToShow, &menu, [this, pose, report, bop, colmap] {
-    for (QAction* one : {pose, report}) one->setEnabled(!caseId().empty());
+    for (QAction* q_action : {pose, report}) q_action->setEnabled(!caseId().empty());
     for (QAction* all : {bop, colmap}) all->setEnabled(!document_.session().cases.empty());
   });
 }
@@ -76,7 +74,7 @@ QString PoseExport::poseFileName() const {
 QString PoseExport::bopResultsFileName() const {
   const auto& cases = document_.session().cases;
   const bool all = std::all_of(cases.begin(), cases.end(),
-                               [this](const auto& one) { return isValidated(one->id); });
+                               [this](const auto& item) { return isValidated(item->id); });
   return all ? QStringLiteral("boresight_results.csv")
              : QStringLiteral("boresight_%1_results.csv")
                    .arg(QLatin1String(sessions::kNotValidatedName));

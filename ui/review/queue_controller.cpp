@@ -109,11 +109,11 @@ void QueueController::follow() {
   const sessions::Session& session = document_.session();
   Rows::Keys rows;
   Differences::Keys pairs;
-  for (const auto& one : session.cases) {
-    const std::string key = sessions::queueKey(session, one->id);
-    rows.emplace_back(one->id, key);
-    if (const auto pair = sessions::lastTwoRuns(session, one->id))
-      pairs.emplace_back(one->id, key + ' ' + pair->before->digest);
+  for (const auto& session_case : session.cases) {
+    const std::string key = sessions::queueKey(session, session_case->id);
+    rows.emplace_back(session_case->id, key);
+    if (const auto pair = sessions::lastTwoRuns(session, session_case->id))
+      pairs.emplace_back(session_case->id, key + ' ' + pair->before->digest);
   }
   rows_.follow(session, rows);
   differences_.follow(session, pairs);
@@ -127,19 +127,21 @@ QueueRow QueueController::rowOf(const Rows::Entry& entry) const {
 }
 
 std::vector<QueueEntry> QueueController::queue() const {
-  std::vector<QueueEntry> made;
+  std::vector<QueueEntry> queue_entries;
   for (const Rows::Entry& entry : rows_.entries())
-    made.push_back({rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
-  return made;
+    queue_entries.push_back(
+        {rowOf(entry), entry.value ? entry.value->thumbnail : QImage(), entry.current});
+  return queue_entries;
 }
 
 std::vector<DifferenceEntry> QueueController::differences() const {
-  std::vector<DifferenceEntry> made;
+  std::vector<DifferenceEntry> difference_entries;
   for (const Differences::Entry& entry : differences_.entries()) {
-    DifferenceEntry& one = made.emplace_back(entry.value.value_or(DifferenceEntry{entry.id}));
-    one.current = entry.current;
+    DifferenceEntry& difference_entry =
+        difference_entries.emplace_back(entry.value.value_or(DifferenceEntry{entry.id}));
+    difference_entry.current = entry.current;
   }
-  return made;
+  return difference_entries;
 }
 
 int QueueController::doneCount() const {
@@ -169,18 +171,18 @@ sessions::Session QueueController::after(Act act, const QueueRow& row,
 QString QueueController::obstacle(Act act, const QString& id) const {
   const auto& entries = rows_.entries();
   const auto found = std::ranges::find(entries, id.toStdString(), &Rows::Entry::id);
-  if (id.isEmpty() || found == entries.end()) return tr("Choose a case of the list.");
+  if (id.isEmpty() || found == entries.end()) return tr("Select a case of the list.");
   if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
   const QueueRow row = rowOf(*found);
   if (row.group == QueueGroup::kDecided || row.group == QueueGroup::kAwaits)
-    return tr("%1 is decided already: %2. Review (F9) takes a decision back, or approves it.")
+    return tr("%1 is already decided: %2. Use Review (F9) to withdraw or approve the decision.")
         .arg(id, fromText(row.review_status_text));
   if (act == Act::kReject) return {};
   if (!found->current) return tr("%1 is not checked yet; wait, or review it (F9).").arg(id);
   if (!row.trouble.empty() || !row.subject)
     return tr("%1 cannot be accepted: %2").arg(id, fromText(sessions::troubleText(row)));
   if (row.failed > 0)
-    return tr("%1 cannot be accepted here: %2. Review (F9) is where checks are passed over.")
+    return tr("%1 cannot be accepted in the queue: %2. Use Review (F9) to waive checks.")
         .arg(id, fromText(sessions::troubleText(row)));
   return {};
 }
@@ -193,7 +195,7 @@ QString QueueController::decide(Act act, const QString& id, const sessions::Sign
   if (!entry->current) row.checks.clear();  // they are of something else
   const QString text = act == Act::kAccept ? tr("Validate %1").arg(id) : tr("Reject %1").arg(id);
   try {
-    return document_.edit(after(act, row, who), text) ? QString() : tr("Nothing was decided.");
+    return document_.edit(after(act, row, who), text) ? QString() : tr("No decision was stored.");
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());
   }

@@ -173,7 +173,7 @@ class QueueController : public QObject {
   /// A case that is being checked is finished first.
   void setHalted(bool halted);
 
-  /// Why this cannot be done to a case now whoever signs, or empty.
+  /// Why this is not possible for a case, independent of the signer; or empty.
   QString obstacle(Act act, const QString& id) const;
   /// Why it was not done, or empty: then it is one edit of the document.
   QString decide(Act act, const QString& id, const sessions::Signature& who);

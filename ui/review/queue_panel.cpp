@@ -29,13 +29,15 @@ QString signOf(RunChange change) {
                                        : DifferencesModel::tr("= same");
 }
 
-QString beforeAndNow(int before, int now) { return QStringLiteral("%1 → %2").arg(before).arg(now); }
+QString beforeAndNow(int before, int after) {
+  return QStringLiteral("%1 → %2").arg(before).arg(after);
+}
 
-QString apartText(const RunDifference& made) {
-  if (!made.before.converged || !made.after.converged) return {};
+QString apartText(const RunDifference& run_difference) {
+  if (!run_difference.before.converged || !run_difference.after.converged) return {};
   return DifferencesModel::tr("%1 mm, %2 mrad")
-      .arg(numberText(made.comparison.translation_mm, 3),
-           numberText(made.comparison.rotation_mrad, 3));
+      .arg(numberText(run_difference.comparison.translation_mm, 3),
+           numberText(run_difference.comparison.rotation_mrad, 3));
 }
 
 using Difference = const RunDifference&;
@@ -55,40 +57,46 @@ std::vector<TableColumn<DifferenceEntry>> differenceColumns() {
       {tr("Case"), tr("The case."), -1,
        [](const DifferenceEntry& entry) { return fromText(entry.case_id); }},
       {tr("Change"),
-       tr("Whether the last run is better than the one before: by the truth where it is known, "
-          "else by the checks."),
-       -1, ofDifference([](Difference made) { return signOf(made.change); }),
-       ofDifference([](Difference made) {
-         return made.change == RunChange::kWorse ? 0 : made.change == RunChange::kBetter ? 1 : 2;
+       tr("Whether the last run is better than the previous run: by the truth if known, else by "
+          "the checks."),
+       -1, ofDifference([](Difference difference) { return signOf(difference.change); }),
+       ofDifference([](Difference difference) {
+         return difference.change == RunChange::kWorse    ? 0
+                : difference.change == RunChange::kBetter ? 1
+                                                          : 2;
        })},
-      {tr("Failed checks"), tr("How many failed: before, and now."), 0,
-       ofDifference([](Difference made) {
-         return beforeAndNow(made.before.checks_failed, made.after.checks_failed);
+      {tr("Failed checks"), tr("Number of failed checks: before and after."), 0,
+       ofDifference([](Difference difference) {
+         return beforeAndNow(difference.before.checks_failed, difference.after.checks_failed);
        }),
-       ofDifference(
-           [](Difference made) { return made.after.checks_failed - made.before.checks_failed; })},
-      {tr("Inliers"), tr("Inliers of the last matching iteration: before, and now."), 0,
-       ofDifference(
-           [](Difference made) { return beforeAndNow(made.before.inliers, made.after.inliers); }),
-       ofDifference([](Difference made) { return made.after.inliers - made.before.inliers; })},
-      {tr("Poses apart"), tr("How far the two results are apart at the camera, in mm and mrad."), 0,
+       ofDifference([](Difference difference) {
+         return difference.after.checks_failed - difference.before.checks_failed;
+       })},
+      {tr("Inliers"), tr("Inliers of the last matching iteration: before and after."), 0,
+       ofDifference([](Difference difference) {
+         return beforeAndNow(difference.before.inliers, difference.after.inliers);
+       }),
+       ofDifference([](Difference difference) {
+         return difference.after.inliers - difference.before.inliers;
+       })},
+      {tr("Poses apart"), tr("Distance of the two results at the camera, in mm and mrad."), 0,
        ofDifference(apartText),
-       ofDifference([](Difference made) { return made.comparison.translation_mm; })},
-      {tr("Why, and where they differ first"),
-       tr("What the change is judged by, and the first thing in which the runs are not the same to "
-          "the bit."),
-       -1, ofDifference([](Difference made) { return fromText(sessions::changeText(made)); })},
+       ofDifference([](Difference difference) { return difference.comparison.translation_mm; })},
+      {tr("Reason and first difference"),
+       tr("Basis of the verdict, and the first value in which the runs differ."), -1,
+       ofDifference(
+           [](Difference difference) { return fromText(sessions::changeText(difference)); })},
   };
 }
 
-QString tableHtml(const RunDifference& made) {
+QString tableHtml(const RunDifference& run_difference) {
   QVector<QStringList> rows = {
       {QString(), DifferencesModel::tr("before"), DifferencesModel::tr("now")}};
-  for (const sessions::DifferenceLine& line : sessions::differenceLines(made))
+  for (const sessions::DifferenceLine& line : sessions::differenceLines(run_difference))
     rows.append({fromText(line.label).toHtmlEscaped(), fromText(line.before).toHtmlEscaped(),
                  fromText(line.after).toHtmlEscaped()});
-  return htmlTable(rows) +
-         QStringLiteral("<p>%1</p>").arg(fromText(sessions::changeText(made)).toHtmlEscaped());
+  return htmlTable(rows) + QStringLiteral("<p>%1</p>")
+                               .arg(fromText(sessions::changeText(run_difference)).toHtmlEscaped());
 }
 
 }  // namespace
@@ -148,21 +156,21 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
   constexpr auto tr = [](const char* text) { return QueueModel::tr(text); };
   return {
       {tr("Case"),
-       tr("The case, with the edges of its result over the image; red: those of the seed, as "
-          "there is no result."),
+       tr("The case, with the edges of its result over the image; red: edges of the seed, without "
+          "a result."),
        -1, [](Entry entry) { return fromText(entry.row.case_id); }},
-      {tr("State"), tr("Where the case stands."), -1,
+      {tr("State"), tr("State of the case."), -1,
        [](Entry entry) { return QueueModel::reviewStatusText(entry.row); }},
       {tr("Trouble"),
-       tr("What to look at. Sorted by it: failed runs, then failed checks, then the margin, then "
-          "the distance from the seed; what is decided comes last."),
+       tr("Reason for review; sort order: failed runs, failed checks, smallest margin, largest "
+          "distance from the seed. Decided cases come last."),
        -1, troubleOf},
       {tr("Margin,\n%"),
-       tr("How far the worst check's figure is on the good side of its limit, in percent of the "
-          "limit; negative: beyond it."),
+       tr("Margin of the worst check to its limit, in percent of the limit; negative: limit "
+          "exceeded."),
        0, [](Entry entry) { return kToPercent * entry.row.margin.value_or(kNaN); }},
       {tr("From\nseed"),
-       tr("How far the result is from the seed, in mm and mrad, and as a part of the seed's stated "
+       tr("Distance of the result from the seed, in mm and mrad, and relative to the seed's "
           "uncertainty (100 %: on its border)."),
        0, [](Entry entry) { return fromSeedText(entry.row); },
        [](Entry entry) { return entry.row.from_seed ? entry.row.from_seed->share : kNaN; }},
@@ -223,11 +231,11 @@ QueuePanel::QueuePanel(Document& document, QWidget* parent)
       controller_(document, kQueueThumbnail_px * devicePixelRatioF()),
       filter_(model_) {
   ui_.setupUi(this);
-  ui_.queueTabs->addTab(tr("By trouble"));
+  ui_.queueTabs->addTab(tr("Worst first"));
   ui_.queueTabs->addTab(tr("Last two runs"));
-  ui_.queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the most troubled first"));
+  ui_.queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the worst first"));
   ui_.queueTabs->setTabToolTip(
-      kDifferencesTab, tr("Each case's last run against the one before it (D in the list)"));
+      kDifferencesTab, tr("Last run of each case against the previous run (D in the list)"));
   buildTables();
   buildForm();
   connect(ui_.queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
@@ -328,7 +336,7 @@ void QueuePanel::showEntries() {
   differences_hint_->setText(
       differences_.rowCount() > 0
           ? tr("No matching cases.")
-          : tr("No case has two runs yet: change an option and run again (Ctrl+F5)."));
+          : tr("No case has two runs: change an option and run again (Ctrl+F5)."));
   if (chosenCase() != chosen) choose(chosen);
   if (!table()->currentIndex().isValid()) step(0);
   fitColumns();
@@ -358,7 +366,7 @@ void QueuePanel::showProgress() {
   const int all = controller_.count();
   ui_.queueProgress->setText(done < all ? tr("%1 of %2 checked").arg(done).arg(all)
                                         : tr("%1 checked").arg(all));
-  ui_.queueHalt->setText(controller_.isHalted() ? tr("Go on") : tr("Stop"));
+  ui_.queueHalt->setText(controller_.isHalted() ? tr("Continue") : tr("Stop"));
   ui_.queueHalt->setEnabled(done < all);
 }
 
@@ -395,12 +403,12 @@ void QueuePanel::choose(const QString& id) {
 /// The undecided case that is listed next after the chosen one, from the top again at the end.
 QString QueuePanel::nextOpen() const {
   const int count = filter_.rowCount();
-  const int here = ui_.queue->currentIndex().row();
+  const int current = ui_.queue->currentIndex().row();
   for (int i = 1; i < count; ++i) {
-    const QModelIndex one = filter_.index((here + i) % count, 0);
-    const sessions::QueueRow& row = model_.at(filter_.mapToSource(one).row()).row;
+    const QModelIndex q_model_index = filter_.index((current + i) % count, 0);
+    const sessions::QueueRow& row = model_.at(filter_.mapToSource(q_model_index).row()).row;
     if (row.group == sessions::QueueGroup::kNoPose || row.group == sessions::QueueGroup::kOpen)
-      return one.data().toString();
+      return q_model_index.data().toString();
   }
   return {};
 }
@@ -415,11 +423,11 @@ bool QueuePanel::asksForSignature(Act act, const QString& id) {
   pending_case_ = id;
   missing->setFocus();
   const bool accepts = act == Act::kAccept;
-  const QString question = missing == ui_.queueName
-                               ? (accepts ? tr("Who accepts %1?") : tr("Who rejects %1?"))
-                           : accepts ? tr("Why is %1 accepted?")
-                                     : tr("Why is %1 rejected?");
-  tell(question.arg(id) + tr(" Type it, then Enter; Escape leaves it."));
+  const QString question = missing == ui_.queueName ? (accepts ? tr("Your name, to accept %1")
+                                                               : tr("Your name, to reject %1"))
+                           : accepts                ? tr("Reason to accept %1")
+                                                    : tr("Reason to reject %1");
+  tell(question.arg(id) + tr(": type, then Enter; Escape cancels."));
   return true;
 }
 
@@ -446,8 +454,7 @@ void QueuePanel::decide(Act act) {
   ui_.queueComment->clear();  // the next decision has a comment of its own
   choose(following.isEmpty() ? id : following);
   tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
-       (following.isEmpty() ? tr(" Every case that was listed is decided or has to be run.")
-                            : QString()));
+       (following.isEmpty() ? tr(" All listed cases are decided or not run.") : QString()));
 }
 
 /// Enter in a field.
@@ -463,7 +470,8 @@ void QueuePanel::signedNow() {
     return;
   }
   dropQuestion();
-  tell(tr("%1 is not listed any more: clear the filter. Nothing was decided.").arg(pending_case_));
+  tell(tr("%1 is not listed any more: clear the filter. No decision was stored.")
+           .arg(pending_case_));
 }
 
 void QueuePanel::dropQuestion() {

@@ -17,12 +17,12 @@ using sessions::Verdict;
 namespace {
 
 const QString kChecksKey = QStringLiteral("checks");
-const QString kBasinKey = QStringLiteral("basin");
+const QString kConvergenceKey = QStringLiteral("convergence");
 
 /// Whether what was read is the case as the document has it; a nudge by hand is not judged.
-bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase now) {
-  now.camera_from_station_working = read.camera_from_station_working;
-  return read == now;
+bool isReadAs(const sessions::SessionCase& read, sessions::SessionCase current) {
+  current.camera_from_station_working = read.camera_from_station_working;
+  return read == current;
 }
 
 }  // namespace
@@ -34,7 +34,8 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
   connect(&checks_runner_, &TaskRunner::failed, this,
           [this](const QString& message) { take({}, message); });
-  connect(&basin_runner_, &TaskRunner::busyChanged, this, &ReviewController::basinChanged);
+  connect(&convergence_runner_, &TaskRunner::busyChanged, this,
+          &ReviewController::convergenceChanged);
   follow();
 }
 
@@ -45,7 +46,7 @@ void ReviewController::setActive(bool active) {
 
 bool ReviewController::hasRun() const { return document_.session().lastRunOf(caseId()) != nullptr; }
 
-bool ReviewController::hasMarks() const {
+bool ReviewController::hasAnnotations() const {
   return document_.session().annotations.count(caseId()) > 0;
 }
 
@@ -64,21 +65,21 @@ void ReviewController::chooseSource() {
   const std::string id = caseId();
   if (std::exchange(shown_id_, id) != id) wanted_source_.reset();
   const sessions::RunRecord* run = document_.session().lastRunOf(id);
-  source_ = hasMarks() && (!run || run->status != "converged") ? PoseSource::kAnnotation
-                                                               : PoseSource::kRun;
-  const sessions::ReviewStatus now = reviewStatus();
-  if (now.holds() && now.decision->pose) source_ = now.decision->pose->source;
+  source_ = hasAnnotations() && (!run || run->status != "converged") ? PoseSource::kAnnotation
+                                                                     : PoseSource::kRun;
+  const sessions::ReviewStatus current = reviewStatus();
+  if (current.holds() && current.decision->pose) source_ = current.decision->pose->source;
   if (wanted_source_ == PoseSource::kRun && run) source_ = PoseSource::kRun;
-  if (wanted_source_ == PoseSource::kAnnotation && hasMarks()) source_ = PoseSource::kAnnotation;
+  if (wanted_source_ == PoseSource::kAnnotation && hasAnnotations())
+    source_ = PoseSource::kAnnotation;
 }
 
 QString ReviewController::missing() const {
   if (!document_.isOpen()) return tr("No session is open.");
   const std::string id = caseId();
-  if (id.empty()) return tr("No case is shown: choose one in the list of cases.");
-  if (!hasRun() && !hasMarks())
-    return tr("%1 has no pose yet: run it (F5), or mark it (F2). Then it is checked here.")
-        .arg(fromText(id));
+  if (id.empty()) return tr("No case is shown: select one in the list of cases.");
+  if (!hasRun() && !hasAnnotations())
+    return tr("%1 has no pose: run it (F5) or annotate it (F2) first.").arg(fromText(id));
   return {};
 }
 
@@ -86,23 +87,25 @@ QString ReviewController::missing() const {
 std::optional<ReviewController::Question> ReviewController::question() const {
   const std::string id = caseId();
   const sessions::Session& session = document_.session();
-  const sessions::SessionCase* one = session.findCase(id);
-  if (!one || !missing().isEmpty() || !isReadAs(state_.currentCase()->source, *one)) return {};
-  Question made;
-  made.loaded = state_.currentCase();
-  made.source = source_;
-  if (source_ == PoseSource::kRun) made.run_digest = runDigest();
-  made.input_fingerprint = sessions::inputFingerprint(session, id, made.run_digest);
-  return made;
+  const sessions::SessionCase* session_case = session.findCase(id);
+  if (!session_case || !missing().isEmpty() ||
+      !isReadAs(state_.currentCase()->source, *session_case))
+    return {};
+  Question question;
+  question.loaded = state_.currentCase();
+  question.source = source_;
+  if (source_ == PoseSource::kRun) question.run_digest = runDigest();
+  question.input_fingerprint = sessions::inputFingerprint(session, id, question.run_digest);
+  return question;
 }
 
 void ReviewController::follow() {
   chooseSource();
   problem_ = missing();
-  auto now = question();
-  if (!now || now != question_) {
+  auto current = question();
+  if (!current || current != question_) {
     drop();
-    question_ = std::move(now);
+    question_ = std::move(current);
     if (active_) ask();
   }
   Q_EMIT checksChanged();
@@ -113,10 +116,10 @@ void ReviewController::follow() {
 /// they are of another case.
 void ReviewController::drop() {
   checks_runner_.cancel(kChecksKey);
-  basin_runner_.cancel(kBasinKey);
+  convergence_runner_.cancel(kConvergenceKey);
   if (!problem_.isEmpty() || !subject_ || subject_->loaded->source.id != caseId()) checks_.clear();
-  basin_.reset();
-  basin_so_far_ = {};
+  convergence_.reset();
+  convergence_so_far_ = {};
   current_ = false;
   asked_ = false;
 }
@@ -128,12 +131,12 @@ void ReviewController::ask() {
   const sessions::Session session = document_.session();
   checks_runner_.start(
       kChecksKey,
-      [session, asked = *question_, basin = basin_](const std::stop_token&) {
+      [session, asked = *question_, convergence = convergence_](const std::stop_token&) {
         Answer answer;
         answer.subject = std::make_shared<const sessions::ReviewSubject>(
             reviewSubject(session, asked.loaded, asked.source, asked.run_digest));
         const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
-        answer.checks = checkPose(*answer.subject, limits, basin);
+        answer.checks = checkPose(*answer.subject, limits, convergence);
         return answer;
       },
       [this](const Answer& answer) { take(answer, {}); });
@@ -162,14 +165,14 @@ void ReviewController::setReason(const std::string& check_id, const QString& rea
   Q_EMIT checksChanged();
 }
 
-sessions::CheckOverrides ReviewController::overrides() const {
-  sessions::CheckOverrides made;
+sessions::CheckWaivers ReviewController::waivers() const {
+  sessions::CheckWaivers check_waivers;
   for (const sessions::Check& check : checks_) {
     const QString reason = reasonFor(check);
     if (check.state == sessions::CheckState::kFailed && !reason.isEmpty())
-      made[check.id] = reason.toStdString();
+      check_waivers[check.id] = reason.toStdString();
   }
-  return made;
+  return check_waivers;
 }
 
 sessions::ReviewStatus ReviewController::reviewStatus() const {
@@ -177,12 +180,12 @@ sessions::ReviewStatus ReviewController::reviewStatus() const {
 }
 
 std::vector<const sessions::Decision*> ReviewController::history() const {
-  std::vector<const sessions::Decision*> made;
+  std::vector<const sessions::Decision*> decisions;
   const std::string id = caseId();
   const auto& all = document_.session().decisions;
-  for (auto one = all.rbegin(); one != all.rend(); ++one)
-    if (one->case_id == id) made.push_back(&*one);
-  return made;
+  for (auto item = all.rbegin(); item != all.rend(); ++item)
+    if (item->case_id == id) decisions.push_back(&*item);
+  return decisions;
 }
 
 sessions::Session ReviewController::after(Act act, const sessions::Signature& who) const {
@@ -190,8 +193,8 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
   const std::string id = caseId();
   switch (act) {
     case Act::kValidate:
-      return sessions::validated(session, *subject_, checks_, overrides(), who,
-                                 basin_ ? basin_->seeds : 0);
+      return sessions::validated(session, *subject_, checks_, waivers(), who,
+                                 convergence_ ? convergence_->seeds : 0);
     case Act::kApprove:
       return sessions::approved(session, id, who);
     case Act::kReject:
@@ -206,12 +209,12 @@ sessions::Session ReviewController::after(Act act, const sessions::Signature& wh
 /// What has been said and holds is not said again; a validation least of all, as it would put
 /// itself in the place of one that awaits its second person.
 QString ReviewController::settled(Act act) const {
-  const sessions::ReviewStatus now = reviewStatus();
-  if (!now.holds()) return {};
-  const QString by = fromText(now.decision->by);
-  if (act == Act::kValidate && now.decision->verdict == Verdict::kValidated)
+  const sessions::ReviewStatus current = reviewStatus();
+  if (!current.holds()) return {};
+  const QString by = fromText(current.decision->by);
+  if (act == Act::kValidate && current.decision->verdict == Verdict::kValidated)
     return tr("it is validated already, by %1").arg(by);
-  if (act == Act::kReject && now.decision->verdict == Verdict::kRejected)
+  if (act == Act::kReject && current.decision->verdict == Verdict::kRejected)
     return tr("it is rejected already, by %1").arg(by);
   return {};
 }
@@ -219,12 +222,12 @@ QString ReviewController::settled(Act act) const {
 QString ReviewController::obstacle(Act act, const sessions::Signature& who) const {
   if (!document_.isOpen()) return tr("no session is open");
   if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
-  if (caseId().empty()) return tr("no case is shown: choose one in the list of cases");
+  if (caseId().empty()) return tr("no case is shown: select one in the list of cases");
   if (const QString said = settled(act); !said.isEmpty()) return said;
   if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
-  if (act == Act::kValidate && !current_) return tr("the checks are being made");
+  if (act == Act::kValidate && !current_) return tr("the checks are running");
   try {
-    (void)after(act, {"somebody else than anybody", "?"});  // what a signature does not mend
+    (void)after(act, {"a second person", "?"});  // what a signature does not mend
     (void)after(act, who);
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());
@@ -238,7 +241,7 @@ bool ReviewController::decide(Act act, const sessions::Signature& who) {
   const QString text = act == Act::kValidate  ? tr("Validate %1").arg(id)
                        : act == Act::kApprove ? tr("Approve %1").arg(id)
                        : act == Act::kReject  ? tr("Reject %1").arg(id)
-                                              : tr("Take back the decision on %1").arg(id);
+                                              : tr("Withdraw the decision on %1").arg(id);
   return document_.edit(after(act, who), text);
 }
 
@@ -268,28 +271,29 @@ void ReviewController::setSecondPerson(bool asked) {
   editSettings(next, asked ? tr("Ask for a second person") : tr("Ask for one person"));
 }
 
-void ReviewController::startBasin(int seeds) {
-  if (!current_ || isBasinRunning()) return;
-  basin_so_far_ = {};
-  basin_runner_.run(kBasinKey, [this, subject = subject_, seeds](const std::stop_token& stop,
-                                                                 const TaskRunner::Report& report) {
-    const auto tell = [this, &report](const sessions::BasinResult& so_far) {
-      report([this, so_far] {
-        basin_so_far_ = so_far;
-        Q_EMIT basinChanged();
+void ReviewController::startConvergenceTest(int seeds) {
+  if (!current_ || isConvergenceTestRunning()) return;
+  convergence_so_far_ = {};
+  convergence_runner_.run(
+      kConvergenceKey, [this, subject = subject_, seeds](const std::stop_token& stop,
+                                                         const TaskRunner::Report& report) {
+        const auto tell = [this, &report](const sessions::ConvergenceResult& so_far) {
+          report([this, so_far] {
+            convergence_so_far_ = so_far;
+            Q_EMIT convergenceChanged();
+          });
+        };
+        sessions::ConvergenceResult result = sessions::convergenceTest(*subject, seeds, stop, tell);
+        report([this, result = std::move(result)] {
+          if (result.seeds == 0) return;
+          convergence_ = result;
+          asked_ = false;
+          ask();
+          Q_EMIT checksChanged();
+        });
       });
-    };
-    sessions::BasinResult result = sessions::basinTest(*subject, seeds, stop, tell);
-    report([this, result = std::move(result)] {
-      if (result.seeds == 0) return;
-      basin_ = result;
-      asked_ = false;
-      ask();
-      Q_EMIT checksChanged();
-    });
-  });
 }
 
-void ReviewController::stopBasin() { basin_runner_.stop(kBasinKey); }
+void ReviewController::stopConvergenceTest() { convergence_runner_.stop(kConvergenceKey); }
 
 }  // namespace boresight::ui

@@ -37,7 +37,7 @@ class ReviewController : public QObject {
   /// Of the shown case, or empty.
   std::string caseId() const { return shownCaseId(document_, state_); }
   bool hasRun() const;
-  bool hasMarks() const;
+  bool hasAnnotations() const;
   /// The digest of the run that is judged, or empty.
   std::string runDigest() const;
   sessions::PoseSource source() const { return source_; }
@@ -46,7 +46,7 @@ class ReviewController : public QObject {
   const std::vector<sessions::Check>& checks() const { return checks_; }
   /// The checks are of what the document holds now.
   bool isCurrent() const { return current_; }
-  bool isBusy() const { return checks_runner_.isBusy() || basin_runner_.isBusy(); }
+  bool isBusy() const { return checks_runner_.isBusy() || convergence_runner_.isBusy(); }
   /// Why there is nothing to check and what to do, or empty.
   const QString& problem() const { return problem_; }
 
@@ -68,22 +68,24 @@ class ReviewController : public QObject {
   void setSecondPerson(bool asked);
 
   /// Whether a pose is ready to be judged from which no other seeds have been run yet.
-  bool awaitsBasin() const { return current_ && !basin_ && !isBasinRunning(); }
-  bool isBasinRunning() const { return basin_runner_.isBusy(); }
+  bool awaitsConvergenceTest() const {
+    return current_ && !convergence_ && !isConvergenceTestRunning();
+  }
+  bool isConvergenceTestRunning() const { return convergence_runner_.isBusy(); }
   /// Of the test that is under way.
-  const sessions::BasinResult& basinSoFar() const { return basin_so_far_; }
+  const sessions::ConvergenceResult& convergenceSoFar() const { return convergence_so_far_; }
   /// Runs further seeds and takes up what comes of them into the checks. Nothing while the checks
   /// are not current.
-  void startBasin(int seeds);
+  void startConvergenceTest(int seeds);
   /// What has been run by then counts.
-  void stopBasin();
+  void stopConvergenceTest();
 
  Q_SIGNALS:
   /// Checks, reasons, or whether the checks are current.
   void checksChanged();
   /// Case, decisions, limits, or what can be judged.
   void reviewStatusChanged();
-  void basinChanged();
+  void convergenceChanged();
 
  private:
   /// All that the answer depends on.
@@ -111,7 +113,7 @@ class ReviewController : public QObject {
   void drop();
   void ask();
   void take(const Answer& answer, const QString& problem);
-  sessions::CheckOverrides overrides() const;
+  sessions::CheckWaivers waivers() const;
   sessions::Session after(Act act, const sessions::Signature& who) const;
   QString settled(Act act) const;
   void editSettings(const sessions::ReviewSettings& settings, const QString& text);
@@ -128,11 +130,11 @@ class ReviewController : public QObject {
   QString problem_;
   std::shared_ptr<const sessions::ReviewSubject> subject_;  ///< of `question_` when not nullptr
   std::vector<sessions::Check> checks_;
-  std::optional<sessions::BasinResult> basin_;
-  sessions::BasinResult basin_so_far_;
+  std::optional<sessions::ConvergenceResult> convergence_;
+  sessions::ConvergenceResult convergence_so_far_;
   std::map<std::string, std::map<std::string, Reason>> reasons_;  ///< by case and check
   TaskRunner checks_runner_;
-  TaskRunner basin_runner_;
+  TaskRunner convergence_runner_;
 };
 
 }  // namespace boresight::ui

@@ -40,17 +40,17 @@ QString entry(const QString& time, const QString& what, const std::string& by,
 QString verdictText(const Decision& decision) {
   return decision.verdict == Verdict::kValidated  ? DecisionForm::tr("★ Validated")
          : decision.verdict == Verdict::kRejected ? DecisionForm::tr("⊘ Rejected")
-                                                  : DecisionForm::tr("↺ Taken back");
+                                                  : DecisionForm::tr("↺ Withdrawn");
 }
 
 /// Failed checks that were passed over, each with its reason.
-QString overridesHtml(const Decision& decision) {
+QString waiversHtml(const Decision& decision) {
   QString html;
-  for (const sessions::JudgedCheck& one : decision.checks)
-    if (!one.override_reason.empty())
-      html += DecisionForm::tr("<br>✗ %1 passed over: %2")
-                  .arg(fromText(one.check.title).toHtmlEscaped(),
-                       fromText(one.override_reason).toHtmlEscaped());
+  for (const sessions::JudgedCheck& judged : decision.checks)
+    if (!judged.waiver_reason.empty())
+      html += DecisionForm::tr("<br>✗ %1 waived: %2")
+                  .arg(fromText(judged.check.title).toHtmlEscaped(),
+                       fromText(judged.waiver_reason).toHtmlEscaped());
   return html;
 }
 
@@ -63,8 +63,8 @@ QString decisionHtml(const Decision& decision) {
   if (!decision.digest.empty())
     html += DecisionForm::tr(" (run %1)").arg(fromText(decision.digest).left(kDigestDigits));
   else if (decision.pose)
-    html += DecisionForm::tr(" (the marks)");
-  return html + overridesHtml(decision);
+    html += DecisionForm::tr(" (the annotations)");
+  return html + waiversHtml(decision);
 }
 
 }  // namespace
@@ -119,8 +119,9 @@ void DecisionForm::showWhatIsPossible() {
   for (const auto& [act, each] : buttons_) {
     const QString reason = controller_.obstacle(act, who);
     each->setEnabled(reason.isEmpty());
-    each->setToolTip(reason.isEmpty() ? tips_[act]
-                                      : tr("%1. Not now: %2").arg(tips_[act], sentence(reason)));
+    each->setToolTip(reason.isEmpty()
+                         ? tips_[act]
+                         : tr("%1. Not available: %2").arg(tips_[act], sentence(reason)));
   }
   // A second approval is offered only where the session requires it.
   buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
@@ -133,9 +134,8 @@ void DecisionForm::showWhatIsPossible() {
 void DecisionForm::showReading() {
   QStringList parts;
   if (!obstacle_.isEmpty()) parts << QStringLiteral("⚠ %1").arg(obstacle_.toHtmlEscaped());
-  if (controller_.awaitsBasin() && nextStep() == Act::kValidate)
-    parts << tr(
-        "○ The basin test has not been run: a second answer to this image is not excluded.");
+  if (controller_.awaitsConvergenceTest() && nextStep() == Act::kValidate)
+    parts << tr("○ No convergence test: a competing pose is not excluded.");
   if (!note_.isEmpty()) parts << note_;
   for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
   if (controller_.history().empty()) parts << tr("<i>No decision on this case yet.</i>");
@@ -162,7 +162,7 @@ LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
   connect(ui_.close, &QPushButton::clicked, this, &QDialog::close);
   connect(&ui_.limits->options(), &OptionsModel::edited, this, &LimitsDialog::change);
   connect(ui_.limits, &OptionsTable::helpChanged, this, [this](const QString& help) {
-    ui_.limitHelp->setText(help.isEmpty() ? tr("Choose a limit to read what it is for.") : help);
+    ui_.limitHelp->setText(help.isEmpty() ? tr("Select a limit to read its description.") : help);
   });
   connect(&controller_, &ReviewController::reviewStatusChanged, this, &LimitsDialog::showSettings);
   showSettings();
@@ -218,17 +218,17 @@ std::vector<TableColumn<CheckRow>> columns() {
   using Row = const CheckRow&;
   constexpr auto tr = [](const char* text) { return ChecksModel::tr(text); };
   return {
-      {tr("Check"), tr("What is asked of the pose: ✗ failed, ✓ passed, – could not be asked."), -1,
+      {tr("Check"), tr("Check of the pose: ✗ failed, ✓ passed, – not applicable."), -1,
        [](Row row) {
          return ChecksModel::sign(row.check.state) + QLatin1Char(' ') + fromText(row.check.title);
        }},
-      {tr("Found"), tr("What was measured, with its unit; nothing where the sentence alone tells."),
-       0, [](Row row) { return fromText(sessions::foundText(row.check)); }},
-      {tr("Limit"), tr("What the figure must keep to: of the preset, or as edited under Limits."),
+      {tr("Found"), tr("Measured value with its unit; empty if the check has no figure."), 0,
+       [](Row row) { return fromText(sessions::foundText(row.check)); }},
+      {tr("Limit"), tr("Limit of the measured value, from the preset or as edited under Limits."),
        -1, [](Row row) { return shortLimit(row.check); }},
-      {tr("Reason to pass over"),
-       tr("A pose with a failed check can be validated only with a reason to pass over the check. "
-          "The reason is stored with the pose, and dropped when the measured value changes."),
+      {tr("Reason to waive"),
+       tr("A pose with a failed check needs a reason to waive it. The reason is stored with the "
+          "pose, and dropped when the measured value changes."),
        -1, reasonText},
   };
 }
@@ -292,7 +292,7 @@ Qt::ItemFlags ChecksModel::flags(const QModelIndex& index) const {
 
 QString ChecksModel::countsText() const {
   if (rows().empty()) return tr("Check");
-  if (!current_) return tr("Check (no longer of what is here)");
+  if (!current_) return tr("Check (out of date)");
   std::array<int, 3> counts = {};
   for (const CheckRow& row : rows()) ++counts[static_cast<std::size_t>(rank(row.check.state))];
   return tr("Check: ✗ %1  ✓ %2  – %3").arg(counts[0]).arg(counts[1]).arg(counts[2]);
@@ -311,17 +311,17 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   ui_.splitter->addWidget(decision_);
   ui_.splitter->setStretchFactor(0, 1);
   ui_.splitter->setSizes({640, 280});
-  ui_.basinSeeds->setValue(sessions::kBasinSeeds);
+  ui_.convergenceSeeds->setValue(sessions::kConvergenceSeeds);
   buildTable();
   connect(ui_.judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
     controller_.setSource(static_cast<PoseSource>(ui_.judged->currentData().toInt()));
   });
   connect(ui_.openLimits, &QPushButton::clicked, this, &ReviewPanel::openLimits);
-  connect(ui_.basin, &QPushButton::clicked, this, &ReviewPanel::askForBasin);
+  connect(ui_.convergence, &QPushButton::clicked, this, &ReviewPanel::askForConvergenceTest);
   connect(&controller_, &ReviewController::reviewStatusChanged, this,
           &ReviewPanel::showReviewStatus);
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
-  connect(&controller_, &ReviewController::basinChanged, this, &ReviewPanel::showBasin);
+  connect(&controller_, &ReviewController::convergenceChanged, this, &ReviewPanel::showConvergence);
   connect(&model_, &ChecksModel::reasonEdited, &controller_, &ReviewController::setReason);
   showReviewStatus();
   showChecks();
@@ -363,8 +363,7 @@ void ReviewPanel::showReviewStatus() {
   ui_.openLimits->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);
   ui_.openLimits->setToolTip(
-      tr("What the checks are held against, and whether a second person approves. "
-         "Now: %1%2. %3")
+      tr("Limits of the checks, and whether a second person must approve. Current: %1%2. %3")
           .arg(fromText(settings.preset), settings.limits.empty() ? QString() : tr(", edited"),
                preset ? fromText(preset->help) : QString()));
   showSources();
@@ -376,13 +375,13 @@ void ReviewPanel::showSources() {
   if (controller_.hasRun())
     ui_.judged->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kShownDigits)),
                         static_cast<int>(PoseSource::kRun));
-  if (controller_.hasMarks())
+  if (controller_.hasAnnotations())
     ui_.judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
   if (ui_.judged->count() == 0) ui_.judged->addItem(tr("No pose"));
   ui_.judged->setCurrentIndex(
       std::max(0, ui_.judged->findData(static_cast<int>(controller_.source()))));
   ui_.judged->setEnabled(ui_.judged->count() > 1);
-  ui_.judged->setToolTip(tr("Which pose is judged: that of the last run (%1), or that of the marks")
+  ui_.judged->setToolTip(tr("Judged pose: that of the last run (%1), or that of the annotations")
                              .arg(fromText(controller_.runDigest())));
 }
 
@@ -398,7 +397,7 @@ void ReviewPanel::showChecks() {
   // Failed ones come first; without any there is nothing to give a reason for.
   ui_.checks->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
   showChosen();
-  showBasin();
+  showConvergence();
 }
 
 void ReviewPanel::showChosen() {
@@ -406,8 +405,7 @@ void ReviewPanel::showChosen() {
   QString html;
   if (!controller_.isCurrent() && model_.rowCount() > 0) {
     html = controller_.problem().isEmpty()
-               ? tr("… Something has changed: these checks are out of date and are run "
-                    "again.")
+               ? tr("… Inputs have changed: the checks are out of date and run again.")
                : tr("⚠ %1").arg(controller_.problem().toHtmlEscaped());
   } else if (index.isValid() && index.row() < model_.rowCount()) {
     const sessions::Check& check = model_.at(index.row()).check;
@@ -418,26 +416,27 @@ void ReviewPanel::showChosen() {
   decision_->setNote(html);
 }
 
-void ReviewPanel::showBasin() {
-  const bool running = controller_.isBasinRunning();
-  const sessions::BasinResult& so_far = controller_.basinSoFar();
-  ui_.basinSeeds->setEnabled(!running);
-  ui_.basin->setText(running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_.basinSeeds->value())
-                             : tr("Basin test"));
-  ui_.basin->setEnabled(running || controller_.isCurrent());
-  ui_.basin->setToolTip(
-      running ? tr("%1 of %2 seeds led back to the pose so far. What has been run counts.")
+void ReviewPanel::showConvergence() {
+  const bool running = controller_.isConvergenceTestRunning();
+  const sessions::ConvergenceResult& so_far = controller_.convergenceSoFar();
+  ui_.convergenceSeeds->setEnabled(!running);
+  ui_.convergence->setText(
+      running ? tr("Stop (%1/%2)").arg(so_far.seeds).arg(ui_.convergenceSeeds->value())
+              : tr("Convergence test"));
+  ui_.convergence->setEnabled(running || controller_.isCurrent());
+  ui_.convergence->setToolTip(
+      running ? tr("%1 of %2 seeds returned to the pose so far. A stopped test counts, too.")
                     .arg(so_far.returned)
                     .arg(so_far.seeds)
-              : tr("Run from further seeds within the declared uncertainty, and see how many lead "
-                   "back to this pose. Takes as long as that number of runs; it can be stopped."));
+              : tr("Runs from further seeds within the declared uncertainty and counts those that "
+                   "return to this pose. Takes one run per seed; can be stopped."));
 }
 
-void ReviewPanel::askForBasin() {
-  if (controller_.isBasinRunning())
-    controller_.stopBasin();
+void ReviewPanel::askForConvergenceTest() {
+  if (controller_.isConvergenceTestRunning())
+    controller_.stopConvergenceTest();
   else
-    controller_.startBasin(ui_.basinSeeds->value());
+    controller_.startConvergenceTest(ui_.convergenceSeeds->value());
 }
 
 void ReviewPanel::openLimits() {

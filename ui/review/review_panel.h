@@ -131,8 +131,8 @@ class ReviewPanel : public QWidget {
   void showSources();
   void showChecks();
   void showChosen();
-  void showBasin();
-  void askForBasin();
+  void showConvergence();
+  void askForConvergenceTest();
   void openLimits();
 
   ReviewController controller_;

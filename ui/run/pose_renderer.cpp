@@ -68,12 +68,12 @@ PoseRenderer::PoseRenderer(QObject* parent) : QObject(parent) {
   });
 }
 
-void PoseRenderer::setCase(std::shared_ptr<const sessions::LoadedCase> one) {
+void PoseRenderer::setCase(std::shared_ptr<const sessions::LoadedCase> loaded_case) {
   clear();
   renderers_.reset();
-  if (!one) return;
+  if (!loaded_case) return;
   renderers_ = std::make_shared<Renderers>();
-  renderers_->one = std::move(one);
+  renderers_->one = std::move(loaded_case);
 }
 
 void PoseRenderer::setPose(const Pose& camera_from_station) {

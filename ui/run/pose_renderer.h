@@ -29,7 +29,7 @@ class PoseRenderer : public QObject {
   explicit PoseRenderer(QObject* parent = nullptr);
 
   /// Later poses are of this case; what was drawn of another one is dropped. nullptr: none.
-  void setCase(std::shared_ptr<const sessions::LoadedCase> one);
+  void setCase(std::shared_ptr<const sessions::LoadedCase> loaded_case);
   void setPose(const Pose& camera_from_station);
   /// Nothing more comes until the next pose.
   void clear();

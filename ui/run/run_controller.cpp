@@ -57,18 +57,17 @@ struct RunController::Job {
     if (run->trace().complete() < kept && !run->finished()) return false;
     if (!hasKept())
       throw std::runtime_error(
-          RunController::tr(
-              "The iterations before the chosen one do not come out as they were recorded: they "
-              "were made by another version of the program. Run again from the start.")
+          RunController::tr("The recorded iterations are from another version of the program and "
+                            "cannot be repeated. Run again from the start.")
               .toStdString());
     return true;
   }
 
   bool hasKept() const {
-    const auto& made = run->trace().iterations;
+    const auto& result = run->trace().iterations;
     const auto pose = [](const auto& iteration) { return iteration->camera_from_station; };
-    return made.size() >= inputs.kept.size() &&
-           std::ranges::equal(made | std::views::take(inputs.kept.size()), inputs.kept, {}, pose,
+    return result.size() >= inputs.kept.size() &&
+           std::ranges::equal(result | std::views::take(inputs.kept.size()), inputs.kept, {}, pose,
                               pose);
   }
 };

@@ -104,8 +104,7 @@ class TaskRunner::Thread {
     try {
       item.work(item.stop.get_token(), report);
     } catch (const std::bad_alloc&) {
-      return tr(
-          "There is not enough memory for this; close other sessions or use a smaller image.");
+      return tr("Not enough memory; close other sessions or use a smaller image.");
     } catch (const std::exception& exception) {
       return QString::fromUtf8(exception.what());
     }

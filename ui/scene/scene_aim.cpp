@@ -87,9 +87,9 @@ std::vector<SceneAim> landmarkAims(const MeshSnapper& mesh,
   }
   std::sort(aims.begin(), aims.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<SceneAim> made;
-  for (auto& [away_px, aim] : aims) made.push_back(std::move(aim));
-  return made;
+  std::vector<SceneAim> scene_aims;
+  for (auto& [away_px, aim] : aims) scene_aims.push_back(std::move(aim));
+  return scene_aims;
 }
 
 }  // namespace

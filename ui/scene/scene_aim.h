@@ -29,7 +29,7 @@ struct SceneAimRules {
   int turn = 0;       ///< how often the operator asked for another thing to snap to
 };
 
-/// What a click into the scene would mark.
+/// What a click into the scene would annotate.
 struct SceneAim {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   std::optional<sessions::ModelEdge> edge;     ///< that it lies on
@@ -42,7 +42,7 @@ struct SceneAim {
 
 /// What is under a pixel of the canvas: named points, then corners, edges and centres of circles
 /// that are seen from there within kSceneSnap_px, the likeliest first; without one (or where snaps
-/// are refused) the surface. Nothing beside the station, and for lines away from all edges.
+/// are refused) the surface. Nothing off the station, and for lines away from all edges.
 /// Computed from the geometry: alike on every screen, and exact at any magnification.
 std::optional<SceneAim> sceneAim(const sessions::MeshSnapper& mesh,
                                  const std::vector<sessions::Proposal>& proposals,

@@ -8,9 +8,9 @@
 
 #include <QtWidgets>
 
+#include "ui/annotation/annotation_aim.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/loupe.h"
-#include "ui/annotation/mark_aim.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/overlay_painters.h"
 #include "ui/views/view_transform.h"
@@ -30,15 +30,15 @@ bool takesKey(const QKeyEvent& event) {
 
 Viewpoint magnifiedView(const Viewpoint& view, const QPointF& pixel, double magnification,
                         int side) {
-  Viewpoint made = view;
+  Viewpoint viewpoint = view;
   const double middle = 0.5 * (side - 1);
-  made.camera.width = made.camera.height = side;
-  made.camera.fx *= magnification;
-  made.camera.fy *= magnification;
-  made.camera.cx = (view.camera.cx - pixel.x()) * magnification + middle;
-  made.camera.cy = (view.camera.cy - pixel.y()) * magnification + middle;
-  if (prepareCamera(made.camera) != Status::kOk) made.camera.valid_radius = 0.0;
-  return made;
+  viewpoint.camera.width = viewpoint.camera.height = side;
+  viewpoint.camera.fx *= magnification;
+  viewpoint.camera.fy *= magnification;
+  viewpoint.camera.cx = (view.camera.cx - pixel.x()) * magnification + middle;
+  viewpoint.camera.cy = (view.camera.cy - pixel.y()) * magnification + middle;
+  if (prepareCamera(viewpoint.camera) != Status::kOk) viewpoint.camera.valid_radius = 0.0;
+  return viewpoint;
 }
 
 std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
@@ -115,19 +115,22 @@ SceneAnnotator::SceneAnnotator(QWidget& canvas, AnnotationController& annotation
       annotation_(annotation),
       snapper_(snapper),
       loupe_(new SceneLoupe(&canvas, [this](QPainter& painter, const Viewpoint& view) {
-        const SceneMarkPainter marks(painter, view, mesh());
-        marks.paintMarks(marks_);
+        const SceneAnnotationPainter annotations(painter, view, mesh());
+        annotations.paintMarks(annotations_);
         const double middle = 0.5 * (view.camera.width - 1);
-        if (aim_) marks.paintAim(*aim_, {middle, middle});
+        if (aim_) annotations.paintAim(*aim_, {middle, middle});
       })) {
   canvas_.installEventFilter(this);
   connect(&annotation_, &AnnotationController::modeChanged, this, &SceneAnnotator::showMode);
-  connect(&annotation_, &AnnotationController::marksChanged, this, &SceneAnnotator::showMarks);
-  connect(&annotation_, &AnnotationController::selectionChanged, this, &SceneAnnotator::showMarks);
-  connect(&annotation_, &AnnotationController::solutionChanged, this, &SceneAnnotator::showMarks);
+  connect(&annotation_, &AnnotationController::annotationsChanged, this,
+          &SceneAnnotator::showAnnotations);
+  connect(&annotation_, &AnnotationController::selectionChanged, this,
+          &SceneAnnotator::showAnnotations);
+  connect(&annotation_, &AnnotationController::solutionChanged, this,
+          &SceneAnnotator::showAnnotations);
   connect(&snapper_, &StationSnapper::meshChanged, this, &SceneAnnotator::updateAim);
   showMode();
-  showMarks();
+  showAnnotations();
 }
 
 bool SceneAnnotator::places() const { return annotation_.mode() != PlaceMode::kOff; }
@@ -148,8 +151,8 @@ void SceneAnnotator::showMode() {
   updateAim();
 }
 
-void SceneAnnotator::showMarks() {
-  marks_ = sceneMarks(annotation_);
+void SceneAnnotator::showAnnotations() {
+  annotations_ = sceneAnnotations(annotation_);
   updateAim();
 }
 
@@ -242,7 +245,7 @@ void SceneAnnotator::updateAim() {
 bool SceneAnnotator::click(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   if (!places()) {
     if (!snapper_.mesh()) return false;
-    const std::string id = pickMark(marks_, shot_.view, *snapper_.mesh(), pixelAt(at));
+    const std::string id = pickAnnotation(annotations_, shot_.view, *snapper_.mesh(), pixelAt(at));
     if (!id.empty()) annotation_.select(id);
     return !id.empty();
   }
@@ -261,12 +264,11 @@ bool SceneAnnotator::completesPoint() const {
 void SceneAnnotator::placeAim() {
   if (!snapper_.mesh()) {
     Q_EMIT annotation_.told(
-        tr("The station's corners and edges are still being looked for; click again in a "
-           "moment."));
+        tr("The station's corners and edges are still being computed; click again in a moment."));
   } else if (!aim_) {
     Q_EMIT annotation_.told(annotation_.mode() == PlaceMode::kLine
                                 ? tr("No edge is near; click on an edge of the station.")
-                                : tr("Nothing is there; click on the station itself."));
+                                : tr("No surface there; click on the station."));
   } else if (annotation_.mode() == PlaceMode::kLine) {
     annotation_.placeEdgeOnStation(*aim_->edge);
   } else if (aim_->landmark && !completesPoint()) {
@@ -278,25 +280,26 @@ void SceneAnnotator::placeAim() {
 }
 
 std::vector<Frustum> SceneAnnotator::rigFrusta(const Eigen::Vector3d& centre_m) const {
-  std::vector<Frustum> made;
+  std::vector<Frustum> frustums;
   const auto& solution = annotation_.solution();
-  if (!solution || !solution->result.solution) return made;
+  if (!solution || !solution->result.solution) return frustums;
   const auto& poses = solution->result.solution->camera_from_station;
-  const auto& views = solution->marks.views;
+  const auto& views = solution->annotations.views;
   for (std::size_t i = 1; i < std::min(views.size(), poses.size()); ++i)
-    made.push_back(frustumOf(PoseRole::kAnnotated, QString::fromStdString(views[i].name),
-                             views[i].camera, poses[i], centre_m));
-  return made;
+    frustums.push_back(frustumOf(PoseRole::kAnnotated, QString::fromStdString(views[i].name),
+                                 views[i].camera, poses[i], centre_m));
+  return frustums;
 }
 
 QString SceneAnnotator::place() const {
-  if (!aim_) return tr("Point at the station: Tab snaps to another thing, Alt to none.");
+  if (!aim_)
+    return tr("Point at the station: Tab selects the next snap target, Alt disables snapping.");
   return stationPlaceText(aim_->point_in_station_m, aim_->text);
 }
 
 QString SceneAnnotator::nextStep() const {
   if (!places()) return {};
-  if (!snapper_.mesh()) return tr("Looking for the station's corners and edges ...");
+  if (!snapper_.mesh()) return tr("Computing the station's corners and edges ...");
   if (annotation_.mode() == PlaceMode::kLine) {
     const auto* line = annotation_.selectedLine();
     if (line && !line->edge)
@@ -304,16 +307,15 @@ QString SceneAnnotator::nextStep() const {
     return tr("Click an edge of the station");
   }
   if (completesPoint())
-    return tr("Click the place of %1 on the station")
-        .arg(QString::fromStdString(annotation_.selected()));
-  return tr("Click a place of the station");
+    return tr("Click %1 on the station").arg(QString::fromStdString(annotation_.selected()));
+  return tr("Click a point of the station");
 }
 
 void SceneAnnotator::paint(QPainter& painter, const QRectF& area) const {
-  const SceneMarkPainter marks(painter, shot_.view, mesh());
-  marks.paintMarks(marks_);
+  const SceneAnnotationPainter annotations(painter, shot_.view, mesh());
+  annotations.paintMarks(annotations_);
   if (!pointer_ || !aim_) return;
-  marks.paintAim(*aim_, *pointer_);
+  annotations.paintAim(*aim_, *pointer_);
   QString text = aim_->text;
   if (aim_->found > 1) text = tr("%1 (Tab: %2 more)").arg(text).arg(aim_->found - 1);
   paintNote(painter, area, QRectF(), *pointer_, text);

@@ -78,10 +78,10 @@ class SceneLoupe : public QWidget {
   TaskRunner runner_;
 };
 
-/// Annotating in the scene. While the operator places marks, a click gives the station's side: the
-/// corner, edge, circle centre or named point that is shown beside the pointer before, or with Alt
-/// held the surface itself; Tab goes on to another thing to snap to. In line mode it is the edge
-/// that is lit. Otherwise a click on a mark chooses it.
+/// Annotating in the scene. While the operator places annotations, a click gives the station's
+/// side: the corner, edge, circle centre or named point that is shown next to the pointer before,
+/// or with Alt held the surface itself; Tab goes on to another thing to snap to. In line mode it is
+/// the edge that is lit. Otherwise a click on an annotation chooses it.
 class SceneAnnotator : public QObject {
   Q_OBJECT
 
@@ -92,18 +92,18 @@ class SceneAnnotator : public QObject {
   bool places() const;
   /// What the scene shows now.
   void setShot(const SceneShot& shot);
-  /// True when the click was for a mark. `at`: the canvas' coordinates.
+  /// True when the click was for an annotation. `at`: the canvas' coordinates.
   bool click(const QPointF& at, Qt::KeyboardModifiers modifiers);
-  /// What a click at a pixel of the canvas would snap to; nothing beside the station and until its
+  /// What a click at a pixel of the canvas would snap to; nothing off the station and until its
   /// corners and edges are found.
   std::optional<SceneAim> aimAt(const QPointF& pixel) const;
   /// Where a click would go; nothing where it would do nothing.
   const std::optional<SceneAim>& aim() const { return aim_; }
-  const std::vector<SceneMark>& marks() const { return marks_; }
+  const std::vector<SceneAnnotation>& annotations() const { return annotations_; }
   SceneLoupe& loupe() const { return *loupe_; }
   /// Cameras of the rig that are solved with this one, as the solved poses put them.
   std::vector<Frustum> rigFrusta(const Eigen::Vector3d& centre_m) const;
-  /// The place that a click would mark, in words and figures.
+  /// The place that a click would annotate, in words and figures.
   QString place() const;
   /// What is to be done next, or empty.
   QString nextStep() const;
@@ -117,7 +117,7 @@ class SceneAnnotator : public QObject {
 
  private:
   void showMode();
-  void showMarks();
+  void showAnnotations();
   void hover(const QMouseEvent& event);
   void leave();
   bool pressKey(const QKeyEvent& event);
@@ -131,7 +131,7 @@ class SceneAnnotator : public QObject {
   StationSnapper& snapper_;
   SceneLoupe* loupe_;
   SceneShot shot_;
-  std::vector<SceneMark> marks_;
+  std::vector<SceneAnnotation> annotations_;
   std::optional<QPointF> pointer_;  ///< pixel of the canvas
   Qt::KeyboardModifiers modifiers_;
   int turn_ = 0;

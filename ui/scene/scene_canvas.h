@@ -43,7 +43,7 @@ struct Backdrop {
   QRectF where;  ///< on the canvas, its top-left corner (0, 0)
 };
 
-/// What the scene looks like besides what it holds.
+/// Appearance of the scene apart from its contents.
 struct SceneLook {
   SceneShown shown;
   double mesh_opacity = 1.0;
@@ -53,7 +53,7 @@ struct SceneLook {
 inline const QColor kMatchedColor(196, 203, 214);
 inline const QColor kOccludingColor(178, 148, 104);
 
-/// Something that draws a scene. Names are drawn over it by whoever owns it.
+/// Something that draws a scene. Its owner draws names over it.
 class SceneCanvas {
  public:
   virtual ~SceneCanvas() = default;

@@ -37,7 +37,7 @@ void addDashed(std::vector<SceneLine>& lines, const SceneLine& line, PoseRole ro
 }
 
 void addFrusta(const ViewState& state, SceneContent& content) {
-  const sessions::LoadedCase& one = *content.one;
+  const sessions::LoadedCase& loaded_case = *content.one;
   const Eigen::Vector3d centre_m = content.bounds.centre();
   const std::array<QString, kPoseRoles> labels = {
       sceneText("seed"), sceneText("iteration %1").arg(state.cursor().iteration + 1),
@@ -46,8 +46,8 @@ void addFrusta(const ViewState& state, SceneContent& content) {
     const auto role = static_cast<PoseRole>(i);
     const std::optional<Pose> pose = poseOf(state, role);
     if (pose && pose->isFinite())
-      content.frusta.push_back(
-          frustumOf(role, labels[static_cast<std::size_t>(i)], one.source.camera, *pose, centre_m));
+      content.frusta.push_back(frustumOf(role, labels[static_cast<std::size_t>(i)],
+                                         loaded_case.source.camera, *pose, centre_m));
   }
 }
 
@@ -123,50 +123,50 @@ std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& 
   for (const double length : dashes) period += length;
   if (dashes.size() < 2 || !(period > 0.0)) return {line};
   const Eigen::Vector3d along = line.second - line.first;
-  std::vector<SceneLine> made;
+  std::vector<SceneLine> scene_lines;
   double from = 0.0;  // in periods of the whole line
   for (std::size_t i = 0; from < kDashesPerLine; ++i) {
     const double to = std::min(from + dashes[i % dashes.size()] / period, kDashesPerLine);
     if (i % 2 == 0)
-      made.emplace_back(line.first + from / kDashesPerLine * along,
-                        line.first + to / kDashesPerLine * along);
+      scene_lines.emplace_back(line.first + from / kDashesPerLine * along,
+                               line.first + to / kDashesPerLine * along);
     from = to;
   }
-  return made;
+  return scene_lines;
 }
 
 Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
                   const Pose& camera_from_station, const Eigen::Vector3d& centre_m) {
-  Frustum made;
-  made.role = role;
-  made.label = label;
-  made.color = poseRoleStyle(role).color;
+  Frustum frustum;
+  frustum.role = role;
+  frustum.label = label;
+  frustum.color = poseRoleStyle(role).color;
   const Pose station_from_camera = camera_from_station.inverse();
-  made.apex_m = station_from_camera.translation_m;
-  const double depth_m = std::max(kFrustumShare * (centre_m - made.apex_m).norm(), 1e-6);
+  frustum.apex_m = station_from_camera.translation_m;
+  const double depth_m = std::max(kFrustumShare * (centre_m - frustum.apex_m).norm(), 1e-6);
   const double right = camera.width - 0.5;
   const double bottom = camera.height - 0.5;
   const std::array<Eigen::Vector2d, 4> corners = {
       {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
   for (std::size_t i = 0; i < 4; ++i)
-    made.corner_m[i] =
+    frustum.corner_m[i] =
         station_from_camera * (depth_m * rayOf(camera, corners[i].x(), corners[i].y()));
   for (std::size_t i = 0; i < 4; ++i) {
-    addDashed(made.lines, {made.apex_m, made.corner_m[i]}, role);
-    addDashed(made.lines, {made.corner_m[i], made.corner_m[(i + 1) % 4]}, role);
+    addDashed(frustum.lines, {frustum.apex_m, frustum.corner_m[i]}, role);
+    addDashed(frustum.lines, {frustum.corner_m[i], frustum.corner_m[(i + 1) % 4]}, role);
   }
-  const Eigen::Vector3d& left_m = made.corner_m[0];
-  const Eigen::Vector3d& right_m = made.corner_m[1];
+  const Eigen::Vector3d& left_m = frustum.corner_m[0];
+  const Eigen::Vector3d& right_m = frustum.corner_m[1];
   const Eigen::Vector3d roof_m =
       0.5 * (left_m + right_m) +
-      0.15 * (0.5 * (left_m + right_m) - 0.5 * (made.corner_m[2] + made.corner_m[3]));
-  addDashed(made.lines, {left_m, roof_m}, role);
-  addDashed(made.lines, {roof_m, right_m}, role);
+      0.15 * (0.5 * (left_m + right_m) - 0.5 * (frustum.corner_m[2] + frustum.corner_m[3]));
+  addDashed(frustum.lines, {left_m, roof_m}, role);
+  addDashed(frustum.lines, {roof_m, right_m}, role);
   // The frusta of a good run nearly coincide, so each role has its label in a place of its own.
-  const std::array<Eigen::Vector3d, kPoseRoles> places = {left_m, made.apex_m, made.corner_m[3],
-                                                          right_m, made.corner_m[2]};
-  made.label_at_m = places[static_cast<std::size_t>(role)];
-  return made;
+  const std::array<Eigen::Vector3d, kPoseRoles> places = {
+      left_m, frustum.apex_m, frustum.corner_m[3], right_m, frustum.corner_m[2]};
+  frustum.label_at_m = places[static_cast<std::size_t>(role)];
+  return frustum;
 }
 
 SceneContent sceneContent(const ViewState& state) {

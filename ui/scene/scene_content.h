@@ -22,7 +22,7 @@ struct PoseRoleStyle {
   const char* name = "";
   QColor color;
   /// Lengths of dashes and gaps in turn, as shares of the line; empty: one whole line. The second
-  /// difference besides the colour.
+  /// difference in addition to the colour.
   std::vector<double> dashes;
   double width_px = 2.0;
 };
@@ -41,7 +41,7 @@ struct Frustum {
   QColor color;
   Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 4> corner_m;  ///< top left, top right, bottom right, bottom left
-  std::vector<SceneLine> lines;             ///< dashed as the role is; a roof marks the image's top
+  std::vector<SceneLine> lines;  ///< dashed as the role is; a roof annotations the image's top
   Eigen::Vector3d label_at_m = Eigen::Vector3d::Zero();
 };
 

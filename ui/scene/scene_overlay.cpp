@@ -4,7 +4,7 @@
 #include <QtWidgets>
 #include <algorithm>
 
-#include "ui/annotation/mark_aim.h"
+#include "ui/annotation/annotation_aim.h"
 #include "ui/plots/plot_colors.h"
 #include "ui/views/overlay_painters.h"
 
@@ -28,31 +28,31 @@ struct Entry {
 };
 
 std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, bool with_cameras) {
-  std::vector<Entry> made;
+  std::vector<Entry> result;
   if (look.shown.frusta && with_cameras)
     for (const Frustum& frustum : content.frusta)
-      made.push_back({Entry::kLine, frustum.role, frustum.label});
+      result.push_back({Entry::kLine, frustum.role, frustum.label});
   const auto has_part = [&](bool match) {
     const MeshView mesh = content.mesh();
     return std::any_of(mesh.parts.begin(), mesh.parts.end(),
                        [match](const ScenePart& part) { return part.match == match; });
   };
   if (look.shown.mesh && has_part(false)) {
-    made.push_back({Entry::kMatched, PoseRole::kSeed, overlayText("matched part")});
-    made.push_back({Entry::kOccluding, PoseRole::kSeed, overlayText("occluding part")});
+    result.push_back({Entry::kMatched, PoseRole::kSeed, overlayText("matched part")});
+    result.push_back({Entry::kOccluding, PoseRole::kSeed, overlayText("occluding part")});
   }
-  if (!look.shown.points) return made;
+  if (!look.shown.points) return result;
   const auto has = [&](ScenePointKind kind) {
     return std::any_of(content.points.begin(), content.points.end(),
                        [kind](const ScenePoint& point) { return point.kind == kind; });
   };
   if (has(ScenePointKind::kInlier))
-    made.push_back({Entry::kInlier, PoseRole::kSeed, overlayText("inlier")});
+    result.push_back({Entry::kInlier, PoseRole::kSeed, overlayText("inlier")});
   if (has(ScenePointKind::kOutlier))
-    made.push_back({Entry::kOutlier, PoseRole::kSeed, overlayText("outlier")});
+    result.push_back({Entry::kOutlier, PoseRole::kSeed, overlayText("outlier")});
   if (has(ScenePointKind::kUnmatched))
-    made.push_back({Entry::kUnmatched, PoseRole::kSeed, overlayText("not used")});
-  return made;
+    result.push_back({Entry::kUnmatched, PoseRole::kSeed, overlayText("not used")});
+  return result;
 }
 
 void paintSign(QPainter& painter, const Entry& entry, const QRectF& box) {
@@ -143,8 +143,8 @@ void SceneOverlay::setNote(const QString& note) {
   update();
 }
 
-void SceneOverlay::setMark(const std::optional<Eigen::Vector3d>& at_m) {
-  mark_ = at_m;
+void SceneOverlay::setAnnotation(const std::optional<Eigen::Vector3d>& at_m) {
+  annotation_ = at_m;
   update();
 }
 
@@ -197,7 +197,7 @@ void SceneOverlay::paintNames(QPainter& painter) const {
 }
 
 void SceneOverlay::paintMark(QPainter& painter) const {
-  const auto pixel = mark_ ? view_.toCanvas(*mark_) : std::nullopt;
+  const auto pixel = annotation_ ? view_.toCanvas(*annotation_) : std::nullopt;
   if (!pixel) return;
   const QPointF at = *pixel + QPointF(0.5, 0.5);
   for (const QPen& pen : {QPen(QColor(0, 0, 0), 3.5), QPen(QColor(255, 210, 0), 1.5)}) {
@@ -208,7 +208,7 @@ void SceneOverlay::paintMark(QPainter& painter) const {
 }
 
 void SceneOverlay::paintLegend(QPainter& painter) const {
-  // Cameras have their names beside them in the scene too.
+  // Cameras have their names next to them in the scene, too.
   const std::vector<Entry> lines = entries(*content_, look_, width() >= kLegendOfCameras_px);
   const bool bar = look_.shown.points && !content_->points.empty();
   if (lines.empty() && !bar) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is painted over the scene: marks of an annotation, names and the legend.
+// What is painted over the scene: annotations of an annotation, names and the legend.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 #include <QWidget>
 
 #include "sessions/annotation/mesh_snap.h"
-#include "ui/annotation/mark_content.h"
+#include "ui/annotation/annotation_content.h"
 #include "ui/scene/scene_aim.h"
 #include "ui/scene/scene_canvas.h"
 
@@ -21,33 +21,34 @@ namespace boresight::ui {
 
 class AnnotationController;
 
-/// The station side of a mark.
-struct SceneMark {
+/// The station side of an annotation.
+struct SceneAnnotation {
   std::string id;
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< of an edge its middle
   std::optional<sessions::ModelEdge> edge;
-  MarkState state;
+  AnnotationState state;
   bool locked = false;
-  bool proposed = false;  ///< a named point that nobody has marked in this image
+  bool proposed = false;  ///< a named point without annotation in this image
 };
 
-/// Marks that have a place on the station, the chosen one last, after the proposals.
-std::vector<SceneMark> sceneMarks(const AnnotationController& annotation);
+/// Annotations that have a place on the station, the chosen one last, after the proposals.
+std::vector<SceneAnnotation> sceneAnnotations(const AnnotationController& controller);
 
-/// What is marked and aimed at, drawn over the scene. What a face hides is drawn faintly.
-class SceneMarkPainter {
+/// What is annotated and aimed at, drawn over the scene. What a face hides is drawn faintly.
+class SceneAnnotationPainter {
  public:
   /// `mesh` may be nullptr: nothing hides anything.
-  SceneMarkPainter(QPainter& painter, const Viewpoint& view, const sessions::MeshSnapper* mesh);
+  SceneAnnotationPainter(QPainter& painter, const Viewpoint& view,
+                         const sessions::MeshSnapper* mesh);
 
-  void paintMarks(const std::vector<SceneMark>& marks) const;
+  void paintMarks(const std::vector<SceneAnnotation>& annotations) const;
   /// `pointer`: pixel of the canvas.
   void paintAim(const SceneAim& aim, const QPointF& pointer) const;
 
  private:
   bool seen(const Eigen::Vector3d& at_m) const;
   std::optional<QPointF> place(const Eigen::Vector3d& at_m) const;
-  void paintPoint(const SceneMark& mark) const;
+  void paintPoint(const SceneAnnotation& annotation) const;
   void paintEdge(const sessions::ModelEdge& edge, const QColor& color, double width_px,
                  bool dashed) const;
   void paintCircle(const sessions::MeshCircle& circle) const;
@@ -61,10 +62,10 @@ class SceneMarkPainter {
 void paintOutlined(QPainter& painter, const QPointF& at, const QFont& font, const QString& text,
                    const QColor& color, const QColor& rim);
 
-/// Id of the mark under a pixel of the canvas that no face hides, the nearest; empty without one.
-/// Proposals are no marks.
-std::string pickMark(const std::vector<SceneMark>& marks, const Viewpoint& view,
-                     const sessions::MeshSnapper& mesh, const QPointF& pixel);
+/// Id of the annotation under a pixel of the canvas that no face hides, the nearest; empty without
+/// one. Proposals are no annotations.
+std::string pickAnnotation(const std::vector<SceneAnnotation>& annotations, const Viewpoint& view,
+                           const sessions::MeshSnapper& mesh, const QPointF& pixel);
 
 /// Names and the legend, in plain Qt over whichever canvas draws the scene. It lets the mouse
 /// through.
@@ -77,7 +78,7 @@ class SceneOverlay : public QWidget {
   /// A line at the top, e.g. that the view is undistorted.
   void setNote(const QString& note);
   /// The place that was pointed at last; none after another case.
-  void setMark(const std::optional<Eigen::Vector3d>& at_m);
+  void setAnnotation(const std::optional<Eigen::Vector3d>& at_m);
   /// Drawn over the scene's names, below notes.
   void setOver(std::function<void(QPainter&)> over);
 
@@ -95,7 +96,7 @@ class SceneOverlay : public QWidget {
   SceneLook look_;
   Viewpoint view_;
   QString note_;
-  std::optional<Eigen::Vector3d> mark_;
+  std::optional<Eigen::Vector3d> annotation_;
   std::function<void(QPainter&)> over_;
 };
 

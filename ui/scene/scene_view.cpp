@@ -123,7 +123,7 @@ void SceneView::setAnnotation(AnnotationController& annotation, StationSnapper& 
   });
   connect(&annotation, &AnnotationController::modeChanged, this, [this] {
     navigation_->setStationAlone(annotator_->places());
-    ui_.sceneReadout->setText(tr("Click a template, a mark or a point of the mesh."));
+    ui_.sceneReadout->setText(tr("Click a template, an annotation or a point of the mesh."));
   });
   refreshSoon();
 }
@@ -142,13 +142,13 @@ void SceneView::refreshSoon() {
 void SceneView::refresh() {
   refresh_pending_ = false;
   const std::shared_ptr<const SceneContent> before = content_;
-  SceneContent now = sceneContent(state_);
-  if (annotator_ && !now.empty())
-    for (Frustum& frustum : annotator_->rigFrusta(now.bounds.centre()))
-      now.frusta.push_back(std::move(frustum));
-  content_ = std::make_shared<const SceneContent>(std::move(now));
+  SceneContent after = sceneContent(state_);
+  if (annotator_ && !after.empty())
+    for (Frustum& frustum : annotator_->rigFrusta(after.bounds.centre()))
+      after.frusta.push_back(std::move(frustum));
+  content_ = std::make_shared<const SceneContent>(std::move(after));
   if (content_->one != before->one) {
-    overlay_->setMark(std::nullopt);
+    overlay_->setAnnotation(std::nullopt);
     backdrop_ = QImage();
     backdrop_of_.reset();
   }
@@ -215,21 +215,22 @@ void SceneView::updateView() {
 
 /// Taking out the distortion takes a while: it is done off the UI's thread, and once per case.
 void SceneView::orderBackdrop() {
-  const ViewState::CasePtr one = content_->one;
-  if (!one || backdrop_of_.lock() == one) return;
-  backdrop_of_ = one;
+  const ViewState::CasePtr loaded_case = content_->one;
+  if (!loaded_case || backdrop_of_.lock() == loaded_case) return;
+  backdrop_of_ = loaded_case;
   backdrop_ = QImage();
-  if (one->source.camera.model == CameraModel::kPinhole) {
-    backdrop_ = grayImage(one->image.view());
+  if (loaded_case->source.camera.model == CameraModel::kPinhole) {
+    backdrop_ = grayImage(loaded_case->image.view());
     return;
   }
   runner_.start(
       QStringLiteral("backdrop"),
-      [one](const std::stop_token&) {
-        return grayImage(sessions::undistort(one->source.camera, one->image.view()).view());
+      [loaded_case](const std::stop_token&) {
+        return grayImage(
+            sessions::undistort(loaded_case->source.camera, loaded_case->image.view()).view());
       },
-      [this, one](const QImage& gray) {
-        if (backdrop_of_.lock() != one) return;
+      [this, loaded_case](const QImage& gray) {
+        if (backdrop_of_.lock() != loaded_case) return;
         backdrop_ = gray;
         updateView();
       });
@@ -243,7 +244,7 @@ void SceneView::updateNote() {
     else if (content_->one->source.camera.model != CameraModel::kPinhole)
       note = tr("Undistorted: the image is shown as a camera without lens distortion sees it");
     if (role_ == PoseRole::kTruth && !content_->one->source.camera_from_station_truth)
-      note = tr("This case has no truth; you look through the shown pose");
+      note = tr("This case has no truth; the view uses the shown pose");
   } else if (backend_ == SceneBackend::kPicture && !content_->empty()) {
     note = tr("Drawn without OpenGL");
   }
@@ -285,9 +286,9 @@ void SceneView::pickInScene(const QPointF& pixel) {
       aim->text = tr("surface");
     }
   }
-  overlay_->setMark(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
+  overlay_->setAnnotation(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
   ui_.sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
-                                : tr("Nothing there: click a template or a point of the mesh."));
+                                : tr("No object there: click a template or a point of the mesh."));
 }
 
 }  // namespace boresight::ui

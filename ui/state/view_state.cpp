@@ -35,8 +35,8 @@ const sessions::SessionCase* shownCase(const Document& document, const ViewState
 }
 
 std::string shownCaseId(const Document& document, const ViewState& state) {
-  const sessions::SessionCase* one = shownCase(document, state);
-  return one ? one->id : std::string();
+  const sessions::SessionCase* session_case = shownCase(document, state);
+  return session_case ? session_case->id : std::string();
 }
 
 int ViewState::lastIteration() const {
@@ -61,8 +61,8 @@ Pose ViewState::shownPose() const {
   return iterationPose().value_or(seed);
 }
 
-void ViewState::setCase(CasePtr one) {
-  case_ = std::move(one);
+void ViewState::setCase(CasePtr loaded_case) {
+  case_ = std::move(loaded_case);
   snapshot_.reset();
   cursor_ = {};
   selected_template_ = -1;
@@ -72,8 +72,8 @@ void ViewState::setCase(CasePtr one) {
   Q_EMIT changed(ViewChange::kAll);
 }
 
-void ViewState::replaceCase(CasePtr one) {
-  case_ = std::move(one);
+void ViewState::replaceCase(CasePtr loaded_case) {
+  case_ = std::move(loaded_case);
   const ViewChanges pose = nudged_ ? ViewChange::kNudgedPose : ViewChanges();
   Q_EMIT changed(ViewChange::kCase | ViewChange::kCursor | pose);
 }
@@ -128,18 +128,19 @@ void ViewState::setAlternative(const std::optional<sessions::Alternative>& alter
   Q_EMIT changed(ViewChange::kAlternative);
 }
 
-QString alternativeTitle(const sessions::Alternative& one) {
-  if (one.kind == AlternativeKind::kCompeting)
-    return ViewState::tr("Competing pose %1").arg(one.number);
-  if (one.kind == AlternativeKind::kCandidate) return ViewState::tr("Candidate %1").arg(one.number);
+QString alternativeTitle(const sessions::Alternative& alternative) {
+  if (alternative.kind == AlternativeKind::kCompeting)
+    return ViewState::tr("Competing pose %1").arg(alternative.number);
+  if (alternative.kind == AlternativeKind::kCandidate)
+    return ViewState::tr("Candidate %1").arg(alternative.number);
   return ViewState::tr("Rolled by %1 deg")
-      .arg(QString::asprintf("%+.1f", one.roll_rad / kDegree_rad));
+      .arg(QString::asprintf("%+.1f", alternative.roll_rad / kDegree_rad));
 }
 
-QString chosenTitle(const sessions::Alternative& one) {
-  return one.kind == AlternativeKind::kCompeting   ? ViewState::tr("Result of the run")
-         : one.kind == AlternativeKind::kCandidate ? ViewState::tr("Chosen candidate")
-                                                   : ViewState::tr("Chosen roll");
+QString chosenTitle(const sessions::Alternative& alternative) {
+  return alternative.kind == AlternativeKind::kCompeting   ? ViewState::tr("Result of the run")
+         : alternative.kind == AlternativeKind::kCandidate ? ViewState::tr("Chosen candidate")
+                                                           : ViewState::tr("Chosen roll");
 }
 
 }  // namespace boresight::ui

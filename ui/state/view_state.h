@@ -72,18 +72,18 @@ class ViewState : public QObject {
   int selectedTemplate() const { return selected_template_; }
   /// The pose that is being nudged, if any.
   const std::optional<Pose>& nudgedPose() const { return nudged_; }
-  /// The pose that solves the case's annotated marks, if any.
+  /// The pose that solves the case's annotated annotations, if any.
   const std::optional<Pose>& annotatedPose() const { return annotated_; }
-  /// The pose that the run weighed and that is looked at beside the one it went on with, if any.
+  /// The hypothesis that is shown next to the chosen pose, if any.
   const std::optional<sessions::Alternative>& alternative() const { return alternative_; }
   /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
   /// it where the shown stage is earlier), else the seed. Identity without a case.
   Pose shownPose() const;
 
-  void setCase(CasePtr one);
+  void setCase(CasePtr loaded_case);
   /// The current case after an edit of its inputs: the shown run, now stale, the place in it and
   /// the nudged pose stay.
-  void replaceCase(CasePtr one);
+  void replaceCase(CasePtr loaded_case);
   /// Keeps the cursor where it was; at the last iteration it follows the run.
   void setSnapshot(SnapshotPtr snapshot);
   void setCursor(const RunCursor& cursor);
@@ -124,7 +124,7 @@ class ViewState : public QObject {
 
 /// camera_from_station of that role as the views have it: the run's seed (the case's before a run),
 /// the iteration under the cursor (before or after it, as the shown stage says), the nudged pose,
-/// the truth, the pose that solves the annotated marks. Nothing where there is none.
+/// the truth, the pose that solves the annotated annotations. Nothing where there is none.
 std::optional<Pose> poseOf(const ViewState& state, PoseRole role);
 
 /// The document's case that the views show, or nullptr.
@@ -133,8 +133,8 @@ const sessions::SessionCase* shownCase(const Document& document, const ViewState
 std::string shownCaseId(const Document& document, const ViewState& state);
 
 /// "Competing pose 2", "Candidate 1", "Rolled by +5.0 deg".
-QString alternativeTitle(const sessions::Alternative& one);
+QString alternativeTitle(const sessions::Alternative& alternative);
 /// What it was weighed against: "Result of the run", "Chosen candidate", "Chosen roll".
-QString chosenTitle(const sessions::Alternative& one);
+QString chosenTitle(const sessions::Alternative& alternative);
 
 }  // namespace boresight::ui

@@ -73,9 +73,9 @@ ReadSamples readFor(const sessions::ImageInput& input) {
   auto samples =
       std::make_shared<const sessions::ImageSamples>(sessions::readSamples(input.source.file));
   if (samples->file_sha256 != input.source.sha256)
-    throw sessions::InputError(input.source.file,
-                               "the file has changed since the session was opened, so that it "
-                               "cannot be shown stretched");
+    throw sessions::InputError(
+        input.source.file,
+        "the file has changed since the session was opened; stretching is not possible");
   const sessions::GrayLevels automatic = automaticLevels(*samples);
   return {std::move(samples), automatic};
 }

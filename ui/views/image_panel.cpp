@@ -29,7 +29,7 @@ void fadeOthers(ImageView& view, bool fade) {
       color = layer.style.color;
       color.setAlpha(kFaded);
     }
-    for (LayerBits& one : layer.bits) one.color = color;
+    for (LayerBits& bits : layer.bits) bits.color = color;
     view.setLayer(std::move(layer));
   }
 }
@@ -122,19 +122,19 @@ void ImagePanel::setMarks(LayerId id, std::vector<Mark> marks) {
 
 void ImagePanel::setNudgedRender(RenderPtr render, int level) {
   std::vector<LayerBits> bits = bitsOf(render, false);
-  for (LayerBits& one : bits) one.level = level;
+  for (LayerBits& item : bits) item.level = level;
   setBits(LayerId::kNudgedEdges, std::move(bits));
 }
 
 void ImagePanel::showCase() {
   const ViewState::CasePtr before = std::exchange(shown_case_, state_.currentCase());
-  const ViewState::CasePtr& now = shown_case_;
+  const ViewState::CasePtr& after = shown_case_;
   // An edit of the mask leaves the image and the renders as they are.
-  const bool same_scene = before && now && before->source.id == now->source.id &&
-                          before->source.camera == now->source.camera &&
-                          before->source.parts == now->source.parts;
+  const bool same_scene = before && after && before->source.id == after->source.id &&
+                          before->source.camera == after->source.camera &&
+                          before->source.parts == after->source.parts;
   if (!same_scene ||
-      !(before->source.camera_from_station_seed == now->source.camera_from_station_seed))
+      !(before->source.camera_from_station_seed == after->source.camera_from_station_seed))
     forget(LayerId::kSeedEdges);
   if (!same_scene) {
     agreement_of_.reset();
@@ -142,7 +142,7 @@ void ImagePanel::showCase() {
                              LayerId::kChosenEdges, LayerId::kHypothesisEdges})
       forget(id);
   }
-  setBits(LayerId::kIgnoreMask, ignoreBits(now));
+  setBits(LayerId::kIgnoreMask, ignoreBits(after));
   askForRenders();
 }
 
@@ -159,7 +159,7 @@ void ImagePanel::showAlternative() {
   if (const auto& other = state_.alternative()) {
     names = {{LayerId::kHypothesisEdges, alternativeTitle(*other)},
              {LayerId::kChosenEdges, chosenTitle(*other)},
-             {LayerId::kIterationEdges, tr("As the shown iteration rendered it")},
+             {LayerId::kIterationEdges, tr("Render of the shown iteration")},
              {LayerId::kSeedEdges, tr("Seed")},
              {LayerId::kTruthEdges, tr("Truth")}};
   }
@@ -209,11 +209,12 @@ void ImagePanel::showTemplates() {
 }
 
 void ImagePanel::askForRenders() {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one) return;
-  askForRender(LayerId::kSeedEdges, "seed edges", one->source.camera_from_station_seed);
-  if (one->source.camera_from_station_truth)
-    askForRender(LayerId::kTruthEdges, "truth edges", *one->source.camera_from_station_truth);
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case) return;
+  askForRender(LayerId::kSeedEdges, "seed edges", loaded_case->source.camera_from_station_seed);
+  if (loaded_case->source.camera_from_station_truth)
+    askForRender(LayerId::kTruthEdges, "truth edges",
+                 *loaded_case->source.camera_from_station_truth);
   if (const auto& other = state_.alternative()) {
     if (other->has_pose)
       askForRender(LayerId::kHypothesisEdges, "hypothesis' edges", other->camera_from_station);
@@ -227,18 +228,19 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
   bool& asked = asked_[static_cast<std::size_t>(id)];
   if (asked || !style(id).visible) return;
   asked = true;
-  const ViewState::CasePtr one = state_.currentCase();
+  const ViewState::CasePtr loaded_case = state_.currentCase();
   tasks_.start(
       QString::fromLatin1(key),
-      [one, camera_from_station](const std::stop_token&) -> RenderPtr {
+      [loaded_case, camera_from_station](const std::stop_token&) -> RenderPtr {
         auto render = std::make_shared<sessions::RenderTrace>();
-        const Status status = sessions::renderScene(one->source.camera, one->scene.view(),
-                                                    camera_from_station, *render);
+        const Status status = sessions::renderScene(
+            loaded_case->source.camera, loaded_case->scene.view(), camera_from_station, *render);
         return status == Status::kOk ? render : nullptr;
       },
-      [this, one, id](const RenderPtr& render) {
-        const ViewState::CasePtr& now = state_.currentCase();
-        if (now && asked_[static_cast<std::size_t>(id)] && one->source.id == now->source.id)
+      [this, loaded_case, id](const RenderPtr& render) {
+        const ViewState::CasePtr& current = state_.currentCase();
+        if (current && asked_[static_cast<std::size_t>(id)] &&
+            loaded_case->source.id == current->source.id)
           setBits(id, bitsOf(render, false));
         fadeOthers(*ui_.imageView, state_.alternative().has_value());
       });
@@ -262,17 +264,18 @@ void ImagePanel::askForAgreement() {
 }
 
 void ImagePanel::showPlace(const QPointF& pixel) {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one) return;
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case) return;
   QString text = tr("x %1  y %2").arg(pixel.x(), 0, 'f', 1).arg(pixel.y(), 0, 'f', 1);
   const int x = static_cast<int>(std::floor(pixel.x() + 0.5));
   const int y = static_cast<int>(std::floor(pixel.y() + 0.5));
-  if (x >= 0 && y >= 0 && x < one->image.width && y < one->image.height) {
-    text += tr("  gray %1").arg(one->image.view().at(x, y));
+  if (x >= 0 && y >= 0 && x < loaded_case->image.width && y < loaded_case->image.height) {
+    text += tr("  gray %1").arg(loaded_case->image.view().at(x, y));
     if (const auto& samples = display_->samples(); samples && samples->sample_bits > 8)
       text += tr(" (sample %1)").arg(sampleText(*samples, x, y));
-    const auto point = sessions::surfacePointAt(one->source.camera, one->scene.view(),
-                                                state_.shownPose(), {pixel.x(), pixel.y()});
+    const auto point =
+        sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(),
+                                 state_.shownPose(), {pixel.x(), pixel.y()});
     if (point) {
       text += tr("  station %1  %2  %3 mm, %4 m away")
                   .arg(1e3 * point->in_station_m.x(), 0, 'f', 2)

@@ -21,9 +21,9 @@ constexpr double kClickSlack = 3.0;
 
 ImageView::ImageView(QWidget* parent) : QWidget(parent), layers_(kLayerCount), drawn_(kLayerCount) {
   for (int i = 0; i < kLayerCount; ++i) {
-    Layer& made = layers_[static_cast<std::size_t>(i)];
-    made.id = static_cast<LayerId>(i);
-    made.style = layerInfo(made.id).style;
+    Layer& layer = layers_[static_cast<std::size_t>(i)];
+    layer.id = static_cast<LayerId>(i);
+    layer.style = layerInfo(layer.id).style;
   }
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
@@ -192,9 +192,9 @@ void ImageView::paintTool(QPainter& painter) const {
 void ImageView::paintNames(QPainter& painter) const {
   std::vector<LegendEntry> entries;
   for (const LegendLine& line : legend_) {
-    const Layer& one = layer(line.layer);
-    const bool empty = one.bits.empty() && one.marks.empty();
-    if (one.style.visible && !empty) entries.push_back({one.style.color, line.name});
+    const Layer& value = layer(line.layer);
+    const bool empty = value.bits.empty() && value.marks.empty();
+    if (value.style.visible && !empty) entries.push_back({value.style.color, line.name});
   }
   paintLegend(painter, entries);
 }

@@ -16,56 +16,54 @@ LayerStyle hidden(const QColor& color, double opacity) { return {false, color, o
 
 /// Colours that differ in lightness too, as red and green must not be the only difference.
 const std::array<LayerInfo, kLayerCount>& infos() {
-  static const std::array<LayerInfo, kLayerCount> made = {{
-      {LayerId::kIgnoreMask, "Ignore mask", "G", "Pixels that are not trusted",
+  static const std::array<LayerInfo, kLayerCount> layer_infos = {{
+      {LayerId::kIgnoreMask, "Ignore mask", "G", "Ignored pixels",
        shown(QColor(200, 60, 200), 0.35)},
-      {LayerId::kTestEdges, "Test edges", "E", "Canny's edges of the image, as the core has them",
+      {LayerId::kTestEdges, "Test edges", "E", "Canny edges of the image, as used by the algorithm",
        hidden(QColor(255, 255, 255), 0.8)},
-      {LayerId::kMask, "Rendered mask", "K", "Where the station was rendered",
+      {LayerId::kMask, "Rendered mask", "K", "Pixels of the rendered station",
        hidden(QColor(90, 200, 255), 0.25)},
       {LayerId::kSeedEdges, "Seed edges", "S", "Salient edges rendered from the seed",
        shown(QColor(255, 70, 60), 0.9)},
       {LayerId::kTruthEdges, "Truth edges", "T", "Salient edges rendered from the true pose",
        hidden(QColor(70, 140, 255), 0.9)},
       {LayerId::kIterationEdges, "Iteration edges", "I",
-       "Salient edges as the shown iteration rendered them", shown(QColor(80, 235, 90), 0.9)},
+       "Salient edges rendered by the shown iteration", shown(QColor(80, 235, 90), 0.9)},
       {LayerId::kAgreement, "Agreement", "A",
-       "Where rendered and test edges meet, only the render has one, only the image has one",
-       hidden(QColor(255, 220, 60), 0.9)},
+       "Edges in both, only in the render, only in the image", hidden(QColor(255, 220, 60), 0.9)},
       {LayerId::kNudgedEdges, "Nudged edges", "N", "Salient edges of the pose being nudged",
        shown(QColor(255, 160, 30), 1.0)},
       {LayerId::kAnnotationBand, "Annotation's band", "U",
-       "Where 95 % of the poses that the marks allow put the salient edges",
+       "Region of the salient edges for 95 % of the poses within the annotations' covariance",
        hidden(kAnnotatedColor, 0.6)},
       {LayerId::kAnnotationEdges, "Annotation's edges", "O",
-       "Salient edges rendered from the pose that the marks give; while they show, Ctrl+click "
-       "picks the station on them",
+       "Salient edges rendered from the annotated pose; while shown, Ctrl+click picks the station "
+       "on them",
        shown(kAnnotatedColor, 0.6)},
       {LayerId::kChosenEdges, "Chosen pose's edges", "F",
-       "Salient edges of the pose that the run went on with, while another hypothesis is shown",
+       "Salient edges of the chosen pose, while another hypothesis is shown",
        shown(QColor(255, 250, 170), 0.9)},
       {LayerId::kHypothesisEdges, "Hypothesis' edges", "H",
-       "Salient edges of the hypothesis chosen under Hypotheses", shown(QColor(255, 60, 230), 0.9)},
-      {LayerId::kWindows, "Search windows", "W", "Where each template was searched",
+       "Salient edges of the hypothesis selected under Hypotheses",
+       shown(QColor(255, 60, 230), 0.9)},
+      {LayerId::kWindows, "Search windows", "W", "Search window of each template",
        hidden(QColor(180, 180, 255), 0.6)},
-      {LayerId::kTemplates, "Templates", "P", "Where the templates were taken from the render",
+      {LayerId::kTemplates, "Templates", "P", "Positions of the templates in the render",
        hidden(QColor(255, 235, 120), 0.9)},
       {LayerId::kMatches, "Matches", "M",
-       "From where a template was predicted to where it was found; outliers are dashed",
+       "From predicted to found position of a template; outliers are dashed",
        shown(QColor(120, 255, 240), 0.9)},
       {LayerId::kResiduals, "Residuals", "R",
-       "What the solved pose leaves of each match, magnified", hidden(QColor(255, 120, 200), 0.9)},
-      {LayerId::kMarkResiduals, "Marks' residuals", "X",
-       "From where the solved pose puts a mark to where it was marked, magnified; dashed while the "
-       "pose is not up to date",
+       "Residual of each match in the solved pose, magnified", hidden(QColor(255, 120, 200), 0.9)},
+      {LayerId::kAnnotationResiduals, "Annotations' residuals", "X",
+       "From projected to annotated position, magnified; dashed while the pose is out of date",
        shown(QColor(255, 120, 200), 0.9)},
-      {LayerId::kProposals, "Proposed marks", "Y",
-       "Where named points of the station should be; a click takes one as it is",
+      {LayerId::kProposals, "Proposed annotations", "Y", "Projected landmarks; a click accepts one",
        shown(QColor(140, 230, 255), 0.9)},
-      {LayerId::kPoints, "Marks", "D", "Points and lines marked by hand",
+      {LayerId::kPoints, "Annotations", "D", "Points and lines annotated by hand",
        shown(QColor(255, 210, 0), 1.0)},
   }};
-  return made;
+  return layer_infos;
 }
 
 }  // namespace
@@ -78,11 +76,11 @@ const QColor kSelected(255, 255, 255);
 const QColor kOutlier(255, 150, 60);
 
 LayerBits layerBits(std::shared_ptr<const void> owner, const BitImage& bits, int level) {
-  LayerBits made;
-  made.owner = std::move(owner);
-  made.bits = bits;
-  made.level = level;
-  return made;
+  LayerBits result;
+  result.owner = std::move(owner);
+  result.bits = bits;
+  result.level = level;
+  return result;
 }
 
 QRectF windowArea(const SearchWindow& window, int level) {
@@ -129,9 +127,9 @@ std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMa
   return {layerBits(edges, map.view(), level)};
 }
 
-std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one) {
-  if (!one || !one->ignore) return {};
-  return {layerBits(one, one->ignore_bits, 0)};
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& loaded_case) {
+  if (!loaded_case || !loaded_case->ignore) return {};
+  return {layerBits(loaded_case, loaded_case->ignore_bits, 0)};
 }
 
 std::vector<LayerBits> iterationBits(
@@ -145,12 +143,12 @@ std::vector<LayerBits> iterationBits(
 std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::AgreementMaps>& maps,
                                      int level) {
   if (!maps || maps->both.words.empty()) return {};
-  std::vector<LayerBits> made = {layerBits(maps, maps->only_image.view(), level),
+  std::vector<LayerBits> bits = {layerBits(maps, maps->only_image.view(), level),
                                  layerBits(maps, maps->only_rendered.view(), level),
                                  layerBits(maps, maps->both.view(), level)};
-  made[0].color = QColor(90, 160, 255);
-  made[1].color = QColor(255, 110, 80);
-  return made;
+  bits[0].color = QColor(90, 160, 255);
+  bits[1].color = QColor(255, 110, 80);
+  return bits;
 }
 
 std::vector<Mark> windowMarks(const sessions::IterationTrace& iteration, int selected_template) {

@@ -36,7 +36,7 @@ enum class LayerId : std::uint8_t {
   kTemplates,
   kMatches,
   kResiduals,
-  kMarkResiduals,
+  kAnnotationResiduals,
   kProposals,
   kPoints,
 };
@@ -95,7 +95,7 @@ struct Mark {
   QPolygonF outline;     ///< of a strip: along one side and back along the other
   double size_px = 9.0;  ///< on the screen, whatever the zoom
   QColor color;          ///< instead of the layer's, where valid
-  bool dashed = false;   ///< a second difference besides the colour
+  bool dashed = false;   ///< a second difference in addition to the colour
   bool cased = false;    ///< with a dark rim, to be seen on any image
   double width = 1.5;    ///< of its lines, on the screen
   int item = -1;         ///< what it belongs to (a template, a point), or -1: cannot be picked
@@ -117,7 +117,7 @@ std::vector<LayerBits> bitsOf(const std::shared_ptr<const sessions::RenderTrace>
                               bool mask);
 std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,
                                     int level);
-std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& one);
+std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& loaded_case);
 /// Edges or mask of an iteration's render.
 std::vector<LayerBits> iterationBits(
     const std::shared_ptr<const sessions::IterationTrace>& iteration, bool mask);

@@ -53,7 +53,7 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   auto* key = new QLabel(QString::fromLatin1(info.key));
   key->setFrameShape(QFrame::StyledPanel);  // as a key cap
   key->setAlignment(Qt::AlignCenter);
-  key->setToolTip(tr("Key that shows and hides this layer"));
+  key->setToolTip(tr("Key that toggles this layer"));
   row.color = new QToolButton;
   row.color->setAutoRaise(true);
   row.color->setToolTip(tr("Colour of %1").arg(tr(info.name).toLower()));

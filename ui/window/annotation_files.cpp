@@ -5,8 +5,8 @@
 
 #include <QtWidgets>
 
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/models/text.h"
@@ -18,8 +18,8 @@
 namespace boresight::ui {
 namespace {
 
-QString marksFilter() {
-  return AnnotationFiles::tr("Marks (*.json *.csv);;points.json (*.json);;Table (*.csv)");
+QString annotationsFilter() {
+  return AnnotationFiles::tr("Annotations (*.json *.csv);;points.json (*.json);;Table (*.csv)");
 }
 
 }  // namespace
@@ -27,8 +27,8 @@ QString marksFilter() {
 AnnotationFiles::AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel)
     : QObject(&window), window_(window), parts_(parts) {
   QMenu& menu = panel.filesMenu();
-  menu.addAction(tr("Import marks ..."), this, &AnnotationFiles::importMarks);
-  menu.addAction(tr("Export marks ..."), this, &AnnotationFiles::exportMarks);
+  menu.addAction(tr("Import annotations ..."), this, &AnnotationFiles::importAnnotations);
+  menu.addAction(tr("Export annotations ..."), this, &AnnotationFiles::exportAnnotations);
   menu.addSeparator();
   menu.addAction(tr("Export all poses for COLMAP ..."), this, [this] {
     exportPoses(&sessions::exportColmap, tr("New folder for a COLMAP text model"),
@@ -60,27 +60,28 @@ void AnnotationFiles::attempt(Action&& action) {
   }
 }
 
-void AnnotationFiles::importMarks() {
-  const QString file = QFileDialog::getOpenFileName(
-      &window_, tr("Import marks"), inSessionFolder(parts_.document, {}), marksFilter());
-  if (file.isEmpty() || !mayReplaceMarks()) return;
+void AnnotationFiles::importAnnotations() {
+  const QString file =
+      QFileDialog::getOpenFileName(&window_, tr("Import annotations"),
+                                   inSessionFolder(parts_.document, {}), annotationsFilter());
+  if (file.isEmpty() || !mayReplaceAnnotations()) return;
   attempt([&, path = std::filesystem::path(file.toStdString())] {
     parts_.annotation.finishMove();
     const sessions::ImportReport report =
-        sessions::importMarks(parts_.document.session(), caseId(), path, true);
-    parts_.document.edit(report.session, tr("Import marks of %1").arg(fileNameOf(path)));
-    Q_EMIT noted(tr("Marks taken from %1.").arg(fileNameOf(path)));
+        sessions::importAnnotations(parts_.document.session(), caseId(), path, true);
+    parts_.document.edit(report.session, tr("Import annotations of %1").arg(fileNameOf(path)));
+    Q_EMIT noted(tr("Annotations read from %1.").arg(fileNameOf(path)));
   });
 }
 
-void AnnotationFiles::exportMarks() {
-  const auto file =
-      askForNewFile(window_, tr("Export the marks of this case"),
-                    inSessionFolder(parts_.document, QStringLiteral("points.json")), marksFilter());
+void AnnotationFiles::exportAnnotations() {
+  const auto file = askForNewFile(window_, tr("Export the annotations of this case"),
+                                  inSessionFolder(parts_.document, QStringLiteral("points.json")),
+                                  annotationsFilter());
   if (file.empty()) return;
   attempt([&] {
-    sessions::writeMarks(file, parts_.annotation.marks());
-    Q_EMIT noted(tr("Marks written to %1.").arg(fileNameOf(file)));
+    sessions::writeAnnotations(file, parts_.annotation.annotations());
+    Q_EMIT noted(tr("Annotations written to %1.").arg(fileNameOf(file)));
   });
 }
 
@@ -112,7 +113,7 @@ void AnnotationFiles::importPoses(Importer importer, const QString& title) {
     const sessions::ImportReport report = importer(parts_.document.session(), folder, true);
     if (!parts_.document.edit(report.session, tr("Import poses of %1").arg(fileNameOf(folder))))
       return;
-    Q_EMIT noted(tr("%1 cases have their truth from %2 now. %3")
+    Q_EMIT noted(tr("%1 cases now have their truth from %2. %3")
                      .arg(report.case_ids.size())
                      .arg(fileNameOf(folder), joinedNotes(report.notes)));
   });
@@ -132,31 +133,32 @@ void AnnotationFiles::openLandmarks() {
 }
 
 void AnnotationFiles::saveLandmarks() {
-  const sessions::SessionCase* one = shownCase(parts_.document, parts_.state);
-  const auto file = askForNewFile(
-      window_, tr("Save the marks as landmarks"),
-      one && one->landmarks ? fromText(one->landmarks->string())
-                            : inSessionFolder(parts_.document, QStringLiteral("landmarks.json")),
-      tr("Landmarks (*.json)"));
+  const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
+  const auto file =
+      askForNewFile(window_, tr("Save the annotations as landmarks"),
+                    session_case && session_case->landmarks
+                        ? fromText(session_case->landmarks->string())
+                        : inSessionFolder(parts_.document, QStringLiteral("landmarks.json")),
+                    tr("Landmarks (*.json)"));
   if (file.empty()) return;
   attempt([&] {
     AnnotationController& annotation = parts_.annotation;
-    sessions::writeLandmarks(file, sessions::withMarks(annotation.landmarks(), annotation.marks()));
+    sessions::writeLandmarks(
+        file, sessions::withAnnotations(annotation.landmarks(), annotation.annotations()));
     annotation.setLandmarksFile(file);
     Q_EMIT noted(tr("Landmarks written to %1.").arg(fileNameOf(file)));
   });
 }
 
-bool AnnotationFiles::mayReplaceMarks() {
-  const sessions::Marks& marks = parts_.annotation.marks();
-  if (marks.empty()) return true;
-  const std::size_t count = marks.points.size() + marks.lines.size();
-  return QMessageBox::question(
-             &window_, tr("Import marks"),
-             tr("%1 has %2 marks. Replace them? Undo brings them back; to keep both, put them "
-                "aside first (Rounds).")
-                 .arg(fromText(caseId()))
-                 .arg(count)) == QMessageBox::Yes;
+bool AnnotationFiles::mayReplaceAnnotations() {
+  const sessions::Annotations& annotations = parts_.annotation.annotations();
+  if (annotations.empty()) return true;
+  const std::size_t count = annotations.points.size() + annotations.lines.size();
+  return QMessageBox::question(&window_, tr("Import annotations"),
+                               tr("%1 has %2 annotations. Replace them? Undo restores them; to "
+                                  "keep both, set them aside first (Rounds).")
+                                   .arg(fromText(caseId()))
+                                   .arg(count)) == QMessageBox::Yes;
 }
 
 }  // namespace boresight::ui

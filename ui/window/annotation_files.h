@@ -17,16 +17,16 @@ namespace boresight::ui {
 
 class AnnotationPanel;
 
-/// Marks, annotated poses and landmarks from and to files that the operator is asked for.
+/// Annotations, annotated poses and landmarks from and to files that the operator is asked for.
 class AnnotationFiles : public QObject {
   Q_OBJECT
 
  public:
   AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel);
 
-  /// points.json or a table (.csv): the marks of the shown case are replaced by these.
-  void importMarks();
-  void exportMarks();
+  /// points.json or a table (.csv): the annotations of the shown case are replaced by these.
+  void importAnnotations();
+  void exportAnnotations();
 
  Q_SIGNALS:
   /// Something could not be done; one sentence.
@@ -45,10 +45,10 @@ class AnnotationFiles : public QObject {
   /// Poses of the folder become the truths of the cases that it names.
   void importPoses(Importer importer, const QString& title);
   void openLandmarks();
-  /// The station's landmarks with the marks of this image, which the case then uses.
+  /// The station's landmarks with the annotations of this image, which the case then uses.
   void saveLandmarks();
   std::string caseId() const { return shownCaseId(parts_.document, parts_.state); }
-  bool mayReplaceMarks();
+  bool mayReplaceAnnotations();
   template <class Action>
   void attempt(Action&& action);
 

@@ -53,10 +53,10 @@ sessions::Session exampleSession() {
 
 std::string checkRuns() {
   const sessions::Session session = exampleSession();
-  for (const auto& one : session.cases) {
+  for (const auto& session_case : session.cases) {
     const sessions::LocalizationTrace trace =
-        sessions::runCase(session, one->id, sessions::RecordLevel::kSummary);
-    if (!trace.converged()) return one->id + " did not converge";
+        sessions::runCase(session, session_case->id, sessions::RecordLevel::kSummary);
+    if (!trace.converged()) return session_case->id + " did not converge";
   }
   return {};
 }
@@ -83,7 +83,7 @@ std::string checkDocument() {
     document.apply(sessions::withoutCase(session, session.cases.front()->id), "Remove a case");
   }
   auto document = sessions::SessionDocument::open(file);
-  if (!document.recovery()) return "an edit that was not saved is not offered";
+  if (!document.recovery()) return "an unsaved edit is not recovered";
   document.acceptRecovery();
   return document.session().cases.size() + 1 == session.cases.size() ? "" : "an edit was lost";
 }
@@ -95,7 +95,7 @@ std::string checkImageView() {
   view.fit();
   const QPointF pixel(12.25, 70.5);
   const QPointF back = view.transform().toPixel(view.transform().toWidget(pixel));
-  return (back - pixel).manhattanLength() < 1e-9 ? "" : "pixels do not come back";
+  return (back - pixel).manhattanLength() < 1e-9 ? "" : "pixels are not read back";
 }
 
 std::string checkWindow() {
@@ -154,9 +154,9 @@ int runSelfTest(std::ostream& output) {
   };
   constexpr NamedCheck kChecks[] = {
       {"the example stations converge", checkRuns},
-      {"halting at every stage changes no bit", checkStepping},
-      {"an edit survives a program that was killed", checkDocument},
-      {"pixels of the image view come back", checkImageView},
+      {"pausing at every stage changes no bit", checkStepping},
+      {"an edit survives a killed program", checkDocument},
+      {"pixels of the image view are read back", checkImageView},
       {"the window opens", checkWindow},
   };
   int failed = 0;
@@ -178,7 +178,8 @@ int runSelfTest(std::ostream& output) {
 namespace {
 
 constexpr int kPatienceMs = 120'000;
-constexpr double kMarkScale = 2.0;  // of the image round a mark that the operator works on
+constexpr double kAnnotationScale =
+    2.0;  // of the image round an annotation that the operator works on
 
 /// Lets the event loop run until something holds; false when it takes too long.
 bool waitUntil(const std::function<bool()>& holds) {
@@ -216,17 +217,17 @@ QString knownViews(const MainWindow& window) {
   return names.join(QStringLiteral(", "));
 }
 
-/// As an operator has it who places this mark: the desk in front, the mark magnified. False when
-/// there is no such mark.
-bool workOn(MainWindow& window, const QString& mark) {
-  AnnotationController& annotation = window.annotation();
-  annotation.setMode(PlaceMode::kPoint);
-  annotation.select(mark.toStdString());
+/// As an operator has it who places this annotation: the desk in front, the annotation magnified.
+/// False when there is no such annotation.
+bool workOn(MainWindow& window, const QString& annotation) {
+  AnnotationController& annotator = window.annotation();
+  annotator.setMode(PlaceMode::kPoint);
+  annotator.select(annotation.toStdString());
   if (QDockWidget* dock = window.dock(QStringLiteral("annotation"))) dock->raise();
-  const sessions::PointPair* point = annotation.selectedPoint();
+  const sessions::PointPair* point = annotator.selectedPoint();
   if (point && point->pixel)
-    window.image().view().centreOn({point->pixel->x(), point->pixel->y()}, kMarkScale);
-  return !annotation.selected().empty();
+    window.image().view().centreOn({point->pixel->x(), point->pixel->y()}, kAnnotationScale);
+  return !annotator.selected().empty();
 }
 
 }  // namespace
@@ -286,8 +287,8 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
     window.state().selectTemplate(0);
   window.image().view().fit();
-  if (!order.mark.isEmpty() && !workOn(window, order.mark))
-    return QObject::tr("the shown case has no mark '%1'").arg(order.mark);
+  if (!order.annotation.isEmpty() && !workOn(window, order.annotation))
+    return QObject::tr("the shown case has no annotation '%1'").arg(order.annotation);
   waitUntil(resting);
   QApplication::processEvents();
   try {

@@ -32,12 +32,13 @@ struct ScreenshotOrder {
   std::filesystem::path out;
   QString view;  ///< object name of a dock, "image", or "" for the whole window
   QSize size = QSize(1600, 1000);
-  QString mark;  ///< id of a mark that the operator works on, in the middle of the image; "": none
+  QString annotation;  ///< id of an annotation that the operator works on, in the middle of the
+                       ///< image; "": none
   int iteration = -2;  ///< index to show; -1: the seed; -2: the last
   int hypothesis = 0;  ///< row under Hypotheses to show, from 1; 0: none
 };
 
-/// Shows a session and what was not saved of it, without writing anything beside it: it goes on in
+/// Shows a session and what was not saved of it, without writing anything next to it: it goes on in
 /// `folder`, which must outlive the window's document. Returns "" or why it could not.
 QString openForPictures(MainWindow& window, const std::filesystem::path& session,
                         const std::filesystem::path& folder);

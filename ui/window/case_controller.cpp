@@ -27,7 +27,7 @@ constexpr int kPatience_ms = 100;  ///< between looks whether a store has failed
 
 sessions::Session withRuns(sessions::Session session,
                            const std::vector<sessions::RunRecord>& records) {
-  for (const sessions::RunRecord& one : records) session = sessions::withRun(session, one);
+  for (const sessions::RunRecord& run : records) session = sessions::withRun(session, run);
   return session;
 }
 
@@ -66,11 +66,11 @@ void CaseController::documentOpened() {
 void CaseController::documentChanged() {
   if (!unstored_.empty() && (document_.file() != unstored_file_ || !document_.isModified()))
     storeAgain();
-  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  if (!one) return documentOpened();
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  if (!session_case) return documentOpened();
   // Another seed, mask or image than the one that is shown.
-  if (!asked_ || !sameButNudge(*asked_, *one)) load(case_id_);
-  if (!(one->camera_from_station_working == working_)) showNudgedPose();
+  if (!asked_ || !sameButNudge(*asked_, *session_case)) load(case_id_);
+  if (!(session_case->camera_from_station_working == working_)) showNudgedPose();
   Q_EMIT stalenessChanged();
 }
 
@@ -90,27 +90,29 @@ void CaseController::show(const QString& id) {
 
 /// Whether the case that the views have is the document's as it is now.
 bool CaseController::isLoaded() const {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  return one && state_.currentCase() && sameButNudge(state_.currentCase()->source, *one);
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  return session_case && state_.currentCase() &&
+         sameButNudge(state_.currentCase()->source, *session_case);
 }
 
 void CaseController::showNudgedPose() {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  working_ = one ? one->camera_from_station_working : std::nullopt;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  working_ = session_case ? session_case->camera_from_station_working : std::nullopt;
   const ViewState::CasePtr& shown = state_.currentCase();
-  if (shown && one && shown->source.id == one->id && state_.nudgedPose() != working_)
+  if (shown && session_case && shown->source.id == session_case->id &&
+      state_.nudgedPose() != working_)
     state_.setNudgedPose(working_);
 }
 
 void CaseController::load(const QString& id) {
-  const sessions::SessionCase* one = document_.session().findCase(id.toStdString());
-  if (!one) return;
-  asked_ = *one;
+  const sessions::SessionCase* session_case = document_.session().findCase(id.toStdString());
+  if (!session_case) return;
+  asked_ = *session_case;
   load_problem_.clear();
   const ViewState::CasePtr before = state_.currentCase();
   tasks_.start(
       QStringLiteral("load case"),
-      [source = *one, before](const std::stop_token&) {
+      [source = *session_case, before](const std::stop_token&) {
         return before && before->source.id == source.id ? sessions::reloadCase(*before, source)
                                                         : sessions::loadCase(source);
       },
@@ -129,21 +131,22 @@ void CaseController::loadFailed(const QString& id, const QString& message) {
   runNext();
 }
 
-void CaseController::loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one) {
+void CaseController::loaded(const QString& id,
+                            std::shared_ptr<const sessions::LoadedCase> loaded_case) {
   if (id != case_id_) return;
   // A case that was edited while a batch ran it is run again.
   if (batch_ && run_.state() == RunState::kWorking) run_when_loaded_ = StepUntil::kEnd;
   run_.reset({});
   run_is_prepared_ = false;
   const ViewState::CasePtr& before = state_.currentCase();
-  const bool edited = before && before->source.id == one->source.id;
+  const bool edited = before && before->source.id == loaded_case->source.id;
   // A run that did not end cannot go on with other inputs; one that did stays, as a stale one.
   if (edited && state_.snapshot() && state_.snapshot()->finished) {
-    state_.replaceCase(std::move(one));
+    state_.replaceCase(std::move(loaded_case));
     Q_EMIT stalenessChanged();
     return runIfWaiting();
   }
-  state_.setCase(std::move(one));
+  state_.setCase(std::move(loaded_case));
   showNudgedPose();
   loadLatestRun(id);
 }
@@ -167,9 +170,9 @@ void CaseController::loadLatestRun(const QString& id) {
 }
 
 LocalizerOptions CaseController::options() const {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  if (!one) return sessions::sessionOptions(document_.session(), document_.file());
-  return sessions::caseOptions(document_.session(), *one, document_.file());
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  if (!session_case) return sessions::sessionOptions(document_.session(), document_.file());
+  return sessions::caseOptions(document_.session(), *session_case, document_.file());
 }
 
 QString CaseController::staleness() const {
@@ -258,7 +261,7 @@ void CaseController::prepareRerun(int iteration) {
   const sessions::LocalizationTrace& shown = *state_.snapshot();
   if (shown.replayed)
     throw std::runtime_error(
-        tr("The onboard run is shown: run it again on the ground first.").toStdString());
+        tr("The onboard run is shown; run the case on the ground first.").toStdString());
   if (!shown.views.empty())
     throw std::runtime_error(
         tr("The shown run was made with other views: run it with them again from the start.")
@@ -311,7 +314,7 @@ std::vector<sessions::RunRecord> CaseController::recordsOf(const EndedRun& ended
     return {
         sessions::storeRun(ended.session, ended.case_id, *ended.snapshot, file, ended.continued)};
   std::vector<sessions::LocalizationTrace> views;
-  for (const ViewState::SnapshotPtr& one : ended.views) views.push_back(*one);
+  for (const ViewState::SnapshotPtr& snapshot_ptr : ended.views) views.push_back(*snapshot_ptr);
   return sessions::storeViews(ended.session, views, file);
 }
 
@@ -341,8 +344,9 @@ void CaseController::store(const EndedRun& ended) {
           if (!unstored_.empty()) endBatch();  // nor is there room for the next
         } else if (document_.note(withRuns(document_.session(), stored.records),
                                   tr("Run %1").arg(QString::fromStdString(ended.case_id)))) {
-          std::erase_if(unstored_,
-                        [&](const EndedRun& one) { return one.snapshot == ended.snapshot; });
+          std::erase_if(unstored_, [&](const EndedRun& ended_run) {
+            return ended_run.snapshot == ended.snapshot;
+          });
           Q_EMIT stalenessChanged();
         }
         // A run that was begun meanwhile goes on.
@@ -370,7 +374,7 @@ void CaseController::finishStoring() {
 
 void CaseController::runAll(const QStringList& ids) {
   queue_.assign(ids.begin(), ids.end());
-  batch_ = BatchRun{0, static_cast<int>(ids.size())};
+  batch_ = BatchProgress{0, static_cast<int>(ids.size())};
   runNext();
 }
 
@@ -399,9 +403,9 @@ void CaseController::runIfWaiting() {
 }
 
 void CaseController::useAsSeed(const Pose& camera_from_station) {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
-  if (!one) return;
-  sessions::SessionCase changed = *one;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  if (!session_case) return;
+  sessions::SessionCase changed = *session_case;
   changed.camera_from_station_seed = camera_from_station;
   changed.camera_from_station_working.reset();
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
@@ -409,12 +413,13 @@ void CaseController::useAsSeed(const Pose& camera_from_station) {
 }
 
 void CaseController::keepNudgedPose() {
-  const sessions::SessionCase* one = document_.session().findCase(case_id_.toStdString());
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
   const ViewState::CasePtr& shown = state_.currentCase();
   // In a session that cannot be edited the operator may nudge to look.
-  if (!one || !shown || shown->source.id != one->id || !document_.readOnlyReason().isEmpty())
+  if (!session_case || !shown || shown->source.id != session_case->id ||
+      !document_.readOnlyReason().isEmpty())
     return;
-  sessions::SessionCase changed = *one;
+  sessions::SessionCase changed = *session_case;
   changed.camera_from_station_working = state_.nudgedPose();
   const QString text =
       state_.nudgedPose() ? tr("Nudge the pose of %1") : tr("Drop the nudged pose of %1");

@@ -23,7 +23,7 @@ class Document;
 class TaskRunner;
 
 /// Several cases that are run one after another.
-struct BatchRun {
+struct BatchProgress {
   int at = 0;  ///< the case at work, from 1
   int of = 0;  ///< number of cases
 };
@@ -47,7 +47,7 @@ class CaseController : public QObject {
   /// Why the case cannot be run together with other views, one sentence; empty when it can.
   QString whyAlone() const;
   /// The batch under way, from its first case's reading to its last run's storing; else nothing.
-  const std::optional<BatchRun>& batch() const { return batch_; }
+  const std::optional<BatchProgress>& batch() const { return batch_; }
 
  public Q_SLOTS:
   /// Shows another case. A batch ends here.
@@ -101,7 +101,7 @@ class CaseController : public QObject {
   void show(const QString& id);
   bool isLoaded() const;
   void load(const QString& id);
-  void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> one);
+  void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> loaded_case);
   void loadFailed(const QString& id, const QString& message);
   void loadLatestRun(const QString& id);
   void prepareRun(RunInputs inputs);
@@ -134,7 +134,7 @@ class CaseController : public QObject {
   sessions::Session run_session_;        ///< what the run that is prepared is made from
   std::optional<sessions::StepUntil> run_when_loaded_;
   std::vector<QString> queue_;  ///< cases of the batch that wait
-  std::optional<BatchRun> batch_;
+  std::optional<BatchProgress> batch_;
 };
 
 }  // namespace boresight::ui

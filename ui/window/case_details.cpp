@@ -31,11 +31,11 @@ QString detailOf(const sessions::Session& session, const std::string& id,
 
 /// Options that cannot be read are said where they are shown.
 bool isStale(const sessions::Session& session,
-             const sessions::SharedValue<sessions::SessionCase>& one,
+             const sessions::SharedValue<sessions::SessionCase>& shared_value,
              const std::filesystem::path& file, sessions::StaleRuns& known) {
-  const sessions::RunRecord* run = session.lastRunOf(one->id);
+  const sessions::RunRecord* run = session.lastRunOf(shared_value->id);
   try {
-    return run && known.isStale(*run, one, session, file);
+    return run && known.isStale(*run, shared_value, session, file);
   } catch (const std::exception&) {
     return false;
   }
@@ -46,15 +46,15 @@ bool isStale(const sessions::Session& session,
 std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running,
                               const std::filesystem::path& file, sessions::StaleRuns& known) {
   std::vector<CaseRow> rows;
-  for (const auto& one : session.cases) {
+  for (const auto& session_case : session.cases) {
     CaseRow row;
-    row.id = QString::fromStdString(one->id);
-    row.station = QString::fromStdString(one->station);
-    const sessions::ReviewStatus status = sessions::reviewStatusOf(session, one->id);
+    row.id = QString::fromStdString(session_case->id);
+    row.station = QString::fromStdString(session_case->station);
+    const sessions::ReviewStatus status = sessions::reviewStatusOf(session, session_case->id);
     row.state = row.id == running ? CaseState::kRunning : caseStateOf(status.state);
     const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
-    row.stale = of_run && isStale(session, one, file, known);
-    row.detail = detailOf(session, one->id, status);
+    row.stale = of_run && isStale(session, session_case, file, known);
+    row.detail = detailOf(session, session_case->id, status);
     rows.push_back(std::move(row));
   }
   return rows;
@@ -106,9 +106,9 @@ void CaseDetails::readNext() {
   for (; next_ < cases.size(); ++next_)
     if (readThumbnail(cases[next_]->image)) return;
   for (; next_ < 2 * cases.size(); ++next_) {
-    const sessions::SessionCase& one = *cases[next_ - cases.size()];
-    const sessions::RunRecord* run = session_.lastRunOf(one.id);
-    if (run && one.camera_from_station_truth && readPose(*run)) return;
+    const sessions::SessionCase& session_case = *cases[next_ - cases.size()];
+    const sessions::RunRecord* run = session_.lastRunOf(session_case.id);
+    if (run && session_case.camera_from_station_truth && readPose(*run)) return;
   }
   reading_ = false;
   if (!pause_.isActive()) return;
@@ -145,31 +145,33 @@ bool CaseDetails::readPose(const sessions::RunRecord& run) {
   return true;
 }
 
-void CaseDetails::fillErrors(const sessions::SessionCase& one, CaseRow& row) const {
-  const sessions::RunRecord* run = session_.lastRunOf(one.id);
-  if (!run || !one.camera_from_station_truth) return;
+void CaseDetails::fillErrors(const sessions::SessionCase& session_case, CaseRow& row) const {
+  const sessions::RunRecord* run = session_.lastRunOf(session_case.id);
+  if (!run || !session_case.camera_from_station_truth) return;
   const auto found = poses_.find(run->digest);
   if (found == poses_.end() || !found->second) return;
-  const sessions::PoseError error = sessions::poseError(
-      *one.camera_from_station_truth, *found->second, one.camera_from_end_effector);
+  const sessions::PoseError error =
+      sessions::poseError(*session_case.camera_from_station_truth, *found->second,
+                          session_case.camera_from_end_effector);
   row.normal_mm = std::abs(error.normal_mm);
   row.lateral_mm = error.lateral_mm;
   row.rotation_deg = 1e-3 * error.rotation_mrad / kDegree_rad;
   const std::string excess = sessions::sigmaExcessText(
-      one.truth_covariance.value_or(Matrix6d::Zero()), one.camera_from_end_effector,
-      sessions::requirementOf(session_, one));
+      session_case.truth_covariance.value_or(Matrix6d::Zero()),
+      session_case.camera_from_end_effector, sessions::requirementOf(session_, session_case));
   if (excess.empty()) return;
-  row.detail += (row.detail.isEmpty() ? QString() : QStringLiteral("\n")) +
-                tr("One sigma of its truth is %1: the errors say little.").arg(fromText(excess));
+  row.detail +=
+      (row.detail.isEmpty() ? QString() : QStringLiteral("\n")) +
+      tr("One sigma of its truth is %1, too large for these errors.").arg(fromText(excess));
 }
 
 void CaseDetails::fill(std::vector<CaseRow>& rows) const {
   for (CaseRow& row : rows) {
-    const sessions::SessionCase* one = session_.findCase(row.id.toStdString());
-    if (!one) continue;
-    const auto picture = thumbnails_.find(one->image.source.sha256);
+    const sessions::SessionCase* session_case = session_.findCase(row.id.toStdString());
+    if (!session_case) continue;
+    const auto picture = thumbnails_.find(session_case->image.source.sha256);
     if (picture != thumbnails_.end()) row.thumbnail = picture->second;
-    fillErrors(*one, row);
+    fillErrors(*session_case, row);
   }
 }
 

@@ -47,7 +47,7 @@ class CaseDetails : public QObject {
   void tellSoon();
   bool readThumbnail(const sessions::ImageInput& image);
   bool readPose(const sessions::RunRecord& run);
-  void fillErrors(const sessions::SessionCase& one, CaseRow& row) const;
+  void fillErrors(const sessions::SessionCase& session_case, CaseRow& row) const;
 
   TaskRunner& tasks_;
   sessions::Session session_;

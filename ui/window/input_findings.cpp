@@ -53,10 +53,9 @@ QString InputFindings::adviceFor(const QString& case_id) const {
     missing |= finding.kind == FindingKind::kMissing;
   }
   if (lines.isEmpty()) return {};
-  lines << (missing ? tr("Put the file back where it was, or have \"Fix ...\" above look for it "
-                         "below the session's folder.")
-                    : tr("Put the former file back, or have \"Fix ...\" above take it as it is "
-                         "now."));
+  lines << (missing
+                ? tr("Restore the file, or use \"Fix ...\" to search below the session's folder.")
+                : tr("Restore the former file, or use \"Fix ...\" to accept the changed file."));
   return lines.join(QStringLiteral("\n\n"));
 }
 
@@ -72,8 +71,7 @@ void InputFindings::mend() {
   } else if (has(FindingKind::kChanged)) {
     const auto answer = QMessageBox::question(
         &window_, tr("Boresight"),
-        tr("Use the changed files as they are now? Runs that were made with the former ones are "
-           "marked as made with other inputs."));
+        tr("Accept the changed files? Runs of the former files become stale."));
     if (answer == QMessageBox::Yes) acceptChanged();
   } else {
     check();  // the operator may have put things right
@@ -90,8 +88,8 @@ void InputFindings::findMoved() {
       [this](const std::vector<sessions::Relink>& relinks) {
         const Document& document = parts_.document;
         if (relinks.empty()) {
-          Q_EMIT failed(tr("None of the missing files is in %1 or below it. Put them there, or "
-                           "back where they were, and look again.")
+          Q_EMIT failed(tr("None of the missing files is in %1 or below. Copy them there, or "
+                           "restore them, and try again.")
                             .arg(fromText(document.file().parent_path().string())));
         } else if (parts_.document.edit(sessions::relinked(document.session(), relinks),
                                         tr("Find moved files"))) {
@@ -114,8 +112,8 @@ void InputFindings::acceptChanged() {
       },
       [this](const std::vector<sessions::SessionCase>& accepted) {
         sessions::Session session = parts_.document.session();
-        for (const sessions::SessionCase& one : accepted)
-          session = sessions::withCase(session, one);
+        for (const sessions::SessionCase& session_case : accepted)
+          session = sessions::withCase(session, session_case);
         if (parts_.document.edit(session, tr("Accept changed files"))) check();
       });
 }

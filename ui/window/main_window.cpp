@@ -26,7 +26,7 @@ constexpr const char* kLayoutKey = "window/state";
 constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
 constexpr int kLayoutVersion = 8;  // of another set of panels, a layout is not taken over
 
-QString stateText(RunState state, const std::optional<BatchRun>& batch) {
+QString stateText(RunState state, const std::optional<BatchProgress>& batch) {
   if (batch && batch->of > 1)
     return MainWindow::tr("Running %1 of %2...").arg(batch->at).arg(batch->of);
   return state == RunState::kWorking    ? MainWindow::tr("Running...")
@@ -79,10 +79,10 @@ void MainWindow::connectAll() {
   auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation);
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this, note);
-  connect(findChild<QAction*>(QStringLiteral("importMarks")), &QAction::triggered, annotation_files,
-          &AnnotationFiles::importMarks);
-  connect(findChild<QAction*>(QStringLiteral("exportMarks")), &QAction::triggered, annotation_files,
-          &AnnotationFiles::exportMarks);
+  connect(findChild<QAction*>(QStringLiteral("importAnnotations")), &QAction::triggered, annotation_files,
+          &AnnotationFiles::importAnnotations);
+  connect(findChild<QAction*>(QStringLiteral("exportAnnotations")), &QAction::triggered, annotation_files,
+          &AnnotationFiles::exportAnnotations);
   connect(&onboard_, &OnboardController::rerunRequested, &cases_, &CaseController::runPlan);
   connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
   connect(&onboard_, &OnboardController::told, this, note);

@@ -27,7 +27,7 @@ class SessionFiles;
 class WindowDocks;
 class WindowMenus;
 
-/// The window: docks round the image, menus, keys. It only connects what lies beside it.
+/// The window: docks round the image, menus, keys. It only connects the other parts of this folder.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 

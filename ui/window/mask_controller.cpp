@@ -38,37 +38,39 @@ void LevelsController::convert(const sessions::ImageReadOptions& eight_bit, bool
     ids.insert(ids.end(), others.begin(), others.end());
   }
   std::vector<Conversion> wanted;
-  for (const std::string& one : ids)
-    if (const sessions::SessionCase* found = session.findCase(one))
-      wanted.push_back({one, found->image});
+  for (const std::string& text : ids)
+    if (const sessions::SessionCase* found = session.findCase(text))
+      wanted.push_back({text, found->image});
   Q_EMIT noted(tr("Converting %n image(s)...", "", static_cast<int>(wanted.size())));
   parts_.tasks.start(
       QStringLiteral("conversion"),
       [wanted, eight_bit](const std::stop_token& stop) {
-        std::vector<Conversion> made;
-        for (const Conversion& one : wanted)
+        std::vector<Conversion> conversions;
+        for (const Conversion& conversion : wanted)
           if (!stop.stop_requested())
-            made.push_back({one.case_id, sessions::converted(one.image, eight_bit)});
-        return made;
+            conversions.push_back(
+                {conversion.case_id, sessions::converted(conversion.image, eight_bit)});
+        return conversions;
       },
-      [this, id](const std::vector<Conversion>& made) {
+      [this, id](const std::vector<Conversion>& conversions) {
         const bool done = parts_.document.edit(
-            withConversions(parts_.document.session(), made),
+            withConversions(parts_.document.session(), conversions),
             tr("Change the 8-bit conversion of %1").arg(QString::fromStdString(id)));
-        Q_EMIT noted(done ? tr("Converted; runs made before are stale") : QString());
+        Q_EMIT noted(done ? tr("Converted; earlier runs are stale") : QString());
       });
 }
 
 void LevelsController::showDocument() {
   const Document& document = parts_.document;
-  const sessions::SessionCase* one =
+  const sessions::SessionCase* session_case =
       document.isEditable() ? shownCase(document, parts_.state) : nullptr;
-  if (!one) {
+  if (!session_case) {
     panel_.setCase(nullptr, nullptr, 0);
     return;
   }
-  panel_.setCase(one, &parts_.state.currentCase()->image,
-                 static_cast<int>(sessions::casesOfSameCamera(document.session(), one->id).size()));
+  panel_.setCase(
+      session_case, &parts_.state.currentCase()->image,
+      static_cast<int>(sessions::casesOfSameCamera(document.session(), session_case->id).size()));
 }
 
 using sessions::MaskStroke;
@@ -91,7 +93,7 @@ MaskController::MaskController(const WindowParts& parts, MaskEditor& editor, Mas
 void MaskController::addStroke(const MaskStroke& stroke) {
   const std::string id = shownId();
   const QString text =
-      stroke.erase ? tr("Trust pixels of %1 again (%2)") : tr("Ignore pixels of %1 (%2)");
+      stroke.erase ? tr("Use pixels of %1 again (%2)") : tr("Ignore pixels of %1 (%2)");
   const QString what = QString::fromStdString(sessions::strokeText(stroke));
   parts_.document.edit(withStroke(parts_.document.session(), id, stroke),
                        text.arg(QString::fromStdString(id), what));
@@ -142,7 +144,7 @@ void MaskController::showPending(const sessions::SessionCase& edited) {
   panel_.setIgnored(loaded.ignore ? loaded.ignore->ignored_count : 0, pixels);
 }
 
-/// Nobody draws on a mask that does not show.
+/// A hidden mask cannot be drawn on.
 void MaskController::showTool() {
   if (editor_.tool() == MaskTool::kNone) return;
   LayerStyle style = image_.style(LayerId::kIgnoreMask);

@@ -52,9 +52,10 @@ void QueueLinks::open(const Place& place) {
 
 /// As soon as the case is shown with its run. Another run of it that is shown stays as it is.
 void QueueLinks::goThere() {
-  const ViewState::CasePtr& one = parts_.state.currentCase();
+  const ViewState::CasePtr& loaded_case = parts_.state.currentCase();
   const ViewState::SnapshotPtr& run = parts_.state.snapshot();
-  if (!wanted_ || !one || !run || fromText(one->source.id) != wanted_->case_id) return;
+  if (!wanted_ || !loaded_case || !run || fromText(loaded_case->source.id) != wanted_->case_id)
+    return;
   const Place place = *wanted_;
   wanted_.reset();
   const int count = static_cast<int>(run->iterations.size());
@@ -142,8 +143,9 @@ void PanelLinks::showConfiguration() {
     const sessions::Session& session = parts_.document.session();
     docks_.configuration.setOptions(QString::fromStdString(session.profile),
                                     sessions::sessionOptions(session, parts_.document.file()));
-    const ViewState::CasePtr& one = parts_.state.currentCase();
-    docks_.configuration.setCaseFeatureSize(one ? one->source.feature_size_m.value_or(0.0) : 0.0);
+    const ViewState::CasePtr& loaded_case = parts_.state.currentCase();
+    docks_.configuration.setCaseFeatureSize(
+        loaded_case ? loaded_case->source.feature_size_m.value_or(0.0) : 0.0);
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
   }
@@ -151,16 +153,16 @@ void PanelLinks::showConfiguration() {
 
 /// Figures of the inputs take a look at every pixel and face: off this thread.
 void PanelLinks::showInputs() {
-  const ViewState::CasePtr one = parts_.state.currentCase();
+  const ViewState::CasePtr loaded_case = parts_.state.currentCase();
   docks_.inputs.setSheet(std::nullopt);
   docks_.warnings.showWarnings({});
   showConfiguration();
-  if (!one) return;
+  if (!loaded_case) return;
   parts_.tasks.start(
       QStringLiteral("input sheet"),
-      [one](const std::stop_token&) { return sessions::inputSheet(*one); },
-      [this, one](sessions::InputSheet sheet) {
-        if (one != parts_.state.currentCase()) return;
+      [loaded_case](const std::stop_token&) { return sessions::inputSheet(*loaded_case); },
+      [this, loaded_case](sessions::InputSheet sheet) {
+        if (loaded_case != parts_.state.currentCase()) return;
         QStringList flags;
         for (const sessions::RedFlag& flag : sheet.flags) flags << fromText(flag.text);
         docks_.warnings.showWarnings(flags);
@@ -169,25 +171,25 @@ void PanelLinks::showInputs() {
 }
 
 void PanelLinks::askForSigmas() {
-  const sessions::SessionCase* one = shownCase(parts_.document, parts_.state);
-  if (!one) return;
-  const std::string id = one->id;
-  InputSigmasDialog dialog(*one, docks_.inputs.window());
+  const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
+  if (!session_case) return;
+  const std::string id = session_case->id;
+  InputSigmasDialog dialog(*session_case, docks_.inputs.window());
   if (dialog.exec() != QDialog::Accepted) return;
   parts_.document.edit(
       sessions::withInputSigmas(parts_.document.session(), id, dialog.meshScaleSigma(),
                                 dialog.calibrationSigma()),
-      tr("State how well mesh and camera of %1 are known").arg(fromText(id)));
+      tr("State the uncertainty of mesh and camera of %1").arg(fromText(id)));
 }
 
 void PanelLinks::showJudgement() {
-  const ViewState::CasePtr& one = parts_.state.currentCase();
-  nudged_->setCase(one);
+  const ViewState::CasePtr& loaded_case = parts_.state.currentCase();
+  nudged_->setCase(loaded_case);
   PoseJudgement judgement;
-  if (one) {
-    judgement.requirement = one->source.requirement;
-    judgement.truth_covariance = one->source.truth_covariance;
-    judgement.camera_from_end_effector = one->source.camera_from_end_effector;
+  if (loaded_case) {
+    judgement.requirement = loaded_case->source.requirement;
+    judgement.truth_covariance = loaded_case->source.truth_covariance;
+    judgement.camera_from_end_effector = loaded_case->source.camera_from_end_effector;
   }
   docks_.poses.setJudgement(judgement);
 }

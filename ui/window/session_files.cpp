@@ -85,7 +85,7 @@ Take takeOfJson(const std::filesystem::path& file) {
   if (const Take take = findTake(kFormats, format)) return take;
   throw std::runtime_error(
       file.string() + ": the format '" + format +
-      "' is none that can be opened here (camera, pose, transform, dataset, session)");
+      "' cannot be opened in the window (camera, pose, transform, dataset, session)");
 }
 
 /// Throws when it is nothing known.
@@ -100,7 +100,7 @@ Take takeOf(const std::filesystem::path& file) {
   if (const Take take = findTake(kExtensions, extension)) return take;
   if (extension == ".json") return takeOfJson(file);
   if (extension == ".zip")
-    throw std::runtime_error(file.string() + ": an archive: unpack it, and open the session in it");
+    throw std::runtime_error(file.string() + ": an archive; unpack it, then open its session");
   if (sessions::isCahvorFile(file)) return takeCamera;
   if (sessions::hasImageLabel(file)) return takeImage;
   throw std::runtime_error(
@@ -164,20 +164,20 @@ std::string DroppedFiles::keptNames(const DroppedFiles& earlier) const {
 
 DroppedFiles classify(const std::vector<std::filesystem::path>& files,
                       const DroppedFiles& earlier) {
-  DroppedFiles made;
-  made.one = earlier.one;
-  made.record = earlier.record;
-  made.label_camera_remark = earlier.label_camera_remark;
-  made.one.parts.clear();
+  DroppedFiles dropped_files;
+  dropped_files.one = earlier.one;
+  dropped_files.record = earlier.record;
+  dropped_files.label_camera_remark = earlier.label_camera_remark;
+  dropped_files.one.parts.clear();
   for (const std::filesystem::path& file : files) {
     try {
-      takeOf(file)(file, made);
+      takeOf(file)(file, dropped_files);
     } catch (const std::exception& error) {
-      made.problems.emplace_back(error.what());
+      dropped_files.problems.emplace_back(error.what());
     }
   }
-  if (made.one.parts.empty()) made.one.parts = earlier.one.parts;
-  return made;
+  if (dropped_files.one.parts.empty()) dropped_files.one.parts = earlier.one.parts;
+  return dropped_files;
 }
 
 namespace {
@@ -256,13 +256,12 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   }
   if (!dropped.dataset && !dropped.isCase()) {
     if (dropped.problems.empty())
-      Q_EMIT noted(tr("Taken. Still missing: %1").arg(QString::fromStdString(dropped.missing())));
+      Q_EMIT noted(tr("Added. Still needed: %1").arg(QString::fromStdString(dropped.missing())));
     return;
   }
   if (dropped.dataset) {
     if (dropped.record)
-      Q_EMIT failed(tr("A dataset has many cases: open the one that %1 belongs to, and drop the "
-                       "record again.")
+      Q_EMIT failed(tr("A dataset has many cases: open the case of %1, then drop the record again.")
                         .arg(text(dropped.record->filename())));
     makeFrom(*dropped.dataset, false);
   } else {
@@ -275,9 +274,9 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
 void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
   if (!mayLeave()) return;
   collected_ = {};
-  Q_EMIT noted((results ? tr("Reading %1 and all that its dataset names ...")
-                        : tr("Reading %1 and all that it names ..."))
-                   .arg(text(file.filename())));
+  Q_EMIT noted(
+      (results ? tr("Reading %1 and its dataset's files ...") : tr("Reading %1 and its files ..."))
+          .arg(text(file.filename())));
   parts_.tasks.start(
       QStringLiteral("make session"),
       [file, results](const std::stop_token&) {
@@ -297,23 +296,23 @@ void SessionFiles::addCase(const QString& kept) {
   parts_.tasks.start(
       QStringLiteral("make session"),
       [files = collected_](const std::stop_token&) {
-        sessions::SessionCase made = sessions::makeCase(files.one).made;
+        sessions::SessionCase session_case = sessions::makeCase(files.one).made;
         if (files.record)
-          made.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
-        return made;
+          session_case.onboard_record = {*files.record, sessions::inputSha256(*files.record)};
+        return session_case;
       },
-      [this, kept](sessions::SessionCase made) {
+      [this, kept](sessions::SessionCase session_case) {
         // Until now: whatever was wrong may be mended by a further file, e.g. a transform.
         collected_ = {};
         Q_EMIT noted(kept.isEmpty() ? QString() : tr("Also of earlier drops: %1").arg(kept));
-        takeCase(std::move(made));
+        takeCase(std::move(session_case));
       });
 }
 
-void SessionFiles::takeCase(sessions::SessionCase made) {
-  const QString id = QString::fromStdString(made.id);
+void SessionFiles::takeCase(sessions::SessionCase session_case) {
+  const QString id = QString::fromStdString(session_case.id);
   Document& document = parts_.document;
-  const sessions::Session session = sessions::withCase(document.session(), std::move(made));
+  const sessions::Session session = sessions::withCase(document.session(), std::move(session_case));
   if (!document.isEditable()) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {
@@ -356,8 +355,8 @@ void SessionFiles::offerSavingElsewhere(const QString& reason) {
   QMessageBox box(QMessageBox::Warning, tr("Boresight"), reason, QMessageBox::NoButton, &window_);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.setInformativeText(
-      tr("The file is as it was saved last, and nothing is lost yet: everything is still in this "
-         "window. Make room or allow writing there, or save the session elsewhere."));
+      tr("The file keeps its last saved state; all changes are still in this window. Free space or "
+         "allow writing, or save the session elsewhere."));
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
   box.addButton(QMessageBox::Close);
   box.exec();
@@ -368,7 +367,7 @@ bool SessionFiles::mayLoseRuns() {
   const QStringList runs = parts_.cases.unstoredRuns();
   if (runs.isEmpty()) return true;
   QMessageBox box(QMessageBox::Warning, tr("Boresight"),
-                  tr("There was no room for runs of %1; they are in this window only.")
+                  tr("No space for runs of %1; they exist only in this window.")
                       .arg(runs.join(QStringLiteral(", "))),
                   QMessageBox::Discard | QMessageBox::Cancel, &window_);
   QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere..."), QMessageBox::AcceptRole);
@@ -387,9 +386,9 @@ bool SessionFiles::mayLeave() {
                            : tr("Save the changes of %1?").arg(text(document.file().filename())),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   box.setInformativeText(
-      untitled ? tr("Discarded, it is gone with its runs; the files that it was made of stay.")
-               : tr("Changes that are not saved stay in the journal and are offered when the "
-                    "session is opened again."));
+      untitled ? tr("Discarding deletes the session and its runs; its input files stay.")
+               : tr("Unsaved changes stay in the journal and can be recovered when the session is "
+                    "opened again."));
   const int answer = box.exec();
   if (answer == QMessageBox::Save) return save();
   if (answer == QMessageBox::Discard && untitled) document.discardUntitled();
@@ -400,11 +399,9 @@ void SessionFiles::offerUntitled() {
   const std::optional<std::filesystem::path> left = Document::leftUntitled();
   if (!left) return;
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("A session without a name was left when the program ended last. Go on with "
-                     "it?"),
+                  tr("Recover the unsaved session of the last program run?"),
                   QMessageBox::Yes | QMessageBox::No, &window_);
-  box.setInformativeText(
-      tr("It lies in %1 and is offered until it is saved or discarded.").arg(text(*left)));
+  box.setInformativeText(tr("It is stored in %1 until it is saved or discarded.").arg(text(*left)));
   if (box.exec() == QMessageBox::Yes) parts_.document.open(*left);
 }
 
@@ -414,8 +411,8 @@ void SessionFiles::offerRecovery() {
   const sessions::Recovery& recovery = **document.recovery();
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   (recovery.edits.size() == 1
-                       ? tr("%1 has a change that was made but not saved, at %2.")
-                       : tr("%1 has %3 changes that were made but not saved, the last one at %2.")
+                       ? tr("%1 has an unsaved change of %2.")
+                       : tr("%1 has %3 unsaved changes, the last of %2.")
                              .replace(QLatin1String("%3"), QString::number(recovery.edits.size())))
                       .arg(text(document.file().filename()), QString::fromStdString(recovery.time)),
                   QMessageBox::NoButton, &window_);

@@ -70,7 +70,7 @@ class SessionFiles : public QObject {
   bool mayLeave();
   /// Offers the edits of a program that was killed, if there are any.
   void offerRecovery();
-  /// Offers the newest session without a name that a program has left and that nobody has open.
+  /// Offers the newest session without a name that a program has left and no other has open.
   void offerUntitled();
 
  public Q_SLOTS:
@@ -92,7 +92,7 @@ class SessionFiles : public QObject {
  private:
   void makeFrom(const std::filesystem::path& file, bool results);
   void addCase(const QString& kept);
-  void takeCase(sessions::SessionCase made);
+  void takeCase(sessions::SessionCase session_case);
   bool askForUnits();
   bool mayLoseRuns();
 

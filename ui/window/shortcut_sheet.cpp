@@ -35,36 +35,35 @@ constexpr std::array<Fixed, 32> kFixed = {{
     {QT_TR_NOOP("Image: double click, 0"), QT_TR_NOOP("Show the whole image")},
     {QT_TR_NOOP("Image: 1"), QT_TR_NOOP("One image pixel on one screen pixel")},
     {QT_TR_NOOP("Image: +, -, arrows"), QT_TR_NOOP("Zoom and move")},
-    {QT_TR_NOOP("Image: click"), QT_TR_NOOP("Choose a template")},
+    {QT_TR_NOOP("Image: click"), QT_TR_NOOP("Select a template")},
     {QT_TR_NOOP("Mask tool: middle drag"), QT_TR_NOOP("Move the image")},
     {QT_TR_NOOP("Mask tool: Enter, Backspace"),
      QT_TR_NOOP("Close a polygon of the mask, drop its last corner")},
-    {QT_TR_NOOP("Mask tool: Escape"), QT_TR_NOOP("Drop the polygon; leave the mask tool")},
+    {QT_TR_NOOP("Mask tool: Escape"), QT_TR_NOOP("Discard the polygon; leave the mask tool")},
     {QT_TR_NOOP("Scene: drag"), QT_TR_NOOP("Turn; with Shift or the middle button move")},
     {QT_TR_NOOP("Scene: right drag, wheel"), QT_TR_NOOP("Nearer and farther")},
-    {QT_TR_NOOP("Scene: click"), QT_TR_NOOP("Choose a template, or read a point of the mesh")},
+    {QT_TR_NOOP("Scene: click"), QT_TR_NOOP("Select a template, or read a point of the mesh")},
     {QT_TR_NOOP("Scene: Home, double click"), QT_TR_NOOP("Show the whole scene")},
     {QT_TR_NOOP("Scene: 1 to 7"), QT_TR_NOOP("Look from a fixed direction")},
     {QT_TR_NOOP("Scene: V"), QT_TR_NOOP("Look through the camera")},
     {QT_TR_NOOP("Scene: +, -, arrows"), QT_TR_NOOP("Zoom and turn")},
-    {QT_TR_NOOP("Scene, marking: click"), QT_TR_NOOP("Mark a place, in line mode an edge")},
-    {QT_TR_NOOP("Scene, marking: Tab, Alt held"),
-     QT_TR_NOOP("Snap to another thing, to nothing but the surface")},
-    {QT_TR_NOOP("Scene, marking: Ctrl+wheel"), QT_TR_NOOP("Magnification of the loupe")},
-    {QT_TR_NOOP("Scene, marking: Escape, Del"),
-     QT_TR_NOOP("Drop the choice, then the mode; remove the mark")},
+    {QT_TR_NOOP("Scene, annotating: click"), QT_TR_NOOP("Annotate a point, in line mode an edge")},
+    {QT_TR_NOOP("Scene, annotating: Tab, Alt held"), QT_TR_NOOP("Next snap target; surface only")},
+    {QT_TR_NOOP("Scene, annotating: Ctrl+wheel"), QT_TR_NOOP("Magnification of the loupe")},
+    {QT_TR_NOOP("Scene, annotating: Escape, Del"),
+     QT_TR_NOOP("Clear the selection, then the mode; remove the annotation")},
     {QT_TR_NOOP("Nudging: arrows"), QT_TR_NOOP("Move right, left, up, down")},
     {QT_TR_NOOP("Nudging: Page Up, Page Down"), QT_TR_NOOP("Move away, nearer")},
     {QT_TR_NOOP("Nudging: with Ctrl"), QT_TR_NOOP("Turn instead of moving")},
     {QT_TR_NOOP("Nudging: with Shift, Alt"), QT_TR_NOOP("Ten times, a tenth of the step")},
     {QT_TR_NOOP("Queue: Enter"), QT_TR_NOOP("Show the case at the iteration that failed")},
-    {QT_TR_NOOP("Queue: A, R"), QT_TR_NOOP("Accept the result, reject it; go on to the next")},
-    {QT_TR_NOOP("Queue: J, K, arrows"), QT_TR_NOOP("The next case, the one before")},
+    {QT_TR_NOOP("Queue: A, R"), QT_TR_NOOP("Accept or reject the result; next case")},
+    {QT_TR_NOOP("Queue: J, K, arrows"), QT_TR_NOOP("Next case, previous case")},
     {QT_TR_NOOP("Queue: D"), QT_TR_NOOP("Compare each case's last two runs")},
-    {QT_TR_NOOP("Inputs: Ctrl+C"), QT_TR_NOOP("Copy the chosen lines")},
-    {QT_TR_NOOP("Manual: Alt+Left, Alt+Right"), QT_TR_NOOP("The page before, the page after")},
+    {QT_TR_NOOP("Inputs: Ctrl+C"), QT_TR_NOOP("Copy the selected lines")},
+    {QT_TR_NOOP("Manual: Alt+Left, Alt+Right"), QT_TR_NOOP("Previous page, next page")},
     {QT_TR_NOOP("Configuration: F2"), QT_TR_NOOP("Change the option")},
-    {QT_TR_NOOP("Configuration: Del"), QT_TR_NOOP("Take the option back to its default")},
+    {QT_TR_NOOP("Configuration: Del"), QT_TR_NOOP("Restore the option's default")},
 }};
 
 /// Some of the keys, as HTML.
@@ -95,7 +94,7 @@ ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
   connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   QPushButton* manual = ui_.buttons->addButton(tr("&Manual"), QDialogButtonBox::HelpRole);
   manual->setShortcut(Qt::Key_F1);
-  manual->setToolTip(tr("What the program does, task by task (F1)"));
+  manual->setToolTip(tr("User manual, task by task (F1)"));
   connect(manual, &QPushButton::clicked, this, [this] {
     accept();
     Q_EMIT manualRequested();

@@ -87,10 +87,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
 }
 
 void WindowDocks::buildCentre() {
-  warnings.setAction(windowText("Inputs"), windowText("Show all that is known of the inputs"));
-  findings.setAction(windowText("Fix ..."),
-                     windowText("Look for missing files below the session's folder, or take "
-                                "changed ones as they are"));
+  warnings.setAction(windowText("Inputs"), windowText("Show the inputs' properties and warnings"));
+  findings.setAction(
+      windowText("Fix ..."),
+      windowText("Search missing files below the session's folder, or accept changed files"));
   for (Banner* each : {&warnings, &findings}) each->showWarnings({});
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);
@@ -153,10 +153,10 @@ void WindowDocks::giveSizes() const {
 }
 
 void WindowDocks::add(const QString& name, const QString& title, QWidget* widget) {
-  auto* made = new QDockWidget(title, &window_);
-  made->setObjectName(name);
-  made->setWidget(widget);
-  docks_.push_back(made);
+  auto* result = new QDockWidget(title, &window_);
+  result->setObjectName(name);
+  result->setWidget(widget);
+  docks_.push_back(result);
 }
 
 }  // namespace boresight::ui

@@ -7,9 +7,9 @@
 
 #include "sessions/version.h"
 #include "ui/annotation/annotation_panel.h"
+#include "ui/annotation/annotation_tool.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/loupe.h"
-#include "ui/annotation/mark_tool.h"
 #include "ui/manual/manual_window.h"
 #include "ui/panels/iterations_panel.h"
 #include "ui/panels/mask_panel.h"
@@ -115,11 +115,12 @@ void WindowMenus::connectMode(QAction* action, PlaceMode mode) {
 
 void WindowMenus::connectAnnotate() {
   AnnotationController* annotation = &parts_.annotation;
-  annotation_edits_ = {ui_.placePoints, ui_.placeLines,  ui_.removeMark, ui_.useAsTruth,
-                       ui_.putAside,    ui_.importMarks, ui_.exportMarks};
+  annotation_edits_ = {ui_.placePoints, ui_.placeLines,        ui_.removeAnnotation, ui_.useAsTruth,
+                       ui_.putAside,    ui_.importAnnotations, ui_.exportAnnotations};
   connectMode(ui_.placePoints, PlaceMode::kPoint);
   connectMode(ui_.placeLines, PlaceMode::kLine);
-  on(ui_.removeMark, annotation, [annotation] { annotation->remove(annotation->selected()); });
+  on(ui_.removeAnnotation, annotation,
+     [annotation] { annotation->remove(annotation->selected()); });
   on(ui_.useAsTruth, annotation, &AnnotationController::useAsTruth);
   on(ui_.putAside, &docks_.annotation, &AnnotationPanel::askForName);
   connect(&docks_.mask_editor, &MaskEditor::changed, this, [this] {
@@ -131,8 +132,8 @@ void WindowMenus::connectAnnotate() {
 void WindowMenus::connectImageAnnotation() {
   ImageAnnotation* annotation = &docks_.image_annotation;
   Loupe* loupe = &annotation->loupe();
-  connectSwitch(ui_.snap, &annotation->tool(), &MarkTool::snaps, &MarkTool::setSnaps,
-                &MarkTool::snapsChanged);
+  connectSwitch(ui_.snap, &annotation->tool(), &AnnotationTool::snaps, &AnnotationTool::setSnaps,
+                &AnnotationTool::snapsChanged);
   connectSwitch(ui_.loupe, loupe, &Loupe::isSwitchedOn, &Loupe::setSwitchedOn, &Loupe::changed);
   const auto magnify = [loupe](double factor) {
     return [loupe, factor] { loupe->setMagnification(loupe->magnification() * factor); };
@@ -143,7 +144,7 @@ void WindowMenus::connectImageAnnotation() {
   auto* group = new QActionGroup(ui_.residualsMenu);
   for (const double factor : {1.0, 10.0, 40.0, 100.0}) {
     QAction* each = ui_.residualsMenu->addAction(tr("%1 times").arg(factor));
-    each->setStatusTip(tr("Draw the residual of each mark this many times as long"));
+    each->setStatusTip(tr("Magnification of the drawn residuals"));
     each->setCheckable(true);
     each->setChecked(factor == annotation->magnification());
     group->addAction(each);
@@ -165,7 +166,8 @@ void WindowMenus::connectRun() {
   on(ui_.reset, cases, &CaseController::reset);
   on(ui_.runAll, this, [this] {
     QStringList ids;
-    for (const auto& one : parts_.document.session().cases) ids << QString::fromStdString(one->id);
+    for (const auto& session_case : parts_.document.session().cases)
+      ids << QString::fromStdString(session_case->id);
     parts_.cases.runAll(ids);
   });
   parts_.state.onChange(ViewChange::kCursor, this, &WindowMenus::update);
@@ -273,7 +275,7 @@ void WindowMenus::connectHelp() {
 void WindowMenus::showAbout() {
   QMessageBox::about(&window_, tr("Boresight"),
                      tr("<b>Boresight %1</b><p>Localization of a station in one image by salient "
-                        "edges and Weighted Hamming Similarity, as it runs in flight.</p>")
+                        "edges and Weighted Hamming Similarity.</p>")
                          .arg(QString::fromUtf8(sessions::kVersion)));
 }
 
@@ -288,7 +290,7 @@ void WindowMenus::undo() {
 void WindowMenus::redo() {
   const sessions::Session before = parts_.document.session();
   const QString text = parts_.document.redoText();
-  if (parts_.document.redo()) showChange(before, tr("Done again: %1").arg(text));
+  if (parts_.document.redo()) showChange(before, tr("Redone: %1").arg(text));
 }
 
 void WindowMenus::showChange(const sessions::Session& before, const QString& told) {
@@ -297,7 +299,7 @@ void WindowMenus::showChange(const sessions::Session& before, const QString& tol
   QString message = told;
   if (!changed.empty() && std::find(changed.begin(), changed.end(), shown) == changed.end()) {
     const QString other = QString::fromStdString(changed.front());
-    message = tr("%1, in %2, which is shown now").arg(told, other);
+    message = tr("%1, in %2 (now shown)").arg(told, other);
     parts_.cases.chooseCase(other);
   }
   window_.statusBar()->showMessage(message);

@@ -33,8 +33,9 @@ constexpr Component kComponents[] = {
 
 char letterOf(const std::string& text) {
   const std::string name = upperCase(text);
-  for (const Component& one : kComponents)
-    if (name == one.name || (name.size() == 1 && name[0] == one.letter)) return one.letter;
+  for (const Component& component : kComponents)
+    if (name == component.name || (name.size() == 1 && name[0] == component.letter))
+      return component.letter;
   if (name == "CENTRE") return 'C';
   return '\0';
 }
@@ -87,15 +88,15 @@ Components elementComponents(const json& model) {
                                        {"c0", "c1", "c2"},
                                        {"x", "y", "z"}};
   Components components;
-  for (const Component& one : kComponents) {
-    const json* element = labelMember(&model, one.element);
+  for (const Component& component : kComponents) {
+    const json* element = labelMember(&model, component.element);
     json coordinates = json::array();
     for (const auto& names : kNames)
       for (const char* name : names)
         if (const json* value = labelMember(element, name)) coordinates.push_back(*value);
     const json* values = coordinates.empty() ? element : &coordinates;
-    components.numbers[one.letter] = labelNumbers(values);
-    components.units[one.letter] = labelUnit(values);
+    components.numbers[component.letter] = labelNumbers(values);
+    components.units[component.letter] = labelUnit(values);
   }
   return components;
 }
@@ -240,20 +241,20 @@ StatedCamera elementCamera(const json& parameters) {
 /// Of several models that agree the first; models that differ are none.
 StatedCamera onlyCamera(const std::vector<StatedCamera>& cameras) {
   const StatedCamera* chosen = nullptr;
-  for (const StatedCamera& one : cameras) {
-    if (!one.cahv) continue;
-    if (chosen != nullptr && !sameModel(*chosen, one)) {
+  for (const StatedCamera& stated_camera : cameras) {
+    if (!stated_camera.cahv) continue;
+    if (chosen != nullptr && !sameModel(*chosen, stated_camera)) {
       StatedCamera none;
       none.remark =
           "the label states several camera models that differ; give a camera file with "
           "that of the image";
       return none;
     }
-    if (chosen == nullptr) chosen = &one;
+    if (chosen == nullptr) chosen = &stated_camera;
   }
   if (chosen != nullptr) return *chosen;
-  for (const StatedCamera& one : cameras)
-    if (one.remark != kNone) return one;
+  for (const StatedCamera& stated_camera : cameras)
+    if (stated_camera.remark != kNone) return stated_camera;
   if (!cameras.empty()) return cameras.front();
   StatedCamera none;
   none.remark = "the label has no camera model";

@@ -71,7 +71,7 @@ void requireSize(const LabelFiles& files, std::string_view label, const char* ke
     const bool number = !word.empty() && (isDigit(word.front()) || word.front() == '-');
     if (number && (!value || *value < least || *value > most))
       throw InputError(files.file, key,
-                       oneLine(word.substr(0, 80)) + " is no whole number from " +
+                       oneLine(word.substr(0, 80)) + " is not a whole number from " +
                            std::to_string(least) + " to " + std::to_string(most));
     // The sizes of a VICAR image come first; tasks may have items of the same names.
     if (files.format == LabelFormat::kVicar) return;

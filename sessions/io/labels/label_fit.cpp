@@ -80,7 +80,7 @@ std::string partMisfit(const Side& x, const Side& y, bool of_subframe) {
   }
   const bool beyond_as_whole = x.principal_px < -0.5 || y.principal_px < -0.5;
   if (of_subframe || beyond_as_whole) return "";
-  return "the label does not show whether its camera model is that of the whole detector or of the "
+  return "the label does not state whether its camera model is for the whole detector or the "
          "sub-frame at " +
          firstText(x, y) + kAdvice;
 }
@@ -91,8 +91,8 @@ std::string focalMisfit(const Side& x, const Side& y, double fx, double fy, bool
     return !(focal_px >= kShortestFocal * longest && focal_px <= kLongestFocal_px);
   };
   if (absurd(fx) || absurd(fy))
-    return "the label's camera model is no camera's: focal lengths of " + fixedText(fx, 3) +
-           " and " + fixedText(fy, 3) + " px for an image of " + sizeText(x, y) + " px";
+    return "the label's camera model is invalid: focal lengths of " + fixedText(fx, 3) + " and " +
+           fixedText(fy, 3) + " px for an image of " + sizeText(x, y) + " px";
   const double ratio = fx * x.step / (fy * y.step);
   if (stated && (ratio > kMostUnequal || ratio < 1.0 / kMostUnequal))
     return "the label's camera model does not fit the down-sampling by " + fixedText(x.step, 2) +
@@ -103,10 +103,10 @@ std::string focalMisfit(const Side& x, const Side& y, double fx, double fy, bool
 
 std::string vectorsMisfit(const CahvModel& cahv) {
   if (!(std::abs(cahv.a.norm() - 1.0) <= 1e-3))
-    return "the label's camera model is no camera's: its axis A has the length " +
+    return "the label's camera model is invalid: its axis A has the length " +
            fixedText(cahv.a.norm(), 4) + " instead of 1";
   if (!(cahv.c_m.norm() <= kFarthestCentre_m))
-    return "the label's camera model is no camera's: its centre is over " +
+    return "the label's camera model is invalid: its centre is over " +
            fixedText(kFarthestCentre_m, 0) + " m from the origin of its frame";
   return "";
 }
@@ -114,10 +114,10 @@ std::string vectorsMisfit(const CahvModel& cahv) {
 /// A picture is not mirrored, and its rows and columns are square to each other.
 std::string axesMisfit(const Camera& camera) {
   if (camera.fx * camera.fy < 0.0)
-    return "the label's camera model is that of a mirrored image (H and V are swapped, or one of "
-           "them points the other way); give a camera file that fits";
+    return "the label's camera model mirrors the image (H and V are swapped, or one is reversed); "
+           "give a camera file that fits";
   if (!(std::abs(camera.cahv.skew_px) <= kMostSkew * std::abs(camera.fy)))
-    return "the label's camera model is no camera's: H and V are " +
+    return "the label's camera model is invalid: H and V are " +
            fixedText(std::atan2(std::abs(camera.cahv.skew_px), std::abs(camera.fy)) / kDegree_rad,
                      1) +
            " deg off square";

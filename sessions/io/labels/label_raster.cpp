@@ -73,8 +73,8 @@ SampleType sampleTypeOf(const std::filesystem::path& file, GDALRasterBand& band)
   const int bits = GDALGetDataTypeSizeBits(type);
   const bool floating = GDALDataTypeIsFloating(type) != 0;
   if (GDALDataTypeIsComplex(type) != 0 || (bits > 32 && !floating))
-    throw InputError(
-        file, "samples of the type " + std::string(GDALGetDataTypeName(type)) + " are no picture");
+    throw InputError(file, "samples of the type " + std::string(GDALGetDataTypeName(type)) +
+                               " are not an image");
   // GDAL before 3.7 has no type for signed bytes.
   const char* kind = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
   const bool signed_byte = kind != nullptr && std::string_view(kind) == "SIGNEDBYTE";
@@ -162,7 +162,7 @@ std::int64_t statedOffset(const LabelFiles& files, const json& label) {
   const std::int64_t record = integerOf(&label, "RECORD_BYTES");
   if (record < 1 || number > std::int64_t{1} << 30)
     throw InputError(files.file, "^IMAGE",
-                     "counts records, but the label states no length of them (RECORD_BYTES)");
+                     "counts records, but the label does not state RECORD_BYTES");
   return (number - 1) * record;
 }
 
@@ -219,8 +219,7 @@ void requireEndLabel(const LabelFiles& files, std::int64_t at) {
   const std::string_view end = text.substr(std::min(static_cast<std::size_t>(at), text.size()));
   const auto size = statedInteger(end.substr(0, 64), "LBLSIZE");
   if (!size || *size < 1 || static_cast<std::uint64_t>(*size) > end.size())
-    throw InputError(files.file, "EOL",
-                     "the part of the label at the file's end is not there in full");
+    throw InputError(files.file, "EOL", "the part of the label at the file's end is incomplete");
 }
 
 /// The sizes of a VICAR label agree: a record is NBB bytes and N1 samples, the label a number of
@@ -261,7 +260,7 @@ void requireStatedRecords(const LabelFiles& files, const json& label, const Labe
 void requirePixels(const LabelFiles& files, const OpenedLabel& opened, const LabelPicture& picture,
                    const RawLayout& raw) {
   if ((opened.pixels_path.empty() ? opened.label_path : opened.pixels_path) != raw.osRawFilename)
-    throw InputError(files.file, "the label's pixels cannot be found where it says that they are");
+    throw InputError(files.file, "the label's pixels are not at the stated position");
   const auto last = [](std::int64_t count, std::int64_t step) {
     return static_cast<std::uint64_t>((count - 1) * std::max<std::int64_t>(step, 0));
   };
@@ -281,7 +280,7 @@ void checkLayout(const LabelFiles& files, const OpenedLabel& opened, const Label
     requireStatedRecords(files, raster.label, raster.picture);
   if (!opened.dataset->GetRawBinaryLayout(raw)) {
     if (files.format == LabelFormat::kVicar) return;  // compressed: reading finds what is wrong
-    throw InputError(files.file, "the label's pixels are not stored plainly");
+    throw InputError(files.file, "the label's pixels are compressed or encoded");
   }
   if (files.format == LabelFormat::kPds3)
     requireStatedLayout(files, raster.label, raster.picture, raw);

@@ -64,8 +64,8 @@ std::vector<LabelItem> elementIdentifiers(const json& tree) {
   if (const json* components =
           labelPath(area, {"Observing_System", "Observing_System_Component"})) {
     const json list = components->is_array() ? *components : json::array({*components});
-    for (const json& one : list)
-      if (const auto name = labelText(labelMember(&one, "name"))) system.push_back(*name);
+    for (const json& item : list)
+      if (const auto name = labelText(labelMember(&item, "name"))) system.push_back(*name);
   }
   if (!system.empty()) items.push_back({"Observing_System_Component", joined(system)});
   add("logical_identifier", labelPath(&tree, {"Identification_Area", "logical_identifier"}));
@@ -195,8 +195,8 @@ void addPictureFlags(const Source& source, const LabelPicture& picture,
                      std::vector<std::string>& flags) {
   if (!picture.remark.empty()) flags.push_back(picture.remark);
   if (const std::string display = displayOf(source); !display.empty())
-    flags.push_back("the label has the image displayed otherwise than it is stored (" + display +
-                    "); it is read as it is stored, in the lines and samples of its camera model");
+    flags.push_back("the label's display order differs from its storage order (" + display +
+                    "); the image is read as stored, in the lines and samples of its camera model");
   if (source.format != LabelFormat::kPds3 || picture.type.bits != 8) return;
   const std::string type = labelText(source.image("SAMPLE_TYPE")).value_or("UNSIGNED");
   if (upperCase(type).find("UNSIGNED") == std::string::npos)
@@ -244,15 +244,14 @@ StatedCamera chosenCamera(const Source& source, const json& vicar_label,
   StatedCamera other = statedCamera(LabelFormat::kVicar, vicar_label);
   if (!stated.cahv && other.cahv) {
     flags.push_back(
-        "the camera model is that of the VICAR header inside the file; of the PDS3 "
-        "label: " +
+        "the camera model comes from the VICAR header in the file, as the PDS3 label fails: " +
         stated.remark);
     return other;
   }
   if (stated.cahv && other.cahv && !sameModel(stated, other))
     flags.push_back(
-        "the VICAR header inside the file states another camera model than the PDS3 label, which "
-        "is the one used");
+        "the VICAR header in the file and the PDS3 label state different camera models; that of "
+        "the PDS3 label is used");
   return stated;
 }
 
@@ -384,10 +383,10 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
   addPictureFlags(source, picture, label.flags);
   if (!label.bayer_pattern.empty())
     label.flags.push_back("the pixels are a mosaic of colours (" + label.bayer_pattern +
-                          "): turn it into gray or colour before matching");
+                          "): convert to gray or colour before matching");
   if (!reading.derived_type.empty())
     label.flags.push_back("the label calls this a " + reading.derived_type +
-                          ", not a picture of the scene");
+                          ", not an image of the scene");
   return reading;
 }
 
@@ -398,7 +397,7 @@ LabelReading readLabel(const LabelFiles& files, const LabelRaster& raster) {
   if (twice.empty()) return reading;
   reading.label.camera.reset();
   reading.label.camera_remark =
-      "the label states " + twice + " of its camera model twice; give a camera file instead";
+      "the label states " + twice + " of its camera model twice; give a camera file";
   return reading;
 }
 

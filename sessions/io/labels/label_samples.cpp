@@ -45,8 +45,9 @@ double halfDigit(double value) {
 }
 
 void add(double value, double tolerance, std::vector<InvalidValue>& values) {
-  const bool known = std::any_of(values.begin(), values.end(),
-                                 [value](const InvalidValue& one) { return one.value == value; });
+  const bool known = std::any_of(
+      values.begin(), values.end(),
+      [value](const InvalidValue& invalid_value) { return invalid_value.value == value; });
   if (std::isfinite(value) && values.size() < kMostDistinct && !known)
     values.push_back({value, tolerance});
 }
@@ -211,8 +212,8 @@ void requirePicture(const LabelFiles& files, const LabelRaster& raster,
                                      " bands; 1 (gray) or 3 (red, green, blue) are needed: write "
                                      "the wanted band into a file of its own");
   if (bands == 3 && !reading.derived_type.empty())
-    throw InputError(
-        files.file, "the label calls this a " + reading.derived_type + ", not a picture in colour");
+    throw InputError(files.file,
+                     "the label calls this a " + reading.derived_type + ", not a colour image");
 }
 
 std::string ruleOf(const LabelSamples& samples, const Range& range, const SampleType& type) {
@@ -235,11 +236,11 @@ void addInvalidValues(const json* stated, bool floating, int sample_bits,
                       std::vector<InvalidValue>& values) {
   if (stated == nullptr) return;
   const json list = stated->is_array() ? *stated : json::array({*stated});
-  for (const json& one : list) {
-    if (const auto number = labelNumber(&one)) {
+  for (const json& item : list) {
+    if (const auto number = labelNumber(&item)) {
       const bool rounded = floating && std::abs(*number) >= kBeyondMeasurement;
       add(*number, rounded ? halfDigit(*number) : 0.0, values);
-    } else if (const auto pattern = bitPattern(labelText(&one).value_or(""))) {
+    } else if (const auto pattern = bitPattern(labelText(&item).value_or(""))) {
       addPattern(*pattern, floating, sample_bits, values);
     }
   }
@@ -252,9 +253,8 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
   const Validity valid(reading.invalid, raster.picture.type);
   Range range = rangeOf(raster, valid);
   if (!(range.lowest <= range.highest))
-    throw InputError(files.file,
-                     "no sample of the image has a value: all are missing, invalid or "
-                     "no numbers");
+    throw InputError(
+        files.file, "no sample of the image has a value: all are missing, invalid or not a number");
   LabelSamples samples;
   samples.container = labelFormatName(files.format);
   samples.width = raster.picture.width;
@@ -268,7 +268,7 @@ LabelSamples readLabelSamples(const LabelFiles& files) {
     range = withoutOutliers(raster, valid, whole);
     if (range.clipped_count > 0)
       label.flags.push_back(
-          std::to_string(range.clipped_count) + " samples lie far off all others (all go from " +
+          std::to_string(range.clipped_count) + " samples are far outliers (the full range is " +
           numberText(whole.lowest) + " to " + numberText(whole.highest) + ") and are clipped to " +
           numberText(range.lowest) + " .. " + numberText(range.highest));
   }

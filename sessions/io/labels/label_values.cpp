@@ -64,15 +64,15 @@ void collect(const json& value, std::string_view name, std::string_view except, 
              std::vector<const json*>& found) {
   if (depth > kMostDepth || found.size() >= kMostElements) return;
   if (value.is_array())
-    for (const json& one : value) collect(one, name, except, depth + 1, found);
+    for (const json& item : value) collect(item, name, except, depth + 1, found);
   if (!value.is_object()) return;
   for (auto member = value.begin(); member != value.end(); ++member) {
     if (!except.empty() && member.key() == except) continue;
     if (member.key() == name) {
       if (!member->is_array() && found.size() < kMostElements) found.push_back(&*member);
       if (member->is_array())
-        for (const json& one : *member)
-          if (found.size() < kMostElements) found.push_back(&one);
+        for (const json& item : *member)
+          if (found.size() < kMostElements) found.push_back(&item);
     }
     collect(*member, name, except, depth + 1, found);
   }
@@ -124,9 +124,9 @@ std::vector<std::string> labelTexts(const json* value) {
   std::vector<std::string> texts;
   if (value == nullptr) return texts;
   if (!value->is_array()) return {labelText(value).value_or("")};
-  for (const json& one : *value) {
+  for (const json& item : *value) {
     if (texts.size() == kMostValues) break;
-    texts.push_back(labelText(&one).value_or(""));
+    texts.push_back(labelText(&item).value_or(""));
   }
   return texts;
 }
@@ -152,8 +152,8 @@ std::vector<double> labelNumbers(const json* value) {
     return numbers;
   }
   if (value->size() > kMostValues) return numbers;
-  for (const json& one : *value) {
-    const auto number = labelNumber(&one);
+  for (const json& item : *value) {
+    const auto number = labelNumber(&item);
     if (!number) return {};
     numbers.push_back(*number);
   }
@@ -177,8 +177,8 @@ std::string labelUnit(const json* value) {
   if (value->is_array()) {
     // All of a list, each once: one that mixes units has none of those that are known.
     std::vector<std::string> units;
-    for (const json& one : *value)
-      if (const std::string unit = labelUnit(&one);
+    for (const json& item : *value)
+      if (const std::string unit = labelUnit(&item);
           !unit.empty() && std::find(units.begin(), units.end(), unit) == units.end())
         units.push_back(unit);
     return joined(units);

@@ -36,11 +36,11 @@ std::string textOf(const fs::path& file) {
 /// Every page by its name.
 const std::map<std::string, std::string>& pages() {
   static const std::map<std::string, std::string> all = [] {
-    std::map<std::string, std::string> made;
+    std::map<std::string, std::string> result;
     for (const auto& entry : fs::directory_iterator(kManual))
       if (entry.path().extension() == ".md")
-        made[entry.path().filename().string()] = textOf(entry.path());
-    return made;
+        result[entry.path().filename().string()] = textOf(entry.path());
+    return result;
   }();
   return all;
 }
@@ -103,7 +103,7 @@ void expectSamePose(const Pose& a, const Pose& b) {
   EXPECT_LT(perturbationBetween(a, b).norm(), 1e-5);  // six digits of 84 m are shown
 }
 
-TEST(Manual, LinksLeadToPagesHeadingsAndPicturesThatAreThere) {
+TEST(Manual, Links_HaveTargets) {
   int links = 0;
   for (const auto& [name, page] : pages()) {
     for (const std::string& link : linksOf(page)) {
@@ -160,7 +160,7 @@ TEST(Manual, KnowsEveryOption) {
   expectOptions(sessions::CheckLimits());
 }
 
-TEST(Manual, NamesNoOptionThatThereIsNot) {
+TEST(Manual, NamedOptions_Exist) {
   std::set<std::string> known;
   std::set<std::string> groups;
   const auto add = [&](const auto& options) {
@@ -172,8 +172,8 @@ TEST(Manual, NamesNoOptionThatThereIsNot) {
   add(defaultProfile());
   add(sessions::MethodOptions());
   add(sessions::CheckLimits());
-  for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md", "robustness.md", "trust.md",
-                           "formats.md", "evaluate.md", "window.md"})
+  for (const char* name : {"failed_run.md", "limits.md", "checks.md", "algorithm.md",
+                           "robustness.md", "trust.md", "formats.md", "evaluate.md", "window.md"})
     for (const std::string& word : matches(pages().at(name), R"(`([a-z]+\.[a-z_]+)(=[^`]*)?`)", 1))
       EXPECT_TRUE(known.contains(word) || !groups.contains(word.substr(0, word.find('.'))))
           << name << ": " << word;
@@ -194,9 +194,9 @@ TEST(Manual, KnowsEveryCheck) {
   fs::copy(exampleFolder().parent_path(), folder / "examples", fs::copy_options::recursive);
   const std::string session = folder / "examples/example.boresight.json";
   runWhs({"run", session, "--case", "os-000038"}, 0);
-  runWhs(
-      {"check", session, "--case", "os-000038", "--basin", "0", "--json", folder / "checks.json"},
-      0);
+  runWhs({"check", session, "--case", "os-000038", "--convergence-test", "0", "--json",
+          folder / "checks.json"},
+         0);
   const nlohmann::json checks =
       nlohmann::json::parse(folder.read("checks.json")).at("cases").at(0).at("checks");
   EXPECT_GE(checks.size(), 24u);
@@ -270,7 +270,7 @@ void runPage(const std::string& name, const TemporaryFolder& folder) {
 }
 
 /// Page by page, each in a folder of its own.
-TEST(Manual, CommandsDoWhatTheyAreThereFor) {
+TEST(Manual, CommandsOfPages_Succeed) {
   int run_pages = 0;
   for (const auto& [name, page] : pages()) {
     if (blocksOf(page).by_kind["sh run"].empty()) continue;
@@ -281,15 +281,15 @@ TEST(Manual, CommandsDoWhatTheyAreThereFor) {
   EXPECT_GE(run_pages, 7);
 }
 
-/// Whoever copies the example's transform gets that of the label, and both seeds are the same pose.
+/// The documented example's transform equals that of the label, and both seeds are the same pose.
 TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
   const TemporaryFolder folder;
   runPage("planetary.md", folder);
   const sessions::ImageLabel label = sessions::readImageLabel(folder / "1F483288473.IMG");
   const sessions::FrameTransform stated =
       sessions::readFrameTransform(folder / "site_from_rover.json");
-  const auto told = std::find_if(label.frames.begin(), label.frames.end(), [&](const auto& one) {
-    return one.frame == stated.source && one.reference == stated.target;
+  const auto told = std::find_if(label.frames.begin(), label.frames.end(), [&](const auto& item) {
+    return item.frame == stated.source && item.reference == stated.target;
   });
   ASSERT_NE(told, label.frames.end());
   expectSamePose(stated.target_from_source, told->reference_from_frame);
@@ -299,8 +299,8 @@ TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
   expectSamePose(seedOf("sol4000.boresight.json"), seedOf("sol4000_site.boresight.json"));
 }
 
-/// In tables of files, what is named beside a file is in it.
-TEST(Manual, NamesFilesAndFunctionsThatAreThere) {
+/// In tables of files, the names next to a file occur in it.
+TEST(Manual, NamedFilesAndFunctions_Exist) {
   int files = 0;
   for (const char* page : {"engineer.md", "engineer_add.md", "formats.md", "evaluate.md"}) {
     std::istringstream stream(blocksOf(pages().at(page)).text);

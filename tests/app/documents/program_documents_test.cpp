@@ -83,12 +83,12 @@ TEST(Completions, AreWhatOtherShellsRead) {
   }
 }
 
-TEST(ManualPages, AreOneForTheProgramAndOneForEachCommandThatRoffReads) {
+TEST(ManualPages, ProgramAndCommands_HavePagesThatRoffReads) {
   if (!hasProgram("help2man")) GTEST_SKIP() << "there is no help2man";
   const TemporaryFolder folder;
-  const ProgramRun made =
+  const ProgramRun run =
       runProgram(BORESIGHT_APP "/manual_pages.sh", {folder.path().string(), BORESIGHT_WHS});
-  ASSERT_EQ(made.exit_code, 0) << made.err;
+  ASSERT_EQ(run.exit_code, 0) << run.err;
   Words commands = offered({""});
   for (const std::string& command : commands) {
     const std::string page = folder.read("whs-" + command + ".1");

@@ -57,26 +57,27 @@ const sessions::SceneMesh& sceneOf(const sessions::Dataset& dataset, const std::
 }
 
 /// The mesh to look for: the case's own, mirrored, or another station's.
-sessions::SceneMesh soughtScene(const sessions::Dataset& dataset, const sessions::Case& one,
-                                const std::string& wrong, Scenes& scenes) {
+sessions::SceneMesh soughtScene(const sessions::Dataset& dataset,
+                                const sessions::Case& dataset_case, const std::string& wrong,
+                                Scenes& scenes) {
   if (wrong.size() == 1)
-    return sessions::mirrored(sceneOf(dataset, one.station, scenes),
+    return sessions::mirrored(sceneOf(dataset, dataset_case.station, scenes),
                               static_cast<sessions::MirrorAxis>(wrong[0] - 'x'));
-  return sceneOf(dataset, wrong.empty() ? one.station : wrong, scenes);
+  return sceneOf(dataset, wrong.empty() ? dataset_case.station : wrong, scenes);
 }
 
-sessions::RunResult judged(const sessions::Case& one, const Camera& camera, bool wrong,
+sessions::RunResult judged(const sessions::Case& dataset_case, const Camera& camera, bool wrong,
                            const sessions::SceneMesh& scene, const sessions::Symmetries& symmetries,
                            const sessions::LocalizationTrace& trace) {
   sessions::RunResult result;
-  result.case_id = one.id;
-  result.station = one.station;
-  result.requirement = one.requirement;
+  result.case_id = dataset_case.id;
+  result.station = dataset_case.station;
+  result.requirement = dataset_case.requirement;
   sessions::noteTrace(trace, result);
   const std::vector<Eigen::Vector3f> vertices = sessions::matchedVertices(scene.view());
-  result.error =
-      sessions::wholeError(camera, *one.truth_camera_from_station, result.camera_from_station,
-                           one.camera_from_end_effector, {vertices, &symmetries});
+  result.error = sessions::wholeError(
+      camera, *dataset_case.truth_camera_from_station, result.camera_from_station,
+      dataset_case.camera_from_end_effector, {vertices, &symmetries});
   sessions::judge(wrong, result);
   return result;
 }
@@ -98,21 +99,23 @@ class Measurement {
     const sessions::Dataset dataset = sessions::readDataset(file);
     Scenes scenes;
     int place = 0;
-    for (const sessions::Case& one : dataset.cases) {
-      if (!one.truth_camera_from_station || !one.uncertainty || one.station == arguments_.wrong)
+    for (const sessions::Case& dataset_case : dataset.cases) {
+      if (!dataset_case.truth_camera_from_station || !dataset_case.uncertainty ||
+          dataset_case.station == arguments_.wrong)
         continue;
       const int number = place++;
       if (arguments_.half >= 0 && number % 2 != arguments_.half) continue;
       if ((arguments_.half >= 0 ? number / 2 : number) % arguments_.each != 0) continue;
-      measure(dataset, one, scenes);
+      measure(dataset, dataset_case, scenes);
     }
   }
 
   void print() const;
 
  private:
-  void measure(const sessions::Dataset& dataset, const sessions::Case& one, Scenes& scenes);
-  void run(const sessions::Dataset& dataset, const sessions::Case& one,
+  void measure(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
+               Scenes& scenes);
+  void run(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
            const sessions::SceneMesh& scene, const Degradation& what, const cv::Mat& picture);
   void note(const sessions::RunResult& result, const Degradation& what,
             const sessions::LocalizationTrace& trace, const sessions::ImageQuality& quality);
@@ -122,46 +125,48 @@ class Measurement {
   std::map<std::pair<std::string, double>, Row> rows_;
 };
 
-void Measurement::measure(const sessions::Dataset& dataset, const sessions::Case& one,
+void Measurement::measure(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
                           Scenes& scenes) {
-  const sessions::GrayImage image = sessions::readCaseImage(dataset, one);
+  const sessions::GrayImage image = sessions::readCaseImage(dataset, dataset_case);
   const cv::Mat picture(image.height, image.width, CV_8U,
                         const_cast<std::uint8_t*>(image.pixels.data()));
-  const cv::Mat object =
-      silhouette(dataset.cameras.at(one.camera), sceneOf(dataset, one.station, scenes).view(),
-                 *one.truth_camera_from_station);
-  const sessions::SceneMesh sought = soughtScene(dataset, one, arguments_.wrong, scenes);
+  const cv::Mat object = silhouette(dataset.cameras.at(dataset_case.camera),
+                                    sceneOf(dataset, dataset_case.station, scenes).view(),
+                                    *dataset_case.truth_camera_from_station);
+  const sessions::SceneMesh sought = soughtScene(dataset, dataset_case, arguments_.wrong, scenes);
   for (const DegradationKind& kind : degradationKinds()) {
     if (!arguments_.kinds.empty() && std::find(arguments_.kinds.begin(), arguments_.kinds.end(),
                                                kind.name) == arguments_.kinds.end())
       continue;
     for (const double strength : kind.tried) {
       cv::Mat worse = picture.clone();
-      degrade({kind.name, strength}, object, seedOf(one.id + kind.name), worse);
-      run(dataset, one, sought, {kind.name, strength}, worse);
+      degrade({kind.name, strength}, object, seedOf(dataset_case.id + kind.name), worse);
+      run(dataset, dataset_case, sought, {kind.name, strength}, worse);
     }
   }
 }
 
-void Measurement::run(const sessions::Dataset& dataset, const sessions::Case& one,
+void Measurement::run(const sessions::Dataset& dataset, const sessions::Case& dataset_case,
                       const sessions::SceneMesh& scene, const Degradation& what,
                       const cv::Mat& picture) {
-  const std::string& mesh_of = arguments_.wrong.size() > 1 ? arguments_.wrong : one.station;
+  const std::string& mesh_of =
+      arguments_.wrong.size() > 1 ? arguments_.wrong : dataset_case.station;
   const sessions::Station& station = dataset.stations.at(mesh_of);
   LocalizationProblem problem;
   problem.image = {picture.data, picture.cols, picture.rows,
                    static_cast<std::ptrdiff_t>(picture.step)};
-  problem.camera = dataset.cameras.at(one.camera);
+  problem.camera = dataset.cameras.at(dataset_case.camera);
   problem.mesh = scene.view();
-  problem.camera_from_station_seed = one.seed_camera_from_station;
-  problem.uncertainty = sessions::seedUncertainty(*one.uncertainty, one.seed_camera_from_station,
-                                                  matchedBounds(scene.view()).centre());
+  problem.camera_from_station_seed = dataset_case.seed_camera_from_station;
+  problem.uncertainty =
+      sessions::seedUncertainty(*dataset_case.uncertainty, dataset_case.seed_camera_from_station,
+                                matchedBounds(scene.view()).centre());
   LocalizerOptions options = arguments_.options;
   if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;
   const sessions::LocalizationTrace trace =
       sessions::localize(problem, sessions::RunPlan(options), sessions::RecordLevel::kSummary);
-  const sessions::RunResult result =
-      judged(one, problem.camera, !arguments_.wrong.empty(), scene, station.symmetries, trace);
+  const sessions::RunResult result = judged(dataset_case, problem.camera, !arguments_.wrong.empty(),
+                                            scene, station.symmetries, trace);
   note(result, what, trace, sessions::imageQualityOf(problem).value_or(sessions::ImageQuality{}));
 }
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/io/scene_mesh.h"
-#include "tests/sessions/annotation/marked_scene.h"
+#include "tests/sessions/annotation/annotated_scene.h"
 
 namespace boresight::test {
 

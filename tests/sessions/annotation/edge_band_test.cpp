@@ -109,10 +109,10 @@ TEST_F(EdgeBandTest, LeavesOutTheFarSide) {
     return nearest;
   };
   // Of the two lower edges one is in front and one is hidden by the box.
-  const double one = nearest_px({0.0, 0.1, -0.04});
+  const double value = nearest_px({0.0, 0.1, -0.04});
   const double other = nearest_px({0.0, -0.1, -0.04});
-  EXPECT_LT(std::min(one, other), 3.1);
-  EXPECT_GT(std::max(one, other), 5.0);
+  EXPECT_LT(std::min(value, other), 3.1);
+  EXPECT_GT(std::max(value, other), 5.0);
 }
 
 TEST_F(EdgeBandTest, IsEmptyWhereNothingIsSeen) {

@@ -5,19 +5,19 @@
 
 #include <algorithm>
 
-#include "tests/sessions/annotation/marked_scene.h"
+#include "tests/sessions/annotation/annotated_scene.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::addPoint;
-using test::MarkedScene;
+using test::AnnotatedScene;
 using test::randomFor;
 using test::randomScene;
 
-MarkedScene sceneOf(const std::vector<Eigen::Vector3d>& places_m) {
+AnnotatedScene sceneOf(const std::vector<Eigen::Vector3d>& places_m) {
   Random random(1);
-  MarkedScene scene = randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
+  AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
   scene.camera_from_station.rotation = Eigen::Quaterniond::Identity();
   scene.camera_from_station.translation_m = {0.0, 0.0, 0.5};
   for (const Eigen::Vector3d& place_m : places_m)
@@ -33,7 +33,7 @@ bool warnsOf(const std::vector<GeometryWarning>& warnings, GeometryWeakness weak
 }
 
 TEST(GeometryMeter, SaysHowManyPairsAreMissing) {
-  const MarkedScene two = sceneOf({{0, 0, 0}, {0.1, 0, 0}});
+  const AnnotatedScene two = sceneOf({{0, 0, 0}, {0.1, 0, 0}});
   const Pose guess = two.camera_from_station;
   const auto warnings = geometryWarnings(two.views(), &guess, {});
   ASSERT_EQ(warnings.size(), 1u);
@@ -42,7 +42,7 @@ TEST(GeometryMeter, SaysHowManyPairsAreMissing) {
 }
 
 TEST(GeometryMeter, ThreePointsNeedAGuessAndLeaveNothingToCheck) {
-  const MarkedScene three = sceneOf({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0.05}});
+  const AnnotatedScene three = sceneOf({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0.05}});
   EXPECT_TRUE(
       warnsOf(geometryWarnings(three.views(), nullptr, {}), GeometryWeakness::kTooFew, true));
   EXPECT_TRUE(warnsOf(geometryWarnings(three.views(), &three.camera_from_station, {}),
@@ -62,31 +62,31 @@ TEST(GeometryMeter, KnowsLinesAndPlanes) {
                       GeometryWeakness::kCoplanar, false));
 }
 
-TEST(GeometryMeter, KnowsMarksAtOneDepthAndInOnePlace) {
+TEST(GeometryMeter, OneDepthOrOneCorner_IsReported) {
   const std::vector<Eigen::Vector3d> station = {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}};
-  const MarkedScene flat =
+  const AnnotatedScene flat =
       sceneOf({{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0}, {-0.1, 0.1, 0.001}});
   const auto of_flat = geometryWarnings(flat.views(), &flat.camera_from_station, station);
   EXPECT_TRUE(warnsOf(of_flat, GeometryWeakness::kOneDepth, false));
   EXPECT_FALSE(warnsOf(of_flat, GeometryWeakness::kClustered, false));
-  const MarkedScene clustered =
+  const AnnotatedScene clustered =
       sceneOf({{0, 0, 0}, {0.02, 0, 0.01}, {0, 0.02, -0.01}, {0.02, 0.02, 0.02}});
   EXPECT_TRUE(warnsOf(geometryWarnings(clustered.views(), &clustered.camera_from_station, station),
                       GeometryWeakness::kClustered, false));
 }
 
-TEST(GeometryMeter, IsContentWithMarksAllOver) {
+TEST(GeometryMeter, SpreadAnnotations_GiveNoWarning) {
   Random random = randomFor("GeometryMeter.Content");
-  const MarkedScene scene = randomScene(random, CameraModel::kPinhole, 20, 0, 0.0);
+  const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 20, 0, 0.0);
   EXPECT_TRUE(geometryWarnings(scene.views(), &scene.camera_from_station, {}).empty());
 }
 
-TEST(GeometryMeter, CountsOnlyWhatIsOnAndWhole) {
-  MarkedScene scene = sceneOf({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0.05}, {0.1, 0.1, 0.02}});
-  scene.view.marks.points[0].enabled = false;
-  scene.view.marks.points[1].pixel.reset();
-  EXPECT_EQ(markedSpread(scene.views()).places, 2);
-  EXPECT_EQ(usedMarks(scene.views()).size(), 2u);
+TEST(GeometryMeter, Count_IncludesOnlyEnabledCompletePairs) {
+  AnnotatedScene scene = sceneOf({{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0.05}, {0.1, 0.1, 0.02}});
+  scene.view.annotations.points[0].enabled = false;
+  scene.view.annotations.points[1].pixel.reset();
+  EXPECT_EQ(annotatedSpread(scene.views()).places, 2);
+  EXPECT_EQ(usedAnnotations(scene.views()).size(), 2u);
 }
 
 }  // namespace

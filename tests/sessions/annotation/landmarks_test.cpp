@@ -9,7 +9,7 @@
 
 #include "sessions/io/errors.h"
 #include "tests/sessions/annotation/box_scene.h"
-#include "tests/sessions/annotation/random_marks.h"
+#include "tests/sessions/annotation/random_annotations.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
@@ -52,15 +52,15 @@ TEST(Landmarks, SaysWhatIsWrongAndWhere) {
 }
 
 TEST(Landmarks, TakeTheStationsSideOfPairs) {
-  Marks marks;
-  marks.points.push_back({"a", Eigen::Vector3d(1, 2, 3), {}, 1.0, false, false, "new"});
-  marks.points.push_back({"b", {}, Eigen::Vector2d(5, 6), 1.0, true, false, ""});
-  marks.points.push_back(
+  Annotations annotations;
+  annotations.points.push_back({"a", Eigen::Vector3d(1, 2, 3), {}, 1.0, false, false, "new"});
+  annotations.points.push_back({"b", {}, Eigen::Vector2d(5, 6), 1.0, true, false, ""});
+  annotations.points.push_back(
       {"c", Eigen::Vector3d(4, 5, 6), Eigen::Vector2d(7, 8), 1.0, true, false, ""});
   const std::vector<Landmark> before = {{"z", {0, 0, 0}, "kept"}, {"a", {9, 9, 9}, "old"}};
   const std::vector<Landmark> expected = {
       {"z", {0, 0, 0}, "kept"}, {"a", {1, 2, 3}, "new"}, {"c", {4, 5, 6}, ""}};
-  EXPECT_EQ(withMarks(before, marks), expected);
+  EXPECT_EQ(withAnnotations(before, annotations), expected);
 }
 
 class Proposals : public testing::Test, protected test::BoxScene {
@@ -72,10 +72,10 @@ class Proposals : public testing::Test, protected test::BoxScene {
 };
 
 TEST_F(Proposals, LieWhereTheCameraSeesThem) {
-  Marks marks;
-  marks.points.push_back({"marked", {}, {}, 1.0, true, false, ""});
-  const auto proposals =
-      proposeMarks(landmarks_, marks, scene_.view(), camera_, camera_from_station_, nullptr);
+  Annotations annotations;
+  annotations.points.push_back({"marked", {}, {}, 1.0, true, false, ""});
+  const auto proposals = proposeAnnotations(landmarks_, annotations, scene_.view(), camera_,
+                                            camera_from_station_, nullptr);
   ASSERT_EQ(proposals.size(), 3u);
   const std::vector<std::string> names = {"above", "corner", "under"};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -93,7 +93,7 @@ TEST_F(Proposals, SigmaIsThatOfDrawnPoses) {
   sigma << 0.002, 0.001, 0.003, 5e-4, 2e-4, 1e-3;
   const Matrix6d covariance = sigma.cwiseAbs2().asDiagonal();
   const auto proposals =
-      proposeMarks(landmarks_, {}, scene_.view(), camera_, camera_from_station_, &covariance);
+      proposeAnnotations(landmarks_, {}, scene_.view(), camera_, camera_from_station_, &covariance);
   ASSERT_FALSE(proposals.empty());
   for (const Proposal& proposal : proposals) {
     constexpr int kDraws = 20000;
@@ -143,7 +143,7 @@ TEST(ProposalFeature, IsTheCornerNearThePrediction) {
   EXPECT_FALSE(featureIn(pixels, {60.0, 50.0}, 100.0)) << "the search has an end";
 }
 
-TEST(ProposalFeature, NothingButACornerOrAnEllipseIsAMeasurement) {
+TEST(ProposalFeature, OnlyCornersAndEllipses_AreMeasurements) {
   const auto flat = picture([](int, int) { return true; });
   EXPECT_FALSE(featureIn(flat, {50.0, 50.0}, 2.0));
   const auto edge = picture([](int x, int) { return x >= 50; });

@@ -19,8 +19,8 @@ class MeshSnapTest : public testing::Test, protected test::BoxScene {
   std::optional<MeshSnap> snap(MeshSnapKind kind, const Eigen::Vector2d& pixel,
                                double radius_px = 12.0) const {
     const MeshSnapper snapper(scene_.view());
-    for (const MeshSnap& one : snapper.near(camera_, camera_from_station_, pixel, radius_px))
-      if (one.kind == kind) return one;
+    for (const MeshSnap& mesh_snap : snapper.near(camera_, camera_from_station_, pixel, radius_px))
+      if (mesh_snap.kind == kind) return mesh_snap;
     return {};
   }
 };
@@ -124,8 +124,8 @@ TEST_F(MeshSnapTest, TakesFromAnywhereWhatTryingAllCornersFinds) {
         best = end;
       }
     std::optional<MeshSnap> vertex;
-    for (const MeshSnap& one : snapper.near(look.camera, look.view_from_station, pixel, 40.0))
-      if (one.kind == MeshSnapKind::kVertex) vertex = one;
+    for (const MeshSnap& mesh_snap : snapper.near(look.camera, look.view_from_station, pixel, 40.0))
+      if (mesh_snap.kind == MeshSnapKind::kVertex) vertex = mesh_snap;
     ASSERT_EQ(vertex.has_value(), least_px < 40.0) << "look " << i;
     ++(vertex ? found : none);
     if (vertex) {
@@ -147,8 +147,8 @@ TEST_F(MeshSnapTest, TakesFromAnywhereTheNearestPlaceOfAllSeenEdges) {
     const FreeLook look(random);
     const Eigen::Vector2d pixel(random.uniform(150.0, 450.0), random.uniform(150.0, 350.0));
     std::optional<MeshSnap> snapped;
-    for (const MeshSnap& one : snapper.near(look.camera, look.view_from_station, pixel, 25.0))
-      if (one.kind == MeshSnapKind::kEdge) snapped = one;
+    for (const MeshSnap& mesh_snap : snapper.near(look.camera, look.view_from_station, pixel, 25.0))
+      if (mesh_snap.kind == MeshSnapKind::kEdge) snapped = mesh_snap;
     if (!snapped) continue;
     ++found;
     EXPECT_TRUE(look.sees(scene.view(), snapped->point_in_station_m));
@@ -200,8 +200,8 @@ TEST_F(MeshSnapTest, TakesACircleOnlyWhereHalfOfItsRimIsSeen) {
     Eigen::Vector2d pixel;
     ASSERT_TRUE(project(camera, view_from_station * Eigen::Vector3d(0.03, 0.02, 0.02), pixel));
     bool circle = false;
-    for (const MeshSnap& one : snapper.near(camera, view_from_station, pixel, 10.0))
-      circle |= one.kind == MeshSnapKind::kCircle;
+    for (const MeshSnap& mesh_snap : snapper.near(camera, view_from_station, pixel, 10.0))
+      circle |= mesh_snap.kind == MeshSnapKind::kCircle;
     EXPECT_EQ(circle, side > 0.0);
   }
 }

@@ -146,7 +146,7 @@ TEST(RunBatch, StopsBetweenRuns) {
   EXPECT_EQ(results.size(), 2u);
 }
 
-TEST(RunBatch, KeepsNothingOfAPlanAndEndsWhenNobodyListens) {
+TEST(RunBatch, Batch_WithoutReceiver_EndsAndKeepsNoPlan) {
   const Dataset dataset = exampleDataset();
   BatchOptions options = quick();
   options.reseeds = 20;
@@ -196,8 +196,8 @@ TEST(PlanBatch, PutsEveryCaseInExactlyOneShardWithAllItsSeeds) {
     const auto plan = planBatch(dataset, options);
     smallest = std::min(smallest, plan.size());
     for (const PlannedRun& run : plan) {
-      EXPECT_EQ(&dataset.cases[static_cast<std::size_t>(run.place)], run.input);
-      ++seen[static_cast<std::size_t>(3 * run.place + run.reseed)];
+      EXPECT_EQ(&dataset.cases[static_cast<std::size_t>(run.dataset_index)], run.input);
+      ++seen[static_cast<std::size_t>(3 * run.dataset_index + run.reseed)];
     }
   }
   EXPECT_THAT(seen, testing::Each(1));

@@ -55,7 +55,8 @@ class BopDataset : public testing::Test {
   }
   std::vector<std::string> idsOf(const BopSelection& selection = {}) {
     std::vector<std::string> ids;
-    for (const Case& one : openDataset(folder_.path(), selection).cases) ids.push_back(one.id);
+    for (const Case& dataset_case : openDataset(folder_.path(), selection).cases)
+      ids.push_back(dataset_case.id);
     return ids;
   }
   std::string errorOf(const BopSelection& selection = {}) {
@@ -69,12 +70,13 @@ TEST_F(BopDataset, ObjectsAreStationsAndInstancesCases) {
   const Dataset dataset = openDataset(folder_.path());
   EXPECT_THAT(idsOf(), ElementsAre("000002-000000-000001", "000002-000003-000007",
                                    "000002-000003-000001", "000002-000003-000007-2"));
-  const Case& one = dataset.cases[0];
-  EXPECT_EQ(one.station, "obj_000001");
-  EXPECT_EQ(one.image, folder_ / "test/000002/gray/000000.png");
-  EXPECT_EQ(one.truth_camera_from_station->translation_m, Eigen::Vector3d(0.01, 0.02, 0.5));
-  EXPECT_EQ(one.bop->scene_id, 2);
-  EXPECT_EQ(one.bop->object_id, 1);
+  const Case& dataset_case = dataset.cases[0];
+  EXPECT_EQ(dataset_case.station, "obj_000001");
+  EXPECT_EQ(dataset_case.image, folder_ / "test/000002/gray/000000.png");
+  EXPECT_EQ(dataset_case.truth_camera_from_station->translation_m,
+            Eigen::Vector3d(0.01, 0.02, 0.5));
+  EXPECT_EQ(dataset_case.bop->scene_id, 2);
+  EXPECT_EQ(dataset_case.bop->object_id, 1);
   const Camera& camera = dataset.cameras.at(dataset.cases[1].camera);
   EXPECT_EQ(camera.fx, 60.0);
   EXPECT_EQ(camera.fy, 61.0);
@@ -84,7 +86,7 @@ TEST_F(BopDataset, ObjectsAreStationsAndInstancesCases) {
   const Station& station = dataset.stations.at("obj_000001");
   EXPECT_EQ(station.parts.at(0).mesh, folder_ / "models/obj_000001.ply");
   EXPECT_EQ(station.parts.at(0).mesh_unit, "mm");
-  EXPECT_EQ(readCaseImage(dataset, one).width, 16);
+  EXPECT_EQ(readCaseImage(dataset, dataset_case).width, 16);
   requireFiles(dataset);
 }
 
@@ -112,12 +114,14 @@ TEST_F(BopDataset, SeedsAreDrawnInTheDeclaredUncertainty) {
   selection.uncertainty.translation_m = {0.02, 0.01, 0.03};
   selection.uncertainty.rotation_deg = {4.0, 5.0, 6.0};
   const Dataset dataset = openDataset(folder_.path(), selection);
-  for (const Case& one : dataset.cases) {
-    ASSERT_TRUE(one.uncertainty);
-    const double z = one.station == "obj_000001" ? 7e-3 : 0.0;  // the middle of models_info's box
-    const Eigen::Vector3d centre(one.station == "obj_000001" ? 1e-3 : 0.0, 0.0, z);
-    const Pose& seed = one.seed_camera_from_station;
-    const Vector6d offset = offsetAboutPivot(seed, *one.truth_camera_from_station, seed * centre);
+  for (const Case& dataset_case : dataset.cases) {
+    ASSERT_TRUE(dataset_case.uncertainty);
+    const double z =
+        dataset_case.station == "obj_000001" ? 7e-3 : 0.0;  // the middle of models_info's box
+    const Eigen::Vector3d centre(dataset_case.station == "obj_000001" ? 1e-3 : 0.0, 0.0, z);
+    const Pose& seed = dataset_case.seed_camera_from_station;
+    const Vector6d offset =
+        offsetAboutPivot(seed, *dataset_case.truth_camera_from_station, seed * centre);
     for (int i = 0; i < 3; ++i) {
       EXPECT_LE(std::abs(offset[i]), selection.uncertainty.rotation_deg[i] * kDegree_rad);
       EXPECT_LE(std::abs(offset[i + 3]), selection.uncertainty.translation_m[i]);
@@ -174,7 +178,7 @@ TEST_F(BopDataset, SaysWhatIsMissing) {
                 R"({"0": {"cam_model": {"projection_params": []}}, "3": {}})");
   EXPECT_THAT(errorOf(), HasSubstr("only pinhole cameras (cam_K)"));
   std::filesystem::remove(folder_ / "test/000002/scene_gt.json");
-  EXPECT_THAT(errorOf(), HasSubstr("without true poses"));
+  EXPECT_THAT(errorOf(), HasSubstr("seeds are drawn about true poses"));
 }
 
 TEST_F(BopDataset, ResultsAreOfCompletedRunsAndShareAnImagesTime) {

@@ -31,7 +31,7 @@ std::vector<BopObject> objectsOf(const std::vector<PosedImage>& images) {
   return objects;
 }
 
-TEST(BopScene, ComesBack) {
+TEST(BopScene, RoundTrip_IsEqual) {
   const TemporaryFolder folder;
   Random random = randomFor("BopScene.ComesBack");
   const std::vector<PosedImage> images =
@@ -50,7 +50,7 @@ TEST(BopScene, ComesBack) {
   }
 }
 
-TEST(BopScene, IsWhatItsToolsRead) {
+TEST(BopScene, Layout_IsThatOfTheBopToolkit) {
   const TemporaryFolder folder;
   PosedImage image;
   image.id = 3;
@@ -69,7 +69,7 @@ TEST(BopScene, IsWhatItsToolsRead) {
   EXPECT_EQ(cameras["3"]["depth_scale"], 1.0);
 }
 
-TEST(BopScene, RefusesWhatTheFormatCannotSay) {
+TEST(BopScene, UnsupportedCamera_IsRefused) {
   const TemporaryFolder folder;
   PosedImage image;
   image.camera = preparedCamera(CameraModel::kBrownConrady, {-0.1});
@@ -116,7 +116,7 @@ std::vector<std::string> splitAt(const std::string& text, char sign) {
   return parts;
 }
 
-/// What bop_toolkit's check_results_bop19.py and load_bop_results demand, written down anew.
+/// What bop_toolkit's check_results_bop19.py and load_bop_results demand, restated.
 TEST(BopResults, KeepsTheRulesOfTheFormat) {
   const TemporaryFolder folder;
   Random random = randomFor("BopResults.Rules");

@@ -28,12 +28,12 @@ Pose at(const Eigen::Vector3d& translation_m, const Eigen::Vector3d& rotation_ra
 }
 
 Camera camera() {
-  Camera made;
-  made.width = made.height = 200;
-  made.fx = made.fy = 100.0;
-  made.cx = made.cy = 100.0;
-  EXPECT_EQ(prepareCamera(made), Status::kOk);
-  return made;
+  Camera result;
+  result.width = result.height = 200;
+  result.fx = result.fy = 100.0;
+  result.cx = result.cy = 100.0;
+  EXPECT_EQ(prepareCamera(result), Status::kOk);
+  return result;
 }
 
 std::vector<Eigen::Vector3f> randomVertices(Random& random, int count) {
@@ -94,14 +94,14 @@ double bruteForceSurfaceDistance(const Pose& truth, const Pose& estimate,
   double best = 1e9;
   std::vector<Pose> discrete = symmetries.discrete;
   discrete.emplace_back();
-  for (const Pose& one : discrete)
+  for (const Pose& pose : discrete)
     for (int i = 0; i < 315; ++i) {
       const AxisSymmetry& axis = symmetries.continuous[0];
       const Eigen::Matrix3d turn =
           Eigen::AngleAxisd(i * 2.0 * kPi / 315, axis.axis).toRotationMatrix();
       double largest = 0.0;
       for (const Eigen::Vector3f& vertex : vertices) {
-        const Eigen::Vector3d p = one * vertex.cast<double>();
+        const Eigen::Vector3d p = pose * vertex.cast<double>();
         const Eigen::Vector3d same = turn * (p - axis.point_m) + axis.point_m;
         largest = std::max(largest, (truth * same - estimate * vertex.cast<double>()).norm());
       }

@@ -10,11 +10,11 @@ namespace boresight::sessions {
 namespace {
 
 DeclaredUncertainty uncertainty(UncertaintyPivot pivot = UncertaintyPivot::kCamera) {
-  DeclaredUncertainty made;
-  made.translation_m = {0.03, 0.02, 0.01};
-  made.rotation_deg = {5.0, 2.0, 40.0};
-  made.pivot = pivot;
-  return made;
+  DeclaredUncertainty declared_uncertainty;
+  declared_uncertainty.translation_m = {0.03, 0.02, 0.01};
+  declared_uncertainty.rotation_deg = {5.0, 2.0, 40.0};
+  declared_uncertainty.pivot = pivot;
+  return declared_uncertainty;
 }
 
 /// Squared radius within the ellipsoid: 1 on its surface.

@@ -42,7 +42,7 @@ class ResultsFile : public testing::Test {
   void write(const std::vector<RunResult>& runs, const std::string& method = "whs") const {
     ResultsWriter writer(file_, sampleDataset());
     writer.admit(sampleMethod(method));
-    writer.begin(Sitting{});
+    writer.begin(BatchRun{});
     for (const RunResult& run : runs) writer.add(run);
     writer.end();
   }
@@ -60,16 +60,18 @@ class ResultsFile : public testing::Test {
 TEST_F(ResultsFile, HoldsEveryRun) {
   RunResult blind;
   blind.case_id = "bc-2";
-  blind.place = 1;
+  blind.dataset_index = 1;
   blind.method = "whs";
   write({sampleRun(), blind});
-  EXPECT_EQ(query(file_,
-                  "SELECT id, place, case_id, reseed, station, method, status, message, completed, "
-                  "success, matches, inliers, edge_support, lateral_mm, projection_px, "
-                  "requirement, s_matching, s_total, digest FROM run ORDER BY id"),
-            "1|0|bc-1|2|bc|whs|converged|it's \"quoted\"|1|1|96|88|0.5|0.25|NULL|"
-            "{\"normal_mm\":0.4}|1.5|1.5|abc|"
-            "2|1|bc-2|0||whs|||0|NULL|0|0|0.0|NULL|NULL|NULL|0.0|0.0||");
+  EXPECT_EQ(
+      query(
+          file_,
+          "SELECT id, dataset_index, case_id, reseed, station, method, status, message, completed, "
+          "success, matches, inliers, edge_support, lateral_mm, projection_px, "
+          "requirement, s_matching, s_total, digest FROM run ORDER BY id"),
+      "1|0|bc-1|2|bc|whs|converged|it's \"quoted\"|1|1|96|88|0.5|0.25|NULL|"
+      "{\"normal_mm\":0.4}|1.5|1.5|abc|"
+      "2|1|bc-2|0||whs|||0|NULL|0|0|0.0|NULL|NULL|NULL|0.0|0.0||");
   EXPECT_EQ(query(file_, "SELECT value FROM fact WHERE name = 'dataset_sha256'"), "d1|");
   EXPECT_EQ(query(file_, "SELECT tag, case_id FROM tag JOIN run ON run.id = run ORDER BY tag"),
             "far|bc-1|low_sun|bc-1|");
@@ -136,9 +138,9 @@ TEST_F(ResultsFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.camera_from_station.translation_m, run.camera_from_station.translation_m);
   ASSERT_EQ(results.facts.methods.size(), 1u);
   EXPECT_EQ(results.facts.methods.front().options, "{\"pnp.seed\":7}");
-  ASSERT_EQ(results.facts.sittings.size(), 1u);
-  EXPECT_EQ(results.facts.sittings.front().runs, 1);
-  EXPECT_NE(results.facts.sittings.front().ended, "");
+  ASSERT_EQ(results.facts.batch_runs.size(), 1u);
+  EXPECT_EQ(results.facts.batch_runs.front().runs, 1);
+  EXPECT_NE(results.facts.batch_runs.front().ended, "");
 }
 
 TEST_F(ResultsFile, OrdersRunsAsTheDatasetDoesWhateverCameFirst) {
@@ -155,21 +157,21 @@ TEST_F(ResultsFile, GoesOnWithoutDoingAnythingTwice) {
   write({sampleRun("bc-1", 0, 0)});
   ResultsWriter writer(file_, sampleDataset());
   writer.admit(sampleMethod("whs"));
-  writer.begin(Sitting{});
+  writer.begin(BatchRun{});
   EXPECT_TRUE(writer.has("whs", "bc-1", 0));
   EXPECT_FALSE(writer.has("whs", "bc-1", 1));
   EXPECT_FALSE(writer.has("ncc", "bc-1", 0));
   writer.add(sampleRun("bc-1", 0, 0));
   writer.add(sampleRun("bc-1", 0, 1));
-  EXPECT_EQ(query(file_, "SELECT reseed, sitting FROM run ORDER BY id"), "0|1|1|2|");
+  EXPECT_EQ(query(file_, "SELECT reseed, batch_run FROM run ORDER BY id"), "0|1|1|2|");
 }
 
 TEST_F(ResultsFile, KeepsWhatWasAddedWhenTheWriterIsNeverEnded) {
   auto* abandoned = new ResultsWriter(file_, sampleDataset());
-  abandoned->begin(Sitting{});
+  abandoned->begin(BatchRun{});
   abandoned->add(sampleRun());
   EXPECT_EQ(readResults(file_).runs.size(), 1u) << "another process sees it at once";
-  EXPECT_EQ(readResults(file_).facts.sittings.front().ended, "");
+  EXPECT_EQ(readResults(file_).facts.batch_runs.front().ended, "");
   delete abandoned;
 }
 
@@ -186,7 +188,7 @@ TEST_F(ResultsFile, TriesRefusedInputsAgain) {
   EXPECT_EQ(query(file_, "SELECT count(*) FROM tag"), "2|");
 }
 
-TEST_F(ResultsFile, RefusesToGoOnWithSomethingElse) {
+TEST_F(ResultsFile, OtherDatasetOrOptions_AreRefused) {
   write({sampleRun()});
   DatasetFacts other = sampleDataset();
   other.dataset_sha256 = "d2";
@@ -227,8 +229,8 @@ TEST_F(ResultsFile, WithATriggerIsRefusedByReadersAndWriters) {
   write({sampleRun("bc-1", 0, 0)});
   query(file_, "CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END");
   const std::string reason =
-      "r.sqlite: its trigger \"stop\" is not one that whs evaluate makes; it was changed by "
-      "another program: evaluate again into a new file";
+      "r.sqlite: its trigger \"stop\" is not from whs evaluate; it was changed by another program: "
+      "evaluate again into a new file";
   EXPECT_EQ(folder_.message([&] { (void)readResults(file_); }), reason);
   EXPECT_EQ(refusal(sampleDataset(), sampleMethod("whs")), "cannot write " + reason);
 }
@@ -273,9 +275,9 @@ class MergeResults : public testing::Test {
              const MethodFacts& method = sampleMethod("whs")) const {
     ResultsWriter writer(folder_ / name, dataset);
     writer.admit(method);
-    Sitting sitting;
-    sitting.machine = name;
-    writer.begin(sitting);
+    BatchRun batch_run;
+    batch_run.machine = name;
+    writer.begin(batch_run);
     for (const RunResult& run : runs) writer.add(run);
     writer.end();
   }
@@ -314,11 +316,12 @@ TEST_F(MergeResults, JoinsShards) {
   EXPECT_EQ(merged(), "bc-1/0 bc-1/1 os-2/0 bc-3/0 ");
   const Results results = readResults(folder_ / "out");
   EXPECT_EQ(results.runs[2].tags, stepped.tags);
-  ASSERT_EQ(results.facts.sittings.size(), 2u);
+  ASSERT_EQ(results.facts.batch_runs.size(), 2u);
   SqlDatabase database(folder_ / "out", SqlAccess::kRead);
-  EXPECT_EQ(textOf(database.value("SELECT machine FROM run JOIN sitting ON sitting.id = sitting "
-                                  "WHERE case_id = 'bc-3'")),
-            "a");
+  EXPECT_EQ(
+      textOf(database.value("SELECT machine FROM run JOIN batch_run ON batch_run.id = batch_run "
+                            "WHERE case_id = 'bc-3'")),
+      "a");
   EXPECT_EQ(integerOf(database.value("SELECT count(*) FROM iteration JOIN run ON run.id = run "
                                      "WHERE case_id = 'os-2'")),
             2);
@@ -333,30 +336,31 @@ TEST_F(MergeResults, TakesEqualRunsOnceAndMayBeRepeated) {
   EXPECT_EQ(merge({"a", "b"}).equal, 1);
   EXPECT_EQ(merge({"a", "b"}).equal, 4);
   EXPECT_EQ(merged(), "bc-1/0 bc-1/1 os-2/0 ");
-  EXPECT_EQ(readResults(folder_ / "out").facts.sittings.size(), 2u);
+  EXPECT_EQ(readResults(folder_ / "out").facts.batch_runs.size(), 2u);
   EXPECT_EQ(folder_.fileCount(), 3u);
 }
 
-TEST_F(MergeResults, RefusesRunsThatEndedOtherwise) {
+TEST_F(MergeResults, RunsWithDifferentResults_AreRefused) {
   RunResult other = sampleRun("bc-1", 0, 0);
   other.digest = "abd";
   write("a", {sampleRun("bc-1", 0, 0)});
   write("b", {other, sampleRun("os-2", 1, 0)});
-  EXPECT_THAT(refusal({"a", "b"}), HasSubstr("b: run of bc-1: seed 0, method whs ended otherwise"));
+  EXPECT_THAT(refusal({"a", "b"}),
+              HasSubstr("b: run of bc-1: seed 0, method whs has another result"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
   EXPECT_EQ(folder_.fileCount(), 2u);
 }
 
 TEST_F(MergeResults, ComparesPosesWhereAMethodHasNoDigest) {
-  RunResult one = sampleRun("bc-1", 0, 0);
-  one.digest.clear();
-  RunResult other = one;
-  write("a", {one});
+  RunResult run_result = sampleRun("bc-1", 0, 0);
+  run_result.digest.clear();
+  RunResult other = run_result;
+  write("a", {run_result});
   write("b", {other});
   EXPECT_EQ(merge({"a", "b"}).equal, 1);
   other.camera_from_station.translation_m.x() += 1e-6;
   write("c", {other});
-  EXPECT_THAT(refusal({"a", "c"}), HasSubstr("ended otherwise"));
+  EXPECT_THAT(refusal({"a", "c"}), HasSubstr("has another result"));
 }
 
 TEST_F(MergeResults, RefusesOtherOptionsAndDatasets) {
@@ -385,7 +389,7 @@ TEST_F(MergeResults, PrefersARunToARefusedInput) {
   EXPECT_EQ(readResults(folder_ / "out").runs.front().status, "converged");
 }
 
-TEST_F(MergeResults, SaysWhatIsNoResultsFile) {
+TEST_F(MergeResults, OtherFiles_AreReported) {
   folder_.write("a", "no");
   EXPECT_THAT(refusal({"a"}), HasSubstr("a: "));
   EXPECT_THAT(refusal({"none"}), HasSubstr("none: there is no such file"));

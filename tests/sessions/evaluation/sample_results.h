@@ -20,11 +20,12 @@ inline sessions::MethodFacts sampleMethod(const std::string& method) {
   return facts;
 }
 
-inline sessions::RunResult sampleRun(const std::string& case_id = "bc-1", std::int64_t place = 0,
-                                     std::int32_t reseed = 2, const std::string& method = "whs") {
+inline sessions::RunResult sampleRun(const std::string& case_id = "bc-1",
+                                     std::int64_t dataset_index = 0, std::int32_t reseed = 2,
+                                     const std::string& method = "whs") {
   sessions::RunResult run;
   run.case_id = case_id;
-  run.place = place;
+  run.dataset_index = dataset_index;
   run.reseed = reseed;
   run.station = case_id.substr(0, 2);
   run.method = method;

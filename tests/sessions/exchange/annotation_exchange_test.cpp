@@ -3,20 +3,20 @@
 
 #include <gmock/gmock.h>
 
+#include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/landmarks.h"
-#include "sessions/annotation/marks_file.h"
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/exchange/colmap_text.h"
 #include "sessions/io/errors.h"
 #include "sessions/io/undistort.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "sessions/session/image_names.h"
 #include "tests/sessions/review/judged_case.h"
 #include "tests/sessions/session/random_session.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/bop_results.h"
-#include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
@@ -29,22 +29,23 @@ using testing::HasSubstr;
 class AnnotationExchange : public testing::Test {
  protected:
   Pose solved(const std::string& id) const {
-    return *sessions::solveCaseMarks(session_, id, true, false).camera_from_station();
+    return *sessions::solveCaseAnnotations(session_, id, true, false).camera_from_station();
   }
-  static sessions::CasePoses marked(const Session& session, std::vector<std::string> ids = {}) {
+  static sessions::CasePoses annotated(const Session& session, std::vector<std::string> ids = {}) {
     return sessions::annotatedPoses(session, ids, false);
   }
   std::string message(const std::function<void()>& call) const { return folder_.message(call); }
 
   TemporaryFolder folder_;
-  Session session_ = markedExample(0.2);
+  Session session_ = annotatedExample(0.2);
   std::string bc_ = caseOfStation(session_, "bc");
   std::string os_ = caseOfStation(session_, "os");
 };
 
-TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
-  const auto made = sessions::exportColmap(session_, folder_ / "model", marked(session_, {bc_}));
-  EXPECT_THAT(made.case_ids, ElementsAre(bc_));
+TEST_F(AnnotationExchange, Colmap_ExportAndImport_IsEqualToTheBit) {
+  const auto result =
+      sessions::exportColmap(session_, folder_ / "model", annotated(session_, {bc_}));
+  EXPECT_THAT(result.case_ids, ElementsAre(bc_));
   const auto images = sessions::readColmapText(folder_ / "model");
   ASSERT_EQ(images.size(), 1u);
   EXPECT_EQ(images[0].name, "bc/image.png");
@@ -58,9 +59,9 @@ TEST_F(AnnotationExchange, ColmapComesBackBitByBit) {
   EXPECT_TRUE(read.session == withCase(session_, before));
 }
 
-TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
-  const auto made = sessions::exportBop(session_, folder_ / "scene", marked(session_));
-  EXPECT_EQ(made.case_ids.size(), 2u);
+TEST_F(AnnotationExchange, Bop_ExportAndImport_UsesUndistortedImages) {
+  const auto result = sessions::exportBop(session_, folder_ / "scene", annotated(session_));
+  EXPECT_EQ(result.case_ids.size(), 2u);
   const auto objects = sessions::readBopScene(folder_ / "scene");
   ASSERT_EQ(objects.size(), 2u);
   EXPECT_NE(objects[0].object_id, objects[1].object_id);
@@ -71,27 +72,29 @@ TEST_F(AnnotationExchange, BopComesBackWithUndistortedImages) {
     EXPECT_LT(perturbationBetween(solved(id), truth).norm(), 1e-12);
   }
   // A pinhole with BOP's numbers sees a corner where the undistorted image has it.
-  const auto& one = *session_.cases[0];
-  Camera camera = one.camera;
+  const auto& value = *session_.cases[0];
+  Camera camera = value.camera;
   ASSERT_EQ(prepareCamera(camera), Status::kOk);
-  const auto image = sessions::readImage(one.image.source.file);
+  const auto image = sessions::readImage(value.image.source.file);
   const auto gray = sessions::readImage(folder_ / "scene/gray/000001.png");
   EXPECT_EQ(gray.pixels, sessions::undistort(camera, image.view()).pixels);
 }
 
-TEST_F(AnnotationExchange, MarksComeBackAsTheyWere) {
+TEST_F(AnnotationExchange, Points_ExportAndImport_AreEqual) {
   for (const char* name : {"points.json", "points.csv"}) {
-    sessions::exportMarks(session_, bc_, folder_ / name);
-    const Session without = withAnnotation(session_, bc_, {});
-    const auto read = sessions::importMarks(without, bc_, folder_ / name, false);
+    sessions::exportAnnotations(session_, bc_, folder_ / name);
+    const Session without = withAnnotations(session_, bc_, {});
+    const auto read = sessions::importAnnotations(without, bc_, folder_ / name, false);
     EXPECT_TRUE(read.session == session_) << name;
-    // The same marks once more are no others.
-    EXPECT_TRUE(sessions::importMarks(session_, bc_, folder_ / name, false).session == session_);
-    EXPECT_THAT(message([&] { (void)sessions::importMarks(session_, os_, folder_ / name, false); }),
-                HasSubstr("has other marks already"));
-    EXPECT_EQ(
-        *sessions::importMarks(session_, os_, folder_ / name, true).session.annotations.at(os_),
-        *session_.annotations.at(bc_));
+    // The same annotations once more are no others.
+    EXPECT_TRUE(sessions::importAnnotations(session_, bc_, folder_ / name, false).session ==
+                session_);
+    EXPECT_THAT(
+        message([&] { (void)sessions::importAnnotations(session_, os_, folder_ / name, false); }),
+        HasSubstr("already has other annotations"));
+    EXPECT_EQ(*sessions::importAnnotations(session_, os_, folder_ / name, true)
+                   .session.annotations.at(os_),
+              *session_.annotations.at(bc_));
   }
 }
 
@@ -101,7 +104,7 @@ TEST_F(AnnotationExchange, LandmarksAreAddedToThoseOfTheFile) {
   sessions::writeLandmarks(folder_ / "l.json", before);
   sessions::exportLandmarks(session_, bc_, folder_ / "l.json");
   const auto after = sessions::readLandmarks(folder_ / "l.json");
-  EXPECT_EQ(after, sessions::withMarks(before, *session_.annotations.at(bc_)));
+  EXPECT_EQ(after, sessions::withAnnotations(before, *session_.annotations.at(bc_)));
   EXPECT_EQ(after.size(), 11u);
   EXPECT_EQ(after[0], before[0]);
   folder_.write("broken.json", std::string_view("{"));
@@ -110,23 +113,23 @@ TEST_F(AnnotationExchange, LandmarksAreAddedToThoseOfTheFile) {
   EXPECT_EQ(folder_.read("broken.json"), "{");
 }
 
-TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
+TEST_F(AnnotationExchange, Export_OfUnsupportedCases_ReportsTheReason) {
   const auto colmap = [&](const Session& session, const std::vector<std::string>& ids) {
     return message(
-        [&] { (void)sessions::exportColmap(session, folder_ / "m", marked(session, ids)); });
+        [&] { (void)sessions::exportColmap(session, folder_ / "m", annotated(session, ids)); });
   };
-  EXPECT_THAT(colmap(session_, {}), HasSubstr("are of different stations"));
+  EXPECT_THAT(colmap(session_, {}), HasSubstr("have different stations"));
   EXPECT_THAT(colmap(session_, {"x"}), HasSubstr("there is no case 'x'"));
-  const Session none = withAnnotation(withAnnotation(session_, bc_, {}), os_, {});
-  EXPECT_THAT(colmap(none, {}), HasSubstr("no case has marks"));
+  const Session none = withAnnotations(withAnnotations(session_, bc_, {}), os_, {});
+  EXPECT_THAT(colmap(none, {}), HasSubstr("no case has annotations"));
   EXPECT_THAT(colmap(none, {bc_}), HasSubstr("case '" + bc_ + "' has no pose: "));
-  EXPECT_THAT(message([&] { sessions::exportMarks(none, bc_, folder_ / "p.json"); }),
-              HasSubstr("has no marks"));
+  EXPECT_THAT(message([&] { sessions::exportAnnotations(none, bc_, folder_ / "p.json"); }),
+              HasSubstr("has no annotations"));
   sessions::SessionCase moved = *session_.findCase(os_);
   moved.image.source.file = folder_ / "gone.png";
   EXPECT_THAT(message([&] {
                 const Session session = withCase(session_, moved);
-                (void)sessions::exportBop(session, folder_ / "s", marked(session));
+                (void)sessions::exportBop(session, folder_ / "s", annotated(session));
               }),
               HasSubstr("gone.png"));
   // No half-written folder.
@@ -134,13 +137,13 @@ TEST_F(AnnotationExchange, SaysWhatCannotBeExported) {
   // One case without a pose does not keep the others from being written.
   auto few = *session_.annotations.at(os_);
   few.points.resize(2);
-  const Session session = withAnnotation(session_, os_, few);
-  const auto made = sessions::exportBop(session, folder_ / "s", marked(session));
-  EXPECT_THAT(made.case_ids, ElementsAre(bc_));
-  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
+  const Session session = withAnnotations(session_, os_, few);
+  const auto result = sessions::exportBop(session, folder_ / "s", annotated(session));
+  EXPECT_THAT(result.case_ids, ElementsAre(bc_));
+  EXPECT_THAT(result.notes, ElementsAre(HasSubstr("case '" + os_ + "' has no pose: ")));
 }
 
-TEST_F(AnnotationExchange, SaysWhatCannotBeImported) {
+TEST_F(AnnotationExchange, Import_OfUnsupportedFiles_ReportsTheReason) {
   sessions::PosedImage image{1, "bc/image.png", session_.findCase(bc_)->camera, Pose()};
   ASSERT_EQ(prepareCamera(image.camera), Status::kOk);
   image.camera_from_station.translation_m.z() = 0.5;
@@ -149,7 +152,7 @@ TEST_F(AnnotationExchange, SaysWhatCannotBeImported) {
     return message([&] { (void)sessions::importColmap(session_, folder_ / "", replace); });
   };
   EXPECT_EQ(read({image}, true), "(nothing)");
-  EXPECT_THAT(read({image}, false), HasSubstr("has another truth already"));
+  EXPECT_THAT(read({image}, false), HasSubstr("already has another truth"));
   sessions::PosedImage other = image;
   other.id = 2;
   EXPECT_THAT(read({image, other}, true), HasSubstr("two of the poses"));
@@ -169,9 +172,9 @@ TEST(ImageNames, AreRelativeToWhatHoldsAllImages) {
   Session session;
   Random random = randomFor("ImageNames");
   for (const char* file : {"/data/a/000012.png", "/data/b/7.png", "/data/b/c/3.png"}) {
-    sessions::SessionCase one = randomCase(random, file);
-    one.image.source.file = file;
-    session = withCase(session, one);
+    sessions::SessionCase session_case = randomCase(random, file);
+    session_case.image.source.file = file;
+    session = withCase(session, session_case);
   }
   EXPECT_THAT(sessions::imageNames(session), ElementsAre("a/000012.png", "b/7.png", "b/c/3.png"));
   EXPECT_THAT(sessions::imageNumbers(session), ElementsAre(12, 7, 3));
@@ -189,7 +192,7 @@ TEST(ImageNames, AreRelativeToWhatHoldsAllImages) {
   EXPECT_FALSE(sessions::isEndOf("", "/data/b/7.png"));
 }
 
-/// Both stations are marked, the marks of the OS one validated.
+/// Both stations are annotated, the annotations of the OS one validated.
 class PoseExchange : public testing::Test {
  protected:
   PoseExchange() {
@@ -200,12 +203,12 @@ class PoseExchange : public testing::Test {
                   {}, {"Ada", "right"});
   }
   TemporaryFolder folder_;
-  Session session_ = markedExample(0.1);
+  Session session_ = annotatedExample(0.1);
   std::string os_ = caseOfStation(session_, "os");
   std::string bc_ = caseOfStation(session_, "bc");
 };
 
-TEST_F(PoseExchange, EveryFileSaysWhoValidatedAndWhatIsNotValidated) {
+TEST_F(PoseExchange, EveryFile_StatesTheReviewStatus) {
   exportColmap(session_, folder_ / "os", posesToHandOver(session_, {os_}));
   exportColmap(session_, folder_ / "bc", posesToHandOver(session_, {bc_}));
   EXPECT_THAT(folder_.read("os/images.txt"), HasSubstr("image.png: validated by Ada"));
@@ -227,19 +230,20 @@ TEST_F(PoseExchange, ResultsThatAreNotValidatedNeedANameThatSaysSo) {
   EXPECT_NE(read[0].object_id, read[1].object_id);
 }
 
-TEST_F(PoseExchange, APoseThatItsMarksDoNotGiveIsLeftOut) {
+TEST_F(PoseExchange, PoseThatItsAnnotationsContradict_IsLeftOut) {
   session_.decisions.back().pose->camera_from_station.translation_m.z() = 0.5;
   EXPECT_THROW(posesToHandOver(session_, {os_}), sessions::InputError);
   const sessions::CasePoses others = posesToHandOver(session_, {});
   EXPECT_EQ(others.poses.size(), 1u);
-  EXPECT_THAT(others.notes, testing::ElementsAre(HasSubstr("another pose comes out")));
+  EXPECT_THAT(others.notes, testing::ElementsAre(HasSubstr("the pose differs")));
 }
 
 TEST_F(PoseExchange, AnotherPoseOfAValidatedCaseIsNotTheValidatedOne) {
   sessions::CasePoses poses = posesToHandOver(session_, {os_});
   poses.poses[0].camera_from_station.translation_m.x() += 1e-9;
   exportColmap(session_, folder_ / "os", poses);
-  EXPECT_THAT(folder_.read("os/images.txt"), HasSubstr("NOT VALIDATED: another pose"));
+  EXPECT_THAT(folder_.read("os/images.txt"),
+              HasSubstr("NOT VALIDATED: the validation is of another pose"));
 }
 
 }  // namespace

@@ -113,20 +113,20 @@ TEST(ColmapText, NamesWhatIsWrong) {
   };
   const std::string camera = "1 PINHOLE 10 10 9 9 5 5\n";
   EXPECT_EQ(error("1 FOV 10 10 9 9 5 5 1\n", "x"),
-            "cameras.txt: line 1: no camera here can be a FOV; undistort the images with COLMAP's "
+            "cameras.txt: line 1: no camera model matches FOV; undistort the images with COLMAP's "
             "image_undistorter and read its model");
-  EXPECT_EQ(error("1 THIN_PRISM_FISHEYE 10 10 9 9 5 5 0.1 0 0 0.001 0 0 0 0\n", "x"),
-            "cameras.txt: line 1: no camera here can be a THIN_PRISM_FISHEYE with tangential or "
-            "thin-prism terms; undistort the images with COLMAP's image_undistorter and read its "
-            "model");
+  EXPECT_EQ(
+      error("1 THIN_PRISM_FISHEYE 10 10 9 9 5 5 0.1 0 0 0.001 0 0 0 0\n", "x"),
+      "cameras.txt: line 1: no camera model matches THIN_PRISM_FISHEYE with tangential or "
+      "thin-prism terms; undistort the images with COLMAP's image_undistorter and read its model");
   EXPECT_EQ(error("1 CATADIOPTRIC 10 10 9 9 5 5 1\n", "x"),
-            "cameras.txt: line 1: no camera here can be a CATADIOPTRIC; undistort the images with "
+            "cameras.txt: line 1: no camera model matches CATADIOPTRIC; undistort the images with "
             "COLMAP's image_undistorter and read its model");
   EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5\n", "x"), "cameras.txt: line 1: cy is missing");
   EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5 5 5\n", "x"),
-            "cameras.txt: line 1: has more than it should: '5'");
+            "cameras.txt: line 1: has extra values: '5'");
   EXPECT_EQ(error("1 PINHOLE 10 10 0 9 5 5\n", "x"),
-            "cameras.txt: line 1: the numbers cannot be a camera's");
+            "cameras.txt: line 1: the parameters are not those of a camera");
   EXPECT_EQ(error(camera, "\n1 1 0 0 0 0 0 1 2 a.png\n\n"),
             "images.txt: line 2: there is no camera 2");
   EXPECT_EQ(error(camera, "1 1 1 0 0 0 0 1 1 a.png\n\n"),

@@ -111,7 +111,7 @@ TEST(WriteFileAtomically, RespectsReadOnlyFoldersAndFiles) {
   EXPECT_EQ(folder.read("locked/out"), "old");
 }
 
-TEST(RequireWritable, TellsBeforehand) {
+TEST(RequireWritable, FailsBeforeTheRun) {
   const TemporaryFolder folder;
   EXPECT_EQ(folder.message([&] { requireWritable(folder / "out"); }), "(nothing)");
   EXPECT_EQ(folder.message([&] { requireWritable(folder / "no/out"); }),
@@ -132,7 +132,7 @@ TEST(ReadFileBytes, ReadsWhatIsThere) {
   EXPECT_EQ(asText(bytes), text);
 }
 
-TEST(ReadFileBytes, SaysWhyItCannot) {
+TEST(ReadFileBytes, UnreadableFile_IsReportedWithTheReason) {
   const TemporaryFolder folder;
   folder.write("empty", "");
   folder.write("large", std::string(1001, 'x'));
@@ -176,7 +176,7 @@ TEST(AtomicFolder, AppearsWithAllItsFiles) {
   EXPECT_EQ(folder.read("empty/a"), "1");
 }
 
-TEST(AtomicFolder, LeavesNothingWhereWritingFails) {
+TEST(AtomicFolder, FailedWrite_LeavesNoFolder) {
   const TemporaryFolder folder;
   const auto failing = [](const std::filesystem::path& to) {
     fill(to);
@@ -192,8 +192,8 @@ TEST(AtomicFolder, ReplacesNothing) {
   const auto message = [&](const char* name) {
     return folder.message([&] { writeFolderAtomically(folder / name, fill); });
   };
-  EXPECT_THAT(message("full"), HasSubstr("something of this name already"));
-  EXPECT_THAT(message("full/a"), HasSubstr("something of this name already"));
+  EXPECT_THAT(message("full"), HasSubstr("the name exists"));
+  EXPECT_THAT(message("full/a"), HasSubstr("the name exists"));
   EXPECT_THAT(message("none/new"), HasSubstr("cannot write"));
   EXPECT_THROW(writeFolderAtomically("", fill), OutputError);
   EXPECT_EQ(folder.read("full/a"), "mine");

@@ -52,7 +52,7 @@ class CahvorText : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(CahvorText, IsReadAsItIsLaidOut) {
+TEST_F(CahvorText, Layout_IsRead) {
   const CahvorFile read = readCahvorFile(folder_.write("a.cahvor", kText));
   EXPECT_EQ(read.cahv.model, CameraModel::kCahvore);
   EXPECT_EQ(read.cahv.type, 3);
@@ -69,7 +69,7 @@ TEST_F(CahvorText, IsReadAsItIsLaidOut) {
   EXPECT_EQ(camera.reference->frame.name, "");
 }
 
-TEST_F(CahvorText, OfEveryModelComesBackBitForBit) {
+TEST_F(CahvorText, EveryModel_RoundTrip_IsEqualToTheBit) {
   for (const PlanetaryCamera& camera : planetaryCameras()) {
     CahvorFile file{camera.cahv, camera.width, camera.height, {}, {}};
     const int size = camera.cahv.model == CameraModel::kCahv     ? 12
@@ -88,11 +88,11 @@ TEST_F(CahvorText, OfEveryModelComesBackBitForBit) {
     EXPECT_EQ(again.cahv.v_px, camera.cahv.v_px);
     EXPECT_EQ(again.covariance, file.covariance) << camera.name;
     EXPECT_EQ(again.internal_covariance, file.internal_covariance);
-    const CameraFile made = readCahvorCamera(folder_ / "b.cahvore");
+    const CameraFile camera_file = readCahvorCamera(folder_ / "b.cahvore");
     for (const PlanetaryCamera::Sight& sight : camera.sights) {
       Eigen::Vector2d pixel;
-      ASSERT_TRUE(
-          project(made.camera, made.reference->camera_from_reference * sight.point_m, pixel));
+      ASSERT_TRUE(project(camera_file.camera,
+                          camera_file.reference->camera_from_reference * sight.point_m, pixel));
       EXPECT_LT((pixel - sight.pixel).norm(), 1e-9) << camera.name;
     }
   }
@@ -109,7 +109,7 @@ TEST_F(CahvorText, StatesScalesAndCentres) {
   EXPECT_THAT(text, HasSubstr("Theta = -1.57079632679"));
 }
 
-TEST_F(CahvorText, StatesHowWellItIsCalibratedWhereItHasAnInternalCovariance) {
+TEST_F(CahvorText, InternalCovariance_SetsTheCalibrationSigma) {
   const auto sigma = [this](const std::string& text) {
     return readCahvorCamera(folder_.write("a.cahvor", text)).calibration_sigma;
   };

@@ -109,13 +109,13 @@ TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
 }
 
 TEST(CameraConversion, IsNoWorseThanAPinhole) {
-  for (const auto& one : planetaryCameras()) {
-    const Camera given = cameraOf(one.cahv, one.width, one.height);
+  for (const auto& item : planetaryCameras()) {
+    const Camera given = cameraOf(item.cahv, item.width, item.height);
     if (isMirrored(given)) continue;
     const FittedCamera pinhole = fitCamera(given, CameraModel::kPinhole, 1.0);
     const FittedCamera brown = fitCamera(given, CameraModel::kBrownConrady, 1.0);
-    EXPECT_LE(brown.worst_error_px, pinhole.worst_error_px + 1e-9) << one.name;
-    EXPECT_GE(pinhole.worst_error_px, pinhole.rms_error_px) << one.name;
+    EXPECT_LE(brown.worst_error_px, pinhole.worst_error_px + 1e-9) << item.name;
+    EXPECT_GE(pinhole.worst_error_px, pinhole.rms_error_px) << item.name;
   }
 }
 
@@ -177,7 +177,7 @@ TEST(CameraConversion, OfAnEquidistantCameraIsWithinTwoPixelsUpToEightyDegrees) 
   }
 }
 
-TEST(CameraConversion, RefusesWhatCannotBe) {
+TEST(CameraConversion, ImpossibleFit_IsRefused) {
   Camera mirrored = cahvor(Eigen::Vector3d::UnitZ());
   mirrored.fy = -mirrored.fy;
   ASSERT_EQ(prepareCamera(mirrored), Status::kOk);

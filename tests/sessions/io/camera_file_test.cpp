@@ -196,7 +196,7 @@ class CahvCamera : public ::testing::TestWithParam<PlanetaryCamera> {
 INSTANTIATE_TEST_SUITE_P(Cahv, CahvCamera, ::testing::ValuesIn(planetaryCameras()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST_P(CahvCamera, ProjectsAsItsVectorsSay) {
+TEST_P(CahvCamera, Projection_EqualsTheVectorFormula) {
   const CameraFile file = read(written(GetParam()));
   expectSights(file);
   EXPECT_EQ(file.reference->frame.name, "ROVER_NAV_FRAME");
@@ -211,7 +211,7 @@ TEST_P(CahvCamera, WritesItsVectorsInTheReferenceFrame) {
   EXPECT_EQ(again.reference->frame.index, (std::vector<std::int64_t>{14, 1262, 6}));
 }
 
-TEST_P(CahvCamera, AloneComesBackBitForBit) {
+TEST_P(CahvCamera, RoundTrip_IsEqualToTheBit) {
   const Camera camera = read(written(GetParam())).camera;
   writeCamera(folder_ / "own.json", camera);
   const CameraFile own = readCameraFile(folder_ / "own.json");

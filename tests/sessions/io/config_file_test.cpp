@@ -87,8 +87,7 @@ TEST_F(ConfigFile, NamesTheOptionItsRangeAndItsUnit) {
             "config.json: options.sample.colour: 'pink' is not one of red, green, blue");
   EXPECT_EQ(error(R"({"sample.colour": 1})"),
             "config.json: options.sample.colour: 1 is not one of red, green, blue");
-  EXPECT_EQ(error(R"({"sample.tint": 1})"),
-            "config.json: options.sample.tint: there is no such option");
+  EXPECT_EQ(error(R"({"sample.tint": 1})"), "config.json: options.sample.tint: unknown option");
   EXPECT_EQ(error(R"({"sample.count": [1]})"),
             "config.json: options.sample.count: not a number, true, false, or a name");
 }
@@ -148,7 +147,7 @@ TEST(OptionValues, CanBeGivenAsText) {
   EXPECT_EQ(error("sample.sigma_px", "nan"), "sample.sigma_px: nan px is outside 0 .. 8 px");
   EXPECT_EQ(error("sample.sigma_px", "1px"), "sample.sigma_px: '1px' is not a number in 0 .. 8 px");
   EXPECT_EQ(error("sample.enabled", "yes"), "sample.enabled: 'yes' is not true or false");
-  EXPECT_EQ(error("none", "1"), "none: there is no such option");
+  EXPECT_EQ(error("none", "1"), "none: unknown option");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ json uncertainty(double translation_m, const char* pivot = "camera") {
           {"pivot", pivot}};
 }
 
-/// Two stations, one in short form and one of two parts; two cases, one that overrides everything.
+/// Two stations, one in short form and one of two parts; two cases, one that waivers everything.
 json sampleDataset() {
   json d = {{"format", "boresight-dataset"}, {"version", 1}};
   d["requirement"] = {{"normal_mm", 0.4}, {"lateral_mm", 0.5}, {"rotation_deg", 0.25}};
@@ -132,7 +132,7 @@ TEST_F(ReadDataset, GivesACaseWhatItsStationAndTheDatasetSay) {
   EXPECT_EQ(a.camera_from_end_effector->translation_m.z(), 0.39);
 }
 
-TEST_F(ReadDataset, TakesHowWellMeshAndCameraAndATruthAreKnown) {
+TEST_F(ReadDataset, SigmasOfMeshCameraAndTruth_AreRead) {
   const Dataset unstated = readSample();
   EXPECT_FALSE(unstated.stations.at("bc").mesh_scale_sigma);
   EXPECT_TRUE(unstated.calibration_sigmas.empty());
@@ -155,7 +155,7 @@ TEST_F(ReadDataset, TakesHowWellMeshAndCameraAndATruthAreKnown) {
               HasSubstr("stations.bc.mesh_scale_sigma"));
 }
 
-TEST_F(ReadDataset, LetsACaseOverride) {
+TEST_F(ReadDataset, CaseMembers_OverrideThoseOfTheStation) {
   const Dataset dataset = readSample();
   const Case& b = *dataset.findCase("b");
   EXPECT_EQ(dataset.findCase("c"), nullptr);
@@ -236,7 +236,7 @@ TEST_F(ReadDataset, NamesWhatIsWrongInAStation) {
             "dataset.json: stations.bc.mesh: unknown mesh format '.step' (ply, obj, stl, gltf, "
             "glb)");
   EXPECT_EQ(error([](json& d) { d["stations"]["bc"]["parts"] = json::array(); }),
-            "dataset.json: stations.bc.mesh: given together with 'parts'");
+            "dataset.json: stations.bc.mesh: cannot be combined with 'parts'");
   EXPECT_EQ(error([](json& d) { d["stations"]["os"]["parts"] = json::array(); }),
             "dataset.json: stations.os.parts: is empty");
   EXPECT_EQ(error([](json& d) { d["stations"]["os"]["parts"][0]["match"] = false; }),
@@ -257,10 +257,10 @@ TEST_F(ReadDataset, NotesMatricesThatWereProjected) {
   const Dataset dataset = read(content);
   ASSERT_EQ(dataset.notes.size(), 1u);
   EXPECT_THAT(dataset.notes[0],
-              StartsWith("cases[0].seed.camera_from_station: the matrix is not quite a rotation"));
+              StartsWith("cases[0].seed.camera_from_station: the matrix is slightly off a rotation"));
 }
 
-TEST_F(ReadDataset, FindsMissingFilesBeforehand) {
+TEST_F(ReadDataset, MissingFiles_AreFoundBeforeARun) {
   const Dataset dataset = readSample();
   EXPECT_EQ(folder_.message([&] { requireFiles(dataset); }),
             "dataset.json: stations.bc: no such file: bc/model.ply");

@@ -85,8 +85,8 @@ TEST_F(InputFiles, AreNotReplaced) {
   EXPECT_TRUE(isRefused("input.png"));
   EXPECT_FALSE(isRefused("other.png"));
   EXPECT_EQ(folder_.message([&] { writeFileAtomically(input_, std::string_view("output")); }),
-            "cannot write input.png: it is the input input.png, which would be lost; name another "
-            "file");
+            "cannot write input.png: it is the input input.png, which would be overwritten; give "
+            "another file");
 }
 
 TEST_F(InputFiles, AreNotReplacedByAnyOfTheirNames) {

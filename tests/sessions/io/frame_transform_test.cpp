@@ -131,7 +131,7 @@ TEST_F(FrameTransforms, ThatContradictEachOtherAreRefused) {
     }
     EXPECT_THAT(poseError(kSiteJson, {roverCamera(), {first, second}}),
                 EndsWith("sol12.json and sol13.json lead from SITE_FRAME (194) to ROVER_FRAME "
-                         "(194, 835, 1) by different numbers; give the one that holds"));
+                         "(194, 835, 1) with different values; give only the valid one"));
   }
 }
 
@@ -143,7 +143,7 @@ TEST_F(FrameTransforms, PoseIsGivenInOneOfTheTwoWays) {
   EXPECT_THAT(folder_.message([&] {
     (void)readPose(file, {roverCamera(), {}});
   }),
-              HasSubstr("reference_from_station: given together with camera_from_station"));
+              HasSubstr("reference_from_station: cannot be combined with camera_from_station"));
 }
 
 TEST_F(FrameTransforms, AreNotAskedForInTheCamerasOwnFrame) {

@@ -40,7 +40,7 @@ std::string parseMessage(const std::string& text) {
 TEST(JsonDocument, NamesThePlaceOfASyntaxError) {
   EXPECT_THAT(parseMessage("{\"a\": 1,\n \"b\": }"),
               StartsWith("f.json: not JSON: parse error at line 2, column 7: "));
-  EXPECT_THAT(parseMessage("{\"a\": [1, 2"), HasSubstr("not JSON: the file ends in the middle"));
+  EXPECT_THAT(parseMessage("{\"a\": [1, 2"), HasSubstr("not JSON: the file is truncated"));
   EXPECT_THAT(parseMessage("\x89PNG\r\n"), HasSubstr("not JSON"));
   EXPECT_THAT(parseMessage("{} {}"), HasSubstr("not JSON"));
   EXPECT_THAT(parseMessage("// comment\n{}"), HasSubstr("not JSON"));

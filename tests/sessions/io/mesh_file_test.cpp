@@ -116,8 +116,8 @@ TEST_F(ReadMesh, TakesAFirstByteOfTenForData) {
   for (const bool after_carriage_return : {false, true}) {
     std::string bytes = binaryPly(mesh, false);
     if (after_carriage_return) bytes.insert(bytes.find("end_header") + 10, "\r");
-    const Mesh made = read("ten.ply", bytes);
-    EXPECT_THAT(made.vertices_m, UnorderedElementsAreArray(mesh.vertices));
+    const Mesh result = read("ten.ply", bytes);
+    EXPECT_THAT(result.vertices_m, UnorderedElementsAreArray(mesh.vertices));
   }
 }
 
@@ -203,8 +203,8 @@ TEST_F(ReadMesh, RefusesNodesInACircle) {
       "circle.glb: nodes[1]: is nested deeper than 256 nodes, or is its own ancestor");
 }
 
-/// Skins, images and animations made importers crash, and are of no use here.
-TEST_F(ReadMesh, ReadsNothingButTheGeometryOfGltf) {
+/// Skins, images and animations crash importers, and are not needed.
+TEST_F(ReadMesh, Gltf_OnlyTheGeometryIsRead) {
   const std::string rest =
       R"("skins":[{"joints":[1e-320]}],"animations":7,"images":[{"bufferView":99}],)"
       R"("materials":[{"extensions":{"KHR_none":[{}]}}],"asset":)";
@@ -331,11 +331,11 @@ TEST_F(ReadMesh, CountsSliversAndRefusesNothingButSlivers) {
   EXPECT_EQ(read("mesh.ply", binaryPly(mesh, false)).info.sliver_faces, 1);
   mesh.polygons = {{8, 9, 10}, {8, 10, 9}};
   EXPECT_EQ(error("mesh.ply", binaryPly(mesh, false)),
-            "mesh.ply: faces: all 2 are slivers without a surface");
+            "mesh.ply: faces: all 2 are slivers without area");
   mesh.vertices[8] = Eigen::Vector3f(0.0F, 0.0F, 9.0F);
   EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("slivers"));
   mesh.polygons = {{8, 8, 9}};
-  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("no surface"));
+  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("no area"));
 }
 
 TEST_F(ReadMesh, TriangulatesConcavePolygons) {
@@ -379,7 +379,7 @@ TEST_F(ReadMesh, RefusesCoordinatesThatAreNotFinite) {
   PolygonMesh far = cube();
   far.vertices[2].x() = 1e30F;
   EXPECT_EQ(error("mesh.ply", binaryPly(far, false)),
-            "mesh.ply: vertex 2: is more than 1000 km from the origin: is the unit right?");
+            "mesh.ply: vertex 2: is more than 1000 km from the origin: check the unit");
 }
 
 TEST_F(ReadMesh, RefusesIndicesOutOfRange) {
@@ -453,7 +453,8 @@ TEST_F(ReadMesh, RefusesCountsThatTheFileContradicts) {
   expectCube(read("f.ply", binaryPly(cube(), false) + "\n"));
   std::string stl = binaryStl(cube());
   stl[80] = 11;
-  EXPECT_EQ(error("g.stl", stl), "g.stl: header: declares 11 facets, but the file has room for 12");
+  EXPECT_EQ(error("g.stl", stl),
+            "g.stl: header: declares 11 facets, but the file can hold only 12");
 }
 
 TEST_F(ReadMesh, RefusesHugeDeclarationsBeforeReading) {

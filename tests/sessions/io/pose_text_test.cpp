@@ -36,7 +36,7 @@ TEST(PoseText, ShowsQuaternionsWithWNotNegative) {
   EXPECT_EQ(shownQuaternion(Eigen::Quaterniond(0.0, -1.0, 0.0, 0.0)).x(), 1.0);
 }
 
-TEST(ParsePose, TakesOrderDirectionAndUnitAsTold) {
+TEST(ParsePose, OrderDirectionAndUnit_AreApplied) {
   // A quarter turn about z, then 1, 2, 3 mm.
   PoseReading reading;
   reading.unit = LengthUnit::kMillimetre;

@@ -40,9 +40,9 @@ TEST(SampleData, EveryDatasetCanBeReadWhole) {
       EXPECT_EQ(validateMesh(scene.view()), Status::kOk) << id;
     }
     std::set<fs::path> seen;
-    for (const Case& one : dataset.cases) {
-      if (!seen.insert(one.image).second) continue;
-      const GrayImage image = readCaseImage(dataset, one);
+    for (const Case& dataset_case : dataset.cases) {
+      if (!seen.insert(dataset_case.image).second) continue;
+      const GrayImage image = readCaseImage(dataset, dataset_case);
       EXPECT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width * image.height));
     }
   }
@@ -56,16 +56,18 @@ TEST(SampleData, TruthsLieWithinTheirSeedsUncertainty) {
     for (const auto& [id, station] : dataset.stations) {
       const SceneMesh scene = readStationScene(station);
       const Eigen::Vector3d centre_m = matchedBounds(scene.view()).centre();
-      for (const Case& one : dataset.cases) {
-        if (one.station != id || !one.truth_camera_from_station || !one.uncertainty) continue;
-        const Pose& seed = one.seed_camera_from_station;
-        EXPECT_EQ(scaleConcern(matchedBounds(scene.view()), seed), "") << one.id;
-        const SeedUncertainty bounds = seedUncertainty(*one.uncertainty, seed, centre_m);
-        const Vector6d offset =
-            offsetAboutPivot(seed, *one.truth_camera_from_station, bounds.pivot_in_camera_m);
+      for (const Case& dataset_case : dataset.cases) {
+        if (dataset_case.station != id || !dataset_case.truth_camera_from_station ||
+            !dataset_case.uncertainty)
+          continue;
+        const Pose& seed = dataset_case.seed_camera_from_station;
+        EXPECT_EQ(scaleConcern(matchedBounds(scene.view()), seed), "") << dataset_case.id;
+        const SeedUncertainty bounds = seedUncertainty(*dataset_case.uncertainty, seed, centre_m);
+        const Vector6d offset = offsetAboutPivot(seed, *dataset_case.truth_camera_from_station,
+                                                 bounds.pivot_in_camera_m);
         for (int axis = 0; axis < 3; ++axis) {
-          EXPECT_LE(std::abs(offset[axis]), bounds.rotation_rad[axis]) << one.id;
-          EXPECT_LE(std::abs(offset[3 + axis]), bounds.translation_m[axis]) << one.id;
+          EXPECT_LE(std::abs(offset[axis]), bounds.rotation_rad[axis]) << dataset_case.id;
+          EXPECT_LE(std::abs(offset[3 + axis]), bounds.translation_m[axis]) << dataset_case.id;
         }
       }
     }

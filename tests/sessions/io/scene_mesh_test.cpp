@@ -31,7 +31,7 @@ class SceneMeshTest : public ::testing::Test {
   Mesh cube_;
 };
 
-TEST_F(SceneMeshTest, PutsPartsBesideEachOther) {
+TEST_F(SceneMeshTest, Parts_ArePlacedByTheirTransforms) {
   SceneMesh scene;
   ScenePart matched;
   matched.depth_threshold_m = 0.001;
@@ -114,7 +114,7 @@ TEST_F(SceneMeshTest, NamesTheFileOfAWrongUnit) {
   for (Eigen::Vector3f& vertex : large.vertices_m) vertex.z() -= 1000.0F;
   EXPECT_EQ(message(0.4),
             "cube.ply: mesh_unit: the mesh measures 346.4 m across, but the seed's camera is 400 "
-            "mm away (unit 'm'): is the unit right?");
+            "mm away (unit 'm'): check the unit");
 }
 
 }  // namespace

@@ -51,21 +51,21 @@ json transformFile() {
 }
 
 json dataset() {
-  json made = {{"format", "boresight-dataset"},
-               {"version", 1},
-               {"requirement", {{"normal_mm", 0.4}, {"lateral_mm", 0.4}}}};
-  made["stations"]["bc"] = {{"mesh", "bc.ply"}, {"mesh_unit", "m"}};
-  made["cameras"]["left"] = camera();
-  made["cameras"]["left"].erase("format");
-  made["cameras"]["left"].erase("version");
-  made["cases"] = {{{"id", "a"},
-                    {"station", "bc"},
-                    {"image", "a.png"},
-                    {"camera", "left"},
-                    {"rig", {{"id", "r"}, {"camera_from_rig", kIdentity}}},
-                    {"truth", {{"camera_from_station", kIdentity}}},
-                    {"seed", {{"camera_from_station", kIdentity}}}}};
-  return made;
+  json result = {{"format", "boresight-dataset"},
+                 {"version", 1},
+                 {"requirement", {{"normal_mm", 0.4}, {"lateral_mm", 0.4}}}};
+  result["stations"]["bc"] = {{"mesh", "bc.ply"}, {"mesh_unit", "m"}};
+  result["cameras"]["left"] = camera();
+  result["cameras"]["left"].erase("format");
+  result["cameras"]["left"].erase("version");
+  result["cases"] = {{{"id", "a"},
+                      {"station", "bc"},
+                      {"image", "a.png"},
+                      {"camera", "left"},
+                      {"rig", {{"id", "r"}, {"camera_from_rig", kIdentity}}},
+                      {"truth", {{"camera_from_station", kIdentity}}},
+                      {"seed", {{"camera_from_station", kIdentity}}}}};
+  return result;
 }
 
 class UnknownMembers : public testing::Test {

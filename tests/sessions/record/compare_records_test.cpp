@@ -54,8 +54,8 @@ TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
       {RunPart::kMatches, [](auto& run) { (*run.iterations[0].templates)[2].score += 1e-6F; }},
       {RunPart::kInliers,
        [](auto& run) {
-         auto& one = (*run.iterations[0].templates)[4];
-         one.inlier = !one.inlier;
+         auto& value = (*run.iterations[0].templates)[4];
+         value.inlier = !value.inlier;
        }},
       {RunPart::kPose,
        [](auto& run) { run.iterations[0].trace.camera_from_station.translation_m.x() += 1e-16; }},

@@ -25,19 +25,20 @@ void expectSameTemplates(const sessions::RecordedIteration& read,
   if (!read.templates) return;
   ASSERT_EQ(read.templates->size(), traced.templates.size());
   for (std::size_t i = 0; i < traced.templates.size(); ++i) {
-    const sessions::RecordedTemplate& one = (*read.templates)[i];
-    EXPECT_EQ(one.x, traced.templates[i].center_x);
-    EXPECT_EQ(one.y, traced.templates[i].center_y);
+    const sessions::RecordedTemplate& recorded_template = (*read.templates)[i];
+    EXPECT_EQ(recorded_template.x, traced.templates[i].center_x);
+    EXPECT_EQ(recorded_template.y, traced.templates[i].center_y);
     const Match& match = traced.matches[i];
-    ASSERT_EQ(one.searched, match.searched);
+    ASSERT_EQ(recorded_template.searched, match.searched);
     if (!match.searched) continue;
-    EXPECT_EQ(one.found_x, static_cast<float>(match.x));
-    EXPECT_EQ(one.found_y, static_cast<float>(match.y));
-    EXPECT_EQ(one.score, static_cast<float>(whsScore(match.peak.counts, match.norms)));
-    EXPECT_EQ(one.at_border, match.at_border);
-    EXPECT_EQ(one.second_score.has_value(), match.peak.has_second);
-    if (one.second_score) {
-      EXPECT_EQ(*one.second_score,
+    EXPECT_EQ(recorded_template.found_x, static_cast<float>(match.x));
+    EXPECT_EQ(recorded_template.found_y, static_cast<float>(match.y));
+    EXPECT_EQ(recorded_template.score,
+              static_cast<float>(whsScore(match.peak.counts, match.norms)));
+    EXPECT_EQ(recorded_template.at_border, match.at_border);
+    EXPECT_EQ(recorded_template.second_score.has_value(), match.peak.has_second);
+    if (recorded_template.second_score) {
+      EXPECT_EQ(*recorded_template.second_score,
                 static_cast<float>(whsScore(match.peak.second_counts, match.norms)));
     }
   }
@@ -176,17 +177,17 @@ TEST(OnboardRecord, FlippedBitsAreNeverTaken) {
   }
 }
 
-TEST(OnboardRecord, SaysWhatFoundNoRoom) {
+TEST(OnboardRecord, MissingBlocks_AreListed) {
   const RecordedRun& whole = exampleRun().run;
   const OnboardRecord read =
       recordRun(exampleRun().problem, recordedOptions(), whole.bytes.size() / 2).record;
   EXPECT_FALSE(read.whole());
   ASSERT_TRUE(read.end);
   EXPECT_EQ(read.end->digest, whole.trace.digest);
-  EXPECT_THAT(read.missing, testing::Contains(HasSubstr("found no room on board")));
+  EXPECT_THAT(read.missing, testing::Contains(HasSubstr("did not fit on board")));
 }
 
-TEST(OnboardRecord, SaysWhichOptionsWereTakenUpOnTheWay) {
+TEST(OnboardRecord, ChangedOptions_AreRecordedWithTheirIteration) {
   LocalizerOptions other = recordedOptions();
   other.loop.render_again_px = 5.0;
   const RecordedRun changed = recordRun(exampleRun().problem, {recordedOptions(), {{2, other}}});

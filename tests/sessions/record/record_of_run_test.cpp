@@ -16,8 +16,8 @@ using sessions::RecordedIteration;
 using sessions::recordOf;
 using sessions::RunPlan;
 
-void expectEqual(const RecordedIteration& one, const RecordedIteration& other) {
-  const sessions::IterationTrace& a = one.trace;
+void expectEqual(const RecordedIteration& recorded, const RecordedIteration& other) {
+  const sessions::IterationTrace& a = recorded.trace;
   const sessions::IterationTrace& b = other.trace;
   SCOPED_TRACE(a.index);
   EXPECT_EQ(a.kind, b.kind);
@@ -54,8 +54,8 @@ void expectEqual(const RecordedIteration& one, const RecordedIteration& other) {
         trace.correction_image_px};
   };
   EXPECT_EQ(figures(a), figures(b));
-  EXPECT_EQ(one.render_sha256, other.render_sha256);
-  EXPECT_TRUE(one.templates == other.templates);
+  EXPECT_EQ(recorded.render_sha256, other.render_sha256);
+  EXPECT_TRUE(recorded.templates == other.templates);
 }
 
 void expectEqual(const OnboardRecord& a, const OnboardRecord& b) {
@@ -94,14 +94,14 @@ std::array<std::int32_t, 7> countsOf(const EdgeSupport& support) {
           support.displaced_explained};
 }
 
-TEST(RecordOfRun, IsWhatTheFlightSideWrote) {
+TEST(RecordOfRun, EqualsTheRecordOfTheFlightSide) {
   const LocalizationProblem& problem = exampleRun().problem;
   const RecordedRun& run = exampleRun().run;
-  const OnboardRecord made = recordOf(run.trace, &problem);
-  EXPECT_TRUE(made.whole());
-  expectEqual(made, run.record);
-  ASSERT_TRUE(made.iterations.back().support && run.record.iterations.back().support);
-  EXPECT_EQ(countsOf(*made.iterations.back().support),
+  const OnboardRecord record = recordOf(run.trace, &problem);
+  EXPECT_TRUE(record.whole());
+  expectEqual(record, run.record);
+  ASSERT_TRUE(record.iterations.back().support && run.record.iterations.back().support);
+  EXPECT_EQ(countsOf(*record.iterations.back().support),
             countsOf(*run.record.iterations.back().support));
 
   sessions::Runner stepped(problem, recordedOptions());
@@ -156,10 +156,10 @@ TEST(RecordOfRun, OfAHaltedRunHasNoEnd) {
   run.advance(sessions::StepUntil::kIteration);
   run.advance(sessions::StepUntil::kStage);
   ASSERT_TRUE(run.trace().last_under_way);
-  const OnboardRecord made = recordOf(run.trace(), &problem);
-  EXPECT_EQ(made.iterations.size(), 1u);
-  EXPECT_FALSE(made.end);
-  EXPECT_FALSE(made.whole());
+  const OnboardRecord record = recordOf(run.trace(), &problem);
+  EXPECT_EQ(record.iterations.size(), 1u);
+  EXPECT_FALSE(record.end);
+  EXPECT_FALSE(record.whole());
 }
 
 }  // namespace

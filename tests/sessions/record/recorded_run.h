@@ -20,15 +20,15 @@ struct RecordedRun {
 
 inline RecordedRun recordRun(const LocalizationProblem& problem, const sessions::RunPlan& plan,
                              std::size_t room = 65536) {
-  RecordedRun made;
-  made.bytes.resize(room);
-  RecordWriter writer(made.bytes);
+  RecordedRun recorded_run;
+  recorded_run.bytes.resize(room);
+  RecordWriter writer(recorded_run.bytes);
   sessions::RunSettings settings;
   settings.onboard_record = &writer;
-  made.trace = sessions::localize(problem, plan, settings);
-  made.bytes.resize(writer.bytes().size());
-  made.record = sessions::parseRecord("run.whsr", made.bytes);
-  return made;
+  recorded_run.trace = sessions::localize(problem, plan, settings);
+  recorded_run.bytes.resize(writer.bytes().size());
+  recorded_run.record = sessions::parseRecord("run.whsr", recorded_run.bytes);
+  return recorded_run;
 }
 
 /// The default options, for the small features of the station.

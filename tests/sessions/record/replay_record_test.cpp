@@ -108,7 +108,7 @@ void expectSameScores(const IterationTrace& a, const IterationTrace& b) {
   }
 }
 
-TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
+TEST(ReplayRecord, EqualsTheGroundRunInCommonFields) {
   const LocalizationTrace& a = replayed();
   const LocalizationTrace& b = exampleRun().run.trace;
   EXPECT_TRUE(a.replayed && a.finished);
@@ -125,20 +125,21 @@ TEST(ReplayRecord, IsTheGroundsRunInAllThatBothHave) {
   ASSERT_EQ(a.iterations.size(), b.iterations.size());
   for (std::size_t i = 0; i < b.iterations.size(); ++i) {
     SCOPED_TRACE(i);
-    const IterationTrace& one = *a.iterations[i];
-    EXPECT_EQ(one.camera_from_station, b.iterations[i]->camera_from_station);
-    EXPECT_EQ(one.camera_from_station_before, b.iterations[i]->camera_from_station_before);
-    EXPECT_EQ(one.uncertainty.rotation_rad, b.iterations[i]->uncertainty.rotation_rad);
-    EXPECT_EQ(one.uncertainty.pivot_in_camera_m, b.iterations[i]->uncertainty.pivot_in_camera_m);
-    EXPECT_EQ(one.support(), b.iterations[i]->support());
-    EXPECT_EQ(one.rms_px(), b.iterations[i]->rms_px());
-    EXPECT_NEAR(one.mean_score, b.iterations[i]->mean_score, 1e-6);
-    expectSameRender(one.render, b.iterations[i]->render);
-    expectSameTemplates(one, *b.iterations[i]);
-    expectSamePairs(one, *b.iterations[i]);
-    expectSameScores(one, *b.iterations[i]);
+    const IterationTrace& iteration = *a.iterations[i];
+    EXPECT_EQ(iteration.camera_from_station, b.iterations[i]->camera_from_station);
+    EXPECT_EQ(iteration.camera_from_station_before, b.iterations[i]->camera_from_station_before);
+    EXPECT_EQ(iteration.uncertainty.rotation_rad, b.iterations[i]->uncertainty.rotation_rad);
+    EXPECT_EQ(iteration.uncertainty.pivot_in_camera_m,
+              b.iterations[i]->uncertainty.pivot_in_camera_m);
+    EXPECT_EQ(iteration.support(), b.iterations[i]->support());
+    EXPECT_EQ(iteration.rms_px(), b.iterations[i]->rms_px());
+    EXPECT_NEAR(iteration.mean_score, b.iterations[i]->mean_score, 1e-6);
+    expectSameRender(iteration.render, b.iterations[i]->render);
+    expectSameTemplates(iteration, *b.iterations[i]);
+    expectSamePairs(iteration, *b.iterations[i]);
+    expectSameScores(iteration, *b.iterations[i]);
   }
-  EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
+  EXPECT_THAT(a.remarks, testing::ElementsAre(HasSubstr("edge points of refinements")));
   EXPECT_THAT(runStatusText(a), testing::StartsWith("Onboard record, replayed. Converged"));
 }
 
@@ -154,7 +155,7 @@ TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
   const RecordedRun run = recordRun(problem, {first, {{2, later}}});
   ASSERT_GT(run.trace.attempts, 1);
   EXPECT_TRUE(std::any_of(run.trace.iterations.begin(), run.trace.iterations.end(),
-                          [](const auto& one) { return one->chosen_hypothesis > 0; }));
+                          [](const auto& item) { return item->chosen_hypothesis > 0; }));
   const LocalizationTrace replay = replayRecord(run.record, problem);
   ASSERT_EQ(replay.iterations.size(), run.trace.iterations.size());
   for (std::size_t i = 0; i < replay.iterations.size(); ++i) {
@@ -162,7 +163,7 @@ TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
     expectSameRender(replay.iterations[i]->render, run.trace.iterations[i]->render);
     expectSameTemplates(*replay.iterations[i], *run.trace.iterations[i]);
   }
-  EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge places of refinements")));
+  EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge points of refinements")));
 }
 
 /// What a replay shows is the whole record's, as far as it goes.
@@ -179,7 +180,7 @@ void expectBeginning(const LocalizationTrace& part, const LocalizationTrace& who
   } else {
     EXPECT_FALSE(part.converged());
     EXPECT_TRUE(part.digest.empty());
-    EXPECT_THAT(part.remarks, Contains(HasSubstr("The record lacks something")));
+    EXPECT_THAT(part.remarks, Contains(HasSubstr("The record is incomplete")));
   }
 }
 
@@ -200,20 +201,20 @@ TEST(ReplayRecord, ShowsWhatIsLeftOfACutOrDamagedRecord) {
   }
 }
 
-/// Contents that nobody wrote, under checksums that hold: nothing crashes.
+/// Invalid contents under valid checksums do not crash.
 TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
   const ExampleRun& whole = exampleRun();
   Random random = randomFor("ReplayRecord.Nonsense");
   for (int trial = 0; trial < 30; ++trial) {
     OnboardRecord record = whole.run.record;
-    auto& one = record.iterations[random.below(2)];
+    auto& value = record.iterations[random.below(2)];
     const auto number = [&random] {
       return static_cast<std::int32_t>(random.below(2'000'000'000));
     };
-    one.trace.template_side_px = trial % 3 == 0 ? -number() : number();
-    one.trace.index = trial % 5 == 0 ? -number() : number();
-    one.trace.camera_from_station_before.translation_m.z() = trial % 2 == 0 ? NAN : 1e300;
-    for (auto& item : one.templates.value()) {
+    value.trace.template_side_px = trial % 3 == 0 ? -number() : number();
+    value.trace.index = trial % 5 == 0 ? -number() : number();
+    value.trace.camera_from_station_before.translation_m.z() = trial % 2 == 0 ? NAN : 1e300;
+    for (auto& item : value.templates.value()) {
       item.x = static_cast<int>(random.below(65536));
       item.found_x = trial % 4 == 0 ? NAN : 1e30F;
     }
@@ -223,7 +224,7 @@ TEST(ReplayRecord, SurvivesContentsThatMakeNoSense) {
   }
 }
 
-TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
+TEST(ReplayRecord, DifferencesFromTheRunOnBoard_AreReported) {
   const ExampleRun& whole = exampleRun();
   const auto remarks = [&](const OnboardRecord& record, const LocalizationProblem& ground) {
     return replayRecord(record, ground).remarks;
@@ -232,13 +233,13 @@ TEST(ReplayRecord, SaysWhatIsNotAsItWasOnBoard) {
   for (auto& value : other.image.pixels) value = static_cast<std::uint8_t>(255 - value / 2);
   EXPECT_THAT(remarks(whole.run.record, other.problem()),
               testing::AllOf(Contains(HasSubstr("other pixels")),
-                             Contains(HasSubstr("edges here are not those"))));
+                             Contains(HasSubstr("image edges differ"))));
   const ExampleCase bc("bc");
   EXPECT_THAT(
       remarks(whole.run.record, bc.problem()),
-      testing::AllOf(Contains(HasSubstr("another mesh")),
-                     Contains(HasSubstr("not rendered here as it was on board in iteration 1")),
-                     Contains(HasSubstr("their points are not known"))));
+      testing::AllOf(Contains(HasSubstr("mesh differs")),
+                     Contains(HasSubstr("render differs from that on board in iteration 1")),
+                     Contains(HasSubstr("their points are unknown"))));
   OnboardRecord larger = whole.run.record;
   larger.inputs->width *= 2;
   const LocalizationTrace poses = replayRecord(larger, whole.problem);
@@ -253,7 +254,7 @@ TEST(ReplayRecord, ColorOfTheImage_CountsOnlyWhereTheRunLookedAtIt) {
   const std::vector<std::uint8_t> color = colorOf(gray.image);
   LocalizationProblem colored = gray;
   colored.color = {color.data(), gray.image.width, gray.image.height, 3 * gray.image.width};
-  const auto other_pixels = Contains(HasSubstr("saw other pixels"));
+  const auto other_pixels = Contains(HasSubstr("pixels differ"));
 
   const RecordedRun& of_gray = exampleRun().run;
   EXPECT_THAT(replayRecord(of_gray.record, colored).remarks, testing::Not(other_pixels));
@@ -273,9 +274,9 @@ TEST(RecordedPlan, SaysWhichOptionsItDoesNotKnow) {
   EXPECT_TRUE(sameOptions(planOf(record).plan.options, recordedOptions()));
   auto& options = record.options.front().options;
   options.push_back({"later.option", OptionKind::kInteger, 5});
-  std::erase_if(options, [](const auto& one) { return one.name == "pnp.seed"; });
-  for (auto& one : options)
-    if (one.name == "loop.max_attempts") one.bits = 99;
+  std::erase_if(options, [](const auto& item) { return item.name == "pnp.seed"; });
+  for (auto& item : options)
+    if (item.name == "loop.max_attempts") item.bits = 99;
   const sessions::RecordedPlan plan = planOf(record);
   EXPECT_TRUE(plan.has_options);
   EXPECT_THAT(plan.remarks, testing::UnorderedElementsAre(HasSubstr("later.option (5 on board)"),

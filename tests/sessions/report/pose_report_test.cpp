@@ -13,7 +13,7 @@
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/review_status.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
@@ -39,7 +39,7 @@ std::string pageText(const std::filesystem::path& file, int page) {
 class PoseReportTest : public testing::Test {
  protected:
   void SetUp() override {
-    const Session both = markedExample(0.1);
+    const Session both = annotatedExample(0.1);
     id_ = caseOfStation(both, "os");
     session_ = withoutCase(both, caseOfStation(both, "bc"));
   }
@@ -71,7 +71,7 @@ class PoseReportTest : public testing::Test {
   std::string id_;
 };
 
-TEST_F(PoseReportTest, EveryPageSaysThatNobodyValidatedIt) {
+TEST_F(PoseReportTest, UnvalidatedPose_IsLabelledOnEveryPage) {
   run();
   const std::filesystem::path file = write();
   if (pageText(file, 1).empty()) GTEST_SKIP() << "pdftotext is not installed";
@@ -80,7 +80,7 @@ TEST_F(PoseReportTest, EveryPageSaysThatNobodyValidatedIt) {
     EXPECT_THAT(pageText(file, page), HasSubstr("page " + std::to_string(page) + " of 2"));
   }
   EXPECT_EQ(pageText(file, 3), "");
-  EXPECT_THAT(pageText(file, 2), HasSubstr("as they are now"));
+  EXPECT_THAT(pageText(file, 2), HasSubstr(", current"));
 }
 
 TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
@@ -98,11 +98,11 @@ TEST_F(PoseReportTest, HoldsPoseDecisionAndReasons) {
                       1e3 * subject.camera_from_station.translation_m.z());
   EXPECT_THAT(first, HasSubstr(translation));
   const std::string second = pageText(file, 2);
-  EXPECT_THAT(second, HasSubstr("as they were when it was decided"));
+  EXPECT_THAT(second, HasSubstr("at the time of the decision"));
   EXPECT_THAT(second, HasSubstr("the hose is known"));
 }
 
-TEST_F(PoseReportTest, OfMarksNeedsNoRun) {
+TEST_F(PoseReportTest, OfAnnotationsNeedsNoRun) {
   const sessions::PoseReport report = sessions::poseReport(session_, id_);
   EXPECT_EQ(report.pose.source, sessions::PoseSource::kAnnotation);
   const sessions::ReportResiduals residuals = reportResiduals(report);
@@ -121,7 +121,7 @@ TEST_F(PoseReportTest, ADamagedOrLostTraceIsNotReported) {
   EXPECT_THROW(sessions::poseReport(session_, id_), sessions::InputError);
 }
 
-TEST_F(PoseReportTest, ACheckThatIsNotAsMeasuredIsNotReported) {
+TEST_F(PoseReportTest, CheckThatDiffersFromItsMeasurement_IsRefused) {
   run();
   (void)validate({"Ada", "right"});
   for (sessions::JudgedCheck& judged : session_.decisions.back().checks)
@@ -131,7 +131,7 @@ TEST_F(PoseReportTest, ACheckThatIsNotAsMeasuredIsNotReported) {
 }
 
 TEST_F(PoseReportTest, WithoutAnyPoseThereIsNoReport) {
-  session_ = withAnnotation(session_, id_, {});
+  session_ = withAnnotations(session_, id_, {});
   EXPECT_THROW(sessions::poseReport(session_, id_), sessions::InputError);
   run();
   EXPECT_THROW(writePoseReport(folder_ / "none" / "r.pdf", sessions::poseReport(session_, id_)),

@@ -13,9 +13,9 @@
 #include "sessions/session/check.h"
 #include "sessions/session/session_maker.h"
 #include "tests/sessions/review/find_check.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/example_case.h"
 #include "tests/support/loaded_example.h"
-#include "tests/support/marked_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
@@ -33,15 +33,16 @@ struct ExampleReview {
 /// A station's case, run, stored and read again.
 ExampleReview runExample(const std::string& station) {
   static const test::TemporaryFolder folder;
-  ExampleReview made;
-  made.session = makeSession(exampleFolder() / "dataset.json");
-  made.case_id = test::caseOfStation(made.session, station);
-  const auto loaded = loadCase(*made.session.findCase(made.case_id));
-  const LocalizationTrace trace = runCase(made.session, *loaded);
-  made.session = withRun(made.session,
-                         storeRun(made.session, made.case_id, trace, folder / "a.boresight.json"));
-  made.subject = reviewSubject(made.session, loaded, PoseSource::kRun);
-  return made;
+  ExampleReview example_review;
+  example_review.session = makeSession(exampleFolder() / "dataset.json");
+  example_review.case_id = test::caseOfStation(example_review.session, station);
+  const auto loaded = loadCase(*example_review.session.findCase(example_review.case_id));
+  const LocalizationTrace trace = runCase(example_review.session, *loaded);
+  example_review.session = withRun(
+      example_review.session,
+      storeRun(example_review.session, example_review.case_id, trace, folder / "a.boresight.json"));
+  example_review.subject = reviewSubject(example_review.session, loaded, PoseSource::kRun);
+  return example_review;
 }
 
 const ExampleReview& example(const std::string& station) {
@@ -69,7 +70,7 @@ ReviewSubject displaced(const ReviewSubject& subject, const Vector6d& xi) {
   return moved;
 }
 
-TEST(CheckPose, TheExamplesPassAll) {
+TEST(CheckPose, Examples_PassAllChecks) {
   for (const char* station : {"bc", "os"}) {
     const auto checks = checkPose(example(station).subject, presetLimits());
     EXPECT_TRUE(allPassed(checks)) << station << "\n" << checksText(checks, true);
@@ -78,7 +79,7 @@ TEST(CheckPose, TheExamplesPassAll) {
   }
 }
 
-/// The station's case with another mesh scale or camera, run anew from the same seed.
+/// The station's case with another mesh scale or camera, run again from the same seed.
 ReviewSubject runWith(const std::string& station, double mesh_scale,
                       const std::function<void(SessionCase&)>& change) {
   const ExampleReview& review = example(station);
@@ -107,17 +108,18 @@ struct Along {
 };
 
 Along alongOf(const std::string& station, const ReviewSubject& subject) {
-  const SessionCase& one = example(station).subject.loaded->source;
-  const auto sigma = poseSigma(subject.covariance.total(), one.camera_from_end_effector);
-  const PoseError error = poseError(*one.camera_from_station_truth, subject.camera_from_station,
-                                    one.camera_from_end_effector);
+  const SessionCase& session_case = example(station).subject.loaded->source;
+  const auto sigma = poseSigma(subject.covariance.total(), session_case.camera_from_end_effector);
+  const PoseError error =
+      poseError(*session_case.camera_from_station_truth, subject.camera_from_station,
+                session_case.camera_from_end_effector);
   return {sigma.value().normal_mm, std::abs(error.normal_mm)};
 }
 
 TEST(CheckPose, AMeshHalfAPercentTooLargeIsCoveredByItsStatedScaleAndFails) {
   for (const char* station : {"bc", "os"}) {
-    const auto subject =
-        runWith(station, 1.005, [](SessionCase& one) { one.mesh_scale_sigma = 0.005; });
+    const auto subject = runWith(
+        station, 1.005, [](SessionCase& session_case) { session_case.mesh_scale_sigma = 0.005; });
     const Along along = alongOf(station, subject);
     EXPECT_GT(along.error_mm, 1.5) << station;
     EXPECT_LT(along.error_mm, 1.2 * along.sigma_mm) << station;
@@ -130,8 +132,8 @@ TEST(CheckPose, AMeshHalfAPercentTooLargeIsCoveredByItsStatedScaleAndFails) {
 TEST(CheckPose, APrincipalPointTenPixelsOffIsFoundByTheEdges) {
   for (const char* station : {"bc", "os"})
     for (const double shift_px : {10.0, -10.0}) {
-      const auto subject =
-          runWith(station, 1.0, [&](SessionCase& one) { one.camera.cx += shift_px; });
+      const auto subject = runWith(
+          station, 1.0, [&](SessionCase& session_case) { session_case.camera.cx += shift_px; });
       const Check check = findCheck(checkPose(subject, presetLimits()), "camera_centre");
       EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
     }
@@ -139,9 +141,9 @@ TEST(CheckPose, APrincipalPointTenPixelsOffIsFoundByTheEdges) {
 
 TEST(CheckPose, AFocalLengthOffByOneAndAHalfPercentIsFoundByTheEdges) {
   for (const char* station : {"bc", "os"}) {
-    const auto subject = runWith(station, 1.0, [](SessionCase& one) {
-      one.camera.fx *= 1.015;
-      one.camera.fy *= 1.015;
+    const auto subject = runWith(station, 1.0, [](SessionCase& session_case) {
+      session_case.camera.fx *= 1.015;
+      session_case.camera.fy *= 1.015;
     });
     const Check check = findCheck(checkPose(subject, presetLimits()), "camera_focal");
     EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
@@ -181,42 +183,42 @@ TEST(CheckPose, FiguresAreTheSameEveryTimeAndIdsAreTheSameForEveryPose) {
   EXPECT_EQ(ids.size(), once.size());
 }
 
-TEST(CheckPose, MarksOfThePoseAgreeAndArePosesOfTheirOwn) {
+TEST(CheckPose, AnnotationsOfThePoseAgreeAndArePosesOfTheirOwn) {
   ExampleReview review = example("bc");
-  review.session.annotations = test::markedExample(0.0).annotations;
+  review.session.annotations = test::annotatedExample(0.0).annotations;
   const auto loaded = review.subject.loaded;
   const auto run = reviewSubject(review.session, loaded, PoseSource::kRun);
   ASSERT_TRUE(run.annotated);
   EXPECT_EQ(findCheck(checkPose(run, presetLimits()), "agreement_annotation").state,
             CheckState::kPassed);
-  const auto marked = reviewSubject(review.session, loaded, PoseSource::kAnnotation);
-  EXPECT_FALSE(marked.run);
-  EXPECT_EQ(marked.camera_from_station, run.annotated->camera_from_station);
-  const auto checks = checkPose(marked, presetLimits());
+  const auto annotated = reviewSubject(review.session, loaded, PoseSource::kAnnotation);
+  EXPECT_FALSE(annotated.run);
+  EXPECT_EQ(annotated.camera_from_station, run.annotated->camera_from_station);
+  const auto checks = checkPose(annotated, presetLimits());
   EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kPassed);
   EXPECT_EQ(findCheck(checks, "converged").state, CheckState::kNotApplicable);
 }
 
-TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
+TEST(CheckPose, OtherCamera_IsComparedThroughTheRig) {
   ExampleReview review = example("bc");
-  // The same image again, said to be taken by a camera 10 cm beside and turned by 0.1 rad: the pose
-  // that it finds disagrees by as much.
+  // The same image again, declared as taken by a camera shifted by 10 cm and turned by 0.1 rad: the
+  // pose that it finds disagrees by as much.
   SessionCase second = *review.session.findCase(review.case_id);
   second.id = "second";
   review.session = withCase(review.session, second);
   RunRecord run = *review.session.lastRunOf(review.case_id);
   run.case_id = "second";
   review.session.runs.push_back(run);
-  SessionCase one = *review.session.findCase(review.case_id);
+  SessionCase session_case = *review.session.findCase(review.case_id);
   Pose camera_from_rig;
   camera_from_rig.rotation = rotationExp({0.1, 0.0, 0.0});
   camera_from_rig.translation_m = {0.1, 0.0, 0.0};
-  one.rig = Rig{"rig", camera_from_rig};
+  session_case.rig = Rig{"rig", camera_from_rig};
   second.rig = Rig{"rig", camera_from_rig};
-  review.session = withCase(withCase(review.session, one), second);
+  review.session = withCase(withCase(review.session, session_case), second);
   const auto agrees = reviewSubject(review.session, review.subject.loaded, PoseSource::kRun);
   EXPECT_TRUE(agrees.other_cameras.empty()) << "the loaded case is in no rig yet";
-  const auto loaded = reloadCase(*review.subject.loaded, one);
+  const auto loaded = reloadCase(*review.subject.loaded, session_case);
   const auto same = reviewSubject(review.session, loaded, PoseSource::kRun);
   ASSERT_EQ(same.other_cameras.size(), 1U);
   EXPECT_LT(perturbationBetween(same.other_cameras[0].camera_from_station, same.camera_from_station)
@@ -231,32 +233,32 @@ TEST(CheckPose, AnotherCamerasPoseIsTakenThroughTheRig) {
             CheckState::kFailed);
 }
 
-TEST(CheckPose, WithoutAPoseThereIsASentence) {
+TEST(CheckPose, CaseWithoutPose_IsReportedInOneSentence) {
   const Session session = makeSession(exampleFolder() / "dataset.json");
   const auto loaded = loadCase(*session.cases.front());
   EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kRun), InputError);
   EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kAnnotation), InputError);
 }
 
-TEST(CheckPose, OtherSeedsLeadBackAndAStopLeavesWhatWasDone) {
+TEST(CheckPose, OtherSeeds_ReturnToThePoseAndAStopKeepsPartialCounts) {
   const ReviewSubject& subject = example("os").subject;
-  const BasinResult basin = basinTest(subject, 2);
-  EXPECT_EQ(basin.seeds, 2);
-  EXPECT_EQ(basin.returned, 2);
-  EXPECT_GT(basin.coverage, 0.5);
-  for (const RivalPose& rival : basin.rivals) {
-    EXPECT_TRUE(rival.mirrored);
-    EXPECT_LT(rival.coverage, basin.coverage);
+  const ConvergenceResult convergence = convergenceTest(subject, 2);
+  EXPECT_EQ(convergence.seeds, 2);
+  EXPECT_EQ(convergence.returned, 2);
+  EXPECT_GT(convergence.coverage, 0.5);
+  for (const ConvergedPose& competing : convergence.competing) {
+    EXPECT_TRUE(competing.mirrored);
+    EXPECT_LT(competing.coverage, convergence.coverage);
   }
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(basinTest(subject, 2, stop.get_token()).seeds, 0);
-  const auto checks = checkPose(subject, presetLimits(), basin);
-  EXPECT_EQ(findCheck(checks, "basin_returned").figure, 100.0);
-  EXPECT_EQ(findCheck(checks, "basin_rival").state, CheckState::kPassed);
+  EXPECT_EQ(convergenceTest(subject, 2, stop.get_token()).seeds, 0);
+  const auto checks = checkPose(subject, presetLimits(), convergence);
+  EXPECT_EQ(findCheck(checks, "convergence_returned").figure, 100.0);
+  EXPECT_EQ(findCheck(checks, "convergence_competing").state, CheckState::kPassed);
 }
 
-TEST(CheckPose, AMirroredStationIsToldByTheRightOneThatFitsBetter) {
+TEST(CheckPose, MirroredStation_FailsAsTheRightOneFitsBetter) {
   // What a mesh mirrored by mistake makes of an image: its own mirror image is the right station.
   const ExampleReview review = example("os");
   ReviewSubject subject = review.subject;
@@ -267,10 +269,10 @@ TEST(CheckPose, AMirroredStationIsToldByTheRightOneThatFitsBetter) {
   const LocalizationTrace trace = runCase(*subject.loaded, options);
   ASSERT_TRUE(trace.converged()) << "this station is nearly its own mirror image";
   subject.camera_from_station = trace.camera_from_station;
-  const auto checks = checkPose(subject, presetLimits(), basinTest(subject, 1));
-  const Check rival = findCheck(checks, "basin_rival");
-  EXPECT_EQ(rival.state, CheckState::kFailed) << rival.sentence;
-  EXPECT_THAT(rival.sentence, testing::HasSubstr("mirror image"));
+  const auto checks = checkPose(subject, presetLimits(), convergenceTest(subject, 1));
+  const Check competing = findCheck(checks, "convergence_competing");
+  EXPECT_EQ(competing.state, CheckState::kFailed) << competing.sentence;
+  EXPECT_THAT(competing.sentence, testing::HasSubstr("mirror image"));
 }
 
 TEST(CheckPresets, ArePickedByWhatTheRequirementNames) {
@@ -285,22 +287,22 @@ TEST(CheckPresets, ArePickedByWhatTheRequirementNames) {
   EXPECT_EQ(presetFor(Requirement()).name, kDefaultCheckPreset);
 }
 
-TEST(ChecksText, FailedOnesSayWhy) {
+TEST(ChecksText, FailedChecks_StateTheReason) {
   const auto moved = displaced(example("bc").subject, 0.02 * Vector6d::Unit(3));
   const std::string text = checksText(checkPose(moved, presetLimits()));
   EXPECT_THAT(text, testing::HasSubstr("FAIL  Predicted edges that are seen"));
-  EXPECT_THAT(text, testing::HasSubstr("Look at the overlay"));
+  EXPECT_THAT(text, testing::HasSubstr("Check the overlay"));
   EXPECT_THAT(text, testing::HasSubstr(" failed, "));
 }
 
-TEST(ChecksText, OnesThatAreNotApplicableSayWhyNot) {
+TEST(ChecksText, NotApplicableChecks_StateTheReason) {
   Check check;
-  check.title = "Other seeds lead back";
+  check.title = "Convergence from other seeds";
   check.state = CheckState::kNotApplicable;
   check.sentence = "No other seeds were run.";
   EXPECT_EQ(checksText(std::vector{check}),
-            "  -   Other seeds lead back\n      No other seeds were run.\n"
-            "0 passed, 0 failed, 1 not applicable\n");
+            "  -   Convergence from other seeds\n      No other seeds were run.\n0 passed, 0 "
+            "failed, 1 not applicable\n");
   check.state = CheckState::kPassed;
   EXPECT_EQ(checksText(std::vector{check}).find("No other seeds were run."), std::string::npos);
 }
@@ -332,7 +334,7 @@ TEST(MirrorImage, KeepsTheBoxAndTheOutwardSide) {
   }
 }
 
-TEST(MirrorImage, MirrorsOneCoordinateAndTwiceIsNothing) {
+TEST(MirrorImage, MirroredTwice_IsTheOriginal) {
   const auto loaded = example("bc").subject.loaded;
   const double middle_m = matchedBounds(loaded->scene.view()).centre()(1);
   const auto image = mirrorImageOf(*loaded, 1);

@@ -28,16 +28,15 @@ std::string refusal(const std::function<void()>& act) {
   return "";
 }
 
-TEST(Decide, AValidationNeedsANameACommentAndAnswersToAllChecks) {
+TEST(Decide, Validation_NeedsNameCommentAndWaivers) {
   Random random = randomFor("Decide.Validation");
   JudgedCase judged(random);
-  const auto refused = [&judged](const sessions::CheckOverrides& overrides,
+  const auto refused = [&judged](const sessions::CheckWaivers& waivers,
                                  const sessions::Signature& who) {
-    return refusal(
-        [&] { validated(judged.session, judged.subject, judged.checks, overrides, who); });
+    return refusal([&] { validated(judged.session, judged.subject, judged.checks, waivers, who); });
   };
   EXPECT_EQ(refused({}, {"Ada", "right"}), "");
-  EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give a name"));
+  EXPECT_THAT(refused({}, {" \t", "right"}), HasSubstr("give your name"));
   EXPECT_THAT(refused({}, {"Ada", " \n"}), HasSubstr("give a comment"));
   EXPECT_THAT(refused({{"converged", "so"}}, {"Ada", "right"}), HasSubstr("has not failed"));
   EXPECT_THAT(refused({{"nothing", "so"}}, {"Ada", "right"}), HasSubstr("no check 'nothing'"));
@@ -55,12 +54,12 @@ TEST(Decide, NothingIsValidatedWithoutAnyCheck) {
   Random random = randomFor("Decide.NoChecks");
   JudgedCase judged(random);
   judged.checks.clear();
-  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("no check has been made"));
+  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("has not been checked"));
   judged.checks = {JudgedCase::check("truth", CheckState::kNotApplicable)};
-  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("no check has been made"));
+  EXPECT_THAT(refusal([&] { judged.validatedBy("Ada"); }), HasSubstr("has not been checked"));
 }
 
-TEST(Decide, AValidationHoldsItsPoseItsChecksAndTheirReasons) {
+TEST(Decide, Validation_StoresPoseChecksAndWaivers) {
   Random random = randomFor("Decide.Holds");
   JudgedCase judged(random);
   judged.checks[1].state = CheckState::kFailed;
@@ -73,8 +72,8 @@ TEST(Decide, AValidationHoldsItsPoseItsChecksAndTheirReasons) {
   EXPECT_EQ(decision.pose->camera_from_station, judged.subject.camera_from_station);
   EXPECT_EQ(decision.pose->covariance, judged.subject.covariance);
   ASSERT_EQ(decision.checks.size(), 3u);
-  EXPECT_EQ(decision.checks[0].override_reason, "");
-  EXPECT_EQ(decision.checks[1].override_reason, "half of it is dark");
+  EXPECT_EQ(decision.checks[0].waiver_reason, "");
+  EXPECT_EQ(decision.checks[1].waiver_reason, "half of it is dark");
   EXPECT_EQ(reviewStatusOf(next, "a").state, ReviewState::kValidated);
   EXPECT_EQ(reviewStatusText(reviewStatusOf(next, "a")), "validated by Ada");
 }
@@ -100,28 +99,29 @@ TEST(Decide, OnlyTheLastConvergedRunOfTheseInputsCanBeValidated) {
   EXPECT_THAT(refused(), HasSubstr("no case 'a'"));
 }
 
-TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
+TEST(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
   Random random = randomFor("Decide.Dropped");
   const JudgedCase judged(random);
   const Session before = judged.validatedBy("Ada");
   using Edit = std::function<void(Session&, sessions::SessionCase&)>;
   const std::map<std::string, Edit> edits = {
       {"the image, camera, mesh, seed or mask has",
-       [](Session&, auto& one) { one.camera_from_station_seed.translation_m.x() += 1e-12; }},
-      {"the truth has", [&](Session&, auto& one) { one.camera_from_station_truth = Pose(); }},
+       [](Session&, auto& item) { item.camera_from_station_seed.translation_m.x() += 1e-12; }},
+      {"the truth has", [&](Session&, auto& item) { item.camera_from_station_truth = Pose(); }},
       {"the stated sigmas of mesh and camera have",
-       [](Session&, auto& one) { one.mesh_scale_sigma = 1e-3; }},
+       [](Session&, auto& item) { item.mesh_scale_sigma = 1e-3; }},
       {"the requirement has",
-       [](Session&, auto& one) {
-         one.requirement = {1.0, {}, {}, {}};
+       [](Session&, auto& item) {
+         item.requirement = {1.0, {}, {}, {}};
        }},
-      {"the end effector has", [](Session&, auto& one) { one.camera_from_end_effector = Pose(); }},
+      {"the end effector has",
+       [](Session&, auto& item) { item.camera_from_end_effector = Pose(); }},
       {"the rig has",
-       [](Session&, auto& one) {
-         one.rig = sessions::Rig{"r", Pose()};
+       [](Session&, auto& item) {
+         item.rig = sessions::Rig{"r", Pose()};
        }},
       {"the onboard record has",
-       [&](Session&, auto& one) { one.onboard_record = randomInput(random, ".whsr"); }},
+       [&](Session&, auto& item) { item.onboard_record = randomInput(random, ".whsr"); }},
       {"the limits of the checks have",
        [](Session& session, auto&) { session.review.preset = "photographs"; }},
       {"there is a later run",
@@ -130,17 +130,17 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
          run.digest = randomSha256(random);
          session.runs.push_back(run);
        }},
-      {"its run is no longer there", [](Session& session, auto&) { session.runs.clear(); }},
-      {"the marks have", [&](Session& session, auto& one) {
-         sessions::Marks marks;
-         while (marks == sessions::Marks()) marks = randomAnnotation(random);
-         session = withAnnotation(session, one.id, marks);
+      {"its run is missing", [](Session& session, auto&) { session.runs.clear(); }},
+      {"the annotations have", [&](Session& session, auto& item) {
+         sessions::Annotations annotations;
+         while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
+         session = withAnnotations(session, item.id, annotations);
        }}};
   for (const auto& [text, edit] : edits) {
     Session after = before;
-    sessions::SessionCase one = *before.findCase("a");
-    edit(after, one);
-    after = withCase(after, one);
+    sessions::SessionCase session_case = *before.findCase("a");
+    edit(after, session_case);
+    after = withCase(after, session_case);
     const sessions::ReviewStatus status = reviewStatusOf(after, "a");
     EXPECT_NE(status.state, ReviewState::kValidated) << text;
     EXPECT_FALSE(status.holds()) << text;
@@ -149,14 +149,14 @@ TEST(Decide, ALaterChangeDropsADecisionAndSaysWhichOne) {
   }
 }
 
-TEST(Decide, ARunOfTheRigsOtherCameraDropsAValidation) {
+TEST(Decide, NewRunOfTheRigsOtherCamera_InvalidatesAValidation) {
   Random random = randomFor("Decide.OtherCamera");
   JudgedCase judged(random);
-  sessions::SessionCase one = *judged.session.findCase("a");
-  one.rig = sessions::Rig{"rig", Pose()};
-  sessions::SessionCase other = one;
+  sessions::SessionCase session_case = *judged.session.findCase("a");
+  session_case.rig = sessions::Rig{"rig", Pose()};
+  sessions::SessionCase other = session_case;
   other.id = "b";
-  judged.session = withCase(withCase(judged.session, one), other);
+  judged.session = withCase(withCase(judged.session, session_case), other);
   Session after = judged.validatedBy("Ada");
   EXPECT_TRUE(reviewStatusOf(after, "a").holds());
   sessions::RunRecord run = after.runs.back();
@@ -168,21 +168,21 @@ TEST(Decide, ARunOfTheRigsOtherCameraDropsAValidation) {
   EXPECT_TRUE(reviewStatusOf(after, "a").holds()) << "a run in which it had a part is no witness";
 }
 
-TEST(Decide, WhatIsNoInputChangesNothing) {
+TEST(Decide, ChangeOfNonInputs_KeepsADecision) {
   Random random = randomFor("Decide.Stands");
   const JudgedCase judged(random);
   Session after = judged.validatedBy("Ada");
-  sessions::SessionCase one = *after.findCase("a");
-  one.tags.push_back("looked at");
-  one.camera_from_station_working = randomPose(random);
-  after = withCase(after, one);
+  sessions::SessionCase session_case = *after.findCase("a");
+  session_case.tags.push_back("looked at");
+  session_case.camera_from_station_working = randomPose(random);
+  after = withCase(after, session_case);
   after.review.second_person = false;
   after.options = {{"pnp.seed", std::int64_t{7}}};  // the run's own are part of its digest
   after.runs.push_back(after.runs.back());          // the same run once more
   EXPECT_EQ(reviewStatusOf(after, "a").state, ReviewState::kValidated);
 }
 
-TEST(Decide, ASecondPersonIsSomebodyElse) {
+TEST(Decide, Approval_ByTheSamePerson_IsRefused) {
   Random random = randomFor("Decide.Approval");
   JudgedCase judged(random);
   judged.session.review.second_person = true;
@@ -197,7 +197,7 @@ TEST(Decide, ASecondPersonIsSomebodyElse) {
   EXPECT_THAT(refusal([&] {
                 approved(first, "a", {"ada  l ", "yes"});
               }),
-              HasSubstr("somebody else"));
+              HasSubstr("another person"));
   EXPECT_THAT(refusal([&] { approved(first, "a", {"Bob", ""}); }), HasSubstr("comment"));
 
   const Session second = approved(first, "a", {"Bob", "yes"});
@@ -209,7 +209,7 @@ TEST(Decide, ASecondPersonIsSomebodyElse) {
   EXPECT_THAT(refusal([&] { approved(other, "a", {"Bob", "yes"}); }), HasSubstr("no longer holds"));
 }
 
-TEST(Decide, ARejectionNeedsNoPoseAndIsTakenBackByName) {
+TEST(Decide, Rejection_NeedsNoPoseAndCanBeWithdrawn) {
   Random random = randomFor("Decide.Rejection");
   JudgedCase judged(random);
   judged.session.runs.clear();

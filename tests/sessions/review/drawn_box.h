@@ -40,12 +40,12 @@ class DrawnBox {
     loaded->image.width = camera_.width;
     loaded->image.height = camera_.height;
     loaded->image.pixels.assign(image_.datastart, image_.dataend);
-    sessions::ReviewSubject made;
-    made.loaded = loaded;
-    made.camera_from_station = camera_from_station;
-    made.requirement.normal_mm = 0.4;
-    made.source = sessions::PoseSource::kAnnotation;
-    return made;
+    sessions::ReviewSubject review_subject;
+    review_subject.loaded = loaded;
+    review_subject.camera_from_station = camera_from_station;
+    review_subject.requirement.normal_mm = 0.4;
+    review_subject.source = sessions::PoseSource::kAnnotation;
+    return review_subject;
   }
 
   Eigen::Vector2d pixelOf(const Eigen::Vector3d& point_m) const {

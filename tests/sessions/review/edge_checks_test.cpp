@@ -117,10 +117,10 @@ TEST_F(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
   double sum = 0.0;
   double squares = 0.0;
   double count = 0.0;
-  for (const LookedPlace& one : lookAt(image, edges.places)) {
-    if (!one.found || std::abs(one.found->offset_px) > 1.0) continue;
-    sum += one.found->offset_px;
-    squares += one.found->offset_px * one.found->offset_px;
+  for (const LookedPlace& looked_place : lookAt(image, edges.places)) {
+    if (!looked_place.found || std::abs(looked_place.found->offset_px) > 1.0) continue;
+    sum += looked_place.found->offset_px;
+    squares += looked_place.found->offset_px * looked_place.found->offset_px;
     count += 1.0;
   }
   ASSERT_GT(count, 500.0);
@@ -175,7 +175,7 @@ TEST_F(EdgeChecks, WhatIsHiddenIsNotSeen) {
   EXPECT_LT(seen, 65.0);
 }
 
-TEST_F(EdgeChecks, IgnoredPixelsCountNeitherWay) {
+TEST_F(EdgeChecks, IgnoredPixels_DoNotCount) {
   hideLeftHalf();
   ReviewSubject subject = this->subject();
   const auto masked = copyOf(*subject.loaded);
@@ -192,7 +192,7 @@ TEST_F(EdgeChecks, IgnoredPixelsCountNeitherWay) {
   EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
 }
 
-TEST_F(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
+TEST_F(EdgeChecks, UndeterminedDirection_IsReported) {
   // Half of the image hidden so that parallel lines of one edge remain: it slides along itself.
   const PredictedEdges edges = this->edges();
   std::vector<EdgePlace> parallel;
@@ -204,8 +204,8 @@ TEST_F(EdgeChecks, AWayThatTheEdgesDoNotDetermineIsFound) {
   const ReviewSubject subject = this->subject();
   const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
   double most = 0.0;
-  for (const FallOff& one : fallOffOf(image, parallel, box.camera_, box.camera_from_station_))
-    most = std::max(most, one.coverage);
+  for (const FallOff& fall_off : fallOffOf(image, parallel, box.camera_, box.camera_from_station_))
+    most = std::max(most, fall_off.coverage);
   EXPECT_GT(most, 0.85);
 }
 
@@ -230,7 +230,7 @@ TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
   EXPECT_LT(fit->focal_sigma_px, 5.0);
 }
 
-TEST_F(EdgeChecks, ACameraThatNeitherItsCalibrationNorTheImageVouchesForFails) {
+TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
   ReviewSubject subject = this->subject();
   const PredictedEdges edges = this->edges();
   const auto focalCheck = [&](const CheckLimits& limits) {

@@ -19,13 +19,13 @@ struct JudgedCase {
 
   /// A case that converged.
   explicit JudgedCase(Random& random, const std::string& id = "a") {
-    sessions::SessionCase one = randomCase(random, id);
-    one.rig.reset();
+    sessions::SessionCase session_case = randomCase(random, id);
+    session_case.rig.reset();
     const std::string digest = randomSha256(random);
-    session = withCase({}, one);
+    session = withCase({}, session_case);
     noteRun(digest, "converged", random);
     auto loaded = std::make_shared<sessions::LoadedCase>();
-    loaded->source = one;
+    loaded->source = session_case;
     subject.loaded = loaded;
     subject.camera_from_station = randomPose(random);
     subject.covariance.picture = Matrix6d::Identity();
@@ -38,18 +38,19 @@ struct JudgedCase {
   }
 
   void noteRun(const std::string& digest, const std::string& status, Random& random) {
-    const sessions::SessionCase& one = *session.cases.front();
-    session.runs.push_back({one.id, digest, randomPath(random, ".trace"), status, "0.1.0",
-                            "2026-01-31T23:59:59Z", inputsDigest(one), randomSha256(random)});
+    const sessions::SessionCase& session_case = *session.cases.front();
+    session.runs.push_back({session_case.id, digest, randomPath(random, ".trace"), status, "0.1.0",
+                            "2026-01-31T23:59:59Z", inputsDigest(session_case),
+                            randomSha256(random)});
   }
 
   static sessions::Check check(const std::string& id, sessions::CheckState state) {
-    sessions::Check made;
-    made.id = id;
-    made.title = "Check of " + id;
-    made.state = state;
-    made.sentence = "It was looked at.";
-    return made;
+    sessions::Check result;
+    result.id = id;
+    result.title = "Check of " + id;
+    result.state = state;
+    result.sentence = "It was looked at.";
+    return result;
   }
 
   sessions::Session validatedBy(const std::string& by) const {

@@ -31,12 +31,12 @@ Eigen::VectorXd misfit(const PredictedEdges& edges, const Camera& camera, const 
 /// The pose of least squares, by derivatives that are differences.
 Pose fitted(const PredictedEdges& edges, const Camera& camera, Pose pose) {
   for (int round = 0; round < 8; ++round) {
-    const Eigen::VectorXd now = misfit(edges, camera, pose);
-    Eigen::MatrixXd slopes(now.size(), 6);
+    const Eigen::VectorXd current = misfit(edges, camera, pose);
+    Eigen::MatrixXd slopes(current.size(), 6);
     for (int i = 0; i < 6; ++i)
       slopes.col(i) =
-          (misfit(edges, camera, perturbed(1e-6 * Vector6d::Unit(i), pose)) - now) / 1e-6;
-    const Eigen::VectorXd step = slopes.colPivHouseholderQr().solve(-now);
+          (misfit(edges, camera, perturbed(1e-6 * Vector6d::Unit(i), pose)) - current) / 1e-6;
+    const Eigen::VectorXd step = slopes.colPivHouseholderQr().solve(-current);
     pose = perturbed(Vector6d(step), pose);
   }
   return pose;
@@ -64,11 +64,11 @@ TEST(PoseUncertainty, ThePoseFollowsTheCameraAsAFitWithTheWrongCameraDoes) {
 
 /// A case whose only error is the mesh's scale.
 SessionCase scaleCase(const DrawnBox& box, double mesh_scale_sigma) {
-  SessionCase one;
-  one.camera = box.camera_;
-  one.mesh_scale_sigma = mesh_scale_sigma;
-  one.calibration_sigma = CalibrationSigma{0.0, 0.0};
-  return one;
+  SessionCase session_case;
+  session_case.camera = box.camera_;
+  session_case.mesh_scale_sigma = mesh_scale_sigma;
+  session_case.calibration_sigma = CalibrationSigma{0.0, 0.0};
+  return session_case;
 }
 
 TEST(PoseUncertainty, AMeshThatIsTooLargeMovesTheFittedPoseByTheSigmaOfItsScale) {
@@ -104,15 +104,15 @@ TEST(PoseUncertainty, APoseThatShowsNoEdgeIsStillOffByItsCalibration) {
   const DrawnBox box;
   Pose pose = box.camera_from_station_;
   pose.translation_m.x() = 2.0;  // out of the image
-  SessionCase one = scaleCase(box, 0.0);
-  one.calibration_sigma = CalibrationSigma{0.001, 1.0};
+  SessionCase session_case = scaleCase(box, 0.0);
+  session_case.calibration_sigma = CalibrationSigma{0.001, 1.0};
   const PoseCovariance covariance =
-      poseCovariance(one, box.scene_.view(), pose, 1e-12 * Matrix6d::Identity());
+      poseCovariance(session_case, box.scene_.view(), pose, 1e-12 * Matrix6d::Identity());
   EXPECT_NEAR(std::sqrt(covariance.calibration(5, 5)), 0.5e-3, 1e-5);
   EXPECT_NEAR(std::sqrt(covariance.calibration(3, 3)), 0.5e-3, 1e-5) << "1 px at f = 1000 px";
 }
 
-TEST(PoseUncertainty, WithoutWhatThePictureSaysThereIsNoCovariance) {
+TEST(PoseUncertainty, WithoutImageCovariance_IsUnknown) {
   const DrawnBox box;
   const PoseCovariance covariance = poseCovariance(scaleCase(box, 0.001), box.scene_.view(),
                                                    box.camera_from_station_, Matrix6d::Zero());
@@ -136,27 +136,29 @@ TEST(EndEffectorPose, ARightSeedNeedsNoCorrection) {
   Random random = randomFor("EndEffectorPose.Right");
   const Pose camera_from_station = randomPose(random);
   const Pose camera_from_end_effector = randomPose(random);
-  const EndEffectorPose made = endEffectorPose(camera_from_station, camera_from_station,
-                                               camera_from_end_effector, Matrix6d::Zero());
-  const Pose& correction = made.end_effector_seed_from_end_effector_estimated;
+  const EndEffectorPose end_effector_pose = endEffectorPose(
+      camera_from_station, camera_from_station, camera_from_end_effector, Matrix6d::Zero());
+  const Pose& correction = end_effector_pose.end_effector_seed_from_end_effector_estimated;
   EXPECT_LT(perturbationBetween(Pose(), correction).norm(), 1e-14);
 }
 
-TEST(EndEffectorPose, ApointOfTheStationIsWhereBothWaysLead) {
+TEST(EndEffectorPose, StationPoint_IsEqualThroughBothChains) {
   Random random = randomFor("EndEffectorPose.Chain");
   for (int i = 0; i < 100; ++i) {
     const Pose seed = randomPose(random);
     const Pose estimate = randomPose(random);
     const Pose camera_from_end_effector = randomPose(random);
-    const EndEffectorPose made =
+    const EndEffectorPose end_effector_pose =
         endEffectorPose(seed, estimate, camera_from_end_effector, Matrix6d::Zero());
     // A point held by the end effector, placed in the station by the estimate.
     const Eigen::Vector3d held(random.normal(), random.normal(), random.normal());
-    const Eigen::Vector3d in_station = made.station_from_end_effector * held;
+    const Eigen::Vector3d in_station = end_effector_pose.station_from_end_effector * held;
     EXPECT_LT((estimate * in_station - camera_from_end_effector * held).norm(), 1e-12);
     // The same place, seen from where the seed thought the end effector to be.
     const Eigen::Vector3d by_seed = camera_from_end_effector.inverse() * (seed * in_station);
-    EXPECT_LT((made.end_effector_seed_from_end_effector_estimated * held - by_seed).norm(), 1e-12);
+    EXPECT_LT(
+        (end_effector_pose.end_effector_seed_from_end_effector_estimated * held - by_seed).norm(),
+        1e-12);
   }
 }
 
@@ -167,7 +169,7 @@ TEST(EndEffectorPose, TheCovarianceIsTheScatterOfDraws) {
   const Pose estimate = randomPose(random);
   const Pose camera_from_end_effector = randomPose(random);
   const Matrix6d covariance = randomCovariance(random, 1e-4);
-  const EndEffectorPose made =
+  const EndEffectorPose end_effector_pose =
       endEffectorPose(seed, estimate, camera_from_end_effector, covariance);
   const Matrix6d root = covariance.llt().matrixL();
   Matrix6d scatter = Matrix6d::Zero();
@@ -178,13 +180,14 @@ TEST(EndEffectorPose, TheCovarianceIsTheScatterOfDraws) {
                                 .end_effector_seed_from_end_effector_estimated;
     // Right perturbation: made * Exp(xi) == drawn.
     const Vector6d xi = perturbationBetween(
-        Pose(), made.end_effector_seed_from_end_effector_estimated.inverse() * correction);
+        Pose(),
+        end_effector_pose.end_effector_seed_from_end_effector_estimated.inverse() * correction);
     scatter += xi * xi.transpose() / kDraws;
   }
-  const Vector6d sigma = made.covariance.diagonal().cwiseSqrt();
+  const Vector6d sigma = end_effector_pose.covariance.diagonal().cwiseSqrt();
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column)
-      EXPECT_NEAR(scatter(row, column), made.covariance(row, column),
+      EXPECT_NEAR(scatter(row, column), end_effector_pose.covariance(row, column),
                   0.03 * sigma[row] * sigma[column])
           << row << ", " << column;
 }

@@ -37,9 +37,9 @@ bool comesFirst(const QueueRow& a, const QueueRow& b) {
   if (a.margin.has_value() != b.margin.has_value())
     return a.failed > 0 ? !a.margin.has_value() : a.margin.has_value();
   if (a.margin && *a.margin != *b.margin) return *a.margin < *b.margin;
-  const double one = a.from_seed ? a.from_seed->share : 0.0;
+  const double value = a.from_seed ? a.from_seed->share : 0.0;
   const double other = b.from_seed ? b.from_seed->share : 0.0;
-  return one != other ? one > other : a.case_id < b.case_id;
+  return value != other ? value > other : a.case_id < b.case_id;
 }
 
 TEST(QueueOrder, IsTheDocumentedOneAndTotal) {
@@ -79,7 +79,7 @@ Check figure(double value, double limit, LimitSide side) {
   return check;
 }
 
-TEST(CheckMargin, IsAPartOfTheLimitAndNegativeBeyondIt) {
+TEST(CheckMargin, IsRelativeToTheLimitAndNegativeBeyondIt) {
   EXPECT_DOUBLE_EQ(*checkMargin(figure(3.0, 4.0, LimitSide::kAtMost)), 0.25);
   EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtMost)), -0.5);
   EXPECT_DOUBLE_EQ(*checkMargin(figure(6.0, 4.0, LimitSide::kAtLeast)), 0.5);
@@ -99,14 +99,15 @@ TEST(SeedDistanceTest, IsWhatThePoseWasDisplacedByAboutThePivot) {
     Vector6d offset;
     offset << 0.05, -0.02, 0.03, 0.004, 0.016, -0.002;
     const Pose pose = displacedAboutPivot(seed, offset, uncertainty.pivot_in_camera_m);
-    const SeedDistance made = seedDistance(seed, pose, uncertainty);
-    EXPECT_NEAR(made.rotation_mrad, 1e3 * std::sqrt(0.05 * 0.05 + 0.02 * 0.02 + 0.03 * 0.03), 1e-6);
-    EXPECT_NEAR(made.translation_mm, std::sqrt(16.0 + 256.0 + 4.0), 1e-6);
-    EXPECT_NEAR(made.share, 0.8, 1e-9);
+    const SeedDistance seed_distance = seedDistance(seed, pose, uncertainty);
+    EXPECT_NEAR(seed_distance.rotation_mrad,
+                1e3 * std::sqrt(0.05 * 0.05 + 0.02 * 0.02 + 0.03 * 0.03), 1e-6);
+    EXPECT_NEAR(seed_distance.translation_mm, std::sqrt(16.0 + 256.0 + 4.0), 1e-6);
+    EXPECT_NEAR(seed_distance.share, 0.8, 1e-9);
   }
 }
 
-TEST(QueueRowTest, TellsADecisionThatHoldsAndOneThatDoesNot) {
+TEST(QueueRowTest, Row_SeparatesValidFromInvalidDecisions) {
   Random random(5);
   test::JudgedCase judged(random);
   QueueRow row;
@@ -127,7 +128,7 @@ TEST(QueueRowTest, TellsADecisionThatHoldsAndOneThatDoesNot) {
   EXPECT_EQ(row.group, QueueGroup::kOpen) << "there is a later run";
 }
 
-TEST(QueueRowTest, HasAnotherKeyAfterWhateverItRestsOn) {
+TEST(QueueRowTest, RowKey_ChangesWithEveryInput) {
   Random random(6);
   test::JudgedCase judged(random);
   const std::string before = queueKey(judged.session, "a");

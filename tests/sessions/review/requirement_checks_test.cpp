@@ -43,12 +43,12 @@ class AgreementChecks : public testing::Test {
   ReviewSubject subject_ = someSubject();
 };
 
-TEST_F(AgreementChecks, NothingToCompareWithIsNotApplicable) {
+TEST_F(AgreementChecks, NoOtherPose_IsNotApplicable) {
   for (const char* id : {"agreement_annotation", "agreement_truth", "agreement_camera"})
     EXPECT_EQ(checkOf(id).state, CheckState::kNotApplicable) << id;
 }
 
-TEST_F(AgreementChecks, TheTruthIsHeldToTheRequirement) {
+TEST_F(AgreementChecks, ExactTruth_IsComparedWithTheRequirement) {
   one_.camera_from_station_truth = movedBy(0.1, -0.3);
   EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 75.0, 1e-6);
   EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kPassed);
@@ -57,7 +57,7 @@ TEST_F(AgreementChecks, TheTruthIsHeldToTheRequirement) {
   EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kFailed);
 }
 
-TEST_F(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+TEST_F(AgreementChecks, CoarseTruthFromAnnotations_IsComparedWithinItsSigmasAndReportedAsWeak) {
   setTruth(one_, movedBy(0.0, 8.0));
   EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
   // 3 sigma of 10 mm along the view axis, of the truth and of the pose together.
@@ -66,7 +66,7 @@ TEST_F(AgreementChecks, ACoarseTruthOfAnnotationsAllowsItsOwnSigmasAndSaysThatIt
   const Check check = checkOf("agreement_truth");
   EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
-  EXPECT_THAT(check.sentence, testing::HasSubstr("says little"));
+  EXPECT_THAT(check.sentence, testing::HasSubstr("this check is weak"));
 }
 
 TEST_F(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
@@ -87,7 +87,7 @@ TEST_F(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
               100.0 * 0.8 / std::hypot(0.4, 0.3 * std::sqrt(2.0)), 0.1);
 }
 
-TEST_F(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
+TEST_F(AgreementChecks, Sentence_StatesWhereThePosesDiffer) {
   setTruth(one_, movedBy(0.1, -0.3));
   const auto sentence = [&] { return checkOf("agreement_truth").sentence; };
   EXPECT_THAT(sentence(), testing::HasSubstr("across the view axis at the camera"));
@@ -95,7 +95,7 @@ TEST_F(AgreementChecks, TheSentenceSaysWhereThePosesAreApart) {
   EXPECT_THAT(sentence(), testing::HasSubstr("at the end effector"));
 }
 
-TEST_F(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLittle) {
+TEST_F(AgreementChecks, CoarseAnnotation_IsComparedWithinItsSigmasAndReportedAsWeak) {
   subject_.annotated.emplace();
   subject_.annotated->camera_from_station = movedBy(0.6, 0.0);
   EXPECT_EQ(checkOf("agreement_annotation").state, CheckState::kFailed);
@@ -104,10 +104,10 @@ TEST_F(AgreementChecks, ACoarseAnnotationAllowsItsOwnSigmasAndSaysThatItTellsLit
   const Check check = checkOf("agreement_annotation");
   EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
-  EXPECT_THAT(check.sentence, testing::HasSubstr("says little"));
+  EXPECT_THAT(check.sentence, testing::HasSubstr("this check is weak"));
 }
 
-TEST_F(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
+TEST_F(AgreementChecks, SeveralCameras_UseTheLargestDistance) {
   const PoseCovariance unknown;
   subject_.other_cameras = {{"left", movedBy(0.1, 0.0), unknown},
                             {"top", movedBy(0.0, 0.8), unknown},
@@ -117,7 +117,7 @@ TEST_F(AgreementChecks, OfSeveralCamerasTheFarthestCounts) {
   EXPECT_THAT(check.sentence, testing::HasSubstr("top"));
 }
 
-TEST_F(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
+TEST_F(AgreementChecks, WithinRequirement_NeedsEveryMember) {
   EXPECT_TRUE(withinRequirement(subject_, movedBy(0.3, 0.3)));
   EXPECT_FALSE(withinRequirement(subject_, movedBy(0.3, 0.5)));
   Pose turned = subject_.camera_from_station;
@@ -125,43 +125,52 @@ TEST_F(AgreementChecks, WithinTheRequirementIsWithinAllOfIt) {
   EXPECT_FALSE(withinRequirement(subject_, turned));
 }
 
-std::vector<Check> basinChecks(const std::optional<BasinResult>& basin) {
+std::vector<Check> convergenceChecks(const std::optional<ConvergenceResult>& convergence) {
   std::vector<Check> checks;
-  addBasinChecks(basin, CheckLimits(), checks);
+  addConvergenceChecks(convergence, CheckLimits(), checks);
   return checks;
 }
 
-TEST(BasinChecks, SeedsThatDoNotLeadBackFailAtTheLimit) {
-  EXPECT_EQ(findCheck(basinChecks({}), "basin_returned").state, CheckState::kNotApplicable);
-  EXPECT_EQ(findCheck(basinChecks({}), "basin_rival").state, CheckState::kNotApplicable);
-  const double limit = CheckLimits().basin_percent;
-  BasinResult basin{100, 100, static_cast<int>(limit), 0.5, {}};
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").figure, limit);
-  EXPECT_TRUE(allPassed(basinChecks(basin)));
-  --basin.returned;
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
+TEST(ConvergenceChecks, TooFewReturningSeeds_Fail) {
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_returned").state,
+            CheckState::kNotApplicable);
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_competing").state,
+            CheckState::kNotApplicable);
+  const double limit = CheckLimits().convergence_percent;
+  ConvergenceResult convergence{100, 100, static_cast<int>(limit), 0.5, {}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").figure, limit);
+  EXPECT_TRUE(allPassed(convergenceChecks(convergence)));
+  --convergence.returned;
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
+            CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kPassed);
 }
 
-TEST(BasinChecks, WhereNoOtherSeedCameToAPoseThereIsNothingToCompareWith) {
-  const BasinResult basin{10, 10, 0, 0.5, {}};
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_returned").state, CheckState::kFailed);
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kNotApplicable);
+TEST(ConvergenceChecks, NoConvergedSeed_IsNotApplicable) {
+  const ConvergenceResult convergence{10, 10, 0, 0.5, {}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
+            CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kNotApplicable);
 }
 
-TEST(BasinChecks, OnlyABetterAnswerElsewhereSpeaksAgainstThePose) {
-  BasinResult basin{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kPassed);
-  EXPECT_NEAR(findCheck(basinChecks(basin), "basin_rival").figure.value(), 60.0, 1e-9);
-  basin.rivals.push_back({Pose(), false, 0.7});
-  const Check other = findCheck(basinChecks(basin), "basin_rival");
+TEST(ConvergenceChecks, CompetingPose_FailsOnlyIfItFitsBetter) {
+  ConvergenceResult convergence{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kPassed);
+  EXPECT_NEAR(findCheck(convergenceChecks(convergence), "convergence_competing").figure.value(),
+              60.0, 1e-9);
+  convergence.competing.push_back({Pose(), false, 0.7});
+  const Check other = findCheck(convergenceChecks(convergence), "convergence_competing");
   EXPECT_EQ(other.state, CheckState::kFailed);
   EXPECT_THAT(other.sentence, testing::HasSubstr("another pose 70 %"));
-  basin.rivals.push_back({Pose(), true, 0.8});
-  const Check mirrored = findCheck(basinChecks(basin), "basin_rival");
+  convergence.competing.push_back({Pose(), true, 0.8});
+  const Check mirrored = findCheck(convergenceChecks(convergence), "convergence_competing");
   EXPECT_THAT(mirrored.sentence, testing::HasSubstr("mirror image of the station 80 %"));
-  basin.coverage = 0.0;
-  EXPECT_EQ(findCheck(basinChecks(basin), "basin_rival").state, CheckState::kFailed);
+  convergence.coverage = 0.0;
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kFailed);
 }
 
 Check onboardCheck(const ReviewSubject& subject) {
@@ -170,7 +179,7 @@ Check onboardCheck(const ReviewSubject& subject) {
   return findCheck(checks, "agreement_onboard");
 }
 
-TEST(OnboardCheck, SaysWhatTheComparisonFound) {
+TEST(OnboardCheck, States_FollowTheComparison) {
   ReviewSubject subject = someSubject();
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kNotApplicable);
   subject.onboard.emplace();
@@ -225,33 +234,33 @@ TEST_F(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
   EXPECT_EQ(check.state, CheckState::kPassed);
 }
 
-TEST_F(PrecisionChecks, WithoutACovarianceThereIsNothingToAsk) {
+TEST_F(PrecisionChecks, WithoutCovariance_IsNotApplicable) {
   EXPECT_EQ(findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").state,
             CheckState::kNotApplicable);
 }
 
-TEST_F(PrecisionChecks, ScaleAndCalibrationCountWhereNobodyStatedThem) {
-  const SessionCase& one = subject_.loaded->source;
-  subject_.covariance = poseCovariance(one, subject_.loaded->scene.view(),
+TEST_F(PrecisionChecks, UnstatedScaleAndCalibration_UseDefaults) {
+  const SessionCase& session_case = subject_.loaded->source;
+  subject_.covariance = poseCovariance(session_case, subject_.loaded->scene.view(),
                                        subject_.camera_from_station, 1e-12 * Matrix6d::Identity());
   // 0.02 % of half a metre twice over, less what the box's own depth tells of the focal length.
   const Check check = findCheck(checksOf(subject_, CheckLimits()), "covariance_normal");
   EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
   EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
   EXPECT_THAT(check.sentence,
-              testing::HasSubstr("no better than the mesh's scale (0.02 %, assumed) and the "
+              testing::HasSubstr("limited by the mesh's scale (0.02 %, assumed) and the "
                                  "camera's calibration (0.02 % and "));
   EXPECT_THAT(check.sentence, testing::HasSubstr(" px, assumed) allow: 0.4"));
-  EXPECT_THAT(check.sentence, testing::HasSubstr("state how well"));
+  EXPECT_THAT(check.sentence, testing::HasSubstr("state mesh_scale_sigma"));
 }
 
-TEST_F(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
-  SessionCase one = subject_.loaded->source;
+TEST_F(PrecisionChecks, StatedSigmas_ReplaceDefaults) {
+  SessionCase session_case = subject_.loaded->source;
   const auto figure = [&](double mesh_scale, const CalibrationSigma& calibration) {
-    one.mesh_scale_sigma = mesh_scale;
-    one.calibration_sigma = calibration;
+    session_case.mesh_scale_sigma = mesh_scale;
+    session_case.calibration_sigma = calibration;
     subject_.covariance =
-        poseCovariance(one, subject_.loaded->scene.view(), subject_.camera_from_station,
+        poseCovariance(session_case, subject_.loaded->scene.view(), subject_.camera_from_station,
                        1e-12 * Matrix6d::Identity());
     return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").figure.value();
   };
@@ -260,7 +269,7 @@ TEST_F(PrecisionChecks, WhatIsStatedTakesThePlaceOfWhatIsAssumed) {
   EXPECT_NEAR(figure(0.0, {0.001, 0.0}), 3.0 * 0.5, 0.15);
 }
 
-TEST_F(PrecisionChecks, TheSentenceSaysWhere) {
+TEST_F(PrecisionChecks, Sentence_StatesTheReferencePoint) {
   subject_.covariance.picture = someCovariance();
   const auto sentence = [&] {
     return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").sentence;

@@ -23,7 +23,7 @@ struct MadeMatches {
   int second_share = 50;  ///< of the best place's edge hits, %
 };
 
-void addMatch(const MadeMatches& made, int index, IterationTrace& iteration) {
+void addMatch(const MadeMatches& made_matches, int index, IterationTrace& iteration) {
   Template item;
   item.center_x = 10 * (index + 1);
   item.center_y = 10 * (index + 1) * (index % 2 == 0 ? 1 : 2);
@@ -35,15 +35,15 @@ void addMatch(const MadeMatches& made, int index, IterationTrace& iteration) {
   match.peak.y = item.center_y;
   match.peak.counts = {100, 0};
   match.peak.has_second = true;
-  match.peak.second_counts = {made.second_share, 0};
+  match.peak.second_counts = {made_matches.second_share, 0};
   match.x = item.center_x;
   match.y = item.center_y;
   match.searched = true;
-  match.at_border = index < made.at_border;
+  match.at_border = index < made_matches.at_border;
   iteration.matches.push_back(match);
   iteration.correspondences.emplace_back();
   iteration.template_of.push_back(index);
-  iteration.pnp.inlier.push_back(index < made.inliers ? 1 : 0);
+  iteration.pnp.inlier.push_back(index < made_matches.inliers ? 1 : 0);
   iteration.pnp.residual_px.push_back(0.5);
   EdgePixel pixel;
   pixel.x = static_cast<std::int16_t>(item.center_x);
@@ -52,22 +52,22 @@ void addMatch(const MadeMatches& made, int index, IterationTrace& iteration) {
   iteration.render.pixels.push_back(pixel);
 }
 
-std::shared_ptr<IterationTrace> matching(const MadeMatches& made, double correction_px) {
+std::shared_ptr<IterationTrace> matching(const MadeMatches& made_matches, double correction_px) {
   auto iteration = std::make_shared<IterationTrace>();
   iteration->kind = IterationKind::kMatch;
   iteration->reached = Stage::kFinished;
   iteration->correction_image_px = correction_px;
-  for (int i = 0; i < made.count; ++i) addMatch(made, i, *iteration);
-  iteration->template_count = iteration->correspondence_count = made.count;
-  iteration->pnp.inlier_count = made.inliers;
+  for (int i = 0; i < made_matches.count; ++i) addMatch(made_matches, i, *iteration);
+  iteration->template_count = iteration->correspondence_count = made_matches.count;
+  iteration->pnp.inlier_count = made_matches.inliers;
   return iteration;
 }
 
-ReviewSubject subjectOf(const MadeMatches& made, double last_px = 0.1) {
+ReviewSubject subjectOf(const MadeMatches& made_matches, double last_px = 0.1) {
   ReviewSubject subject;
   subject.run.emplace();
   subject.run->status = LocalizationStatus::kConverged;
-  subject.run->iterations.push_back(matching(made, 20.0));
+  subject.run->iterations.push_back(matching(made_matches, 20.0));
   auto last = std::make_shared<IterationTrace>();
   last->kind = IterationKind::kRefine;
   last->reached = Stage::kFinished;
@@ -99,7 +99,7 @@ TEST(RunChecks, ARunThatDidNotConvergeFailsAndSaysHowItEnded) {
       << check.sentence;
 }
 
-TEST(RunChecks, CorrectionsOfARunWhoseLastIterationFailedAreNotPraised) {
+TEST(RunChecks, CorrectionsWithFailedLastIteration_AreNotApplicable) {
   ReviewSubject subject = subjectOf({});
   subject.run->status = LocalizationStatus::kPnpFailed;
   auto failed = std::make_shared<IterationTrace>();
@@ -123,11 +123,11 @@ TEST(RunChecks, AFirstCorrectionBelowAPixelAsksForNoLessThanAQuarterPixel) {
 }
 
 TEST(RunChecks, InliersAreCountedAndSetAgainstTheMatches) {
-  const MadeMatches made{.count = 40, .inliers = 10};
+  const MadeMatches made_matches{.count = 40, .inliers = 10};
   CheckLimits limits;
   limits.inlier_count = 10;
   limits.inlier_ratio_percent = 26;
-  const auto checks = checksOf(subjectOf(made), limits);
+  const auto checks = checksOf(subjectOf(made_matches), limits);
   EXPECT_EQ(findCheck(checks, "inlier_count").figure, 10.0);
   EXPECT_EQ(findCheck(checks, "inlier_count").state, CheckState::kPassed);
   EXPECT_EQ(findCheck(checks, "inlier_ratio").figure, 25.0);
@@ -135,7 +135,7 @@ TEST(RunChecks, InliersAreCountedAndSetAgainstTheMatches) {
   EXPECT_NE(findCheck(checks, "inlier_ratio").sentence.find("10 of 40"), std::string::npos);
 }
 
-TEST(RunChecks, InliersThatHoldOneEndOfTheStationFail) {
+TEST(RunChecks, InliersAtOneEndOfTheStation_Fail) {
   EXPECT_NEAR(
       findCheck(checksOf(subjectOf({.count = 20, .inliers = 20})), "inlier_spread").figure.value(),
       100.0, 1e-6);
@@ -175,21 +175,21 @@ TEST(RunChecks, OnlyTheLastAttemptCounts) {
   EXPECT_EQ(findCheck(checksOf(subject), "inlier_count").figure, 10.0);
 }
 
-TEST(RunChecks, APoseFromMarksHasTheSameChecksNotApplicable) {
+TEST(RunChecks, APoseFromAnnotationsHasTheSameChecksNotApplicable) {
   const auto of_run = checksOf(subjectOf({}));
-  const auto of_marks = checksOf(ReviewSubject());
-  ASSERT_EQ(of_marks.size(), of_run.size());
+  const auto of_annotations = checksOf(ReviewSubject());
+  ASSERT_EQ(of_annotations.size(), of_run.size());
   std::set<std::string> ids;
   for (std::size_t i = 0; i < of_run.size(); ++i) {
-    EXPECT_EQ(of_marks[i].id, of_run[i].id);
-    EXPECT_EQ(of_marks[i].state, CheckState::kNotApplicable);
-    EXPECT_FALSE(of_marks[i].sentence.empty());
+    EXPECT_EQ(of_annotations[i].id, of_run[i].id);
+    EXPECT_EQ(of_annotations[i].state, CheckState::kNotApplicable);
+    EXPECT_FALSE(of_annotations[i].sentence.empty());
     ids.insert(of_run[i].id);
   }
   EXPECT_EQ(ids.size(), of_run.size());
 }
 
-TEST(RunChecks, ARunThatNeverMatchedIsNoReasonToCrash) {
+TEST(RunChecks, RunWithoutMatching_IsNotApplicable) {
   ReviewSubject subject;
   subject.run.emplace();
   subject.run->status = LocalizationStatus::kTooFewMatches;

@@ -28,12 +28,12 @@ RunSide failedRun() {
 }
 
 RunChange changeBetween(const RunSide& before, const RunSide& after) {
-  RunDifference made;
-  made.before = before;
-  made.after = after;
-  judgeChange(made);
-  EXPECT_FALSE(made.why.empty());
-  return made.change;
+  RunDifference run_difference;
+  run_difference.before = before;
+  run_difference.after = after;
+  judgeChange(run_difference);
+  EXPECT_FALSE(run_difference.why.empty());
+  return run_difference.change;
 }
 
 /// Each of a list from the best to the worst is better than every later one.
@@ -86,45 +86,45 @@ TEST_F(RunDifferenceTest, NamesTheOptionTheFirstDifferenceAndWhoIsBetter) {
   const std::string first = run({});
   EXPECT_FALSE(lastTwoRuns(session_, id_)) << "one run has none before it";
   const std::string second = run({{"pnp.min_inliers", std::int64_t{100}}});
-  const RunDifference made = compare();
-  EXPECT_EQ(made.before.digest, first);
-  EXPECT_EQ(made.after.digest, second);
-  ASSERT_EQ(made.options.size(), 1u);
-  EXPECT_EQ(made.options[0].name, "pnp.min_inliers");
-  EXPECT_EQ(made.options[0].after, "100");
-  ASSERT_TRUE(made.comparison.first);
-  EXPECT_EQ(made.comparison.first->part, RunPart::kOptions);
-  EXPECT_TRUE(made.before.converged);
-  EXPECT_FALSE(made.after.converged);
-  EXPECT_EQ(made.change, RunChange::kWorse);
-  ASSERT_TRUE(made.before.error);
-  const SessionCase& one = *session_.findCase(id_);
-  const PoseError error =
-      poseError(*one.camera_from_station_truth, loadRun(session_.runs[0]).camera_from_station,
-                one.camera_from_end_effector);
-  EXPECT_DOUBLE_EQ(made.before.error->lateral_mm, error.lateral_mm);
-  EXPECT_FALSE(made.after.error);
+  const RunDifference run_difference = compare();
+  EXPECT_EQ(run_difference.before.digest, first);
+  EXPECT_EQ(run_difference.after.digest, second);
+  ASSERT_EQ(run_difference.options.size(), 1u);
+  EXPECT_EQ(run_difference.options[0].name, "pnp.min_inliers");
+  EXPECT_EQ(run_difference.options[0].after, "100");
+  ASSERT_TRUE(run_difference.comparison.first);
+  EXPECT_EQ(run_difference.comparison.first->part, RunPart::kOptions);
+  EXPECT_TRUE(run_difference.before.converged);
+  EXPECT_FALSE(run_difference.after.converged);
+  EXPECT_EQ(run_difference.change, RunChange::kWorse);
+  ASSERT_TRUE(run_difference.before.error);
+  const SessionCase& session_case = *session_.findCase(id_);
+  const PoseError error = poseError(*session_case.camera_from_station_truth,
+                                    loadRun(session_.runs[0]).camera_from_station,
+                                    session_case.camera_from_end_effector);
+  EXPECT_DOUBLE_EQ(run_difference.before.error->lateral_mm, error.lateral_mm);
+  EXPECT_FALSE(run_difference.after.error);
   bool has_converged = false;
-  for (const CheckChange& check : made.checks) {
+  for (const CheckChange& check : run_difference.checks) {
     EXPECT_NE(check.before, check.after) << check.title;
     has_converged = has_converged ||
                     (check.before == CheckState::kPassed && check.after == CheckState::kFailed);
   }
   EXPECT_TRUE(has_converged) << "a check that failed for the second run alone";
-  EXPECT_THAT(differenceText(made), ::testing::HasSubstr("pnp.min_inliers"));
-  EXPECT_THAT(changeText(made), ::testing::StartsWith("Worse"));
+  EXPECT_THAT(differenceText(run_difference), ::testing::HasSubstr("pnp.min_inliers"));
+  EXPECT_THAT(changeText(run_difference), ::testing::StartsWith("Worse"));
 }
 
 TEST_F(RunDifferenceTest, ATruthThatIsCoarserThanTheRequirementDoesNotJudge) {
   run({});
   run({{"loop.max_iterations", std::int64_t{30}}});
   EXPECT_TRUE(compare().after.error_share);
-  SessionCase one = *session_.findCase(id_);
-  one.truth_covariance = 1e-4 * Matrix6d::Identity();
-  session_ = withCase(session_, one);
-  const RunDifference made = compare();
-  EXPECT_TRUE(made.after.error);
-  EXPECT_FALSE(made.after.error_share);
+  SessionCase session_case = *session_.findCase(id_);
+  session_case.truth_covariance = 1e-4 * Matrix6d::Identity();
+  session_ = withCase(session_, session_case);
+  const RunDifference run_difference = compare();
+  EXPECT_TRUE(run_difference.after.error);
+  EXPECT_FALSE(run_difference.after.error_share);
 }
 
 TEST_F(RunDifferenceTest, ARunWithOtherInputsSaysSo) {
@@ -133,10 +133,10 @@ TEST_F(RunDifferenceTest, ARunWithOtherInputsSaysSo) {
   moved.camera_from_station_seed.translation_m.z() += 0.001;
   session_ = withCase(session_, moved);
   run({});
-  const RunDifference made = compare();
-  EXPECT_TRUE(made.inputs_differ);
-  EXPECT_TRUE(made.options.empty());
-  EXPECT_THAT(changeText(made), ::testing::HasSubstr("other inputs"));
+  const RunDifference run_difference = compare();
+  EXPECT_TRUE(run_difference.inputs_differ);
+  EXPECT_TRUE(run_difference.options.empty());
+  EXPECT_THAT(changeText(run_difference), ::testing::HasSubstr("The inputs of the runs differ"));
 }
 
 TEST_F(RunDifferenceTest, RefusesRunsThatTheCaseDoesNotHave) {

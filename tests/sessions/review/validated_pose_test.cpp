@@ -19,7 +19,7 @@
 #include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/check_limits.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
@@ -42,7 +42,7 @@ void overwrite(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The example's OS station, run and marked, in a folder of its own with its files.
+/// The example's OS station, run and annotated, in a folder of its own with its files.
 class ValidatedPose : public testing::Test {
  protected:
   void SetUp() override {
@@ -51,11 +51,11 @@ class ValidatedPose : public testing::Test {
     id_ = caseOfStation(both, "os");
     session_ = withoutCase(both, caseOfStation(both, "bc"));
     Random random = randomFor("ValidatedPose");
-    session_ =
-        withAnnotation(session_, id_, marksOf(spreadCorners(ExampleCase("os"), 8), 0.1, random));
-    sessions::SessionCase one = *session_.findCase(id_);
-    one.camera_from_end_effector = randomPose(random);
-    session_ = withCase(session_, one);
+    session_ = withAnnotations(session_, id_,
+                               annotationsOf(spreadCorners(ExampleCase("os"), 8), 0.1, random));
+    sessions::SessionCase session_case = *session_.findCase(id_);
+    session_case.camera_from_end_effector = randomPose(random);
+    session_ = withCase(session_, session_case);
   }
 
   void run() {
@@ -65,20 +65,20 @@ class ValidatedPose : public testing::Test {
   }
 
   /// By limits that one check fails, which is passed over.
-  void validate(int basin_seeds = 0, sessions::PoseSource source = sessions::PoseSource::kRun) {
+  void validate(int convergence_seeds = 0,
+                sessions::PoseSource source = sessions::PoseSource::kRun) {
     sessions::CheckLimits limits = sessions::checkLimits(session_.review.preset, {});
     limits.inlier_count = 9000.0;
     limits.coverage_percent = 100.0;
     session_.review = withLimits(session_.review, limits);
     subject_ = reviewSubject(session_, sessions::loadCase(*session_.findCase(id_)), source);
-    std::optional<sessions::BasinResult> basin;
-    if (basin_seeds > 0) basin = basinTest(subject_, basin_seeds);
-    const std::vector<sessions::Check> checks = checkPose(subject_, limits, basin);
-    sessions::CheckOverrides overrides;
+    std::optional<sessions::ConvergenceResult> convergence;
+    if (convergence_seeds > 0) convergence = convergenceTest(subject_, convergence_seeds);
+    const std::vector<sessions::Check> checks = checkPose(subject_, limits, convergence);
+    sessions::CheckWaivers waivers;
     for (const sessions::Check& check : checks)
-      if (check.state == sessions::CheckState::kFailed)
-        overrides[check.id] = "the shadow of the arm";
-    session_ = validated(session_, subject_, checks, overrides, {"Ada", "right"}, basin_seeds);
+      if (check.state == sessions::CheckState::kFailed) waivers[check.id] = "the shadow of the arm";
+    session_ = validated(session_, subject_, checks, waivers, {"Ada", "right"}, convergence_seeds);
   }
 
   fs::path write() {
@@ -113,7 +113,7 @@ class ValidatedPose : public testing::Test {
   static void statePassed(ordered_json& check) {
     check["state"] = "passed";
     check["figure"] = check["limit"];
-    check.erase("override_reason");
+    check.erase("waiver_reason");
   }
 
   static ordered_json read(const fs::path& file) {
@@ -121,7 +121,7 @@ class ValidatedPose : public testing::Test {
     return ordered_json::parse(stream);
   }
 
-  /// Signed anew, as somebody who means harm would.
+  /// Signed again, as an attacker would.
   static void resign(ordered_json& json, const fs::path& file) {
     json["signature"] = sessions::signatureOf(ordered_json::parse(sessions::prettyJson(json)));
     sessions::writeJsonFile(file, json);
@@ -134,8 +134,8 @@ class ValidatedPose : public testing::Test {
   }
 
   /// A file that verifies.
-  static VerifyReport verified(const fs::path& file, bool basin_again = false) {
-    VerifyReport report = sessions::verifyPose(file, true, basin_again);
+  static VerifyReport verified(const fs::path& file, bool convergence_again = false) {
+    VerifyReport report = sessions::verifyPose(file, true, convergence_again);
     EXPECT_TRUE(report.good()) << wrongsOf(report);
     return report;
   }
@@ -169,7 +169,7 @@ TEST_F(ValidatedPose, HoldsWhatAReviewerAsksForAndVerifies) {
   const ordered_json json = read(file);
   EXPECT_EQ(json["state"], "validated");
   EXPECT_EQ(json["review_status"], "validated by Ada");
-  EXPECT_THAT(json["checks"].dump(), HasSubstr("\"override_reason\":\"the shadow of the arm\""));
+  EXPECT_THAT(json["checks"].dump(), HasSubstr("\"waiver_reason\":\"the shadow of the arm\""));
   EXPECT_EQ(json["sha256"]["image_pixels"], session_.findCase(id_)->image.pixels_sha256);
   EXPECT_EQ(json["run"]["digest"], subject_.run->digest);
   EXPECT_GT(json["run"]["matches"].size(), 20u);
@@ -193,9 +193,9 @@ Matrix6d matrixOf(const ordered_json& json) {
 }
 
 TEST_F(ValidatedPose, ItsCovarianceIsTheSumOfNamedTermsAndSaysByWhichSigmas) {
-  sessions::SessionCase one = *session_.findCase(id_);
-  one.mesh_scale_sigma = 0.001;
-  session_ = withCase(session_, one);
+  sessions::SessionCase session_case = *session_.findCase(id_);
+  session_case.mesh_scale_sigma = 0.001;
+  session_ = withCase(session_, session_case);
   run();
   validate();
   const ordered_json pose = read(write())["pose"];
@@ -214,7 +214,7 @@ TEST_F(ValidatedPose, ItsCovarianceIsTheSumOfNamedTermsAndSaysByWhichSigmas) {
   EXPECT_EQ(pose["one_sigma"]["of"], "end effector");
 }
 
-TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {
+TEST_F(ValidatedPose, UnvalidatedPose_IsLabelledAndVerifies) {
   run();
   const fs::path file = write();
   EXPECT_EQ(read(file)["state"], "NOT VALIDATED");
@@ -223,10 +223,10 @@ TEST_F(ValidatedPose, WhatNobodyValidatedSaysSoAndStillVerifies) {
   EXPECT_EQ(report.review_status, "NOT VALIDATED: converged");
 }
 
-TEST_F(ValidatedPose, OfMarksIsSolvedAgain) {
+TEST_F(ValidatedPose, OfAnnotationsIsSolvedAgain) {
   const fs::path file = write();
   EXPECT_EQ(read(file)["pose"]["source"], "annotation");
-  EXPECT_EQ(read(file)["marks"]["points"].size(), 8u);
+  EXPECT_EQ(read(file)["annotations"]["points"].size(), 8u);
   verified(file);
 }
 
@@ -252,7 +252,7 @@ void alter(ordered_json& leaf) {
     leaf = "x";
 }
 
-TEST_F(ValidatedPose, NoLeafCanBeAlteredUnseen) {
+TEST_F(ValidatedPose, AlteredMember_IsAlwaysDetected) {
   const fs::path file = writeValidated();
   ordered_json json = read(file);
   int leaves = 0;
@@ -273,7 +273,7 @@ TEST_F(ValidatedPose, NoLeafCanBeAlteredUnseen) {
   EXPECT_GT(place, 300);
 }
 
-TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
+TEST_F(ValidatedPose, ForgedPoseWithNewSignature_IsDetected) {
   const fs::path file = writeValidated();
   const auto forged = forging(file);
   EXPECT_EQ(forged([](ordered_json&) {}, true), "");
@@ -287,13 +287,13 @@ TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
     pose["translation_m"][0] = pose["translation_m"][0].get<double>() + 1e-4;
     shift(json);
   };
-  EXPECT_THAT(forged(shiftEverywhere, true), HasSubstr("pose: another pose comes out"));
+  EXPECT_THAT(forged(shiftEverywhere, true), HasSubstr("pose: the pose differs"));
   EXPECT_THAT(forged([](ordered_json& json) { json["state"] = "approved"; }, false),
               HasSubstr("contents: "));
   EXPECT_THAT(forged(
                   [](ordered_json& json) {
                     for (ordered_json& check : json["session"]["decisions"][0]["checks"])
-                      check.erase("override_reason");
+                      check.erase("waiver_reason");
                   },
                   false),
               HasSubstr("decision: the check"));
@@ -303,7 +303,7 @@ TEST_F(ValidatedPose, AForgedPoseIsFoundEvenWhenItIsSignedAnew) {
                         {"by", "ADA"}, {"comment", ""}, {"time", "2026-01-31T23:59:59Z"}};
                   },
                   false),
-              HasSubstr("same person"));
+              HasSubstr("both validated and approved"));
   EXPECT_THAT(
       forged(
           [](ordered_json& json) { json["session"]["cases"][0]["seed"]["translation_m"][0] = 0.5; },
@@ -324,7 +324,7 @@ TEST_F(ValidatedPose, AFailedCheckStatedAsPassedIsFoundWhenItIsMadeAgain) {
   const auto tell = [](ordered_json& json) {
     eachCheck(json, "edge_clutter", [](ordered_json& check) { check["sentence"] = "Perfect."; });
   };
-  EXPECT_THAT(forged(tell, true), HasSubstr("with another sentence"));
+  EXPECT_THAT(forged(tell, true), HasSubstr("with another text"));
   const auto leaveOut = [](ordered_json& json) {
     for (ordered_json* list : {&json["checks"], &json["session"]["decisions"][0]["checks"]})
       list->erase(0);
@@ -332,7 +332,7 @@ TEST_F(ValidatedPose, AFailedCheckStatedAsPassedIsFoundWhenItIsMadeAgain) {
   EXPECT_THAT(forged(leaveOut, true), HasSubstr("checks are stated, but"));
   EXPECT_EQ(forged(pass, false), "") << "without a run nothing is measured";
   EXPECT_THAT(sessions::verifyPose(file, false).not_proved,
-              Contains(HasSubstr("covariance and checks: they were not measured again")));
+              Contains(HasSubstr("covariance and checks: not measured")));
 }
 
 TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
@@ -353,7 +353,7 @@ TEST_F(ValidatedPose, ASmallerCovarianceIsFoundWhenItIsMeasuredAgain) {
   pose.checks = decision.checks;
   resign(json = validatedPoseJson(edited, pose, subject_.run, file), file);
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)),
-              testing::StartsWith("covariance: another covariance comes out"));
+              testing::StartsWith("covariance: the covariance differs"));
 }
 
 TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
@@ -369,32 +369,32 @@ TEST_F(ValidatedPose, WhoWhenAndWhyAreListedAsNotProved) {
   EXPECT_THAT(report.not_proved,
               AllOf(Contains(HasSubstr("who: Flight Director")),
                     Contains(HasSubstr("when: 2020-01-01T00:00:00Z")),
-                    Contains(HasSubstr("'Inliers' was passed over: the shadow of the arm"))));
+                    Contains(HasSubstr("'Inliers' was waived: the shadow of the arm"))));
 }
 
 TEST_F(ValidatedPose, TheConvergenceTestIsProvedOnlyWhenItsSeedsAreRunAgain) {
   run();
   validate(1);
   const fs::path file = write();
-  EXPECT_EQ(read(file)["session"]["decisions"][0]["basin_seeds"], 1);
+  EXPECT_EQ(read(file)["session"]["decisions"][0]["convergence_seeds"], 1);
   VerifyReport report = verified(file);
   EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
   report = verified(file, true);
   EXPECT_THAT(report.not_proved, Not(Contains(HasSubstr("convergence test"))));
 
   ordered_json json = read(file);
-  eachCheck(json, "basin_rival", [](ordered_json& check) {
+  eachCheck(json, "convergence_competing", [](ordered_json& check) {
     check["sentence"] = "No other pose and no mirror image of the station is likely.";
   });
   resign(json, file);
   report = verified(file);
   EXPECT_THAT(report.not_proved, Contains(HasSubstr("convergence test")));
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, true)),
-              HasSubstr("'The best of other answers' is stated as"));
+              HasSubstr("'Best competing pose' is stated as"));
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
-                checkOf(decision, "basin_rival").check.sentence = "None.";
+                checkOf(decision, "convergence_competing").check.sentence = "None.";
               }),
-              HasSubstr("'The best of other answers' is stated as"));
+              HasSubstr("'Best competing pose' is stated as"));
 }
 
 TEST_F(ValidatedPose, ASessionEditedByHandIsNotSigned) {
@@ -402,7 +402,7 @@ TEST_F(ValidatedPose, ASessionEditedByHandIsNotSigned) {
   validate();
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
                 sessions::JudgedCheck& judged = checkOf(decision, "inlier_count");
-                judged.override_reason.clear();
+                judged.waiver_reason.clear();
                 judged.check.state = sessions::CheckState::kPassed;
                 judged.check.figure = 9100.0;
               }),
@@ -410,11 +410,11 @@ TEST_F(ValidatedPose, ASessionEditedByHandIsNotSigned) {
                         "failed"));
   EXPECT_THAT(
       refusal([](sessions::Decision& decision) { decision.pose->covariance.picture *= 1e-4; }),
-      HasSubstr("another covariance comes out"));
+      HasSubstr("the covariance differs"));
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
                 decision.pose->camera_from_station.translation_m.z() = 0.5;
               }),
-              HasSubstr("another pose comes out"));
+              HasSubstr("the pose differs"));
   EXPECT_THAT(refusal([](sessions::Decision& decision) { decision.checks.clear(); }),
               HasSubstr("0 checks are stated"));
 }
@@ -425,7 +425,7 @@ TEST_F(ValidatedPose, ATraceWithAnotherCovarianceIsNotSigned) {
   trace.covariance *= 1e-4;
   saveTrace(session_.runs.back().file, trace);
   validate();
-  EXPECT_THAT(folder_.message([this] { write(); }), HasSubstr("another covariance comes out"));
+  EXPECT_THAT(folder_.message([this] { write(); }), HasSubstr("the covariance differs"));
 }
 
 TEST_F(ValidatedPose, ADamagedOrLostTraceIsNotHandedOver) {
@@ -448,21 +448,21 @@ TEST_F(ValidatedPose, WithoutItsRunItDoesNotVerify) {
                 HasSubstr("the member run, with options and matches, is missing"));
     EXPECT_THAT(forged([](ordered_json& json) { json["session"]["runs"] = ordered_json::array(); },
                        run_again),
-                HasSubstr("does not have the run that the pose is of"));
+                HasSubstr("does not have the run of the pose"));
   }
 }
 
-TEST_F(ValidatedPose, OfMarksIsMeasuredLikeThatOfARun) {
+TEST_F(ValidatedPose, OfAnnotationsIsMeasuredLikeThatOfARun) {
   validate(0, sessions::PoseSource::kAnnotation);
   const fs::path file = write();
   verified(file);
   EXPECT_THAT(refusal([](sessions::Decision& decision) {
                 decision.pose->camera_from_station.translation_m.z() += 1e-6;
               }),
-              HasSubstr("another pose comes out"));
+              HasSubstr("the pose differs"));
   EXPECT_THAT(
       refusal([](sessions::Decision& decision) { decision.pose->covariance.mesh_scale *= 0.99; }),
-      HasSubstr("another covariance comes out"));
+      HasSubstr("the covariance differs"));
 }
 
 TEST_F(ValidatedPose, OptionsThatHaveChangedSinceAreThoseOfItsRun) {
@@ -487,9 +487,9 @@ TEST_F(ValidatedPose, AnInputThatIsMissingOrChangedIsNamed) {
 
 TEST_F(ValidatedPose, AStaleRunIsNotHandedOver) {
   run();
-  sessions::SessionCase one = *session_.findCase(id_);
-  one.camera_from_station_seed.translation_m.x() += 1e-3;
-  session_ = withCase(session_, one);
+  sessions::SessionCase session_case = *session_.findCase(id_);
+  session_case.camera_from_station_seed.translation_m.x() += 1e-3;
+  session_ = withCase(session_, session_case);
   EXPECT_THROW(handedPose(session_, id_), sessions::InputError);
   const sessions::HandedPoses all = sessions::handedPoses(session_, {});
   EXPECT_TRUE(all.poses.empty());

@@ -30,7 +30,7 @@ TEST(AcceptanceText, SearchedRun_StatesTheProbabilityWithItsParts) {
             HasSubstr("quadrant " + fixedText(run.evidence.weakest_nats(), 2) + " nats"),
             HasSubstr("support " + fixedText(100.0 * run.support.share(), 1) + " %"),
             HasSubstr("candidate 1 of " + std::to_string(run.candidates.size())),
-            HasSubstr("2 competing poses look alike; the closest has 4.0 nats less evidence")));
+            HasSubstr("2 competing poses are similar; the closest has 4.0 nats less evidence")));
   run.competing_poses = {competingPose(-2.5)};
   EXPECT_THAT(acceptanceText(run), HasSubstr("it has 2.5 nats more evidence"));
 }

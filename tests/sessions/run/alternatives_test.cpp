@@ -13,27 +13,27 @@ namespace boresight::sessions {
 namespace {
 
 HypothesisSummary hypothesis(const Pose& pose, int inliers, bool solved) {
-  HypothesisSummary made;
-  made.camera_from_station = pose;
-  made.inliers = inliers;
-  made.matches = 20;
-  made.solved = solved;
-  return made;
+  HypothesisSummary hypothesis_summary;
+  hypothesis_summary.camera_from_station = pose;
+  hypothesis_summary.inliers = inliers;
+  hypothesis_summary.matches = 20;
+  hypothesis_summary.solved = solved;
+  return hypothesis_summary;
 }
 
 /// Two iterations of rolled hypotheses, and two plain ones.
 LocalizationTrace runWith(Random& random) {
   LocalizationTrace run;
   for (int i = 0; i < 4; ++i) {
-    IterationTrace one;
-    one.index = i;
-    one.camera_from_station_before = test::randomPose(random);
-    one.camera_from_station = test::randomPose(random);
+    IterationTrace iteration;
+    iteration.index = i;
+    iteration.camera_from_station_before = test::randomPose(random);
+    iteration.camera_from_station = test::randomPose(random);
     const int count = i == 0 ? 3 : i == 1 ? 2 : 1;
     for (int k = 0; k < count; ++k)
-      one.hypotheses.push_back(hypothesis(test::randomPose(random), 5 + k, k != 1));
-    one.chosen_hypothesis = i == 0 ? 2 : 0;
-    run.iterations.push_back(std::make_shared<const IterationTrace>(one));
+      iteration.hypotheses.push_back(hypothesis(test::randomPose(random), 5 + k, k != 1));
+    iteration.chosen_hypothesis = i == 0 ? 2 : 0;
+    run.iterations.push_back(std::make_shared<const IterationTrace>(iteration));
   }
   run.finished = true;
   run.status = LocalizationStatus::kConverged;
@@ -41,7 +41,7 @@ LocalizationTrace runWith(Random& random) {
   return run;
 }
 
-TEST(Alternatives, AreTheHypothesesOfIterationsThatHadSeveral) {
+TEST(Alternatives, RolledHypotheses_AreListedPerIteration) {
   Random random = test::randomFor("Alternatives 1");
   const LocalizationTrace run = runWith(random);
   const std::vector<Alternative> all = alternativesOf(run);
@@ -99,8 +99,9 @@ TEST(Alternatives, OfAnAmbiguousRun_AreComparedWithItsLastIteration) {
 /// Those of the search; competing poses of the result come before them.
 std::vector<Alternative> candidatesOf(const LocalizationTrace& run) {
   std::vector<Alternative> all = alternativesOf(run);
-  std::erase_if(all,
-                [](const Alternative& one) { return one.kind != AlternativeKind::kCandidate; });
+  std::erase_if(all, [](const Alternative& alternative) {
+    return alternative.kind != AlternativeKind::kCandidate;
+  });
   return all;
 }
 
@@ -119,7 +120,7 @@ TEST(Alternatives, OfASearch_AreItsCandidates) {
   EXPECT_EQ(chosen, 1);
 }
 
-TEST(Alternatives, ResultFromALaterCandidate_MarksThatOneAsChosen) {
+TEST(Alternatives, ResultFromALaterCandidate_MarksThatCandidateAsChosen) {
   LocalizationTrace run = *test::runOfExample("os", defaultProfile());
   run.candidates.resize(1);
   PoseCandidate elsewhere = run.candidates.front();

@@ -19,8 +19,8 @@ struct Runs {
 };
 
 const Runs& runs() {
-  static const Runs made;
-  return made;
+  static const Runs result;
+  return result;
 }
 
 TEST(Localize, RecordingDoesNotChangeTheRun) {
@@ -36,7 +36,7 @@ TEST(Localize, EndsNearTheTruth) {
   EXPECT_LT(error.tail<3>().norm(), 1e-3);
 }
 
-TEST(Localize, GivesWhatAPlainLoopOfStepsGives) {
+TEST(Localize, EqualsAPlainLoopOfSteps) {
   const LocalizationProblem problem = runs().example.problem();
   std::size_t bytes = 0;
   ASSERT_EQ(requiredBytes(sizeOf(problem), defaultProfile(), bytes), Status::kOk);

@@ -72,7 +72,7 @@ TEST_F(Overlay, DrawsEachPoseInItsColour) {
   EXPECT_EQ(at(image, 300, 250), (ColorBgr{kGray, kGray, kGray}));
 }
 
-TEST_F(Overlay, ShowsALayerOnBothSidesOfAThinOne) {
+TEST_F(Overlay, ThinLayer_LeavesTheLayerBelowVisible) {
   const ColorImage image =
       draw({{"result", shifted(0.0), kResultColor}, {"truth", shifted(0.0), kTruthColor, true}});
   const std::vector<int> blue = columnsOf(image, 250, kTruthColor);

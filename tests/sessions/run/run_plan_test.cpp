@@ -14,8 +14,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const test::ExampleCase& example() {
-  static const test::ExampleCase made("os");
-  return made;
+  static const test::ExampleCase example_case("os");
+  return example_case;
 }
 
 LocalizerOptions withRenderAgain(double render_again_px) {
@@ -54,7 +54,7 @@ TEST(RunPlan, SaysWhyItCannotBeRun) {
   fixed.templates.count += 1;
   EXPECT_EQ(planProblem(RunPlan(fixed)), "");
   EXPECT_THAT(planProblem({LocalizerOptions(), {{2, fixed}}}),
-              HasSubstr("templates.count holds for a whole run"));
+              HasSubstr("templates.count cannot change during a run"));
   EXPECT_THAT(planProblem({LocalizerOptions(), {{0, withRenderAgain(2.0)}}}),
               HasSubstr("iteration 0"));
   EXPECT_THAT(

@@ -59,11 +59,11 @@ TEST(Explanation, IsEmptyForAConvergedRun) {
 
 TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewEdges)),
-              AllOf(HasSubstr("7 salient edge pixels"), HasSubstr("needed 12")));
+              AllOf(HasSubstr("has 7 edge pixels"), HasSubstr("needed 12")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewTemplates)),
-              AllOf(HasSubstr("5 templates of 64 px"), HasSubstr("needed 6")));
+              AllOf(HasSubstr("5 of 64 px"), HasSubstr("needed 6")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewMatches)),
-              AllOf(HasSubstr("4 of 5 templates"), HasSubstr("needed 6")));
+              AllOf(HasSubstr("4 of 5"), HasSubstr("needed 6")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kPnpFailed)),
               AllOf(HasSubstr("4 matches"), HasSubstr("3 inliers at 8.0 px")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kIterationLimit)),
@@ -104,7 +104,7 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   far.camera_from_station.translation_m.x() += 0.02;
   far.margin_nats = 2.5;
   trace.competing_poses = {near, far};
-  EXPECT_THAT(explanation(trace), HasSubstr("a pose 40.0 mm away, turned by 0.00 deg"));
+  EXPECT_THAT(explanation(trace), HasSubstr("a competing pose, 40.0 mm and 0.00 deg away"));
   EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 3.0"));
   trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better, by 7.5 nats of evidence"));
@@ -160,11 +160,11 @@ TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
 
 TEST(RunStatusText, ExplainsARunThatFailed) {
   EXPECT_THAT(runStatusText(endedWith(LocalizationStatus::kTooFewEdges)),
-              AllOf(HasSubstr("Did not converge. The render shows 7 salient edge pixels"),
+              AllOf(HasSubstr("Did not converge. Too few salient edges: the render has 7"),
                     testing::EndsWith(".")));
 }
 
-TEST(RunStatusText, SaysWhatSpeaksForAPose) {
+TEST(RunStatusText, ConvergedRun_StatesItsEvidence) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.covariance(3, 3) = 4e-10;  // 0.02 mm
   trace.support.rendered = trace.support.covered = 10;
@@ -178,18 +178,18 @@ TEST(RunStatusText, SaysWhatSpeaksForAPose) {
 
 TEST(RunStatusText, SaysHowFarARunIs) {
   LocalizationTrace trace;
-  EXPECT_EQ(runStatusText(trace), "Nothing has run yet.");
+  EXPECT_EQ(runStatusText(trace), "No run yet.");
   trace = endedWith(LocalizationStatus::kRunning);
   EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
   trace.last_under_way = true;
-  EXPECT_THAT(runStatusText(trace), AllOf(HasSubstr("under way"), HasSubstr("render")));
+  EXPECT_THAT(runStatusText(trace), AllOf(HasSubstr("last complete stage"), HasSubstr("render")));
 }
 
 TEST(RunStatusText, NamesTheOtherViews) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}, {"c", "converged"}};
   EXPECT_THAT(runStatusText(trace),
-              testing::StartsWith("Together with b (left out: too few of its templates meet edges "
+              testing::StartsWith("Together with b (left out: too few of its templates match edges "
                                   "of the image) and c. Converged in"));
   trace = endedWith(LocalizationStatus::kTooFewMatches);
   trace.views = {{"a", "converged"}, {"b", "too_few_matches"}};

@@ -9,14 +9,14 @@ namespace boresight::sessions {
 namespace {
 
 const test::ExampleCase& example() {
-  static const test::ExampleCase made("os");
-  return made;
+  static const test::ExampleCase example_case("os");
+  return example_case;
 }
 
 const LocalizationTrace& wholeRun() {
-  static const LocalizationTrace made =
+  static const LocalizationTrace trace =
       localize(example().problem(), defaultProfile(), RecordLevel::kFull);
-  return made;
+  return trace;
 }
 
 TEST(Runner, HaltingChangesNoBit) {
@@ -80,7 +80,7 @@ TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
   EXPECT_FALSE(run.trace().iterations[0]->pnp.inlier.empty());
 }
 
-TEST(Runner, ASnapshotStaysWhatItWas) {
+TEST(Runner, Snapshot_IsImmutable) {
   Runner run(example().problem(), defaultProfile());
   run.advance(StepUntil::kIteration);
   const LocalizationTrace before = run.trace();

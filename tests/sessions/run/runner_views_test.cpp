@@ -21,15 +21,15 @@ const std::vector<std::string> kNames = {"left", "right"};
 class RunnerViewsTest : public testing::Test {
  protected:
   RunnerViewsTest() : example_("os") {
-    const LocalizationProblem one = example_.problem();
+    const LocalizationProblem localization_problem = example_.problem();
     for (View& view : views_) {
-      view.image = one.image;
-      view.camera = one.camera;
+      view.image = localization_problem.image;
+      view.camera = localization_problem.camera;
     }
     problem_.views = views_;
-    problem_.mesh = one.mesh;
-    problem_.rig_from_station_seed = one.camera_from_station_seed;
-    problem_.uncertainty = one.uncertainty;
+    problem_.mesh = localization_problem.mesh;
+    problem_.rig_from_station_seed = localization_problem.camera_from_station_seed;
+    problem_.uncertainty = localization_problem.uncertainty;
   }
 
   void blacken(std::size_t view) {
@@ -44,11 +44,11 @@ class RunnerViewsTest : public testing::Test {
     EXPECT_EQ(ViewsLocalizer::requiredBytes(problem_, options_, 1, bestKernels(), bytes),
               Status::kOk);
     memory_ = std::make_unique<std::byte[]>(bytes);
-    auto made = std::make_unique<ViewsLocalizer>(
+    auto result = std::make_unique<ViewsLocalizer>(
         problem_, options_, std::span<std::byte>(memory_.get(), bytes), 1, bestKernels());
-    while (!made->step().finished) {
+    while (!result->step().finished) {
     }
-    return made;
+    return result;
   }
 
   std::vector<LocalizationTrace> watched() {
@@ -144,7 +144,7 @@ TEST_F(RunnerViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
   EXPECT_LT(perturbationBetween(pose, last.camera_from_station).norm(), 1e-12);
 }
 
-TEST_F(RunnerViewsTest, ABlackFirstViewLeadsAllTheSame) {
+TEST_F(RunnerViewsTest, BlackFirstView_StillGivesTheSeed) {
   blacken(0);
   const std::vector<LocalizationTrace> views = watched();
   EXPECT_EQ(views[0].status, LocalizationStatus::kTooFewMatches);
@@ -186,10 +186,10 @@ TEST_F(RunnerViewsTest, ThreadsChangeNoBit) {
 
 TEST_F(RunnerViewsTest, WhatCannotRunSaysSo) {
   options_.templates.count = -1;
-  for (const LocalizationTrace& one : watched()) {
-    EXPECT_TRUE(one.finished);
-    EXPECT_EQ(one.status, LocalizationStatus::kFault);
-    EXPECT_EQ(one.fault, Status::kInvalidOption);
+  for (const LocalizationTrace& trace : watched()) {
+    EXPECT_TRUE(trace.finished);
+    EXPECT_EQ(trace.status, LocalizationStatus::kFault);
+    EXPECT_EQ(trace.fault, Status::kInvalidOption);
   }
 }
 

@@ -30,17 +30,17 @@ TEST(SampleStatistics, CountByKindAndBin) {
   samples.push_back(sampleAt(5.0, 0.0, kEdgeOccluding | kEdgeCrease));
   samples.push_back(sampleAt(0.1, 0.8, kEdgeBorder | kEdgeOccluding));
   samples.push_back(EdgeSample{});  // nothing found
-  const SampleStatistics made = sampleStatistics(iteration, 5);
-  EXPECT_EQ(made.all.places, 5);
-  EXPECT_EQ(made.all.found, 4);
-  EXPECT_EQ(made.all.used, 2);
-  EXPECT_EQ(made.creases.places, 3);
-  EXPECT_EQ(made.creases.found, 2);
-  EXPECT_EQ(made.occluding.found, 1);
-  EXPECT_EQ(made.border.used, 1);
-  EXPECT_EQ(made.found_in_bin, (std::vector<std::int32_t>{1, 0, 2, 0, 1}));
-  EXPECT_EQ(made.used_in_bin, (std::vector<std::int32_t>{0, 0, 2, 0, 0}));
-  EXPECT_DOUBLE_EQ(made.all.foundShare(), 0.8);
+  const SampleStatistics sample_statistics = sampleStatistics(iteration, 5);
+  EXPECT_EQ(sample_statistics.all.places, 5);
+  EXPECT_EQ(sample_statistics.all.found, 4);
+  EXPECT_EQ(sample_statistics.all.used, 2);
+  EXPECT_EQ(sample_statistics.creases.places, 3);
+  EXPECT_EQ(sample_statistics.creases.found, 2);
+  EXPECT_EQ(sample_statistics.occluding.found, 1);
+  EXPECT_EQ(sample_statistics.border.used, 1);
+  EXPECT_EQ(sample_statistics.found_in_bin, (std::vector<std::int32_t>{1, 0, 2, 0, 1}));
+  EXPECT_EQ(sample_statistics.used_in_bin, (std::vector<std::int32_t>{0, 0, 2, 0, 0}));
+  EXPECT_DOUBLE_EQ(sample_statistics.all.foundShare(), 0.8);
 }
 
 TEST(SampleStatistics, AgreeWithWhatTheRunCounted) {
@@ -48,18 +48,22 @@ TEST(SampleStatistics, AgreeWithWhatTheRunCounted) {
   const LocalizationTrace run = localize(example.problem(), defaultProfile(), RecordLevel::kFull);
   const IterationTrace& last = *run.iterations.back();
   ASSERT_EQ(last.kind, IterationKind::kRefine);
-  const SampleStatistics made = sampleStatistics(last, 21);
-  EXPECT_EQ(made.all.places, last.refinement.sample_count);
-  EXPECT_EQ(made.all.found, last.refinement.found_count);
-  EXPECT_EQ(made.all.used, last.refinement.used_count);
-  EXPECT_EQ(std::accumulate(made.found_in_bin.begin(), made.found_in_bin.end(), 0), made.all.found);
-  EXPECT_EQ(made.creases.places + made.occluding.places + made.border.places, made.all.places);
+  const SampleStatistics sample_statistics = sampleStatistics(last, 21);
+  EXPECT_EQ(sample_statistics.all.places, last.refinement.sample_count);
+  EXPECT_EQ(sample_statistics.all.found, last.refinement.found_count);
+  EXPECT_EQ(sample_statistics.all.used, last.refinement.used_count);
+  EXPECT_EQ(std::accumulate(sample_statistics.found_in_bin.begin(),
+                            sample_statistics.found_in_bin.end(), 0),
+            sample_statistics.all.found);
+  EXPECT_EQ(sample_statistics.creases.places + sample_statistics.occluding.places +
+                sample_statistics.border.places,
+            sample_statistics.all.places);
 }
 
 TEST(SampleStatistics, AreEmptyWithoutSamples) {
-  const SampleStatistics made = sampleStatistics(IterationTrace{}, 3);
-  EXPECT_EQ(made.all.places, 0);
-  EXPECT_EQ(made.all.foundShare(), 0.0);
+  const SampleStatistics sample_statistics = sampleStatistics(IterationTrace{}, 3);
+  EXPECT_EQ(sample_statistics.all.places, 0);
+  EXPECT_EQ(sample_statistics.all.foundShare(), 0.0);
 }
 
 }  // namespace

@@ -11,23 +11,23 @@
 namespace boresight::sessions {
 namespace {
 
-TEST(WorkerPool, DoesEveryPieceOnce) {
+TEST(WorkerPool, Run_RunsEveryTaskOnce) {
   for (const int workers : {1, 2, 3, 8}) {
     WorkerPool pool(workers);
     EXPECT_EQ(pool.workers(), workers);
-    for (const int pieces : {0, 1, 2, 7, 1000}) {
-      std::vector<std::atomic<int>> done(static_cast<std::size_t>(pieces));
-      pool.run(pieces, [&](int piece, int worker) {
+    for (const int tasks : {0, 1, 2, 7, 1000}) {
+      std::vector<std::atomic<int>> done(static_cast<std::size_t>(tasks));
+      pool.run(tasks, [&](int task, int worker) {
         EXPECT_GE(worker, 0);
         EXPECT_LT(worker, workers);
-        ++done[static_cast<std::size_t>(piece)];
+        ++done[static_cast<std::size_t>(task)];
       });
       for (const std::atomic<int>& count : done) EXPECT_EQ(count, 1);
     }
   }
 }
 
-TEST(WorkerPool, NeverGivesAWorkerTwoPiecesAtOnce) {
+TEST(WorkerPool, Run_NeverGivesAWorkerTwoTasksAtOnce) {
   WorkerPool pool(4);
   std::vector<int> busy(4, 0);  // not atomic: a worker's own
   std::vector<int> done(4, 0);
@@ -43,11 +43,11 @@ TEST(WorkerPool, NeverGivesAWorkerTwoPiecesAtOnce) {
   EXPECT_EQ(done[0] + done[1] + done[2] + done[3], 200 * 20);
 }
 
-TEST(WorkerPool, WorksWithAllItsThreads) {
+TEST(WorkerPool, Run_UsesAllThreads) {
   constexpr int kWorkers = 3;
   WorkerPool pool(kWorkers);
   std::atomic<int> arrived = 0;
-  // Each waits for all the others: one that did two pieces would wait for ever.
+  // Each waits for all the others: one that did two tasks would wait for ever.
   pool.run(kWorkers, [&](int, int) {
     ++arrived;
     while (arrived < kWorkers) std::this_thread::yield();
@@ -55,15 +55,15 @@ TEST(WorkerPool, WorksWithAllItsThreads) {
   EXPECT_EQ(arrived, kWorkers);
 }
 
-TEST(WorkerPool, BeginsNothingAfterAStop) {
+TEST(WorkerPool, Run_AfterStop_StartsNoTask) {
   WorkerPool pool(3);
   std::stop_source source;
   std::atomic<int> done = 0;
   pool.run(
       1000,
-      [&](int piece, int) {
-        if (piece == 5) source.request_stop();
-        while (piece > 5 && !source.stop_requested()) std::this_thread::yield();
+      [&](int task, int) {
+        if (task == 5) source.request_stop();
+        while (task > 5 && !source.stop_requested()) std::this_thread::yield();
         ++done;
       },
       source.get_token());

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Annotating, from end to end without a window: corners of the shipped example marked with the
+// Annotating, from end to end without a window: corners of the shipped example annotated with the
 // noise of a careful person give back its true pose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "sessions/session/case_marks.h"
-#include "tests/support/marked_example.h"
+#include "sessions/session/case_annotations.h"
+#include "tests/support/annotated_example.h"
 
 namespace boresight::test {
 namespace {
 
 using sessions::Session;
 
-/// How far a camera's pose is off, of the middle of what was marked.
+/// How far a camera's pose is off, of the middle of what was annotated.
 struct Error {
   double translation_mm = 0.0;
   double rotation_deg = 0.0;
@@ -40,10 +40,10 @@ TEST(AnnotationProof, TenCornersGiveTheTruth) {
   double squares = 0.0;
   constexpr int kTrials = 40;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const sessions::Marks marks = marksOf(corners, 0.2, random);
-    ASSERT_EQ(marks.points.size(), 10u);
-    session = withAnnotation(session, id, marks);
-    const auto solved = sessions::solveCaseMarks(session, id, true, false);
+    const sessions::Annotations annotations = annotationsOf(corners, 0.2, random);
+    ASSERT_EQ(annotations.points.size(), 10u);
+    session = withAnnotations(session, id, annotations);
+    const auto solved = sessions::solveCaseAnnotations(session, id, true, false);
     ASSERT_TRUE(solved.result.solution) << solved.result.reason;
     const Error error = errorOf(session, id, *solved.camera_from_station());
     good += error.translation_mm < 0.15 && error.rotation_deg < 0.1;
@@ -56,7 +56,7 @@ TEST(AnnotationProof, TenCornersGiveTheTruth) {
     worst.translation_mm = std::max(worst.translation_mm, error.translation_mm);
     worst.rotation_deg = std::max(worst.rotation_deg, error.rotation_deg);
   }
-  // 0.1 deg is a little more than two deviations of such marks: 95 % are within.
+  // 0.1 deg is a little more than two deviations of such annotations: 95 % are within.
   EXPECT_GE(good, kTrials * 95 / 100);
   EXPECT_LT(worst.translation_mm, 0.15);
   EXPECT_LT(worst.rotation_deg, 0.15);

@@ -23,8 +23,8 @@ using testing::IsEmpty;
 Session sessionOfOs(const std::filesystem::path& stations) {
   const Session all = sessions::makeSession(stations / "dataset.json");
   Session os;
-  for (const auto& one : all.cases)
-    if (one->station == "os") os.cases.push_back(one);
+  for (const auto& session_case : all.cases)
+    if (session_case->station == "os") os.cases.push_back(session_case);
   return os;
 }
 
@@ -33,9 +33,9 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
   const Session session = sessionOfOs(exampleFolder());
   const SessionCase& os = *session.cases[0];
   const auto message = [&](const std::function<void(SessionCase&)>& spoil) {
-    SessionCase one = os;
-    spoil(one);
-    return folder.message([&] { (void)sessions::runCase(withCase(session, one), os.id); });
+    SessionCase session_case = os;
+    spoil(session_case);
+    return folder.message([&] { (void)sessions::runCase(withCase(session, session_case), os.id); });
   };
   EXPECT_THAT(folder.message([&] { (void)sessions::runCase(session, "x"); }),
               HasSubstr("there is no case 'x'"));
@@ -45,48 +45,49 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
   EXPECT_THAT(message([](auto& c) { c.parts[0].source.mesh_unit = "km"; }),
               HasSubstr("mesh_unit: the mesh measures"));
   EXPECT_THAT(message([](auto& c) { c.image.pixels_sha256 = std::string(64, '0'); }),
-              HasSubstr("its 8-bit pixels are not those"));
+              HasSubstr("its 8-bit pixels differ from those"));
   Session options = session;
   options.options.emplace_back("pnp.nonsense", 1.0);
   EXPECT_THAT(folder.message([&] { (void)sessions::runCase(options, os.id); }),
-              HasSubstr("options.pnp.nonsense: there is no such option"));
+              HasSubstr("options.pnp.nonsense: unknown option"));
 }
 
-/// Parsing what somebody put in the mesh's place is a risk without a use.
+/// An unknown file in place of the mesh is not parsed.
 TEST(CaseRun, AMeshWithAnotherHashIsNotParsed) {
   const TemporaryFolder folder;
   Session session = sessionOfOs(exampleFolder());
-  SessionCase one = *session.cases[0];
-  one.parts[0].source.mesh = folder.write("m.ply", "this is no mesh");
+  SessionCase session_case = *session.cases[0];
+  session_case.parts[0].source.mesh = folder.write("m.ply", "this is no mesh");
   const std::string expected =
-      "m.ply: its bytes are not those that the session was made with: relink the file, or accept "
-      "it as it is now";
-  EXPECT_EQ(folder.message([&] { (void)sessions::loadCase(one); }), expected);
-  session = withCase(session, one);
+      "m.ply: its bytes differ from those of the session: relink the file, or accept it as it is "
+      "now";
+  EXPECT_EQ(folder.message([&] { (void)sessions::loadCase(session_case); }), expected);
+  session = withCase(session, session_case);
   EXPECT_EQ(sessions::checkInputs(session).front().kind, sessions::FindingKind::kChanged);
 }
 
 TEST(CaseRun, StrokesAndMaskFileTogetherAreTheMask) {
   const TemporaryFolder folder;
-  SessionCase one = *sessionOfOs(exampleFolder()).cases[0];
+  SessionCase session_case = *sessionOfOs(exampleFolder()).cases[0];
   std::vector<std::uint8_t> mask(1024 * 1024, 0);
   mask[5] = 1;
   sessions::writePng(folder / "m.png", mask, 1024, 1024, 1);
-  one.ignore = sessions::InputFile{folder / "m.png", sessions::inputSha256(folder / "m.png")};
+  session_case.ignore =
+      sessions::InputFile{folder / "m.png", sessions::inputSha256(folder / "m.png")};
   sessions::MaskStroke dot;
   dot.radius_px = 0.0;
   dot.points = {{7.0, 0.0}};
-  one.ignore_strokes = {dot};
-  const auto loaded = sessions::loadCase(one);
+  session_case.ignore_strokes = {dot};
+  const auto loaded = sessions::loadCase(session_case);
   EXPECT_EQ(loaded->ignore->ignored_count, 2);
   EXPECT_TRUE(loaded->problem().ignore->get(5, 0));
   EXPECT_TRUE(loaded->problem().ignore->get(7, 0));
-  one.ignore->sha256[0] = one.ignore->sha256[0] == '0' ? '1' : '0';
-  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(one); }),
-              HasSubstr("m.png: its bytes are not those"));
+  session_case.ignore->sha256[0] = session_case.ignore->sha256[0] == '0' ? '1' : '0';
+  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(session_case); }),
+              HasSubstr("m.png: its bytes differ from those"));
 }
 
-TEST(CaseRun, ARunThatTookUpOptionsIsRunAgainFromItsRecordAlone) {
+TEST(CaseRun, RunWithChangedOptions_IsRepeatedFromItsRecord) {
   const TemporaryFolder folder;
   Session session = sessionOfOs(exampleFolder());
   const std::string id = session.cases[0]->id;
@@ -125,7 +126,7 @@ TEST(CaseRun, ARunThatTookUpOptionsIsRunAgainFromItsRecordAlone) {
               HasSubstr("are no longer its own"));
 }
 
-TEST(CaseRun, IsTheRunOfItsInputsAndIsKeptByItsDigest) {
+TEST(CaseRun, StoredRun_IsNamedByItsDigestAndInputs) {
   const TemporaryFolder folder;
   const Session session = sessionOfOs(exampleFolder());
   const std::string id = session.cases[0]->id;
@@ -220,7 +221,7 @@ TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
   EXPECT_EQ(sessions::runCase(again, id).digest, trace.digest);
 }
 
-TEST(SessionPack, RefusesWhatWouldNotBeTheSession) {
+TEST(SessionPack, ChangedOrOutsideFiles_AreRefused) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
   Session session = sessions::makeSession(stations / "dataset.json");
@@ -235,7 +236,7 @@ TEST(SessionPack, RefusesWhatWouldNotBeTheSession) {
       HasSubstr("cannot write none/t.zip: no such folder"));
   folder.write("stations/bc/image.png", "another image");
   EXPECT_THAT(folder.message([&] { (void)pack(session, folder / "s.json", folder / "t.zip"); }),
-              HasSubstr("bc/image.png: it is not the file that the session was made with"));
+              HasSubstr("bc/image.png: it differs from the session's file"));
   EXPECT_EQ(folder.fileCount(), files);
 }
 
@@ -249,9 +250,9 @@ class PackedMembers : public testing::Test {
 
   /// What packing says of the session after an edit of its case; nothing is written.
   std::string refusal(const std::function<void(SessionCase&)>& edit) const {
-    SessionCase one = *session_.cases[0];
-    edit(one);
-    return refusal(withCase(session_, one));
+    SessionCase session_case = *session_.cases[0];
+    edit(session_case);
+    return refusal(withCase(session_, session_case));
   }
   std::string refusal(const Session& session) const {
     return folder_.message([&] { (void)sessions::planPack(session, file()); });
@@ -271,7 +272,7 @@ class PackedMembers : public testing::Test {
 
 TEST_F(PackedMembers, LandmarksAreLandmarksOfTheSessionsFolders) {
   const auto named = [this](const std::filesystem::path& landmarks) {
-    return refusal([&](SessionCase& one) { one.landmarks = landmarks; });
+    return refusal([&](SessionCase& session_case) { session_case.landmarks = landmarks; });
   };
   EXPECT_EQ(named(folder_.write("stations/os/l.json", kLandmarks)), "(nothing)");
   EXPECT_THAT(named("/etc/passwd"),
@@ -306,17 +307,20 @@ TEST_F(PackedMembers, RunsAreTracesOfTheirDigests) {
 }
 
 TEST_F(PackedMembers, InputsAreOfTheirKindEvenWhenTheirHashesAreKnown) {
-  EXPECT_THAT(refusal([this](SessionCase& one) { one.image.source = known(secret_); }),
-              HasSubstr("cases[0].image: elsewhere/secret.txt: "));
-  EXPECT_THAT(refusal([this](SessionCase& one) { one.ignore = known(secret_); }),
+  EXPECT_THAT(
+      refusal([this](SessionCase& session_case) { session_case.image.source = known(secret_); }),
+      HasSubstr("cases[0].image: elsewhere/secret.txt: "));
+  EXPECT_THAT(refusal([this](SessionCase& session_case) { session_case.ignore = known(secret_); }),
               HasSubstr("cases[0].ignore: elsewhere/secret.txt: "));
-  EXPECT_THAT(refusal([this](SessionCase& one) { one.onboard_record = known(secret_); }),
-              HasSubstr("cases[0].onboard_record: elsewhere/secret.txt: "));
-  EXPECT_THAT(refusal([this](SessionCase& one) {
-                one.parts[0].source.mesh = folder_.write("elsewhere/secret.ply", "root:x:0:0");
-                one.parts[0].sha256 = sessions::inputSha256(one.parts[0].source.mesh);
-              }),
-              HasSubstr("cases[0].parts[0]: elsewhere/secret.ply: "));
+  EXPECT_THAT(
+      refusal([this](SessionCase& session_case) { session_case.onboard_record = known(secret_); }),
+      HasSubstr("cases[0].onboard_record: elsewhere/secret.txt: "));
+  EXPECT_THAT(
+      refusal([this](SessionCase& session_case) {
+        session_case.parts[0].source.mesh = folder_.write("elsewhere/secret.ply", "root:x:0:0");
+        session_case.parts[0].sha256 = sessions::inputSha256(session_case.parts[0].source.mesh);
+      }),
+      HasSubstr("cases[0].parts[0]: elsewhere/secret.ply: "));
 }
 
 TEST_F(PackedMembers, AnInputThatIsALinkToElsewhereIsRefused) {
@@ -331,25 +335,25 @@ TEST_F(PackedMembers, AnInputThatIsALinkToElsewhereIsRefused) {
   EXPECT_EQ(refusal(session_), "(nothing)") << "a link within the session's folder";
 }
 
-TEST_F(PackedMembers, BuffersOfAMeshAreThoseThatItStatesAndLieBesideIt) {
+TEST_F(PackedMembers, MeshBuffers_AreStatedAndInTheMeshsFolder) {
   namespace mesh = sessions::test;
   const mesh::PolygonMesh cube = mesh::cube();
   std::size_t index_count = 0;
   const std::string buffer = mesh::gltfBuffer(cube, &index_count);
   const auto withBuffer = [&](const std::string& uri) {
-    SessionCase one = *session_.cases[0];
-    one.parts[0].source.mesh = folder_.write(
+    SessionCase session_case = *session_.cases[0];
+    session_case.parts[0].source.mesh = folder_.write(
         "mesh/cube.gltf", mesh::gltf(cube, R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"));
-    one.parts[0].source.mesh_unit = "";
-    one.parts[0].sha256 = sessions::inputSha256(one.parts[0].source.mesh);
-    return withCase(session_, one);
+    session_case.parts[0].source.mesh_unit = "";
+    session_case.parts[0].sha256 = sessions::inputSha256(session_case.parts[0].source.mesh);
+    return withCase(session_, session_case);
   };
   folder_.write("mesh/cube.bin", buffer);
   const Session session = withBuffer("cube.bin");
   EXPECT_EQ(refusal(session), "(nothing)");
   const sessions::SessionPack plan = sessions::planPack(session, file());
   std::vector<std::string> names;
-  for (const sessions::PackedFile& one : plan.files) names.push_back(one.name);
+  for (const sessions::PackedFile& packed_file : plan.files) names.push_back(packed_file.name);
   EXPECT_THAT(names,
               testing::ElementsAre(testing::EndsWith("/image.png"), testing::EndsWith("/cube.gltf"),
                                    testing::EndsWith("/cube.bin")));
@@ -369,7 +373,7 @@ TEST_F(PackedMembers, AFileThatChangesWhileItIsPackedIsRefused) {
   const sessions::SessionPack plan = sessions::planPack(session_, file());
   folder_.write("stations/os/image.png", "root:x:0:0");
   EXPECT_THAT(folder_.message([&] { writePack(plan, folder_ / "s.zip"); }),
-              HasSubstr("stations/os/image.png: it has changed while it was packed"));
+              HasSubstr("stations/os/image.png: it changed during packing"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "s.zip"));
 }
 

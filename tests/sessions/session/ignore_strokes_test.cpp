@@ -104,14 +104,14 @@ Session exampleSession() { return sessions::makeSession(exampleFolder() / "datas
 Session threeCases() {
   Random random = randomFor("MaskEdits");
   Session session;
-  sessions::SessionCase one = randomCase(random, "a");
-  one.ignore_strokes.clear();
-  session = withCase(session, one);
-  one.id = "b";
-  session = withCase(session, one);
-  one.id = "c";
-  one.camera.fx += 1.0;
-  return withCase(session, one);
+  sessions::SessionCase session_case = randomCase(random, "a");
+  session_case.ignore_strokes.clear();
+  session = withCase(session, session_case);
+  session_case.id = "b";
+  session = withCase(session, session_case);
+  session_case.id = "c";
+  session_case.camera.fx += 1.0;
+  return withCase(session, session_case);
 }
 
 TEST(MaskEdits, AppendAndReplaceStrokesOfOneCaseOnly) {
@@ -149,24 +149,24 @@ TEST(MaskEdits, ANameDoesNotMakeARunStale) {
 
 TEST(MaskEdits, ClearedIgnoresNothingOfAMaskImageEither) {
   Session session = exampleSession();
-  sessions::SessionCase one = *session.cases.front();
-  EXPECT_TRUE(sessions::clearedStrokes(one).empty());
-  one.ignore = one.image.source;  // the image itself: nonzero nearly everywhere
-  one.ignore_strokes = {polygon("")};
-  EXPECT_GT(sessions::loadCase(one)->ignore->ignored_count, 1000);
-  one.ignore_strokes = sessions::clearedStrokes(one);
-  EXPECT_EQ(sessions::loadCase(one)->ignore->ignored_count, 0);
+  sessions::SessionCase session_case = *session.cases.front();
+  EXPECT_TRUE(sessions::clearedStrokes(session_case).empty());
+  session_case.ignore = session_case.image.source;  // the image itself: nonzero nearly everywhere
+  session_case.ignore_strokes = {polygon("")};
+  EXPECT_GT(sessions::loadCase(session_case)->ignore->ignored_count, 1000);
+  session_case.ignore_strokes = sessions::clearedStrokes(session_case);
+  EXPECT_EQ(sessions::loadCase(session_case)->ignore->ignored_count, 0);
 }
 
 TEST(MaskEdits, AnEditedCaseIsReloadedAsItWouldBeLoaded) {
   const Session session = exampleSession();
-  sessions::SessionCase one = *session.cases.front();
-  const auto before = sessions::loadCase(one);
-  one.ignore_strokes = {polygon("")};
-  one.image.eight_bit.bit_depth = 8;
-  const auto loaded = sessions::loadCase(one);
-  const auto reloaded = sessions::reloadCase(*before, one);
-  EXPECT_EQ(reloaded->source, one);
+  sessions::SessionCase session_case = *session.cases.front();
+  const auto before = sessions::loadCase(session_case);
+  session_case.ignore_strokes = {polygon("")};
+  session_case.image.eight_bit.bit_depth = 8;
+  const auto loaded = sessions::loadCase(session_case);
+  const auto reloaded = sessions::reloadCase(*before, session_case);
+  EXPECT_EQ(reloaded->source, session_case);
   EXPECT_EQ(reloaded->image.pixels, loaded->image.pixels);
   EXPECT_TRUE(reloaded->image.bit_depth_stated) << "the image was read by the new rule";
   EXPECT_EQ(reloaded->ignore->words, loaded->ignore->words);

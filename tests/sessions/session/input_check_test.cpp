@@ -37,17 +37,18 @@ TEST(InputCheck, ReportsWhatIsMissingOrChanged) {
   std::filesystem::remove(stations / "bc/image.png");
   std::ofstream(stations / "bc/model.ply", std::ios::app) << "\n";
   folder.write("stations/os/image.png", "");
-  EXPECT_THAT(sessions::checkInputs(session),
-              ElementsAre(finding(FindingKind::kMissing, "image", "image.png: no such file"),
-                          finding(FindingKind::kChanged, "parts[0]", "is not the file"),
-                          finding(FindingKind::kUnreadable, "image", "the file is empty")));
+  EXPECT_THAT(
+      sessions::checkInputs(session),
+      ElementsAre(finding(FindingKind::kMissing, "image", "image.png: no such file"),
+                  finding(FindingKind::kChanged, "parts[0]", "differs from the session's file"),
+                  finding(FindingKind::kUnreadable, "image", "the file is empty")));
   std::filesystem::copy(stations / "os/model.ply", stations / "bc/model.ply",
                         std::filesystem::copy_options::overwrite_existing);
-  for (const auto& one : session.cases)
-    EXPECT_NE(folder.message([&] { (void)sessions::loadCase(*one); }), "(nothing)");
+  for (const auto& session_case : session.cases)
+    EXPECT_NE(folder.message([&] { (void)sessions::loadCase(*session_case); }), "(nothing)");
 }
 
-TEST(InputCheck, ACaseOfChangedInputsIsNotLoadedBeforeSomebodyAcceptsThem) {
+TEST(InputCheck, ChangedInputs_AreLoadedOnlyAfterAcceptance) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
   const Session session = sessions::makeSession(stations / "dataset.json");
@@ -57,7 +58,7 @@ TEST(InputCheck, ACaseOfChangedInputsIsNotLoadedBeforeSomebodyAcceptsThem) {
   std::filesystem::copy(stations / "os/model.ply", stations / "bc/model.ply",
                         std::filesystem::copy_options::overwrite_existing);
   EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(bc); }),
-              HasSubstr("bc/image.png: its bytes are not those that the session was made with"));
+              HasSubstr("bc/image.png: its bytes differ from those of the session"));
   const Session accepted = sessions::acceptingInputs(session, bc.id);
   EXPECT_THAT(sessions::checkInputs(accepted), IsEmpty());
   EXPECT_NO_THROW((void)sessions::loadCase(*accepted.cases[0]));
@@ -65,14 +66,15 @@ TEST(InputCheck, ACaseOfChangedInputsIsNotLoadedBeforeSomebodyAcceptsThem) {
   sessions::SessionCase half = bc;
   half.image = accepted.cases[0]->image;
   EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(half); }),
-              HasSubstr("bc/model.ply: its bytes are not those"));
+              HasSubstr("bc/model.ply: its bytes differ from those"));
 }
 
 TEST(InputCheck, FindsMovedFilesByNameAndHash) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
   const Session session = sessions::makeSession(stations / "dataset.json");
-  // The session lies elsewhere now, its inputs partly in other folders, beside a false friend.
+  // The session lies elsewhere now, its inputs partly in other folders, next to a different file of
+  // the same name.
   const std::filesystem::path other = folder / "other";
   std::filesystem::create_directories(other / "deep/er");
   std::filesystem::rename(stations / "bc", other / "deep/er/bc");
@@ -89,7 +91,7 @@ TEST(InputCheck, FindsMovedFilesByNameAndHash) {
               ElementsAre(finding(FindingKind::kMissing, "parts[0]", "model.ply: no such file")));
 }
 
-/// The pixels of the example's picture as they are, and a PDS3 label beside them.
+/// The pixels of the example's picture as they are, and a PDS3 label next to them.
 class LabelledImage : public ::testing::Test {
  protected:
   LabelledImage() {
@@ -110,9 +112,9 @@ class LabelledImage : public ::testing::Test {
            "END\r\n";
   }
   Session session() const {
-    Session made;
-    made.cases.push_back(one_);
-    return made;
+    Session next_session;
+    next_session.cases.push_back(one_);
+    return next_session;
   }
   TemporaryFolder folder_;
   std::filesystem::path label_;
@@ -137,29 +139,29 @@ TEST_F(LabelledImage, HasChangedWhenEitherFileHas) {
   EXPECT_THAT(sessions::checkInputs(session()), SizeIs(1));
   EXPECT_THAT(
       folder_.message([&] { (void)sessions::planPack(session(), folder_ / "s.boresight.json"); }),
-      HasSubstr("it is not the file that the session was made with"));
+      HasSubstr("it differs from the session's file"));
 }
 
 /// Whichever of the two files the session names, the other is named too.
 TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
   const auto load = [this] { (void)sessions::loadCase(one_); };
   folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.lbl: its bytes or its pixels sol12.img are"));
+  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.lbl: its bytes or its pixels sol12.img differ"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
-              HasSubstr("sol12.lbl, or its pixels sol12.img, is not the file"));
+              HasSubstr("sol12.lbl, or its pixels sol12.img, differs from the session's file"));
   folder_.write("in/sol12.lbl", labelText("A"));
   one_.image.source.file = folder_ / "in/sol12.img";
   EXPECT_EQ(folder_.message(load), "(nothing)");
   folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.img: its bytes or its label sol12.lbl are"));
+  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.img: its bytes or its label sol12.lbl differ"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
-              HasSubstr("sol12.img, or its label sol12.lbl, is not the file"));
+              HasSubstr("sol12.img, or its label sol12.lbl, differs from the session's file"));
 }
 
-TEST_F(LabelledImage, SaysThatItIsTheLabelThatIsGone) {
+TEST_F(LabelledImage, MissingLabel_IsReported) {
   one_.image.source.file = folder_ / "in/sol12.img";
   std::filesystem::remove(label_);
-  const std::string wanted = "no longer there: put sol12.lbl (or sol12.xml) back beside it";
+  const std::string wanted = "former label is missing: put sol12.lbl (or sol12.xml) back next to it";
   EXPECT_THAT(folder_.message([this] { (void)sessions::loadCase(one_); }), HasSubstr(wanted));
   const auto findings = sessions::checkInputs(session());
   ASSERT_THAT(findings, SizeIs(1));

@@ -31,9 +31,9 @@ std::vector<std::string> codes(const std::vector<sessions::RedFlag>& flags) {
 }
 
 std::vector<std::string> flagsWith(const std::function<void(SessionCase&)>& change) {
-  SessionCase one = exampleOs();
-  change(one);
-  return codes(sessions::inputSheet(*sessions::loadCase(one)).flags);
+  SessionCase session_case = exampleOs();
+  change(session_case);
+  return codes(sessions::inputSheet(*sessions::loadCase(session_case)).flags);
 }
 
 /// "" when there is none.
@@ -44,13 +44,14 @@ std::string lineOf(const InputSheet& sheet, const std::string& label) {
 }
 
 TEST(InputSheet, MeasuresTheExample) {
-  const SessionCase one = exampleOs();
-  const InputSheet sheet = sessions::inputSheet(*sessions::loadCase(one));
+  const SessionCase session_case = exampleOs();
+  const InputSheet sheet = sessions::inputSheet(*sessions::loadCase(session_case));
   // 4.8 % of this image is the bright background.
   EXPECT_THAT(codes(sheet.flags), testing::ElementsAre("image_saturated"));
   // Independent figures: a pinhole of the same focal length, and the seed's own translation.
-  const double pinhole_deg = 2.0 * std::atan(0.5 * one.camera.width / one.camera.fx) / kDegree_rad;
-  const double distance_m = one.camera_from_station_seed.translation_m.norm();
+  const double pinhole_deg =
+      2.0 * std::atan(0.5 * session_case.camera.width / session_case.camera.fx) / kDegree_rad;
+  const double distance_m = session_case.camera_from_station_seed.translation_m.norm();
   EXPECT_NEAR(std::stod(lineOf(sheet, "field of view")), pinhole_deg, 1.0);
   EXPECT_NEAR(std::stod(lineOf(sheet, "seed")), distance_m, 0.1);
   const std::string station = lineOf(sheet, "station");
@@ -149,12 +150,14 @@ TEST(InputSheet, KnowsAMosaicFromNoiseAndPictures) {
 }
 
 TEST(InputSheet, SaysHowWellMeshAndCameraAreKnownAndWhetherThatIsAssumed) {
-  SessionCase one = exampleOs();
-  const auto sheet = [&one] { return sessions::inputSheet(*sessions::loadCase(one)); };
+  SessionCase session_case = exampleOs();
+  const auto sheet = [&session_case] {
+    return sessions::inputSheet(*sessions::loadCase(session_case));
+  };
   EXPECT_EQ(lineOf(sheet(), "scale, one sigma"), "0.02 %, assumed");
   EXPECT_THAT(lineOf(sheet(), "calibration, one sigma"),
               testing::StartsWith("0.02 % and 0.25 px, assumed"));
-  one.mesh_scale_sigma = 0.001;
+  session_case.mesh_scale_sigma = 0.001;
   EXPECT_EQ(lineOf(sheet(), "scale, one sigma"), "0.1 %");
 }
 

@@ -57,50 +57,54 @@ inline sessions::FrameName randomFrame(Random& random) {
 }
 
 /// What the label of an image and the frames of poses leave in a case.
-inline void addRandomFrames(Random& random, sessions::SessionCase& one) {
-  if (coin(random)) one.image.label = {{"PRODUCT_ID", "1F483\xC3\xBC"}, {"START_TIME", ""}};
+inline void addRandomFrames(Random& random, sessions::SessionCase& session_case) {
+  if (coin(random))
+    session_case.image.label = {{"PRODUCT_ID", "1F483\xC3\xBC"}, {"START_TIME", ""}};
   if (coin(random)) return;
-  one.camera_reference = sessions::CameraReference{randomPose(random), randomFrame(random)};
-  if (coin(random)) one.camera_reference->frame = {};
+  session_case.camera_reference =
+      sessions::CameraReference{randomPose(random), randomFrame(random)};
+  if (coin(random)) session_case.camera_reference->frame = {};
   if (coin(random)) return;
-  one.station_frame = sessions::StationFrame{randomFrame(random)};
+  session_case.station_frame = sessions::StationFrame{randomFrame(random)};
   if (coin(random)) return;
-  sessions::FrameTransform& join = one.station_frame->joined_by.emplace();
+  sessions::FrameTransform& join = session_case.station_frame->joined_by.emplace();
   join.target = randomFrame(random);
   join.source = randomFrame(random);
   join.target_from_source = randomPose(random);
   join.comment = "sol 12";
   join.file = "transform.json";
   join.file_sha256 = randomSha256(random);
-  if (coin(random)) one.truth_frame = one.station_frame;
+  if (coin(random)) session_case.truth_frame = session_case.station_frame;
 }
 
 /// How well mesh, camera and truth are known.
-inline void addRandomSigmas(Random& random, sessions::SessionCase& one) {
-  if (coin(random)) one.mesh_scale_sigma = random.uniform(0.0, 0.1);
+inline void addRandomSigmas(Random& random, sessions::SessionCase& session_case) {
+  if (coin(random)) session_case.mesh_scale_sigma = random.uniform(0.0, 0.1);
   if (coin(random))
-    one.calibration_sigma =
+    session_case.calibration_sigma =
         sessions::CalibrationSigma{random.uniform(0.0, 0.1), random.uniform(0.0, 9.0)};
   if (!coin(random)) return;
   const Vector6d sigma = Vector6d::Constant(random.uniform(1e-4, 1e-2));
-  one.truth_covariance = sigma * sigma.transpose();
+  session_case.truth_covariance = sigma * sigma.transpose();
 }
 
 inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
-  sessions::SessionCase one;
-  one.id = id;
-  if (coin(random)) one.station = "station \"q\"";
-  one.image.source = randomInput(random, ".png");
-  one.image.width = 1 + static_cast<int>(random.below(4000));
-  one.image.height = 1 + static_cast<int>(random.below(4000));
-  one.image.pixels_sha256 = randomSha256(random);
-  if (coin(random)) one.image.eight_bit.bit_depth = 1 + static_cast<int>(random.below(8));
-  if (one.image.eight_bit.bit_depth && coin(random))
-    for (int i = 0; i < 1 << *one.image.eight_bit.bit_depth; ++i)
-      one.image.eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
-  if (one.image.eight_bit.bit_depth && one.image.eight_bit.table.empty() && coin(random))
-    one.image.eight_bit.levels = sessions::GrayLevels{0, (1 << *one.image.eight_bit.bit_depth) - 1};
-  one.camera = randomCamera(random, static_cast<CameraModel>(random.below(3)));
+  sessions::SessionCase session_case;
+  session_case.id = id;
+  if (coin(random)) session_case.station = "station \"q\"";
+  session_case.image.source = randomInput(random, ".png");
+  session_case.image.width = 1 + static_cast<int>(random.below(4000));
+  session_case.image.height = 1 + static_cast<int>(random.below(4000));
+  session_case.image.pixels_sha256 = randomSha256(random);
+  if (coin(random)) session_case.image.eight_bit.bit_depth = 1 + static_cast<int>(random.below(8));
+  if (session_case.image.eight_bit.bit_depth && coin(random))
+    for (int i = 0; i < 1 << *session_case.image.eight_bit.bit_depth; ++i)
+      session_case.image.eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
+  if (session_case.image.eight_bit.bit_depth && session_case.image.eight_bit.table.empty() &&
+      coin(random))
+    session_case.image.eight_bit.levels =
+        sessions::GrayLevels{0, (1 << *session_case.image.eight_bit.bit_depth) - 1};
+  session_case.camera = randomCamera(random, static_cast<CameraModel>(random.below(3)));
   for (std::uint32_t i = 1u + random.below(3); i > 0; --i) {
     sessions::MeshInput part;
     part.source.mesh = randomPath(random, ".ply");
@@ -111,31 +115,31 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
     part.source.part.match = i == 1 || coin(random);
     if (coin(random)) part.source.albedo = random.uniform(0.0, 1.0);
     part.sha256 = randomSha256(random);
-    one.parts.push_back(part);
+    session_case.parts.push_back(part);
   }
-  if (coin(random)) one.feature_size_m = random.uniform(0.001, 0.1);
-  one.camera_from_station_seed = randomPose(random);
-  one.uncertainty.translation_m = randomVector(random, 0.05).cwiseAbs();
-  one.uncertainty.rotation_deg = randomVector(random, 9.0).cwiseAbs();
-  if (coin(random)) one.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
-  if (coin(random)) one.camera_from_station_truth = randomPose(random);
-  addRandomSigmas(random, one);
-  if (coin(random)) one.camera_from_station_working = randomPose(random);
-  if (coin(random)) one.ignore = randomInput(random, ".png");
+  if (coin(random)) session_case.feature_size_m = random.uniform(0.001, 0.1);
+  session_case.camera_from_station_seed = randomPose(random);
+  session_case.uncertainty.translation_m = randomVector(random, 0.05).cwiseAbs();
+  session_case.uncertainty.rotation_deg = randomVector(random, 9.0).cwiseAbs();
+  if (coin(random)) session_case.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
+  if (coin(random)) session_case.camera_from_station_truth = randomPose(random);
+  addRandomSigmas(random, session_case);
+  if (coin(random)) session_case.camera_from_station_working = randomPose(random);
+  if (coin(random)) session_case.ignore = randomInput(random, ".png");
   for (std::uint32_t i = random.below(3); i > 0; --i)
-    one.ignore_strokes.push_back(randomStroke(random));
-  if (coin(random)) one.onboard_record = randomInput(random, ".whsr");
-  if (coin(random)) one.rig = sessions::Rig{"rig", randomPose(random)};
-  if (coin(random)) one.tags = {"low sun", "dusty"};
+    session_case.ignore_strokes.push_back(randomStroke(random));
+  if (coin(random)) session_case.onboard_record = randomInput(random, ".whsr");
+  if (coin(random)) session_case.rig = sessions::Rig{"rig", randomPose(random)};
+  if (coin(random)) session_case.tags = {"low sun", "dusty"};
   if (coin(random)) {
-    one.requirement = sessions::Requirement();
-    one.requirement->normal_mm = random.uniform(0.1, 2.0);
-    if (coin(random)) one.requirement->projection_px = random.uniform(0.1, 2.0);
+    session_case.requirement = sessions::Requirement();
+    session_case.requirement->normal_mm = random.uniform(0.1, 2.0);
+    if (coin(random)) session_case.requirement->projection_px = random.uniform(0.1, 2.0);
   }
-  if (coin(random)) one.camera_from_end_effector = randomPose(random);
-  addRandomFrames(random, one);
-  if (coin(random)) one.landmarks = randomPath(random, ".json");
-  return one;
+  if (coin(random)) session_case.camera_from_end_effector = randomPose(random);
+  addRandomFrames(random, session_case);
+  if (coin(random)) session_case.landmarks = randomPath(random, ".json");
+  return session_case;
 }
 
 inline sessions::Annotation randomAnnotation(Random& random) {
@@ -238,7 +242,7 @@ inline sessions::Session randomSession(Random& random) {
   for (std::uint32_t i = random.below(5); i > 0; --i) {
     const std::string id = "case " + std::to_string(i);
     session.cases.push_back(randomCase(random, id));
-    if (coin(random)) session = withAnnotation(session, id, randomAnnotation(random));
+    if (coin(random)) session = withAnnotations(session, id, randomAnnotation(random));
     if (coin(random)) session = withRounds(session, id, randomRounds(random));
     if (coin(random)) session.decisions.push_back(randomDecision(random, id));
     if (coin(random))
@@ -258,21 +262,22 @@ inline sessions::Session randomSession(Random& random) {
 inline sessions::Session randomEdit(Random& random, const sessions::Session& session) {
   if (session.cases.empty() || random.below(6) == 0)
     return withCase(session, randomCase(random, "new " + std::to_string(random.below(1000000))));
-  const sessions::SessionCase& one = *session.cases[indexBelow(random, session.cases.size())];
+  const sessions::SessionCase& session_case =
+      *session.cases[indexBelow(random, session.cases.size())];
   switch (random.below(7)) {
     case 5:
-      return withRounds(session, one.id,
+      return withRounds(session, session_case.id,
                         coin(random) ? randomRounds(random) : sessions::AnnotationRounds());
     case 0:
-      return withoutCase(session, one.id);
+      return withoutCase(session, session_case.id);
     case 1:
-      return withAnnotation(session, one.id, randomAnnotation(random));
+      return withAnnotations(session, session_case.id, randomAnnotation(random));
     case 2:
       return withOptions(session, "default", randomOptions(random));
     case 3: {
       sessions::Session next = session;
       next.decisions.push_back(
-          {one.id, sessions::Verdict::kRejected, "Ada", "no", "2026-01-31T23:59:59Z", ""});
+          {session_case.id, sessions::Verdict::kRejected, "Ada", "no", "2026-01-31T23:59:59Z", ""});
       return next;
     }
     case 4: {
@@ -281,7 +286,7 @@ inline sessions::Session randomEdit(Random& random, const sessions::Session& ses
       return next;
     }
     default: {
-      sessions::SessionCase moved = one;
+      sessions::SessionCase moved = session_case;
       moved.camera_from_station_seed = randomPose(random);
       return withCase(session, moved);
     }

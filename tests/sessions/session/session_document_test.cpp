@@ -55,7 +55,7 @@ void leaveUnsaved(const std::filesystem::path& file, int edits) {
   ASSERT_EQ(said, "the child did not end by itself");
 }
 
-TEST(SessionDocument, SavesWhatWasEditedAndLeavesNothingBeside) {
+TEST(SessionDocument, Save_WritesTheEditsAndRemovesTheJournal) {
   const TemporaryFolder folder;
   const Session first = sessionOf("first");
   {
@@ -78,9 +78,9 @@ TEST(SessionDocument, SavesWhatWasEditedAndLeavesNothingBeside) {
 TEST(SessionDocument, IsNotSavedOverAnInputAndMaySaveOverASession) {
   const TemporaryFolder folder;
   Random random = randomFor("inputs");
-  sessions::SessionCase one = randomCase(random, "a");
-  one.image.source.file = folder.write("image.png", "pixels");
-  SessionDocument document = SessionDocument::create(folder / "s.json", withCase({}, one));
+  sessions::SessionCase session_case = randomCase(random, "a");
+  session_case.image.source.file = folder.write("image.png", "pixels");
+  SessionDocument document = SessionDocument::create(folder / "s.json", withCase({}, session_case));
   EXPECT_THROW(document.saveAs(folder / "image.png"), sessions::OverwriteError);
   EXPECT_EQ(folder.read("image.png"), "pixels");
   document.saveAs(folder / "t.json");
@@ -92,12 +92,12 @@ TEST(SessionDocument, CreateTouchesNoFileThatIsThere) {
   const TemporaryFolder folder;
   folder.write("s.json", "mine");
   EXPECT_THAT(folder.message([&] { SessionDocument::create(folder / "s.json", {}); }),
-              HasSubstr("there is a file of this name already"));
+              HasSubstr("the file exists"));
   EXPECT_EQ(folder.read("s.json"), "mine");
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
-TEST(SessionDocument, OffersWhatAKilledProgramLeft) {
+TEST(SessionDocument, JournalOfAKilledProgram_IsOffered) {
   const TemporaryFolder folder;
   const Session first = sessionOf("first");
   { SessionDocument::create(folder / "s.json", first); }
@@ -110,8 +110,8 @@ TEST(SessionDocument, OffersWhatAKilledProgramLeft) {
     EXPECT_TRUE(document.recovery()->session == edited(first, 3));
     EXPECT_THAT(document.recovery()->edits, ElementsAre("Edit 1", "Edit 2", "Edit 3"));
     EXPECT_THAT(folder.message([&] { document.apply(edited(first, 9), "x"); }),
-                HasSubstr("wait to be recovered or declined"));
-    EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("wait to be recovered"));
+                HasSubstr("must be recovered or declined"));
+    EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("must be recovered"));
   }
   // Neither accepted nor declined: they still wait. Accepted but not saved: they are kept.
   {
@@ -226,13 +226,13 @@ TEST(SessionDocument, RefusesEditsThatCouldNotBeOpenedAgain) {
   EXPECT_FALSE(std::filesystem::exists(folder / "s.journal"));
 }
 
-TEST(SessionDocument, DoesNotOverwriteWhatSomebodyElseChanged) {
+TEST(SessionDocument, Save_AfterAChangeByAnotherProgram_IsRefused) {
   const TemporaryFolder folder;
   SessionDocument document = SessionDocument::create(folder / "s.json", sessionOf("first"));
   document.apply(edited(document.session(), 1), "Edit");
-  folder.write("s.json", "by somebody else");
+  folder.write("s.json", "by another program");
   EXPECT_THAT(folder.message([&] { document.save(); }), HasSubstr("another program has changed"));
-  EXPECT_EQ(folder.read("s.json"), "by somebody else");
+  EXPECT_EQ(folder.read("s.json"), "by another program");
   document.saveAs(folder / "t.json");
   EXPECT_TRUE(SessionDocument::open(folder / "t.json", Access::kReadOnly).session() ==
               document.session());
@@ -263,7 +263,7 @@ TEST(SessionDocument, OpensInAReadOnlyFolderToBeRead) {
     return text + folder.message([&] { document.save(); });
   });
   ::chmod(folder.path().c_str(), 0755);
-  const std::string reason = "nothing can be written beside it (Permission denied)";
+  const std::string reason = "nothing can be written next to it (Permission denied)";
   EXPECT_EQ(said, reason + "; cannot write s.json: " + reason + "; cannot write s.json: " + reason);
   EXPECT_EQ(folder.fileCount(), 1u);
 }
@@ -437,7 +437,7 @@ TEST(SessionHistory, RunsAndTheViewAreNotUndone) {
   SessionDocument document =
       SessionDocument::create(folder / "s.json", withCase({}, randomCase(random, "a")));
   SessionHistory history(document);
-  history.perform(withAnnotation(document.session(), "a", randomAnnotation(random)), "Mark");
+  history.perform(withAnnotations(document.session(), "a", randomAnnotation(random)), "Mark");
   Session ran = document.session();
   ran.runs.push_back({"a", randomSha256(random), folder / "x", "converged", "0.1.0",
                       "2026-01-31T23:59:59Z", randomSha256(random), randomSha256(random)});
@@ -456,7 +456,7 @@ TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
   SessionDocument document = SessionDocument::open(folder / "s.json", sessions::Access::kReadOnly);
   SessionHistory history(document);
   EXPECT_NE(folder.message([&] {
-    history.perform(withAnnotation(document.session(), "a", randomAnnotation(random)), "Mark");
+    history.perform(withAnnotations(document.session(), "a", randomAnnotation(random)), "Mark");
   }),
             "(nothing)");
   EXPECT_FALSE(history.canUndo());

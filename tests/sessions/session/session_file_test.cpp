@@ -34,7 +34,7 @@ TEST(SessionFile, AnArchiveIsToBeUnpackedFirst) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("s.zip", "PK\x03\x04 and so on");
   EXPECT_EQ(folder.message([&] { (void)sessions::readSessionFile(file); }),
-            "s.zip: an archive, as whs pack makes it: unpack it, and open the session in it");
+            "s.zip: an archive of whs pack: unpack it, then open its session");
 }
 
 TEST(SessionFile, EveryMemberMakesADifference) {
@@ -52,13 +52,13 @@ TEST(SessionFile, EveryMemberMakesADifference) {
 TEST(SessionFile, NamesFilesRelativeToItself) {
   const TemporaryFolder folder;
   Random random = randomFor("paths");
-  sessions::SessionCase one = randomCase(random, "a");
-  one.image.source.file = folder / "images/1.png";
-  one.parts.resize(1);
-  one.parts[0].source.part.match = true;
-  one.parts[0].source.mesh = folder.path().parent_path() / "mesh.ply";
+  sessions::SessionCase session_case = randomCase(random, "a");
+  session_case.image.source.file = folder / "images/1.png";
+  session_case.parts.resize(1);
+  session_case.parts[0].source.part.match = true;
+  session_case.parts[0].source.mesh = folder.path().parent_path() / "mesh.ply";
   std::filesystem::create_directories(folder / "deep/er");
-  sessions::writeSessionFile(folder / "deep/s.json", withCase({}, one));
+  sessions::writeSessionFile(folder / "deep/s.json", withCase({}, session_case));
   const json written = json::parse(folder.read("deep/s.json"));
   EXPECT_EQ(written["cases"][0]["image"]["file"], "../images/1.png");
   EXPECT_EQ(written["cases"][0]["parts"][0]["file"], "../../mesh.ply");
@@ -68,7 +68,7 @@ TEST(SessionFile, NamesFilesRelativeToItself) {
   EXPECT_EQ(moved.cases[0]->image.source.file, folder / "deep/images/1.png");
 }
 
-TEST(SessionFile, NamesWhatLiesBesideIt) {
+TEST(SessionFile, CompanionFiles_HaveTheirNames) {
   EXPECT_EQ(sessions::journalFileOf("/a/x.boresight.json"), "/a/x.boresight.journal");
   EXPECT_EQ(sessions::lockFileOf("/a/x.json"), "/a/x.lock");
   EXPECT_EQ(sessions::runsFolderOf("/a/x.sol12"), "/a/x.sol12.runs");
@@ -78,14 +78,14 @@ TEST(SessionFile, NamesWhatLiesBesideIt) {
 /// A whole session as JSON, to be spoilt in one place.
 json goodSession() {
   Random random = randomFor("goodSession");
-  sessions::SessionCase one = randomCase(random, "bc");
-  one.parts.resize(1);
-  one.parts[0].source.part.match = true;
-  one.ignore_strokes = {sessions::MaskStroke()};
-  one.camera = makePinhole(100, 80, 200.0);
-  one.image.eight_bit = {};
-  Session session = withCase({}, one);
-  session = withAnnotation(session, "bc", randomAnnotation(random));
+  sessions::SessionCase session_case = randomCase(random, "bc");
+  session_case.parts.resize(1);
+  session_case.parts[0].source.part.match = true;
+  session_case.ignore_strokes = {sessions::MaskStroke()};
+  session_case.camera = makePinhole(100, 80, 200.0);
+  session_case.image.eight_bit = {};
+  Session session = withCase({}, session_case);
+  session = withAnnotations(session, "bc", randomAnnotation(random));
   session = withRounds(session, "bc", randomRounds(random));
   session.decisions.push_back(
       {"bc", sessions::Verdict::kValidated, "Ada", "", "2026-01-31T23:59:59Z", ""});
@@ -112,8 +112,7 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
       {[](json& s) { s["version"] = "1"; }, "version: not an integer"},
       {[](json& s) { s["zoom"] = 1; }, "zoom: is not known to this version"},
       {[](json& s) { s["profile"] = "best"; }, "profile: there is no profile \"best\""},
-      {[](json& s) { s["options"]["pnp.speed"] = 1; },
-       "options.pnp.speed: there is no such option"},
+      {[](json& s) { s["options"]["pnp.speed"] = 1; }, "options.pnp.speed: unknown option"},
       {[](json& s) { s["options"]["loop.max_iterations"] = 0; }, "options.loop.max_iterations: "},
       {[](json& s) { s.erase("cases"); }, "cases: missing"},
       {[](json& s) { s["cases"].push_back(s["cases"][0]); }, "cases[1].id: 'bc' is given twice"},
@@ -176,7 +175,7 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
   for (const auto& [spoil, expected] : spoilt) EXPECT_THAT(message(spoil), HasSubstr(expected));
 }
 
-TEST(SessionFile, ReadsFilesFromBeforePassesAndLandmarks) {
+TEST(SessionFile, FileWithoutRoundsAndLandmarks_IsRead) {
   const TemporaryFolder folder;
   json old = goodSession();
   old.erase("rounds");
@@ -191,12 +190,12 @@ TEST(SessionFile, ReadsFilesFromBeforePassesAndLandmarks) {
 
 TEST(SessionFile, LandmarksAreNoInputOfARun) {
   Random random = randomFor("landmarks");
-  sessions::SessionCase one = randomCase(random, "a");
-  one.landmarks.reset();
-  const std::string digest = sessions::inputsDigest(one);
-  one.landmarks = "/station/landmarks.json";
-  EXPECT_EQ(sessions::inputsDigest(one), digest);
-  Session session = withRounds(withCase({}, one), "a", randomRounds(random));
+  sessions::SessionCase session_case = randomCase(random, "a");
+  session_case.landmarks.reset();
+  const std::string digest = sessions::inputsDigest(session_case);
+  session_case.landmarks = "/station/landmarks.json";
+  EXPECT_EQ(sessions::inputsDigest(session_case), digest);
+  Session session = withRounds(withCase({}, session_case), "a", randomRounds(random));
   EXPECT_TRUE(withoutCase(session, "a").rounds.empty());
   EXPECT_TRUE(withRounds(session, "a", {}).rounds.empty());
 }
@@ -205,11 +204,12 @@ TEST(SessionFile, RefusesToWriteWhatIsNotText) {
   const TemporaryFolder folder;
   folder.write("s.json", "old");
   Random random = randomFor("utf8");
-  sessions::SessionCase one = randomCase(random, "a");
-  one.image.source.file = "/data/\xff.png";
-  EXPECT_THAT(
-      folder.message([&] { sessions::writeSessionFile(folder / "s.json", withCase({}, one)); }),
-      HasSubstr("is not UTF-8"));
+  sessions::SessionCase session_case = randomCase(random, "a");
+  session_case.image.source.file = "/data/\xff.png";
+  EXPECT_THAT(folder.message([&] {
+    sessions::writeSessionFile(folder / "s.json", withCase({}, session_case));
+  }),
+              HasSubstr("is not UTF-8"));
   EXPECT_EQ(folder.read("s.json"), "old");
 }
 

@@ -47,13 +47,15 @@ TEST(SessionMaker, SaysWhichFileIsWrong) {
 TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
   const Session session = sessions::makeSession(exampleFolder() / "dataset.json");
   ASSERT_EQ(session.cases.size(), 2u);
-  for (const auto& one : session.cases) {
-    const sessions::MadeCase made = sessions::makeCase(filesOf(exampleFolder() / one->station));
-    EXPECT_THAT(made.notes, IsEmpty());
-    EXPECT_EQ(sessions::inputsDigest(made.made), sessions::inputsDigest(*one)) << one->id;
-    EXPECT_TRUE(one->requirement);
-    EXPECT_TRUE(one->feature_size_m);
-    EXPECT_TRUE(one->camera_from_station_truth == made.made.camera_from_station_truth);
+  for (const auto& session_case : session.cases) {
+    const sessions::MadeCase new_case =
+        sessions::makeCase(filesOf(exampleFolder() / session_case->station));
+    EXPECT_THAT(new_case.notes, IsEmpty());
+    EXPECT_EQ(sessions::inputsDigest(new_case.made), sessions::inputsDigest(*session_case))
+        << session_case->id;
+    EXPECT_TRUE(session_case->requirement);
+    EXPECT_TRUE(session_case->feature_size_m);
+    EXPECT_TRUE(session_case->camera_from_station_truth == new_case.made.camera_from_station_truth);
   }
   const Session only =
       sessions::makeSession(exampleFolder() / "dataset.json", {session.cases[1]->id});
@@ -61,7 +63,7 @@ TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
   EXPECT_TRUE(only.cases[0] == session.cases[1]);
 }
 
-TEST(SessionMaker, TheChecksAreThoseOfWhatTheDatasetAsksFor) {
+TEST(SessionMaker, RequirementOfTheDataset_SelectsTheCheckPreset) {
   const TemporaryFolder folder;
   const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
   EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer");
@@ -75,7 +77,7 @@ TEST(SessionMaker, TheChecksAreThoseOfWhatTheDatasetAsksFor) {
   EXPECT_EQ(sessions::makeSession(file).review.preset, "sample_transfer") << "they differ";
 }
 
-TEST(SessionMaker, WhatIsStatedOfMeshCameraAndTruthComesAlong) {
+TEST(SessionMaker, SigmasAndTruth_OfTheDataset_AreKept) {
   const TemporaryFolder folder;
   const std::filesystem::path file = copyOfExamples(folder) / "dataset.json";
   auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
@@ -83,18 +85,18 @@ TEST(SessionMaker, WhatIsStatedOfMeshCameraAndTruthComesAlong) {
   for (auto& camera : json["cameras"])
     camera["calibration_sigma"] = {{"focal_relative", 0.003}, {"principal_point_px", 2.0}};
   folder.write("stations/dataset.json", json.dump());
-  for (const auto& one : sessions::makeSession(file).cases) {
-    EXPECT_EQ(one->mesh_scale_sigma, 0.001);
-    EXPECT_EQ(one->calibration_sigma, (sessions::CalibrationSigma{0.003, 2.0}));
+  for (const auto& session_case : sessions::makeSession(file).cases) {
+    EXPECT_EQ(session_case->mesh_scale_sigma, 0.001);
+    EXPECT_EQ(session_case->calibration_sigma, (sessions::CalibrationSigma{0.003, 2.0}));
   }
   sessions::CaseFiles files = filesOf(file.parent_path() / "os");
   files.mesh_scale_sigma = 0.002;
   Matrix6d covariance = 1e-6 * Matrix6d::Identity();
   files.truth = folder / "truth.json";
   sessions::writePose(*files.truth, Pose(), {}, covariance);
-  const sessions::SessionCase made = sessions::makeCase(files).made;
-  EXPECT_EQ(made.mesh_scale_sigma, 0.002);
-  EXPECT_EQ(made.truth_covariance, covariance);
+  const sessions::SessionCase result = sessions::makeCase(files).made;
+  EXPECT_EQ(result.mesh_scale_sigma, 0.002);
+  EXPECT_EQ(result.truth_covariance, covariance);
 }
 
 TEST(InputSigmas, AreStatedForAllCasesOfTheMeshAndOfTheCamera) {
@@ -127,11 +129,11 @@ TEST(SessionMaker, TheSessionThatShipsIsMadeOfTheDatasetThatShips) {
 }
 
 TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
-  const sessions::SessionCase one =
+  const sessions::SessionCase session_case =
       *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
-  const std::string digest = sessions::inputsDigest(one);
+  const std::string digest = sessions::inputsDigest(session_case);
   const auto changed = [&](const std::function<void(sessions::SessionCase&)>& change) {
-    sessions::SessionCase other = one;
+    sessions::SessionCase other = session_case;
     change(other);
     return sessions::inputsDigest(other) != digest;
   };

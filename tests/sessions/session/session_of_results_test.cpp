@@ -41,7 +41,7 @@ class SessionOfResults : public testing::Test {
     MethodFacts facts = methodFacts(method, "default", options_.localizer);
     facts.mirror = mirror;
     writer.admit(facts);
-    writer.begin(Sitting{});
+    writer.begin(BatchRun{});
     for (RunResult run : runs_) {
       run.method = method;
       writer.add(run);
@@ -55,29 +55,30 @@ class SessionOfResults : public testing::Test {
   std::vector<RunResult> runs_;
 };
 
-TEST_F(SessionOfResults, ListsTheMostTroubledFirstAndSoDoesTheQueue) {
+TEST_F(SessionOfResults, WorstRuns_AreListedFirstAsInTheQueue) {
   write();
   const Session session = sessionOfResults(file_);
   std::vector<std::string> expected;
   for (const std::size_t i : {0U, 3U, 2U, 1U}) expected.push_back(resultCaseId(runs_[i]));
   std::vector<std::string> listed;
-  for (const auto& one : session.cases) listed.push_back(one->id);
+  for (const auto& session_case : session.cases) listed.push_back(session_case->id);
   EXPECT_EQ(listed, expected);
   std::vector<std::string> queued;
   const std::vector<QueueRow> rows = queueRows(session);
   for (const QueueRow& row : rows) queued.push_back(row.case_id);
   EXPECT_EQ(queued, expected);
-  EXPECT_EQ(troubleText(rows[0]), "not run here; in the results: pnp_failed");
-  EXPECT_EQ(troubleText(rows[1]), "not run here; in the results 75 % of the requirement off");
+  EXPECT_EQ(troubleText(rows[0]), "not run in this session; in the results: pnp_failed");
+  EXPECT_EQ(troubleText(rows[1]),
+            "not run in this session; in the results: error 75 % of the requirement");
 }
 
 TEST_F(SessionOfResults, RepeatsARunByItsOwnSeedAndOptions) {
   write();
   const Session session = sessionOfResults(file_);
   for (const RunResult& run : runs_) {
-    const SessionCase* one = session.findCase(resultCaseId(run));
-    ASSERT_NE(one, nullptr) << resultCaseId(run);
-    EXPECT_EQ(runCase(session, one->id, RecordLevel::kSummary).digest, run.digest)
+    const SessionCase* session_case = session.findCase(resultCaseId(run));
+    ASSERT_NE(session_case, nullptr) << resultCaseId(run);
+    EXPECT_EQ(runCase(session, session_case->id, RecordLevel::kSummary).digest, run.digest)
         << "bit for bit what `whs evaluate` ran";
   }
 }
@@ -107,17 +108,17 @@ TEST_F(SessionOfResults, RefusesADatasetThatHasChanged) {
 }
 
 TEST(ResultTag, IsReadBack) {
-  SessionCase one;
-  one.tags = {"far", resultTag({"converged", true, 0.375})};
-  EXPECT_EQ(one.tags[1], "result:converged:0.3750");
-  ASSERT_TRUE(listedResult(one));
-  EXPECT_TRUE(listedResult(one)->completed);
-  EXPECT_DOUBLE_EQ(*listedResult(one)->error_share, 0.375);
-  one.tags = {resultTag({"pnp_failed", false, std::nullopt})};
-  EXPECT_EQ(listedResult(one)->status, "pnp_failed");
-  EXPECT_FALSE(listedResult(one)->error_share);
-  one.tags = {"far"};
-  EXPECT_FALSE(listedResult(one));
+  SessionCase session_case;
+  session_case.tags = {"far", resultTag({"converged", true, 0.375})};
+  EXPECT_EQ(session_case.tags[1], "result:converged:0.3750");
+  ASSERT_TRUE(listedResult(session_case));
+  EXPECT_TRUE(listedResult(session_case)->completed);
+  EXPECT_DOUBLE_EQ(*listedResult(session_case)->error_share, 0.375);
+  session_case.tags = {resultTag({"pnp_failed", false, std::nullopt})};
+  EXPECT_EQ(listedResult(session_case)->status, "pnp_failed");
+  EXPECT_FALSE(listedResult(session_case)->error_share);
+  session_case.tags = {"far"};
+  EXPECT_FALSE(listedResult(session_case));
 }
 
 }  // namespace

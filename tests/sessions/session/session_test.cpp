@@ -21,18 +21,18 @@ using sessions::Session;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(ChangedCases, NamesThoseThatSomebodyEdited) {
+TEST(ChangedCases, ListsEditedCases) {
   Random random = randomFor("ChangedCases");
   Session before;
   for (const char* id : {"a", "b", "c"}) before = withCase(before, randomCase(random, id));
-  before = withAnnotation(before, "b", randomAnnotation(random));
+  before = withAnnotations(before, "b", randomAnnotation(random));
   EXPECT_THAT(changedCases(before, before), IsEmpty());
 
   sessions::SessionCase moved = *before.findCase("c");
   moved.camera_from_station_seed.translation_m.x() += 0.01;
   EXPECT_THAT(changedCases(before, withCase(before, moved)), ElementsAre("c"));
-  EXPECT_THAT(changedCases(before, withAnnotation(before, "b", {})), ElementsAre("b"));
-  EXPECT_THAT(changedCases(before, withAnnotation(before, "a", randomAnnotation(random))),
+  EXPECT_THAT(changedCases(before, withAnnotations(before, "b", {})), ElementsAre("b"));
+  EXPECT_THAT(changedCases(before, withAnnotations(before, "a", randomAnnotation(random))),
               ElementsAre("a"));
   EXPECT_THAT(changedCases(before, withCase(before, randomCase(random, "d"))), ElementsAre("d"));
   EXPECT_THAT(changedCases(before, withoutCase(before, "a")), IsEmpty());
@@ -119,11 +119,11 @@ namespace {
 
 /// A run of every case as it is, without running it.
 Session asIfRun(Session session) {
-  for (const auto& one : session.cases) {
+  for (const auto& session_case : session.cases) {
     RunRecord run;
-    run.case_id = one->id;
-    run.inputs_sha256 = inputsDigest(*one);
-    run.options_sha256 = optionsDigest(caseOptions(session, *one, {}));
+    run.case_id = session_case->id;
+    run.inputs_sha256 = inputsDigest(*session_case);
+    run.options_sha256 = optionsDigest(caseOptions(session, *session_case, {}));
     session.runs.push_back(run);
   }
   return session;
@@ -132,18 +132,18 @@ Session asIfRun(Session session) {
 Session withRandomEdit(const Session& session, Random& random) {
   const auto at = static_cast<std::size_t>(
       random.uniform(0.0, static_cast<double>(session.cases.size()) - 1e-9));
-  SessionCase one = *session.cases[at];
+  SessionCase session_case = *session.cases[at];
   LocalizerOptions options = sessionOptions(session, {});
   switch (static_cast<int>(random.uniform(0.0, 5.0))) {
     case 0:
-      one.camera_from_station_seed.translation_m.x() += 0.01;
-      return withCase(session, one);
+      session_case.camera_from_station_seed.translation_m.x() += 0.01;
+      return withCase(session, session_case);
     case 1:
-      one.feature_size_m = random.uniform(0.001, 0.004);
-      return withCase(session, one);
+      session_case.feature_size_m = random.uniform(0.001, 0.004);
+      return withCase(session, session_case);
     case 2:
-      one.tags.push_back("seen");  // no input of a run
-      return withCase(session, one);
+      session_case.tags.push_back("seen");  // no input of a run
+      return withCase(session, session_case);
     case 3:
       options.pnp.seed += 1;
       return withOptions(session, session.profile, options);
@@ -166,10 +166,10 @@ TEST(StaleRuns, SaysAsStalenessWhateverIsEditedAndUndone) {
     else
       history.push_back(withRandomEdit(history.back(), random));
     const Session& session = history.back();
-    for (const auto& one : session.cases) {
-      const RunRecord& run = *session.lastRunOf(one->id);
+    for (const auto& session_case : session.cases) {
+      const RunRecord& run = *session.lastRunOf(session_case->id);
       const bool stale = stalenessOf(run, session, {}).stale();
-      EXPECT_EQ(known.isStale(run, one, session, {}), stale) << edit;
+      EXPECT_EQ(known.isStale(run, session_case, session, {}), stale) << edit;
       ++(stale ? stale_count : fresh_count);
     }
   }
@@ -187,9 +187,9 @@ Pose somePose(double x_m) {
 Session threeCases() {
   Session session;
   for (const char* id : {"left", "right", "top"}) {
-    SessionCase one;
-    one.id = id;
-    session = withCase(session, one);
+    SessionCase session_case;
+    session_case.id = id;
+    session = withCase(session, session_case);
   }
   return session;
 }
@@ -222,7 +222,8 @@ TEST(RigLinks, ALinkThatIsDroppedLeavesTheOthersAndARigOfOneIsNone) {
   EXPECT_FALSE(session.findCase("left")->rig);
   EXPECT_EQ(casesOfRig(session, "right"), std::vector<std::string>{"top"});
   session = withoutRigLink(session, "top");
-  for (const auto& one : session.cases) EXPECT_FALSE(one->rig) << one->id;
+  for (const auto& session_case : session.cases)
+    EXPECT_FALSE(session_case->rig) << session_case->id;
   EXPECT_EQ(withoutRigLink(session, "top"), session);
 }
 

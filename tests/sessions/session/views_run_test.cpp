@@ -33,8 +33,8 @@ class ViewsRunTest : public testing::Test {
   /// Run and noted.
   void run(const std::string& leader) {
     views_ = sessions::runViews(session_, leader);
-    for (const RunRecord& one : sessions::storeViews(session_, views_, file()))
-      session_ = withRun(session_, one);
+    for (const RunRecord& item : sessions::storeViews(session_, views_, file()))
+      session_ = withRun(session_, item);
   }
 
   TemporaryFolder folder_;
@@ -43,7 +43,7 @@ class ViewsRunTest : public testing::Test {
 };
 
 TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
-  const SessionCase& one = *session_.cases[0];
+  const SessionCase& session_case = *session_.cases[0];
   const SessionCase& other = *session_.cases[1];
   const ExampleCase example("os");
   const sessions::GrayImage turned = sessions::readImage(other.image.source.file);
@@ -59,7 +59,7 @@ TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   problem.rig_from_station_seed = example.seed.camera_from_station;
   problem.uncertainty = example.problem().uncertainty;
   LocalizerOptions options = defaultProfile();
-  options.templates.feature_size_m = one.feature_size_m.value();
+  options.templates.feature_size_m = session_case.feature_size_m.value();
   std::size_t bytes = 0;
   ASSERT_EQ(ViewsLocalizer::requiredBytes(problem, options, 1, Kernels::kPortable, bytes),
             Status::kOk);
@@ -147,33 +147,33 @@ TEST_F(ViewsRunTest, ABlackViewIsLeftOutAndSaysWhy) {
   EXPECT_NE(session_.runs[0].digest, alone) << "it says that there was another";
   EXPECT_EQ(session_.runs[1].status, "too_few_matches");
   EXPECT_THAT(sessions::togetherText(session_.runs[0].together->views, first()),
-              HasSubstr("left out: too few of its templates meet edges"));
+              HasSubstr("left out: too few of its templates match edges"));
 }
 
-TEST_F(ViewsRunTest, OldFilesHaveNoneOfIt) {
+TEST_F(ViewsRunTest, FileWithoutViews_IsRead) {
   run(first());
   sessions::writeSessionFile(file(), session_);
   std::string text = folder_.read("s.boresight.json");
   EXPECT_THAT(text, HasSubstr("\"together\""));
-  for (RunRecord& one : session_.runs) one.together.reset();
+  for (RunRecord& item : session_.runs) item.together.reset();
   sessions::writeSessionFile(file(), session_);
   text = folder_.read("s.boresight.json");
   EXPECT_THAT(text, testing::Not(HasSubstr("\"together\"")));
   const Session old = sessions::readSessionFile(file()).session;
   EXPECT_EQ(old, session_);
   EXPECT_TRUE(sessions::loadSnapshot(old.runs[0]).views.empty());
-  // A record that names nobody is refused.
+  // A record without a reviewer is refused.
   session_.runs[0].together =
       sessions::TogetherRecord{{{first(), "converged"}}, std::string(64, 'a')};
   sessions::writeSessionFile(file(), session_);
   EXPECT_THAT(folder_.message([&] { (void)sessions::readSessionFile(file()); }),
-              HasSubstr("views: names less than two"));
+              HasSubstr("views: has fewer than two"));
 }
 
 TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
   EXPECT_THAT(sessions::whyAlone(session_, first()), IsEmpty());
   EXPECT_THAT(sessions::whyAlone(withoutRigLink(session_, second()), first()),
-              HasSubstr("of no rig"));
+              HasSubstr("has no rig"));
   EXPECT_THAT(sessions::whyAlone(withoutCase(session_, second()), first()),
               HasSubstr("no other view of rig"));
   SessionCase coarser = *session_.cases[1];
@@ -185,9 +185,9 @@ TEST_F(ViewsRunTest, SaysWhyACaseStandsAlone) {
   EXPECT_THAT(sessions::whyAlone(withCase(session_, elsewhere), first()), IsEmpty());
   Session many = session_;
   for (int i = 0; i < 7; ++i) {
-    SessionCase one = *session_.cases[1];
-    one.id += std::to_string(i);
-    many = withCase(many, one);
+    SessionCase session_case = *session_.cases[1];
+    session_case.id += std::to_string(i);
+    many = withCase(many, session_case);
   }
   EXPECT_THAT(sessions::whyAlone(many, first()), HasSubstr("has 9 views; at most 8"));
 }
@@ -210,8 +210,7 @@ TEST_F(ViewsRunTest, AHandedPoseOfItIsVerifiedByRunningAllViewsAgain) {
   EXPECT_TRUE(report.good());
   bool said = false;
   for (const auto& finding : report.findings)
-    said = said ||
-           finding.text == "the run together with " + second() + " gives the same digest again";
+    said = said || finding.text == "the run together with " + second() + " gives the same digest";
   EXPECT_TRUE(said);
 }
 
@@ -224,7 +223,7 @@ TEST_F(ViewsRunTest, AHandedPoseTakesTheRunOfTheOtherCameraAlong) {
   const sessions::VerifyReport report = sessions::verifyPose(handed, true);
   for (const auto& finding : report.findings)
     EXPECT_TRUE(finding.good) << finding.what << ": " << finding.text;
-  EXPECT_THAT(folder_.read("pose.json"), HasSubstr("The pose and " + second() + " are apart by"));
+  EXPECT_THAT(folder_.read("pose.json"), HasSubstr("The pose and " + second() + " differ by"));
 }
 
 TEST_F(ViewsRunTest, AnOutcomeOfAViewThatIsStatedOtherwiseIsRefused) {
@@ -235,7 +234,7 @@ TEST_F(ViewsRunTest, AnOutcomeOfAViewThatIsStatedOtherwiseIsRefused) {
 }
 
 /// Poses that were solved for as one say nothing of each other.
-TEST_F(ViewsRunTest, TheOtherCameraIsAWitnessOnlyByARunOfItsOwn) {
+TEST_F(ViewsRunTest, OtherCamera_IsComparedOnlyByItsOwnRun) {
   run(first());
   const auto witnesses = [this] {
     return sessions::reviewSubject(session_, sessions::loadCase(*session_.cases[0]),

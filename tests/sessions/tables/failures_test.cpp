@@ -87,7 +87,7 @@ class FailuresOfExample : public testing::Test {
              const BatchOptions& options) const {
     ResultsWriter writer(file, facts);
     writer.admit(methodFacts("whs", "default", options.localizer));
-    writer.begin(Sitting{});
+    writer.begin(BatchRun{});
     for (const RunResult& run : runs_) writer.add(run);
     RunResult good = runs_.front();
     good.reseed = 1;
@@ -126,7 +126,7 @@ TEST_F(FailuresOfExample, ARunWithoutIterationsDoesNotTakeThoseOfAnotherFile) {
   {
     ResultsWriter writer(unread, DatasetFacts{});
     writer.admit(methodFacts("whs", "default", LocalizerOptions{}));
-    writer.begin(Sitting{});
+    writer.begin(BatchRun{});
     RunResult run = runs_.front();
     run.status = "input_error";
     run.steps.clear();

@@ -29,7 +29,7 @@ class ReadResultsSet : public testing::Test {
       facts.method = run.method;
       writer.admit(facts);
     }
-    writer.begin(Sitting{});
+    writer.begin(BatchRun{});
     for (const RunResult& run : runs) writer.add(run);
     return folder_ / name;
   }

@@ -26,7 +26,7 @@ TEST(PlainText, HasBlanksForControlCharacters) {
   EXPECT_EQ(plainText("\xc2\xa0"), "\xc2\xa0") << "U+00A0 is the first behind them";
 }
 
-TEST(PlainText, HasBlanksForMarksOfDirectionAndLineSeparators) {
+TEST(PlainText, DirectionMarksAndLineSeparators_BecomeBlanks) {
   EXPECT_EQ(plainText("a\xe2\x80\xae"
                       "b\xe2\x81\xa6"
                       "c\xe2\x80\x8f"

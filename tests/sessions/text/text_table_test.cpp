@@ -25,7 +25,7 @@ TEST(TextTable, LeavesMissingCellsEmpty) {
   EXPECT_EQ(table.text(), "a  b  c\n-------\n1\n");
 }
 
-TEST(FixedText, RoundsAndMarksWhatIsNotFinite) {
+TEST(FixedText, RoundsAndMarksNonFiniteNumbers) {
   EXPECT_EQ(fixedText(1.2345, 2), "1.23");
   EXPECT_EQ(fixedText(-0.5, 1), "-0.5");
   EXPECT_EQ(fixedText(std::numeric_limits<double>::quiet_NaN(), 2), "-");

@@ -14,36 +14,36 @@ namespace {
 
 class AnnotationControllerTest : public AnnotationTest {};
 
-TEST_F(AnnotationControllerTest, APairIsMadeInEitherOrderAndStaysHalfMadeUntilThen) {
+TEST_F(AnnotationControllerTest, Pair_AnySideFirst_StaysIncompleteUntilTheOther) {
   const Eigen::Vector3d corner_m = corners_m(1).front();
   const std::string first = controller_.placeInImage({10.25, 20.5});
   EXPECT_EQ(first, "p1");
-  ASSERT_EQ(controller_.marks().points.size(), 1u);
-  EXPECT_FALSE(controller_.marks().points[0].complete());
+  ASSERT_EQ(controller_.annotations().points.size(), 1u);
+  EXPECT_FALSE(controller_.annotations().points[0].complete());
   EXPECT_EQ(controller_.placeOnStation(corner_m), first)
       << "the chosen half-made pair is completed";
-  EXPECT_TRUE(controller_.marks().points[0].complete());
+  EXPECT_TRUE(controller_.annotations().points[0].complete());
   const std::string second = controller_.placeOnStation(corner_m);
   EXPECT_EQ(second, "p2") << "a complete pair is not overwritten";
   EXPECT_EQ(controller_.placeInImage({30.0, 40.0}), second);
-  EXPECT_EQ(controller_.marks().points[1].pixel, Eigen::Vector2d(30.0, 40.0));
+  EXPECT_EQ(controller_.annotations().points[1].pixel, Eigen::Vector2d(30.0, 40.0));
   EXPECT_EQ(document_.undoText(), QStringLiteral("Place p2 on the image"));
   ASSERT_TRUE(document_.undo());
-  EXPECT_FALSE(controller_.marks().points[1].pixel);
+  EXPECT_FALSE(controller_.annotations().points[1].pixel);
   ASSERT_TRUE(document_.undo());
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
   ASSERT_TRUE(document_.redo());
   ASSERT_TRUE(document_.redo());
-  EXPECT_TRUE(controller_.marks().points[1].complete());
+  EXPECT_TRUE(controller_.annotations().points[1].complete());
 }
 
-TEST_F(AnnotationControllerTest, LinesArePairedLikewise) {
+TEST_F(AnnotationControllerTest, LinePair_AnySideFirst_IsCompleted) {
   const sessions::ModelEdge edge{{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}};
   const std::string id = controller_.placeEdgeOnStation(edge);
   EXPECT_EQ(id, "l1");
   EXPECT_EQ(controller_.placeLineInImage({{10.0, 10.0}, {50.0, 10.0}}), id);
-  ASSERT_EQ(controller_.marks().lines.size(), 1u);
-  EXPECT_TRUE(controller_.marks().lines[0].complete());
+  ASSERT_EQ(controller_.annotations().lines.size(), 1u);
+  EXPECT_TRUE(controller_.annotations().lines[0].complete());
   QSignalSpy told(&controller_, &AnnotationController::told);
   EXPECT_EQ(controller_.placeLineInImage({{10.0, 10.0}, {10.2, 10.0}}), "");
   EXPECT_EQ(told.count(), 1);
@@ -52,7 +52,7 @@ TEST_F(AnnotationControllerTest, LinesArePairedLikewise) {
 TEST_F(AnnotationControllerTest, SolvesAsSoonAsTheGeometryAllowsAndFollowsEveryEdit) {
   const auto ids = markCorners(8);
   ASSERT_EQ(ids.size(), 8u);
-  EXPECT_TRUE(controller_.stale()) << "until it has been solved anew";
+  EXPECT_TRUE(controller_.stale()) << "until it has been solved again";
   ASSERT_TRUE(solved());
   const auto pose = controller_.solvedPose();
   ASSERT_TRUE(pose);
@@ -76,14 +76,14 @@ TEST_F(AnnotationControllerTest, AGestureIsOneStepOfUndo) {
   EXPECT_EQ(document_.undoText(), QStringLiteral("Move p1"));
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(controller_.nudge({0.1, 0.0}));
   controller_.finishMove();
-  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 119.5, 1e-9);
+  EXPECT_NEAR(controller_.annotations().points[0].pixel->x(), 119.5, 1e-9);
   ASSERT_TRUE(document_.undo());
-  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 119.0, 1e-9);
+  EXPECT_NEAR(controller_.annotations().points[0].pixel->x(), 119.0, 1e-9);
   ASSERT_TRUE(document_.undo());
-  EXPECT_NEAR(controller_.marks().points[0].pixel->x(), 100.0, 1e-9);
+  EXPECT_NEAR(controller_.annotations().points[0].pixel->x(), 100.0, 1e-9);
 }
 
-TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReason) {
+TEST_F(AnnotationControllerTest, LockedOrOutsideEdit_IsRefusedWithAReason) {
   const std::string id = controller_.placeInImage({100.0, 100.0});
   sessions::PointPair locked = *controller_.selectedPoint();
   locked.locked = true;
@@ -92,7 +92,7 @@ TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReaso
   EXPECT_FALSE(controller_.dragInImage(id, {1.0, 1.0}));
   EXPECT_FALSE(controller_.nudge({1.0, 0.0}));
   controller_.remove(id);
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
   EXPECT_EQ(controller_.placeInImage({-3.0, 10.0}), "");
   EXPECT_EQ(controller_.placeInImage({std::nan(""), 10.0}), "");
   EXPECT_EQ(told.count(), 5);
@@ -101,11 +101,11 @@ TEST_F(AnnotationControllerTest, LockedMarksAndPlacesOutsideAreRefusedWithAReaso
   EXPECT_FALSE(controller_.replacePoint(id, renamed, QStringLiteral("Rename")));
 }
 
-TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHowPeopleDiffer) {
+TEST_F(AnnotationControllerTest, BlindRound_KeepsStationPointsAndReportsRepeatability) {
   const auto ids = markCorners(6);
-  const sessions::Marks first = controller_.marks();
+  const sessions::Annotations first = controller_.annotations();
   controller_.putAside(QStringLiteral(" Ada "));
-  for (const sessions::PointPair& point : controller_.marks().points) {
+  for (const sessions::PointPair& point : controller_.annotations().points) {
     EXPECT_TRUE(point.point_in_station_m);
     EXPECT_FALSE(point.pixel);
   }
@@ -117,19 +117,19 @@ TEST_F(AnnotationControllerTest, ABlindPassKeepsThePlacesOfTheStationAndTellsHow
   ASSERT_EQ(controller_.answer().rounds.size(), 1u);
   EXPECT_EQ(controller_.answer().rounds[0].by, "Ada");
   EXPECT_TRUE(controller_.answer().rounds[0].camera_from_station);
-  EXPECT_EQ(controller_.answer().rounds[0].repeatability.marks.size(), ids.size());
+  EXPECT_EQ(controller_.answer().rounds[0].repeatability.annotations.size(), ids.size());
   EXPECT_NEAR(controller_.answer().rounds[0].repeatability.sigma_px, 0.5 / std::sqrt(2.0), 1e-9);
   controller_.takeUp(0);
-  EXPECT_EQ(controller_.marks(), first);
+  EXPECT_EQ(controller_.annotations(), first);
   EXPECT_EQ(document_.session().rounds.at(source().id)->size(), 2u)
-      << "the marks that were at work are put aside";
+      << "the annotations that were at work are put aside";
   ASSERT_TRUE(document_.undo()) << "the second round is not lost";
-  EXPECT_TRUE(controller_.marks().points[0].complete());
+  EXPECT_TRUE(controller_.annotations().points[0].complete());
   controller_.removeRound(0);
   EXPECT_TRUE(document_.session().rounds.empty());
 }
 
-TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeArePlaced) {
+TEST_F(AnnotationControllerTest, Landmarks_AfterThreeAnnotations_AreProposedAtTheirProjection) {
   openLandmarks(corners_m(8), {0, 3, 7});
   ASSERT_TRUE(solved());
   ASSERT_EQ(controller_.answer().proposals.size(), 5u);
@@ -143,7 +143,7 @@ TEST_F(AnnotationControllerTest, LandmarksAreProposedWhereTheyShouldBeOnceThreeA
   EXPECT_EQ(controller_.seenProposals(), 4) << "all are corners that are seen";
 }
 
-TEST_F(AnnotationControllerTest, TheSolvedPoseBecomesTheTruthAndUndoTakesItBack) {
+TEST_F(AnnotationControllerTest, UseAsTruth_SetsTheTruthAndUndoRestoresIt) {
   const Pose before = truth();
   controller_.useAsTruth();
   EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
@@ -156,7 +156,7 @@ TEST_F(AnnotationControllerTest, TheSolvedPoseBecomesTheTruthAndUndoTakesItBack)
   EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
 }
 
-TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithFigures) {
+TEST_F(AnnotationControllerTest, TruthFromAnnotations_KeepsItsCovarianceAndWarnsIfCoarse) {
   QStringList said;
   QObject::connect(&controller_, &AnnotationController::told,
                    [&said](const QString& sentence) { said << sentence; });
@@ -172,23 +172,24 @@ TEST_F(AnnotationControllerTest, ATruthKeepsItsCovarianceAndACoarseOneWarnsWithF
   ASSERT_EQ(said.size(), 2);
   EXPECT_TRUE(said[1].contains(QStringLiteral("Its one sigma is"))) << said[1].toStdString();
   EXPECT_TRUE(said[1].contains(QStringLiteral("required"))) << said[1].toStdString();
-  const sessions::SessionCase& one = *document_.session().findCase(source().id);
-  EXPECT_EQ(one.camera_from_station_truth, controller_.solvedPose()) << "the operator may go on";
-  EXPECT_EQ(one.truth_covariance, controller_.answer().covariance);
-  ASSERT_TRUE(one.truth_covariance);
+  const sessions::SessionCase& session_case = *document_.session().findCase(source().id);
+  EXPECT_EQ(session_case.camera_from_station_truth, controller_.solvedPose())
+      << "the operator may go on";
+  EXPECT_EQ(session_case.truth_covariance, controller_.answer().covariance);
+  ASSERT_TRUE(session_case.truth_covariance);
   ASSERT_TRUE(document_.undo());
   ASSERT_TRUE(document_.undo());
 }
 
-TEST_F(AnnotationControllerTest, MarksBelongToTheirCaseAndSurviveTheProgram) {
+TEST_F(AnnotationControllerTest, Annotations_AreStoredPerCaseAndReloaded) {
   controller_.placeInImage({12.0, 34.0});
   const std::string id = source().id;
   const auto other = document_.session().cases.back()->id;
   ASSERT_NE(other, id);
   open(other);
-  EXPECT_TRUE(controller_.marks().empty());
+  EXPECT_TRUE(controller_.annotations().empty());
   open(id);
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
   const auto killed =
       sessions::SessionDocument::open(document_.file(), sessions::Access::kReadOnly);
   ASSERT_TRUE(killed.recovery());
@@ -197,8 +198,8 @@ TEST_F(AnnotationControllerTest, MarksBelongToTheirCaseAndSurviveTheProgram) {
 
 class StationSnapperTest : public ::testing::Test {
  protected:
-  void takeCase(const ViewState::CasePtr& one) {
-    state_.setCase(one);
+  void takeCase(const ViewState::CasePtr& loaded_case) {
+    state_.setCase(loaded_case);
     ASSERT_TRUE(QTest::qWaitFor([this] { return snapper_.mesh() != nullptr; }, 60000));
   }
 
@@ -242,14 +243,14 @@ TEST_F(StationSnapperTest, AnotherCasesMeshIsNotGivenForThisOne) {
 }
 
 TEST_F(StationSnapperTest, AnEditOfTheMaskLeavesItAlone) {
-  const auto one = test::loadedExample("bc");
-  takeCase(one);
+  const auto value = test::loadedExample("bc");
+  takeCase(value);
   const auto before = snapper_.mesh();
-  sessions::SessionCase edited = one->source;
+  sessions::SessionCase edited = value->source;
   edited.ignore_strokes.emplace_back();
   edited.ignore_strokes.back().kind = sessions::StrokeKind::kSaturation;
   QSignalSpy changes(&snapper_, &StationSnapper::meshChanged);
-  state_.replaceCase(sessions::reloadCase(*one, edited));
+  state_.replaceCase(sessions::reloadCase(*value, edited));
   EXPECT_EQ(snapper_.mesh(), before);
   EXPECT_EQ(changes.count(), 0);
 }

@@ -12,17 +12,17 @@
 #include <QtTest>
 #include <QtWidgets>
 
-#include "sessions/annotation/marks.h"
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/mesh_snap.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/annotation/annotation_controller.h"
+#include "ui/annotation/annotation_tool.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/loupe.h"
-#include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -50,7 +50,7 @@ class AnnotationTest : public ::testing::Test {
   const Pose& truth() const { return *source().camera_from_station_truth; }
   const Camera& camera() const { return source().camera; }
 
-  /// Waits until what is marked now has been solved.
+  /// Waits until what is annotated now has been solved.
   bool solved() {
     return QTest::qWaitFor([this] { return !controller_.stale(); }, kPatience_ms);
   }
@@ -80,31 +80,31 @@ class AnnotationTest : public ::testing::Test {
     return pixel;
   }
 
-  /// Opens landmarks at these places and marks some of them where the true pose shows them.
+  /// Opens landmarks at these places and annotations some of them where the true pose shows them.
   void openLandmarks(const std::vector<Eigen::Vector3d>& places_m,
-                     std::initializer_list<std::size_t> marked) {
+                     std::initializer_list<std::size_t> annotated) {
     std::vector<sessions::Landmark> landmarks;
     for (std::size_t i = 0; i < places_m.size(); ++i)
       landmarks.push_back({"corner " + std::to_string(i), places_m[i], ""});
     sessions::writeLandmarks(folder_.path() / "landmarks.json", landmarks);
     controller_.setLandmarksFile(folder_.path() / "landmarks.json");
-    for (const std::size_t i : marked) {
+    for (const std::size_t i : annotated) {
       controller_.begin(landmarks.at(i));
       EXPECT_EQ(controller_.placeInImage(pixelOf(places_m[i])), landmarks[i].name);
     }
   }
 
-  /// Marks a place exactly where the true pose shows it; its id.
-  std::string markPair(const Eigen::Vector3d& place_m) {
+  /// Annotations a place exactly where the true pose shows it; its id.
+  std::string annotatePair(const Eigen::Vector3d& place_m) {
     const std::string id = controller_.placeInImage(pixelOf(place_m));
     EXPECT_EQ(controller_.placeOnStation(place_m), id);
     return id;
   }
 
-  /// Marks corners exactly where the true pose shows them; their ids.
+  /// Annotations corners exactly where the true pose shows them; their ids.
   std::vector<std::string> markCorners(std::size_t count) {
     std::vector<std::string> ids;
-    for (const Eigen::Vector3d& corner_m : corners_m(count)) ids.push_back(markPair(corner_m));
+    for (const Eigen::Vector3d& corner_m : corners_m(count)) ids.push_back(annotatePair(corner_m));
     return ids;
   }
 
@@ -202,8 +202,8 @@ class ImageAnnotationTest : public AnnotationTest, protected ImagePointer {
   }
 
   ImageView& view() override { return panel_.view(); }
-  MarkTool& tool() { return annotation_.tool(); }
-  const sessions::Marks& marks() const { return controller_.marks(); }
+  AnnotationTool& tool() { return annotation_.tool(); }
+  const sessions::Annotations& annotations() const { return controller_.annotations(); }
 
   TaskRunner tasks_;
   ImagePanel panel_{state_, tasks_};

@@ -34,23 +34,23 @@ class AnnotationPanelTest : public AnnotationTest {
   }
 
   /// Four points of a small square far away: two poses explain them when they are seen with noise.
-  sessions::Marks smallSquare() const {
-    sessions::Marks marks;
+  sessions::Annotations smallSquare() const {
+    sessions::Annotations annotations;
     for (int i = 0; i < 4; ++i) {
       sessions::PointPair point;
       point.id = "s" + std::to_string(i);
       point.point_in_station_m = Eigen::Vector3d((i & 1) * 0.008, (i >> 1) * 0.008, 0.0);
       point.pixel = pixelOf(*point.point_in_station_m) + Eigen::Vector2d(0.2 * (i - 1.5), 0.0);
       point.sigma_px = 0.5;
-      marks.points.push_back(point);
+      annotations.points.push_back(point);
     }
-    return marks;
+    return annotations;
   }
 
   std::unique_ptr<AnnotationPanel> panel_;
 };
 
-TEST_F(AnnotationPanelTest, SaysWhatIsMissingThenWhatWasSolvedAndWhenThatIsOutOfDate) {
+TEST_F(AnnotationPanelTest, Headline_ReportsMissingPairsSolutionAndStaleness) {
   EXPECT_FALSE(headline().isEmpty());
   controller_.placeInImage({100.0, 100.0});
   ASSERT_TRUE(solved());
@@ -61,18 +61,18 @@ TEST_F(AnnotationPanelTest, SaysWhatIsMissingThenWhatWasSolvedAndWhenThatIsOutOf
   EXPECT_TRUE(headline().contains(QStringLiteral("Stale"))) << headline().toStdString();
   EXPECT_FALSE(find<QTextBrowser>("solution").isEnabled());
   ASSERT_TRUE(solved());
-  EXPECT_TRUE(headline().startsWith(QStringLiteral("Solved from 8 marks")));
+  EXPECT_TRUE(headline().startsWith(QStringLiteral("Solved from 8 annotations")));
   for (const char* said : {"normal", "lateral", "rotation", "seed", "truth"})
     EXPECT_TRUE(summary().contains(QString::fromLatin1(said))) << said;
 }
 
-TEST_F(AnnotationPanelTest, TellsTheCamerasOwnSigmaOnlyBesideTheEndEffectors) {
+TEST_F(AnnotationPanelTest, CameraSigma_IsShownOnlyWithAnEndEffector) {
   markCorners(8);
   ASSERT_TRUE(solved());
   const auto htmlWith = [this](const std::optional<Pose>& camera_from_end_effector) {
     AnnotationAnswer answer = controller_.answer();
-    auto solution = std::make_shared<sessions::CaseMarksSolution>(*answer.solution);
-    solution->marks.camera_from_end_effector = camera_from_end_effector;
+    auto solution = std::make_shared<sessions::CaseAnnotationsSolution>(*answer.solution);
+    solution->annotations.camera_from_end_effector = camera_from_end_effector;
     answer.solution = solution;
     return solutionHtml(answer, {{QStringLiteral("seed"), Pose()}});
   };
@@ -80,7 +80,7 @@ TEST_F(AnnotationPanelTest, TellsTheCamerasOwnSigmaOnlyBesideTheEndEffectors) {
   const QString without = htmlWith({});
   EXPECT_FALSE(without.contains(at_camera)) << "said once";
   EXPECT_TRUE(without.contains(QStringLiteral("One sigma at the camera")));
-  EXPECT_TRUE(without.contains(QStringLiteral("The annotated pose is from, at the camera")));
+  EXPECT_TRUE(without.contains(QStringLiteral("Distance of the annotated pose at the camera")));
   Pose camera_from_end_effector;
   camera_from_end_effector.translation_m = {0.0, 0.1, 0.2};
   const QString with = htmlWith(camera_from_end_effector);
@@ -97,36 +97,36 @@ TEST_F(AnnotationPanelTest, GeometryIsWeakWhereTheSigmaExceedsTheRequirement) {
   controller_.finishMove();
   ASSERT_TRUE(solved());
   EXPECT_TRUE(meter().contains(QStringLiteral("times the"))) << meter().toStdString();
-  EXPECT_FALSE(meter().contains(QStringLiteral("nothing weak")));
+  EXPECT_FALSE(meter().contains(QStringLiteral("no weakness")));
 }
 
 TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {
   const auto ids = markCorners(5);
-  clickCell(2, MarksModel::kName);
+  clickCell(2, AnnotationsModel::kName);
   EXPECT_EQ(controller_.selected(), ids[2]);
   QTest::keyClick(panel_.get(), Qt::Key_Space);
-  EXPECT_FALSE(controller_.marks().points[2].enabled);
+  EXPECT_FALSE(controller_.annotations().points[2].enabled);
   EXPECT_EQ(document_.undoText(), QStringLiteral("Turn p3 off"));
   QTest::keyClick(panel_.get(), Qt::Key_Delete);
-  EXPECT_EQ(controller_.marks().points.size(), 4u);
+  EXPECT_EQ(controller_.annotations().points.size(), 4u);
   ASSERT_TRUE(document_.undo());
   ASSERT_TRUE(document_.undo());
-  EXPECT_TRUE(controller_.marks().points[2].enabled);
+  EXPECT_TRUE(controller_.annotations().points[2].enabled);
   controller_.select(ids[4]);
   EXPECT_EQ(panel_->table().currentIndex().row(), 4) << "the table follows the other views";
   QAbstractItemModel& model = *panel_->table().model();
-  ASSERT_TRUE(model.setData(model.index(1, MarksModel::kComment), QStringLiteral("rim")));
-  EXPECT_EQ(controller_.marks().points[1].comment, "rim");
+  ASSERT_TRUE(model.setData(model.index(1, AnnotationsModel::kComment), QStringLiteral("rim")));
+  EXPECT_EQ(controller_.annotations().points[1].comment, "rim");
 }
 
 /// Arrows move through the table until then.
-TEST_F(AnnotationPanelTest, EnterOnARowGoesToItsMarkInTheImage) {
+TEST_F(AnnotationPanelTest, EnterOnARowGoesToItsAnnotationInTheImage) {
   const auto ids = markCorners(5);
   controller_.setMode(PlaceMode::kOff);
   bool requested = false;
   QObject::connect(panel_.get(), &AnnotationPanel::imageRequested, panel_.get(),
                    [&requested] { requested = true; });
-  clickCell(2, MarksModel::kName);
+  clickCell(2, AnnotationsModel::kName);
   QTest::keyClick(&panel_->table(), Qt::Key_Return);
   EXPECT_TRUE(requested);
   EXPECT_EQ(controller_.mode(), PlaceMode::kPoint);
@@ -156,17 +156,17 @@ TEST_F(AnnotationPanelTest, ButtonsSetModeWeightsAndTruth) {
             controller_.solvedPose());
 }
 
-TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
+TEST_F(AnnotationPanelTest, CoplanarAnnotations_ShowBothPosesSideBySide) {
   StationSnapper snapper(state_);
   auto* ambiguity = new AmbiguityView(controller_, state_, snapper);
   panel_->addBeside(ambiguity);
   EXPECT_FALSE(ambiguity->isVisibleTo(panel_.get()));
-  controller_.setMarks(smallSquare(), QStringLiteral("Import"));
+  controller_.setAnnotations(smallSquare(), QStringLiteral("Import"));
   ASSERT_TRUE(solved());
   ASSERT_TRUE(controller_.solution()->ambiguous_camera_from_station())
       << "the case is not ambiguous";
   EXPECT_TRUE(ambiguity->isVisibleTo(panel_.get()));
-  EXPECT_TRUE(summary().contains(QStringLiteral("Two poses explain")));
+  EXPECT_TRUE(summary().contains(QStringLiteral("fit two poses")));
   const auto edges = [this](const char* view) -> const std::vector<Mark>& {
     return find<ImageView>(view).layer(LayerId::kAnnotationBand).marks;
   };
@@ -180,7 +180,7 @@ TEST_F(AnnotationPanelTest, BothPosesOfAPlaneStandSideBySide) {
   EXPECT_EQ(asked, *controller_.solution()->ambiguous_camera_from_station());
 }
 
-TEST_F(AnnotationPanelTest, CasesThatAreLinkedAreSolvedAsOne) {
+TEST_F(AnnotationPanelTest, LinkedCases_AreSolvedTogether) {
   const std::string first = source().id;
   sessions::SessionCase second = source();
   second.id = "second image";
@@ -198,19 +198,19 @@ TEST_F(AnnotationPanelTest, CasesThatAreLinkedAreSolvedAsOne) {
   link->trigger();
   EXPECT_EQ(sessions::casesOfRig(document_.session(), first),
             std::vector<std::string>{"second image"});
-  // Three marks in either image: one alone would not do without its seed.
+  // Three annotations in either image: one alone would not do without its seed.
   const auto places_m = corners_m(6);
-  for (std::size_t i = 0; i < 3; ++i) markPair(places_m[i]);
+  for (std::size_t i = 0; i < 3; ++i) annotatePair(places_m[i]);
   open("second image");
-  for (std::size_t i = 3; i < 6; ++i) markPair(places_m[i]);
+  for (std::size_t i = 3; i < 6; ++i) annotatePair(places_m[i]);
   ASSERT_TRUE(solved());
   ASSERT_TRUE(controller_.solvedPose());
-  EXPECT_EQ(controller_.solution()->result.solution->marks.size(), 6u);
+  EXPECT_EQ(controller_.solution()->result.solution->annotations.size(), 6u);
   EXPECT_LT((controller_.solvedPose()->translation_m - truth().translation_m).norm(), 1e-6);
   EXPECT_TRUE(summary().contains(QStringLiteral("Cameras solved together")));
   find<QCheckBox>("together").click();
   ASSERT_TRUE(solved());
-  EXPECT_EQ(controller_.solution()->marks.views.size(), 1u);
+  EXPECT_EQ(controller_.solution()->annotations.views.size(), 1u);
   QAction* unlink = action(QStringLiteral("out of this rig"));
   ASSERT_NE(unlink, nullptr);
   unlink->trigger();

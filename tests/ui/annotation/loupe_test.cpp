@@ -108,7 +108,7 @@ TEST_F(LoupeTest, FollowsThePointerInTheCornerThatItIsNotIn) {
   EXPECT_FALSE(loupe().isVisible());
 }
 
-TEST_F(LoupeTest, IsSwitchedOffAndIsNotThereWhereNobodyAnnotates) {
+TEST_F(LoupeTest, Loupe_SwitchedOffOrOutsideAnnotationMode_IsHidden) {
   moveTo({500.0, 500.0});
   ASSERT_TRUE(loupe().isVisible());
   loupe().setSwitchedOn(false);
@@ -141,18 +141,19 @@ TEST_F(LoupeTest, CtrlAndTheWheelMagnifyItWithinBoundsAndTheViewStays) {
       << "never less than the view itself";
 }
 
-/// Light on the loupe where the mark is, at its place to half a screen pixel.
-TEST_F(LoupeTest, DrawsMarksAtTheirPlace) {
+/// Light on the loupe where the annotation is, at its place to half a screen pixel.
+TEST_F(LoupeTest, DrawsAnnotationsAtTheirPlace) {
   paintImage([](int, int) { return 0.0; });
   const Eigen::Vector2d place(500.37, 480.81);
   zoom(place, 3.7);
   click(place);
   controller_.select({});
-  const Eigen::Vector2d marked = *marks().points[0].pixel;
+  const Eigen::Vector2d annotated = *annotations().points[0].pixel;
   moveTo(place + Eigen::Vector2d(4.0, 3.0));
   const QImage picture = loupe().grab().toImage();
   const double ratio = picture.devicePixelRatio();
-  const QPointF expected = ratio * loupe().transform().toWidget(QPointF(marked.x(), marked.y()));
+  const QPointF expected =
+      ratio * loupe().transform().toWidget(QPointF(annotated.x(), annotated.y()));
   QPointF sum;
   double weight = 0.0;
   for (int y = 0; y < picture.height(); ++y)

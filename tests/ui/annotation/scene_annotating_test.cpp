@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks placed with real mouse events in the scene, without OpenGL. Runs at a scaling of 1, and
-// again with QT_SCALE_FACTOR=1.5.
+// Annotations placed with real mouse events in the scene, without OpenGL. Runs at a scaling of 1,
+// and again with QT_SCALE_FACTOR=1.5.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,18 +24,18 @@ const Eigen::Vector3d kCorner_m = Eigen::Vector3f(0.1F, -0.1F, 0.0F).cast<double
 const Eigen::Vector3d kHiddenCorner_m = Eigen::Vector3f(-0.1F, 0.1F, -0.04F).cast<double>();
 const Eigen::Vector3d kCircle_m(0.03, 0.02, 0.02);
 
-/// A box with a cylinder on it (`BoxScene`) as a case, and a scene beside the controller.
+/// A box with a cylinder on it (`BoxScene`) as a case, and a scene next to the controller.
 class SceneAnnotatingTest : public AnnotationTest {
  protected:
   void SetUp() override {
     AnnotationTest::SetUp();
-    auto one = std::make_shared<sessions::LoadedCase>();
-    one->source = state_.currentCase()->source;
-    one->source.parts.clear();  // of another mesh
-    one->image.width = one->image.height = 64;
-    one->image.pixels.assign(64 * 64, 90);
-    one->scene = Box().scene();
-    state_.setCase(one);
+    auto value = std::make_shared<sessions::LoadedCase>();
+    value->source = state_.currentCase()->source;
+    value->source.parts.clear();  // of another mesh
+    value->image.width = value->image.height = 64;
+    value->image.pixels.assign(64 * 64, 90);
+    value->scene = Box().scene();
+    state_.setCase(value);
     view_.setAnnotation(controller_, snapper_);
     view_.resize(700, 620);
     view_.show();
@@ -55,7 +55,7 @@ class SceneAnnotatingTest : public AnnotationTest {
     const QPointF at = ratio() * (pixel + QPointF(0.5, 0.5));
     return {static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
   }
-  /// Pixel of the canvas at that screen pixel's centre: what somebody points at there.
+  /// Pixel of the canvas at that screen pixel's centre: what the operator points at.
   QPointF pointedAt(const QPoint& screen_pixel) const {
     return (QPointF(screen_pixel) + QPointF(0.5, 0.5)) / ratio() - QPointF(0.5, 0.5);
   }
@@ -78,7 +78,7 @@ class SceneAnnotatingTest : public AnnotationTest {
     return view_.annotator()->aim() ? view_.annotator()->aim()->text : QString();
   }
   Eigen::Vector3d lastPlace_m() const {
-    const auto& points = controller_.marks().points;
+    const auto& points = controller_.annotations().points;
     if (points.empty() || !points.back().point_in_station_m) return {9.0, 9.0, 9.0};
     return *points.back().point_in_station_m;
   }
@@ -112,7 +112,7 @@ TEST_P(SceneAnnotatingFrom, AClickNearACornerGivesTheVerticesOwnDigits) {
     click(pixelOf(kCorner_m) + off);
     EXPECT_EQ(lastPlace_m(), kCorner_m);
   }
-  EXPECT_EQ(controller_.marks().points.size(), 3u);
+  EXPECT_EQ(controller_.annotations().points.size(), 3u);
 }
 
 TEST_P(SceneAnnotatingFrom, AClickNearAnEdgeGivesItsNearestPlace) {
@@ -153,15 +153,15 @@ TEST_P(SceneAnnotatingFrom, AltTakesTheSurfaceInstead) {
   EXPECT_LT((lastPlace_m() - onLevel(at, 0.0)).norm(), 1e-7);
 }
 
-TEST_P(SceneAnnotatingFrom, AnEdgeIsMarkedInLineMode) {
+TEST_P(SceneAnnotatingFrom, AnEdgeIsAnnotatedInLineMode) {
   controller_.setMode(PlaceMode::kLine);
   const Eigen::Vector3d middle_m(0.1, 0.03, 0.0);
   hover(pixelOf(middle_m) + QPointF(4.0, 2.0));
   ASSERT_TRUE(view_.annotator()->aim());
   EXPECT_TRUE(view_.annotator()->aim()->edge);
   click(pixelOf(middle_m) + QPointF(4.0, 2.0));
-  ASSERT_EQ(controller_.marks().lines.size(), 1u);
-  const sessions::ModelEdge edge = *controller_.marks().lines[0].edge;
+  ASSERT_EQ(controller_.annotations().lines.size(), 1u);
+  const sessions::ModelEdge edge = *controller_.annotations().lines[0].edge;
   for (const Eigen::Vector3d& end_m : {edge.start_in_station_m, edge.end_in_station_m}) {
     EXPECT_EQ(end_m.x(), kCorner_m.x());
     EXPECT_EQ(std::abs(end_m.y()), std::abs(kCorner_m.y()));
@@ -177,16 +177,16 @@ TEST_F(SceneAnnotatingTest, WithoutAnEdgeALineIsRefusedWithAReason) {
   controller_.setMode(PlaceMode::kLine);
   QSignalSpy told(&controller_, &AnnotationController::told);
   click(pixelOf({-0.05, -0.03, 0.0}));
-  EXPECT_TRUE(controller_.marks().lines.empty());
+  EXPECT_TRUE(controller_.annotations().lines.empty());
   ASSERT_EQ(told.count(), 1);
   EXPECT_TRUE(told[0][0].toString().contains(QStringLiteral("edge")));
   controller_.setMode(PlaceMode::kPoint);
-  click({3.0, 3.0});  // beside the station
+  click({3.0, 3.0});  // off the station
   EXPECT_EQ(told.count(), 2);
-  EXPECT_TRUE(controller_.marks().empty());
+  EXPECT_TRUE(controller_.annotations().empty());
 }
 
-TEST_F(SceneAnnotatingTest, TabGoesOnToOtherThingsAndComesBack) {
+TEST_F(SceneAnnotatingTest, Tab_CyclesThroughSnapTargets) {
   controller_.setMode(PlaceMode::kPoint);
   hover(pixelOf(kCorner_m) + QPointF(2.0, 1.0));
   ASSERT_EQ(aimText(), QStringLiteral("corner"));
@@ -208,21 +208,21 @@ TEST_F(SceneAnnotatingTest, APairIsCompletedFromTheSceneInEitherOrder) {
   const std::string image_first = controller_.placeInImage({10.0, 12.0});
   EXPECT_TRUE(view_.annotator()->nextStep().contains(QStringLiteral("p1")));
   click(pixelOf(kCorner_m));
-  ASSERT_EQ(controller_.marks().points.size(), 1u);
-  EXPECT_EQ(controller_.marks().points[0].id, image_first);
-  EXPECT_TRUE(controller_.marks().points[0].complete());
+  ASSERT_EQ(controller_.annotations().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points[0].id, image_first);
+  EXPECT_TRUE(controller_.annotations().points[0].complete());
   click(pixelOf(kCircle_m));
-  ASSERT_EQ(controller_.marks().points.size(), 2u);
-  EXPECT_FALSE(controller_.marks().points[1].complete());
-  const std::string scene_first = controller_.marks().points[1].id;
+  ASSERT_EQ(controller_.annotations().points.size(), 2u);
+  EXPECT_FALSE(controller_.annotations().points[1].complete());
+  const std::string scene_first = controller_.annotations().points[1].id;
   EXPECT_EQ(controller_.placeInImage({20.0, 22.0}), scene_first);
-  EXPECT_TRUE(controller_.marks().points[1].complete());
+  EXPECT_TRUE(controller_.annotations().points[1].complete());
   ASSERT_TRUE(document_.undo());
   ASSERT_TRUE(document_.undo());
-  EXPECT_EQ(controller_.marks().points.size(), 1u);
+  EXPECT_EQ(controller_.annotations().points.size(), 1u);
 }
 
-TEST_F(SceneAnnotatingTest, AClickOnAMarkChoosesItUnlessSomebodyPlaces) {
+TEST_F(SceneAnnotatingTest, ClickOnAnAnnotation_OutsidePlacingMode_SelectsIt) {
   const std::string corner = controller_.placeOnStation(kCorner_m);
   controller_.select({});
   const std::string hidden = controller_.placeOnStation(kHiddenCorner_m);
@@ -237,11 +237,11 @@ TEST_F(SceneAnnotatingTest, AClickOnAMarkChoosesItUnlessSomebodyPlaces) {
   EXPECT_EQ(controller_.selected(), edge);
   click(pixelOf(kHiddenCorner_m));
   EXPECT_NE(controller_.selected(), hidden) << "a face hides it";
-  const std::size_t before = controller_.marks().points.size();
+  const std::size_t before = controller_.annotations().points.size();
   controller_.setMode(PlaceMode::kPoint);
   controller_.select({});
   click(pixelOf(kCorner_m));
-  EXPECT_EQ(controller_.marks().points.size(), before + 1);
+  EXPECT_EQ(controller_.annotations().points.size(), before + 1);
 }
 
 TEST_F(SceneAnnotatingTest, EscapeDropsTheChoiceThenTheMode) {
@@ -255,7 +255,7 @@ TEST_F(SceneAnnotatingTest, EscapeDropsTheChoiceThenTheMode) {
   EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
 }
 
-TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndMarksNothing) {
+TEST_F(SceneAnnotatingTest, Drag_TurnsTheViewOnly) {
   controller_.setMode(PlaceMode::kPoint);
   const double azimuth_rad = view_.navigation().orbit().azimuth_rad();
   const QPoint from = screenPixel(pixelOf(kCorner_m));
@@ -265,10 +265,10 @@ TEST_F(SceneAnnotatingTest, DraggingTurnsTheViewAndMarksNothing) {
   send(QEvent::MouseButtonRelease, from + QPoint(80, 0), Qt::LeftButton, Qt::NoButton,
        Qt::NoModifier);
   EXPECT_NE(view_.navigation().orbit().azimuth_rad(), azimuth_rad);
-  EXPECT_TRUE(controller_.marks().empty());
+  EXPECT_TRUE(controller_.annotations().empty());
 }
 
-TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned) {
+TEST_F(SceneAnnotatingTest, AnnotationMode_EnlargesTheStationUntilTheViewIsTurned) {
   const double all_m = view_.navigation().orbit().distance_m();
   controller_.setMode(PlaceMode::kPoint);
   EXPECT_LT(view_.navigation().orbit().distance_m(), all_m) << "without the cameras";
@@ -283,10 +283,10 @@ TEST_F(SceneAnnotatingTest, WhoAnnotatesSeesTheStationLargeUntilTheViewIsTurned)
       << figures.toStdString();
 }
 
-TEST_F(SceneAnnotatingTest, TheLoupeShowsThePlaceMagnifiedWhileSomebodyPlaces) {
+TEST_F(SceneAnnotatingTest, Loupe_InPlacingMode_ShowsTheMagnifiedPoint) {
   SceneLoupe& loupe = view_.annotator()->loupe();
   hover(pixelOf(kCorner_m));
-  EXPECT_FALSE(loupe.isVisible()) << "nobody places";
+  EXPECT_FALSE(loupe.isVisible()) << "placing mode is off";
   controller_.setMode(PlaceMode::kPoint);
   hover(pixelOf(kCorner_m));
   ASSERT_TRUE(loupe.isVisible());
@@ -330,11 +330,11 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
   const std::string other = session.cases.back()->id;
   ASSERT_NE(own, other);
   for (const std::string& id : {own, other}) {
-    sessions::SessionCase one = *session.findCase(id);
-    one.rig = sessions::Rig{"rig", id == own ? Pose() : other_from_own};
-    session = withCase(session, one);
+    sessions::SessionCase session_case = *session.findCase(id);
+    session_case.rig = sessions::Rig{"rig", id == own ? Pose() : other_from_own};
+    session = withCase(session, session_case);
   }
-  sessions::Marks marks;  // of the other camera: one place, exactly where it is seen
+  sessions::Annotations annotations;  // of the other camera: one place, exactly where it is seen
   sessions::PointPair point;
   point.id = "p1";
   point.point_in_station_m = corners_m(1).front();
@@ -343,8 +343,8 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
   ASSERT_TRUE(project(session.findCase(other)->camera,
                       other_from_station * *point.point_in_station_m, pixel));
   point.pixel = pixel;
-  marks.points = {point};
-  session = sessions::withAnnotation(session, other, marks);
+  annotations.points = {point};
+  session = sessions::withAnnotations(session, other, annotations);
   ASSERT_TRUE(document_.edit(session, QStringLiteral("Rig")));
   open(own);
   ASSERT_EQ(markCorners(8).size(), 8u);
@@ -362,7 +362,7 @@ TEST_F(SceneOfARigTest, ShowsTheOtherCamerasWhereTheSolvedRigPutsThem) {
   EXPECT_EQ(shown, 1);
 }
 
-TEST_F(SceneAnnotatingTest, MarksAreDrawnByWhatTheyAre) {
+TEST_F(SceneAnnotatingTest, Annotations_AreDrawnByTheirState) {
   const auto drawn = [this] { return view_.grab().toImage(); };
   const auto differing = [](const QImage& a, const QImage& b) {
     int count = 0;
@@ -380,7 +380,7 @@ TEST_F(SceneAnnotatingTest, MarksAreDrawnByWhatTheyAre) {
   controller_.select({});
   pictures.push_back(drawn());  // complete
   for (const bool lock : {true, false}) {
-    sessions::PointPair point = controller_.marks().points[0];
+    sessions::PointPair point = controller_.annotations().points[0];
     point.locked = lock;
     point.enabled = lock;
     ASSERT_TRUE(controller_.replacePoint(id, point, QStringLiteral("Change")));

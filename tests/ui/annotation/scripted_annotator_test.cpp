@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Somebody who annotates with care, in the whole window: clicks on the image where corners of the
+// A careful annotator in the whole window: clicks on the image where corners of the
 // station are truly seen, give or take what a hand and an eye miss, and Ctrl+clicks on the drawn
 // edges. Run at a screen scaling of one and of one and a half.
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@
 #include <QtTest/QTest>
 #include <QtWidgets>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/evaluation/pose_error.h"
 #include "tests/support/random_pose.h"
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "tests/ui/window_test.h"
+#include "ui/annotation/annotation_tool.h"
 #include "ui/annotation/image_annotation.h"
-#include "ui/annotation/mark_tool.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/window_docks.h"
@@ -39,7 +39,7 @@ class ScriptedAnnotator : public test::WindowTest,
 
   void openCase(const fs::path& dataset, const std::string& station) {
     sessions::Session session = sessions::makeSession(dataset);
-    session.cases.eraseIf([&](const auto& one) { return one->station != station; });
+    session.cases.eraseIf([&](const auto& item) { return item->station != station; });
     ASSERT_FALSE(session.cases.empty());
     session.cases.resize(1);
     ASSERT_TRUE(window_.document().create(file_, session));
@@ -120,7 +120,7 @@ class ScriptedAnnotator : public test::WindowTest,
         image();
       }
       ASSERT_TRUE(wait([&] { return !window_.annotation().stale(); }));
-      const auto& points = window_.annotation().marks().points;
+      const auto& points = window_.annotation().annotations().points;
       ASSERT_EQ(points.size(), i + 1);
       ASSERT_TRUE(points.back().complete());
       EXPECT_LT((*points.back().point_in_station_m - corners_m[i]).norm(), 1e-9);
@@ -130,12 +130,12 @@ class ScriptedAnnotator : public test::WindowTest,
   sessions::PoseError error() {
     const std::optional<Pose> solved = window_.annotation().solvedPose();
     EXPECT_TRUE(solved);
-    sessions::PoseError made =
+    sessions::PoseError pose_error =
         sessions::poseError(truth(), solved.value_or(Pose()), source().camera_from_end_effector);
     const auto vertices = sessions::matchedVertices(window_.state().currentCase()->scene.view());
-    made.projection_px =
+    pose_error.projection_px =
         sessions::projectionError(source().camera, truth(), solved.value_or(Pose()), vertices);
-    return made;
+    return pose_error;
   }
 
   /// A photograph of BORESIGHT_DATA is solved to its dataset's tolerance.
@@ -146,21 +146,21 @@ class ScriptedAnnotator : public test::WindowTest,
       GTEST_SKIP() << "BORESIGHT_DATA names no folder with photographs";
     openCase(dataset, station);
     annotate(chooseCorners(10));
-    ASSERT_GE(window_.annotation().marks().points.size(), 5u);
+    ASSERT_GE(window_.annotation().annotations().points.size(), 5u);
     const sessions::PoseError off = error();
     RecordProperty("projection_px", std::to_string(*off.projection_px));
     ASSERT_TRUE(source().requirement);
     EXPECT_TRUE(meetsRequirement(off, *source().requirement)) << *off.projection_px << " px";
   }
 
-  MarkTool* tool_ = nullptr;
+  AnnotationTool* tool_ = nullptr;
   StationSnapper* snapper_ = nullptr;
 };
 
 TEST_P(ScriptedAnnotator, FindsTheTruePoseOfTheBitCarousel) {
   openCase(test::exampleFolder() / "dataset.json", "bc");
   annotate(chooseCorners(10));
-  ASSERT_EQ(window_.annotation().marks().points.size(), 10u);
+  ASSERT_EQ(window_.annotation().annotations().points.size(), 10u);
   const sessions::PoseError off = error();
   const std::string text = "normal " + std::to_string(off.normal_mm) + " mm, lateral " +
                            std::to_string(off.lateral_mm) + " mm, rotation " +

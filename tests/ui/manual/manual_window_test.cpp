@@ -113,16 +113,16 @@ TEST_F(ManualWindowTest, TablesHaveLines) {
   EXPECT_EQ(tables, 1);
 }
 
-TEST(ManualWindow, ThatHasNoManualSaysSo) {
+TEST(ManualWindow, WithoutPages_ReportsTheMissingManual) {
   ManualWindow window{QString()};
   window.showPage(QStringLiteral("index.md"));
-  EXPECT_TRUE(window.browser().toPlainText().startsWith(QStringLiteral("The manual is not there")));
+  EXPECT_TRUE(window.browser().toPlainText().startsWith(QStringLiteral("The manual is missing")));
   auto* find = window.findChild<QLineEdit*>(QStringLiteral("manualFind"));
   find->setText(QStringLiteral("x"));
   QTest::keyClick(find, Qt::Key_Return);
 }
 
-TEST(Manual, LiesWhereTheProgramLooks) {
+TEST(Manual, Folder_IsFoundByTheProgram) {
   ASSERT_FALSE(manualFolder().isEmpty());
   const auto pages = manualPages(manualFolder());
   EXPECT_GT(pages.size(), 20);
@@ -164,7 +164,7 @@ TEST(Manual, OpensAtThePanelThatHasTheFocus) {
   EXPECT_EQ(help->manual()->browser().textCursor().block().text(), QStringLiteral("Configuration"));
 }
 
-TEST(Manual, IsOneKeyAwayFromTheSheetOfKeys) {
+TEST(Manual, KeySheet_OpensTheManual) {
   QStandardPaths::setTestModeEnabled(true);
   MainWindow window;
   ShortcutSheet sheet(window);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ui/models/marks_model.h"
+#include "ui/models/annotations_model.h"
 #include "ui/models/text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/hypotheses_panel.h"
@@ -27,7 +27,7 @@ TEST(RowsModels, EveryColumnSaysWhatItMeans) {
   models.push_back(std::make_unique<DifferencesModel>());
   models.push_back(std::make_unique<IterationsModel>());
   models.push_back(std::make_unique<OptionsModel>());
-  models.push_back(std::make_unique<MarksModel>());
+  models.push_back(std::make_unique<AnnotationsModel>());
   models.push_back(std::make_unique<QueueModel>());
   models.push_back(std::make_unique<TemplatesModel>());
   for (const auto& model : models) {

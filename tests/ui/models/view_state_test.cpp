@@ -43,7 +43,7 @@ TEST_F(ViewStateTest, EachChangeIsOneSignal) {
   EXPECT_EQ(told(), Told{ViewChange::kAlternative});
 }
 
-TEST_F(ViewStateTest, WhatStaysIsNotTold) {
+TEST_F(ViewStateTest, UnchangedState_SendsNoSignal) {
   state_.setCase(test::loadedExample("os"));
   state_.setSnapshot(test::exampleRun());
   told();

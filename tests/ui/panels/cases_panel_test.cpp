@@ -57,7 +57,7 @@ TEST_F(CasesPanelTest, ShowsTheOpenCaseWithoutAskingForIt) {
   EXPECT_EQ(opened.count(), 0);
 }
 
-TEST_F(CasesPanelTest, RunsWhatIsListed) {
+TEST_F(CasesPanelTest, RunAll_RunsTheListedCases) {
   QTest::keyClicks(panel_.findChild<QLineEdit*>(), QStringLiteral("os"));
   QSignalSpy ran(&panel_, &CasesPanel::runAllRequested);
   QTest::mouseClick(button("runAll"), Qt::LeftButton);
@@ -84,7 +84,7 @@ TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
   panel_.setRows(rows);
   EXPECT_NE(table_->viewport()->grab(QRect(0, 0, right(CasesModel::kCase), 44)).toImage(),
             annotated.copy(0, 0, right(CasesModel::kCase), 44))
-      << "the state is told beside the name";
+      << "the state is shown next to the name";
 }
 
 TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList) {
@@ -116,7 +116,7 @@ TEST_F(CasesPanelTest, TheWholeStateIsSeenInTheNarrowestList) {
   EXPECT_GE(table_->columnWidth(CasesModel::kCase), needed);
 }
 
-TEST_F(CasesPanelTest, AWiderListGivesALongNameItsRoom) {
+TEST_F(CasesPanelTest, WiderList_ShowsMoreOfALongName) {
   std::vector<CaseRow> rows(1);
   rows[0].id = QStringLiteral("a_dataset_of_a_long_name-s1");
   panel_.resize(252, 400);
@@ -195,14 +195,14 @@ TEST_F(CasesModelTest, SaysThatARunIsStale) {
                   .contains(QStringLiteral("Stale: the inputs or options have changed")));
 }
 
-TEST_F(CasesModelTest, EveryStateHasASignOfItsOwn) {
+TEST_F(CasesModelTest, States_HaveDistinctSigns) {
   QSet<QChar> signs;
   for (int i = 0; i < kCaseStateCount; ++i)
     signs.insert(CasesModel::stateText(static_cast<CaseState>(i)).at(0));
   EXPECT_EQ(signs.size(), kCaseStateCount);
 }
 
-TEST_F(CasesModelTest, ChangesInPlaceWhileTheCasesStay) {
+TEST_F(CasesModelTest, EqualCases_UpdateRowsInPlace) {
   QSignalSpy resets(&model_, &QAbstractItemModel::modelReset);
   QSignalSpy changes(&model_, &QAbstractItemModel::dataChanged);
   std::vector<CaseRow> rows = someRows();
@@ -215,7 +215,7 @@ TEST_F(CasesModelTest, ChangesInPlaceWhileTheCasesStay) {
   EXPECT_EQ(resets.count(), 1);
 }
 
-TEST_F(CasesModelTest, TheUnknownIsLastWhereverItCameFrom) {
+TEST_F(CasesModelTest, UnknownValues_SortLast) {
   model_.setRows({rowNamed("a", CaseState::kNew), rowNamed("b", CaseState::kConverged, 10.0),
                   rowNamed("c", CaseState::kNew), rowNamed("d", CaseState::kConverged, 9.0),
                   rowNamed("e", CaseState::kConverged, 11.0)});

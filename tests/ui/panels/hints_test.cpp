@@ -60,7 +60,7 @@ TEST(Banner, CountsTheWarningsThatItDoesNotShow) {
       {QStringLiteral("a"), QStringLiteral("b"), QStringLiteral("c"), QStringLiteral("d")});
   EXPECT_EQ(banner.text(), QStringLiteral("a\nb\nand 2 more"));
   EXPECT_EQ(banner.findChild<QLabel*>()->text(), QString::fromUtf8("⚠"))
-      << "a sign besides the colour";
+      << "a sign in addition to the colour";
   QSignalSpy asked(&banner, &Banner::actionRequested);
   QTest::mouseClick(banner.findChild<QToolButton*>(), Qt::LeftButton);
   EXPECT_EQ(asked.count(), 1);

@@ -42,7 +42,7 @@ TEST_F(InputSheetPanelTest, RedFlagsComeFirstInPlainSentences) {
   EXPECT_TRUE(panel_.text().startsWith(flags()));
 }
 
-TEST_F(InputSheetPanelTest, ASheetsButtonAsksForWhatNoImageTells) {
+TEST_F(InputSheetPanelTest, UncertaintyButton_OpensTheDialog) {
   auto* button = panel_.findChild<QPushButton*>(QStringLiteral("inputSigmas"));
   EXPECT_FALSE(button->isEnabled());
   panel_.setSheet(someSheet());
@@ -52,11 +52,11 @@ TEST_F(InputSheetPanelTest, ASheetsButtonAsksForWhatNoImageTells) {
   EXPECT_EQ(asked, 1);
 }
 
-TEST(InputSigmasDialogTest, ShowsWhatIsAssumedAndGivesWhatIsStated) {
-  sessions::SessionCase one;
-  one.camera.width = one.camera.height = 2048;
-  one.mesh_scale_sigma = 0.001;
-  InputSigmasDialog dialog(one, nullptr);
+TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
+  sessions::SessionCase session_case;
+  session_case.camera.width = session_case.camera.height = 2048;
+  session_case.mesh_scale_sigma = 0.001;
+  InputSigmasDialog dialog(session_case, nullptr);
   EXPECT_EQ(dialog.meshScaleSigma(), 0.001);
   EXPECT_FALSE(dialog.calibrationSigma());
   auto* focal = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"));

@@ -114,7 +114,7 @@ TEST_F(IterationsPanelTest, ShowsNothingOfACaseThatHasNotRun) {
   view_.setCase(nullptr);
   EXPECT_EQ(panel_.model().rowCount(), 0);
   EXPECT_FALSE(child<QSlider>("iterations")->isEnabled());
-  EXPECT_EQ(child<Banner>("runStatus")->text(), QStringLiteral("Nothing has run yet."));
+  EXPECT_EQ(child<Banner>("runStatus")->text(), QStringLiteral("No run yet."));
   for (int i = 0; i < RunScrubber::kStepCount; ++i)
     EXPECT_FALSE(panel_.scrubber().action(static_cast<RunScrubber::Step>(i))->isEnabled());
 }
@@ -123,8 +123,9 @@ TEST_F(IterationsPanelTest, SaysWhyARunFailed) {
   auto failed = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
   failed->status = LocalizationStatus::kIterationLimit;
   view_.setSnapshot(failed);
-  EXPECT_TRUE(
-      child<Banner>("runStatus")->text().startsWith(QStringLiteral("Did not converge. After")));
+  EXPECT_TRUE(child<Banner>("runStatus")
+                  ->text()
+                  .startsWith(QStringLiteral("Did not converge. The iteration limit")));
 }
 
 TEST(StageSteps, WalkThroughARunAndBackAgain) {
@@ -150,11 +151,11 @@ TEST(StageSteps, WalkThroughARunAndBackAgain) {
 }
 
 TEST(StageSteps, EndWhereAnIterationUnderWayIs) {
-  sessions::IterationTrace one = *test::exampleRun()->iterations.front();
-  one.reached = Stage::kTemplates;
-  EXPECT_EQ(stagesOf(one), (std::vector<Stage>{Stage::kRender, Stage::kTemplates}));
-  EXPECT_EQ(shownStage(stagesOf(one), Stage::kFinished), 1);
-  EXPECT_EQ(shownStage(stagesOf(one), Stage::kRender), 0);
+  sessions::IterationTrace iteration = *test::exampleRun()->iterations.front();
+  iteration.reached = Stage::kTemplates;
+  EXPECT_EQ(stagesOf(iteration), (std::vector<Stage>{Stage::kRender, Stage::kTemplates}));
+  EXPECT_EQ(shownStage(stagesOf(iteration), Stage::kFinished), 1);
+  EXPECT_EQ(shownStage(stagesOf(iteration), Stage::kRender), 0);
 }
 
 class IterationsModelTest : public testing::Test {
@@ -177,24 +178,24 @@ TEST_F(IterationsModelTest, HasARowForTheSeedAndOnePerIteration) {
 TEST_F(IterationsModelTest, ShowsTheFiguresOfTheRun) {
   model_.setSnapshot(run_);
   for (std::size_t i = 0; i < run_->iterations.size(); ++i) {
-    const sessions::IterationTrace& one = *run_->iterations[i];
+    const sessions::IterationTrace& iteration = *run_->iterations[i];
     const int index = static_cast<int>(i);
     EXPECT_EQ(model_.number(index, IterationsModel::kTranslation_mm),
-              1e3 * one.correction_translation_m);
+              1e3 * iteration.correction_translation_m);
     EXPECT_DOUBLE_EQ(model_.number(index, IterationsModel::kRotation_deg),
-                     one.correction_rotation_rad / kDegree_rad);
-    EXPECT_EQ(model_.number(index, IterationsModel::kInliers), one.support());
-    EXPECT_EQ(model_.number(index, IterationsModel::kRms_px), one.rms_px());
-    const bool matches = one.kind == IterationKind::kMatch;
+                     iteration.correction_rotation_rad / kDegree_rad);
+    EXPECT_EQ(model_.number(index, IterationsModel::kInliers), iteration.support());
+    EXPECT_EQ(model_.number(index, IterationsModel::kRms_px), iteration.rms_px());
+    const bool matches = iteration.kind == IterationKind::kMatch;
     EXPECT_EQ(text(index + 1, IterationsModel::kKind),
               matches ? QStringLiteral("match") : QStringLiteral("refine"));
     EXPECT_EQ(std::isnan(model_.number(index, IterationsModel::kBestScore)), !matches);
     EXPECT_EQ(text(index + 1, IterationsModel::kThreshold_px).toDouble(),
-              std::round(10.0 * one.threshold_px) / 10.0);
+              std::round(10.0 * iteration.threshold_px) / 10.0);
   }
   const int last = model_.rowCount() - 1;
   EXPECT_EQ(text(last, IterationsModel::kStatus), QStringLiteral("converged"));
-  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("went on"));
+  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("continued"));
 }
 
 TEST_F(IterationsModelTest, SaysWhichHypothesisAnIterationWentOnWith) {
@@ -223,7 +224,7 @@ TEST_F(IterationsModelTest, AppendsWhatARunAddsAndKeepsSelections) {
   QSignalSpy inserts(&model_, &QAbstractItemModel::rowsInserted);
   EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("halted"));
   model_.setSnapshot(test::firstIterations(*run_, 2));
-  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("went on"));
+  EXPECT_EQ(text(1, IterationsModel::kStatus), QStringLiteral("continued"));
   model_.setSnapshot(run_);
   EXPECT_EQ(resets.count(), 0);
   EXPECT_EQ(inserts.count(), 2);
@@ -249,7 +250,7 @@ TEST_F(IterationsModelTest, TheIterationUnderWayChangesInPlace) {
   EXPECT_NE(text(2, IterationsModel::kInliers), QString());
 }
 
-TEST_F(IterationsModelTest, LeavesBlankWhatIsNotThereYet) {
+TEST_F(IterationsModelTest, MissingValues_AreBlank) {
   auto run = std::make_shared<sessions::LocalizationTrace>(*test::firstIterations(*run_, 1));
   auto early = std::make_shared<sessions::IterationTrace>(*run->iterations.front());
   early->reached = Stage::kTemplates;

@@ -64,7 +64,7 @@ TEST_F(MatchInspectorPanelTest, AClickChoosesATemplate) {
   }
 }
 
-TEST_F(MatchInspectorPanelTest, AChoiceElsewhereShowsHere) {
+TEST_F(MatchInspectorPanelTest, SelectionInAnotherView_IsShown) {
   view_.selectTemplate(7);
   EXPECT_EQ(panel_.filter().mapToSource(table_->currentIndex()).row(), 7);
   choose(TemplatesModel::Show::kNotSearched);
@@ -100,7 +100,7 @@ TEST_F(MatchInspectorPanelTest, ThePeakIsTheBrightestPlaceOfTheMap) {
   EXPECT_TRUE(map_->textAt({0.0, 0.0}).isEmpty());
 }
 
-TEST_F(MatchInspectorPanelTest, ADestroyedPanelDropsWhatItAskedFor) {
+TEST_F(MatchInspectorPanelTest, DestroyedPanel_DropsItsTasks) {
   auto other = std::make_unique<MatchInspectorPanel>(view_);
   view_.selectTemplate(8);
   other.reset();
@@ -117,14 +117,14 @@ TEST_F(MatchInspectorPanelTest, ARefinementShowsItsEdges) {
   EXPECT_EQ(table->item(0, 1)->text(), QString::number(view_.iteration()->refinement.sample_count));
 }
 
-TEST_F(MatchInspectorPanelTest, SaysWhyThereIsNothing) {
+TEST_F(MatchInspectorPanelTest, WithoutMatches_ReportsTheReason) {
   view_.setCursor({-1, Stage::kFinished});
   EXPECT_FALSE(table_->isVisible());
   view_.setCase(nullptr);
   EXPECT_FALSE(table_->isVisible());
   bool said = false;
   for (const QLabel* label : panel_.findChildren<QLabel*>())
-    said |= label->isVisible() && label->text() == QStringLiteral("Nothing has run yet.");
+    said |= label->isVisible() && label->text() == QStringLiteral("No run yet.");
   EXPECT_TRUE(said);
 }
 
@@ -156,7 +156,7 @@ TEST(PatchPictures, ShowEdgesOverMask) {
   EXPECT_EQ(picture.pixel(1, 3), patch_colors::kGround);
 }
 
-TEST(PatchPictures, TellApartWhoSawWhat) {
+TEST(PatchPictures, Colours_SeparateRenderedAndSeenEdges) {
   // The template's centre (2, 2) lies at (3, 3) of what was seen.
   const QImage picture =
       agreementPicture(edges.view(), mask.view(), {2, 2, 4}, seen.view(), {3, 3, 4});
@@ -181,7 +181,7 @@ TEST(PixelPlace, EnlargesByWholeDevicePixelsWhereItCan) {
   EXPECT_EQ(pixelPlace({100, 10}, {0, 0, 50, 50}, 1.0), QRectF(0, 23, 50, 5));
 }
 
-TEST(HeatColors, GetLighterAllTheWay) {
+TEST(HeatColors, LightnessIncreasesMonotonically) {
   double before = -1.0;
   for (int i = 0; i <= 100; ++i) {
     const QRgb color = heatColor(0.01 * i).rgb();
@@ -219,12 +219,12 @@ TEST_F(TemplatesModelTest, HasARowPerTemplate) {
   EXPECT_EQ(text(0, TemplatesModel::kNumber), QStringLiteral("1"));
   const auto details = sessions::matchDetails(firstIteration());
   for (int row = 0; row < model_.rowCount(); ++row) {
-    const auto& one = details[static_cast<std::size_t>(row)];
-    EXPECT_NEAR(text(row, TemplatesModel::kDepth_m).toDouble(), one.depth_m, 5.1e-4);
-    if (!one.searched) continue;
-    EXPECT_NEAR(text(row, TemplatesModel::kDx_px).toDouble(), one.moved_px().x(), 5.1e-3);
-    EXPECT_NEAR(text(row, TemplatesModel::kScore).toDouble(), one.score, 5.1e-4);
-    EXPECT_EQ(text(row, TemplatesModel::kVerdict) == QStringLiteral("inlier"), one.inlier);
+    const auto& value = details[static_cast<std::size_t>(row)];
+    EXPECT_NEAR(text(row, TemplatesModel::kDepth_m).toDouble(), value.depth_m, 5.1e-4);
+    if (!value.searched) continue;
+    EXPECT_NEAR(text(row, TemplatesModel::kDx_px).toDouble(), value.moved_px().x(), 5.1e-3);
+    EXPECT_NEAR(text(row, TemplatesModel::kScore).toDouble(), value.score, 5.1e-4);
+    EXPECT_EQ(text(row, TemplatesModel::kVerdict) == QStringLiteral("inlier"), value.inlier);
   }
   model_.setIteration(nullptr);
   EXPECT_EQ(model_.rowCount(), 0);

@@ -20,8 +20,8 @@ using test::poseNear;
 class PosePanelTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    static const auto one = test::loadedExample("os");
-    state_.setCase(one);
+    static const auto value = test::loadedExample("os");
+    state_.setCase(value);
     state_.setSnapshot(test::exampleRun());
     QObject::connect(
         &panel_, &PosePanel::gestureFinished,
@@ -54,16 +54,17 @@ class PosePanelTest : public ::testing::Test {
 
 TEST_F(PosePanelTest, APoseIsShownInTheFramesThatHaveNames) {
   EXPECT_FALSE(find<QLabel>("namedPoses").isVisibleTo(&panel_)) << "none has a name";
-  sessions::SessionCase one = state_.currentCase()->source;
+  sessions::SessionCase session_case = state_.currentCase()->source;
   const Pose camera_from_rover{Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX())),
                                {1.0, 2.0, 3.0}};
-  one.camera_reference = sessions::CameraReference{camera_from_rover, {"ROVER_FRAME", {7}}};
-  state_.setCase(sessions::loadCase(one));
+  session_case.camera_reference =
+      sessions::CameraReference{camera_from_rover, {"ROVER_FRAME", {7}}};
+  state_.setCase(sessions::loadCase(session_case));
   find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kSeed));
   const QStringList lines = find<QLabel>("namedPoses").text().split(QLatin1Char('\n'));
   ASSERT_EQ(lines.size(), 4);
   EXPECT_EQ(lines[0], QStringLiteral("reference_from_station in ROVER_FRAME (7)"));
-  const Pose expected = camera_from_rover.inverse() * one.camera_from_station_seed;
+  const Pose expected = camera_from_rover.inverse() * session_case.camera_from_station_seed;
   for (int row = 0; row < 3; ++row)
     EXPECT_NEAR(lines[row + 1].simplified().split(QLatin1Char(' ')).last().toDouble(),
                 expected.translation_m[row], 1e-6);
@@ -96,7 +97,7 @@ TEST_F(PosePanelTest, ZeroHasNoSign) {
   EXPECT_EQ(cell(kX, PoseRole::kNudged), QStringLiteral("0.0000"));
 }
 
-TEST_F(PosePanelTest, CopiesWhatCanBeReadBack) {
+TEST_F(PosePanelTest, CopiedPose_CanBePasted) {
   const Pose truth = *state_.currentCase()->source.camera_from_station_truth;
   find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kTruth));
   for (const char* button : {"copyRotationVector", "copyQuaternion", "copyMatrix"}) {
@@ -190,7 +191,7 @@ TEST_F(PosePanelTest, StepsOfASpinBoxInOneGoAreOneGesture) {
   EXPECT_NEAR(box.value(), 1.0, 1e-9);
 }
 
-TEST_F(PosePanelTest, GoesBackAndDrops) {
+TEST_F(PosePanelTest, BackAndDiscard_ResetTheNudgedPose) {
   const Pose estimate = state_.shownPose();
   QTest::keyClick(&pad(), Qt::Key_Left);
   QTest::mouseClick(&find<QPushButton>("backToEstimate"), Qt::LeftButton);
@@ -273,7 +274,7 @@ TEST(PastePoseDialog, RefusesWhatIsNoRotationInASentence) {
     EXPECT_NE(button->isEnabled(), button->text().startsWith(QStringLiteral("Nudge")));
 }
 
-TEST(PastePoseDialog, GuessesAndLetsPeopleCorrect) {
+TEST(PastePoseDialog, Guess_CanBeCorrected) {
   PastePoseDialog dialog(QStringLiteral("0 1 0 0  -1 0 0 0  0 0 1 0  0.1 0.2 0.3 1"));
   ASSERT_TRUE(dialog.parsed().valid);
   EXPECT_EQ(dialog.parsed().camera_from_station.translation_m, Eigen::Vector3d(0.1, 0.2, 0.3));

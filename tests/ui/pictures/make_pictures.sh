@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# make_pictures.sh BUILD [NAME ...]: makes the manual's pictures (resources/manual/pictures) anew
+# make_pictures.sh BUILD [NAME ...]: renders the manual's pictures (resources/manual/pictures) again
 # from the examples that ship, on a virtual display. Needs xvfb-run, and pngquant to keep them small.
 set -euo pipefail
 build=$(realpath "$1")

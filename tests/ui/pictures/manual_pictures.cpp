@@ -119,8 +119,8 @@ QImage overlay(const LocalizationProblem& problem, const Pose& pose,
 }
 
 /// Depth, normals and salient edges of the station as the seed has it, side by side.
-QImage renderPicture(const sessions::LoadedCase& one) {
-  const LocalizationProblem problem = one.problem();
+QImage renderPicture(const sessions::LoadedCase& loaded_case) {
+  const LocalizationProblem problem = loaded_case.problem();
   const int width = problem.camera.width;
   const int height = problem.camera.height;
   const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -139,8 +139,8 @@ QImage renderPicture(const sessions::LoadedCase& one) {
 }
 
 /// The image and the edges that Canny's detector finds in it, side by side.
-QImage edgePicture(const sessions::LoadedCase& one) {
-  const LocalizationProblem problem = one.problem();
+QImage edgePicture(const sessions::LoadedCase& loaded_case) {
+  const LocalizationProblem problem = loaded_case.problem();
   sessions::EdgeMapTrace edges;
   require(sessions::detectEdges(problem.image, nullptr, defaultProfile().edges, edges));
   const QRect middle = middleOf(problem.camera);
@@ -149,8 +149,8 @@ QImage edgePicture(const sessions::LoadedCase& one) {
 }
 
 /// Part of the image with the edges of the seed, and with those of the result.
-QImage beforeAndAfter(const sessions::LoadedCase& one, const Pose& camera_from_station) {
-  const LocalizationProblem problem = one.problem();
+QImage beforeAndAfter(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station) {
+  const LocalizationProblem problem = loaded_case.problem();
   const QRect middle = middleOf(problem.camera);
   return row(
       {{QStringLiteral("seed"),
@@ -310,10 +310,10 @@ int bestInlier(const sessions::LocalizationTrace& run, const sessions::Iteration
 void drawStages(const Places& places) {
   Stage stage(places.sessions / "example.boresight.json", QStringLiteral("os-000038"));
   stage.run();
-  const auto one = stage.window().state().currentCase();
-  places.save(renderPicture(*one), "stage_render");
-  places.save(edgePicture(*one), "stage_edges");
-  places.save(beforeAndAfter(*one, stage.window().state().snapshot()->camera_from_station),
+  const auto value = stage.window().state().currentCase();
+  places.save(renderPicture(*value), "stage_render");
+  places.save(edgePicture(*value), "stage_edges");
+  places.save(beforeAndAfter(*value, stage.window().state().snapshot()->camera_from_station),
               "stage_result");
   stage.iteration(0);
   for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges}) stage.layer(id, false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queue in the window, by the keys that people press; of a results file, too.
+// The queue in the window, by its keys; of a results file, too.
 #include "ui/review/queue_panel.h"
 
 #include "sessions/evaluation/batch.h"
@@ -26,14 +26,14 @@ struct RunExample {
     return example;
   }
   sessions::Session strictSession() const {
-    sessions::Session made = session;
-    made.options = {{"pnp.min_inliers", std::int64_t{100}}};
-    return made;
+    sessions::Session next_session = session;
+    next_session.options = {{"pnp.min_inliers", std::int64_t{100}}};
+    return next_session;
   }
   sessions::Session withRuns(const std::filesystem::path& file) const {
-    sessions::Session made = withRun(session, storeRun(session, good, of_good, file));
-    made = withRun(made, storeRun(made, bad, of_bad, file));
-    return withRun(made, storeRun(strict, bad, failed, file));
+    sessions::Session next_session = withRun(session, storeRun(session, good, of_good, file));
+    next_session = withRun(next_session, storeRun(next_session, bad, of_bad, file));
+    return withRun(next_session, storeRun(strict, bad, failed, file));
   }
 };
 
@@ -75,7 +75,7 @@ class QueuePanelTest : public test::WindowTest {
   QString bad_ = QString::fromStdString(RunExample::get().bad);
 };
 
-TEST_F(QueuePanelTest, IsFilledInTheBackgroundWithTheMostTroubledFirst) {
+TEST_F(QueuePanelTest, Queue_IsFilledInTheBackgroundWorstFirst) {
   ASSERT_TRUE(table_->hasFocus()) << "the key leads into the list";
   ASSERT_TRUE(filled());
   EXPECT_EQ(listed(), QStringList({bad_, good_}));
@@ -106,7 +106,7 @@ TEST_F(QueuePanelTest, EnterOpensTheIterationThatFailed) {
       << "also when the case is shown already";
 }
 
-TEST_F(QueuePanelTest, AcceptAsksWhoAndWhyValidatesAndGoesOn) {
+TEST_F(QueuePanelTest, Accept_AsksNameAndReasonThenValidatesAndContinues) {
   ASSERT_TRUE(filled());
   press(Qt::Key_J);
   ASSERT_EQ(panel_->chosenCase(), good_);
@@ -163,7 +163,7 @@ TEST_F(QueuePanelTest, EscapeLeavesTheQuestion) {
   EXPECT_TRUE(decisions().empty()) << "nothing was asked";
 }
 
-TEST_F(QueuePanelTest, ChecksAnewWhatARowRestsOn) {
+TEST_F(QueuePanelTest, ChangedInputs_ChecksTheRowAgain) {
   ASSERT_TRUE(filled());
   sessions::Session changed = window_.document().session();
   changed.review.limits = {{"check.inlier_count", 9999.0}};
@@ -243,7 +243,7 @@ class ResultsQueueTest : public test::WindowTest {
     sessions::ResultsWriter writer(results_,
                                    sessions::datasetFacts(sessions::readDataset(dataset)));
     writer.admit(sessions::methodFacts("whs", "default", options.localizer));
-    writer.begin(sessions::Sitting{});
+    writer.begin(sessions::BatchRun{});
     for (const sessions::RunResult& run : runs_) writer.add(run);
   }
   std::filesystem::path results_ = folder_.path() / "results.sqlite";
@@ -283,7 +283,7 @@ TEST_F(ResultsQueueTest, RunsAreListedChosenAndRepeatedToTheBit) {
   }
 }
 
-TEST_F(ResultsQueueTest, WhatIsNoResultsFileIsToldAndNothingIsLost) {
+TEST_F(ResultsQueueTest, OtherFile_IsReportedAndTheSessionStays) {
   folder_.write("no.sqlite", "no");
   drop(folder_.path() / "no.sqlite");
   ASSERT_TRUE(wait([&] { return resting() && !window_.lastMessage().isEmpty(); }));

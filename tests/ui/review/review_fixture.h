@@ -19,7 +19,7 @@ struct RunExample {
     static const RunExample example;
     return example;
   }
-  /// The session with its run, whose trace lies beside this file.
+  /// The session with its run, whose trace lies next to this file.
   sessions::Session withItsRun(const std::filesystem::path& session_file) const {
     return sessions::withRun(session, sessions::storeRun(session, id, trace, session_file));
   }

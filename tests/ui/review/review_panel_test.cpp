@@ -7,7 +7,7 @@
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/session_document.h"
-#include "tests/support/marked_example.h"
+#include "tests/support/annotated_example.h"
 #include "tests/ui/review/review_fixture.h"
 #include "ui/models/text.h"
 #include "ui/panels/cases_panel.h"
@@ -73,7 +73,7 @@ class ReviewPanelTest : public ::testing::Test {
   std::unique_ptr<ReviewPanel> panel_;
 };
 
-TEST_F(ReviewPanelTest, WithoutASessionItSaysSo) {
+TEST_F(ReviewPanelTest, WithoutSession_ReportsIt) {
   EXPECT_EQ(hands().table().model()->rowCount(), 0);
   EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "No session"));
   EXPECT_FALSE(hands().button("validate")->isEnabled());
@@ -103,7 +103,7 @@ TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
   EXPECT_TRUE(test::has(banner(), "NOT VALIDATED"));
 }
 
-TEST_F(ReviewPanelTest, NothingIsCheckedWhileNobodyLooks) {
+TEST_F(ReviewPanelTest, HiddenPanel_ChecksNothing) {
   panel_->hide();
   open(RunExample::get().withItsRun(file()), RunExample::get().id);
   EXPECT_FALSE(controller().isBusy());
@@ -178,7 +178,7 @@ TEST_F(ReviewPanelTest, TheNameIsRememberedAndTheCommentIsNot) {
             QStringLiteral("Ada"));
 }
 
-TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
+TEST_F(ReviewPanelTest, Approval_NeedsAnotherPerson) {
   openRun();
   controller().setSecondPerson(true);
   validateAs(QStringLiteral("Ada"));
@@ -187,7 +187,7 @@ TEST_F(ReviewPanelTest, TheSecondPersonIsAnother) {
   hands().sign(QStringLiteral(" aDa "), QStringLiteral("me again"));
   EXPECT_FALSE(hands().button("approve")->isEnabled());
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "it would replace the first one";
-  EXPECT_TRUE(test::has(obstacle(), "somebody else"));
+  EXPECT_TRUE(test::has(obstacle(), "another person"));
   hands().type("decisionName", QStringLiteral("Grace"));
   ASSERT_TRUE(hands().button("approve")->isEnabled()) << obstacle().toStdString();
   hands().click("approve");
@@ -206,13 +206,13 @@ TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
   hands().click("takeBack");
   EXPECT_EQ(reviewState(), ReviewState::kConverged);
   EXPECT_TRUE(test::has(history(), "the gripper hides it"));
-  EXPECT_TRUE(history().contains(QStringLiteral("Taken back by Grace"))) << "the newest first";
+  EXPECT_TRUE(history().contains(QStringLiteral("Withdrawn by Grace"))) << "the newest first";
 }
 
-TEST_F(ReviewPanelTest, MarksCanBeJudgedInsteadAndTheirChangeIsTold) {
+TEST_F(ReviewPanelTest, AnnotatedPose_CanBeJudgedAndItsChangeIsReported) {
   sessions::Session session = RunExample::get().withItsRun(file());
   const std::string id = RunExample::get().id;
-  session = withAnnotation(session, id, *test::markedExample(0.2).annotations.at(id));
+  session = withAnnotations(session, id, *test::annotatedExample(0.2).annotations.at(id));
   open(session, id);
   ASSERT_TRUE(checked());
   auto* judged = panel_->findChild<QComboBox*>(QStringLiteral("judged"));
@@ -226,10 +226,10 @@ TEST_F(ReviewPanelTest, MarksCanBeJudgedInsteadAndTheirChangeIsTold) {
   validateAs(QStringLiteral("Ada"));
   ASSERT_EQ(reviewState(), ReviewState::kValidated);
   EXPECT_EQ(controller().reviewStatus().decision->pose->source, sessions::PoseSource::kAnnotation);
-  sessions::Marks moved = *document_.session().annotations.at(id);
+  sessions::Annotations moved = *document_.session().annotations.at(id);
   moved.points[0].pixel->x() += 0.3;
-  document_.edit(withAnnotation(document_.session(), id, moved), QStringLiteral("Move"));
-  EXPECT_TRUE(test::has(banner(), "the marks have changed"));
+  document_.edit(withAnnotations(document_.session(), id, moved), QStringLiteral("Move"));
+  EXPECT_TRUE(test::has(banner(), "the annotations have changed"));
   EXPECT_FALSE(controller().isCurrent());
 }
 
@@ -282,24 +282,24 @@ TEST_F(ReviewPanelTest, AnotherPresetIsAnEdit) {
   EXPECT_EQ(preset->currentText(), QLatin1String(sessions::kDefaultCheckPreset));
 }
 
-TEST_F(ReviewPanelTest, TheBasinTestEntersTheChecksAndCanBeStopped) {
+TEST_F(ReviewPanelTest, ConvergenceTest_EntersTheChecksAndCanBeStopped) {
   openRun();
   const auto state = [this] {
     for (const sessions::Check& check : controller().checks())
-      if (check.id.find("basin") != std::string::npos) return check.state;
+      if (check.id.find("convergence") != std::string::npos) return check.state;
     ADD_FAILURE() << "there is no such check";
     return CheckState::kNotApplicable;
   };
   EXPECT_EQ(state(), CheckState::kNotApplicable);
-  panel_->findChild<QSpinBox*>(QStringLiteral("basinSeeds"))->setValue(1000);
-  hands().click("basin");
-  EXPECT_TRUE(test::has(hands().button("basin")->text(), "Stop"));
+  panel_->findChild<QSpinBox*>(QStringLiteral("convergenceSeeds"))->setValue(1000);
+  hands().click("convergence");
+  EXPECT_TRUE(test::has(hands().button("convergence")->text(), "Stop"));
   ASSERT_TRUE(
-      QTest::qWaitFor([this] { return controller().basinSoFar().seeds >= 2; }, kPatienceMs));
-  hands().click("basin");
+      QTest::qWaitFor([this] { return controller().convergenceSoFar().seeds >= 2; }, kPatienceMs));
+  hands().click("convergence");
   ASSERT_TRUE(checked());
   EXPECT_NE(state(), CheckState::kNotApplicable) << "what has been run counts";
-  EXPECT_TRUE(test::has(hands().button("basin")->text(), "test"));
+  EXPECT_TRUE(test::has(hands().button("convergence")->text(), "test"));
 }
 
 TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
@@ -334,7 +334,7 @@ class PoseExportTest : public ReviewPanelTest {
   QString said_;
 };
 
-TEST_F(PoseExportTest, WhatIsNotValidatedIsCalledSoInTheFile) {
+TEST_F(PoseExportTest, UnvalidatedPose_IsLabelledInTheFile) {
   EXPECT_TRUE(test::has(exporter_.poseFileName(), "NOT_VALIDATED"));
   exporter_.exportPose(folder_.path() / "pose.json");
   ASSERT_TRUE(rests());
@@ -344,7 +344,7 @@ TEST_F(PoseExportTest, WhatIsNotValidatedIsCalledSoInTheFile) {
   EXPECT_EQ(exporter_.poseFileName(), QStringLiteral("validated_pose.json"));
 }
 
-TEST_F(PoseExportTest, AReportIsWrittenOfWhatIsShown) {
+TEST_F(PoseExportTest, Report_IsOfTheShownCase) {
   const std::filesystem::path file = folder_.path() / "report.pdf";
   exporter_.exportReport(file);
   ASSERT_TRUE(rests());
@@ -352,7 +352,7 @@ TEST_F(PoseExportTest, AReportIsWrittenOfWhatIsShown) {
   EXPECT_GT(std::filesystem::file_size(file), 10000u);
 }
 
-TEST_F(PoseExportTest, AResultsFileOfPosesThatNobodyValidatedHasToSaySo) {
+TEST_F(PoseExportTest, ResultsOfUnvalidatedPoses_NeedANameThatSaysSo) {
   exporter_.exportBopResults(folder_.path() / "results.csv", 1);
   ASSERT_TRUE(rests());
   EXPECT_TRUE(test::has(said_, "NOT-VALIDATED"));
@@ -412,7 +412,7 @@ TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
   EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
 }
 
-TEST_F(ReviewWindowTest, AnotherSeedDropsTheValidationAndItIsSaidWhy) {
+TEST_F(ReviewWindowTest, NewSeed_InvalidatesTheValidationWithTheReason) {
   runAndValidate();
   moveSeed(0.001);
   EXPECT_FALSE(panel().controller().isCurrent()) << "stale at once";

@@ -69,7 +69,7 @@ TEST(PoseRenderer, LeavesOutPosesThatANewerOneOvertakes) {
             drawn.pose(0.05).translation_m);
 }
 
-TEST(PoseRenderer, DropsWhatIsNoLongerWanted) {
+TEST(PoseRenderer, OutdatedRequests_AreDropped) {
   Drawn drawn;
   drawn.renderer.setPose(drawn.pose(0.0));
   drawn.renderer.clear();

@@ -100,7 +100,7 @@ TEST_F(RunControllerTest, AViewThatCannotBeReadIsOneSentence) {
   EXPECT_TRUE(message.contains(QStringLiteral("/nowhere/second.png"))) << message.toStdString();
 }
 
-TEST_F(RunControllerTest, AResetDropsWhatIsUnderWay) {
+TEST_F(RunControllerTest, Reset_DropsTheRunningRun) {
   run_.reset(inputs());
   run_.advance(StepUntil::kEnd);
   run_.reset(inputs());

@@ -28,7 +28,7 @@ class TaskRunnerTest : public testing::Test {
   void startValue(const QString& key, int value) {
     runner_.start(
         key, [value](const std::stop_token&) { return value; },
-        [this](int made) { taken_.push_back(made); });
+        [this](int result) { taken_.push_back(result); });
   }
   /// A task that waits for the gate, then reports whether it was asked to stop.
   void startGated(const QString& key) {
@@ -38,7 +38,7 @@ class TaskRunnerTest : public testing::Test {
           gate.wait();
           return stop.stop_requested() ? 1000 : 2000;
         },
-        [this](int made) { taken_.push_back(made); });
+        [this](int result) { taken_.push_back(result); });
   }
 
   std::promise<void> gate_;
@@ -48,15 +48,17 @@ class TaskRunnerTest : public testing::Test {
 };
 
 TEST_F(TaskRunnerTest, TakesValuesInTheirOrderOnTheOwnersThread) {
-  const auto here = std::this_thread::get_id();
+  const auto current = std::this_thread::get_id();
   bool here_as_well = true;
   for (int i = 0; i < 20; ++i) {
     runner_.start(
         QString::number(i),
-        [i, here](const std::stop_token&) { return std::this_thread::get_id() == here ? -1 : i; },
-        [&](int made) {
-          here_as_well = here_as_well && std::this_thread::get_id() == here;
-          taken_.push_back(made);
+        [i, current](const std::stop_token&) {
+          return std::this_thread::get_id() == current ? -1 : i;
+        },
+        [&](int result) {
+          here_as_well = here_as_well && std::this_thread::get_id() == current;
+          taken_.push_back(result);
         });
   }
   ASSERT_TRUE(rests());
@@ -74,7 +76,7 @@ TEST_F(TaskRunnerTest, OfOneKindOnlyTheNewestCounts) {
   EXPECT_EQ(taken_, (std::vector<int>{4, 7}));
 }
 
-TEST_F(TaskRunnerTest, WhatIsCancelledIsNotTaken) {
+TEST_F(TaskRunnerTest, CancelledTask_IsNotDelivered) {
   startGated(QStringLiteral("gated"));
   startValue(QStringLiteral("value"), 1);
   startValue(QStringLiteral("other"), 2);
@@ -85,7 +87,7 @@ TEST_F(TaskRunnerTest, WhatIsCancelledIsNotTaken) {
   EXPECT_EQ(taken_, std::vector<int>{2});
 }
 
-TEST_F(TaskRunnerTest, WhatIsStoppedIsStillTaken) {
+TEST_F(TaskRunnerTest, StoppedTask_IsDelivered) {
   startGated(QStringLiteral("gated"));
   runner_.stop(QStringLiteral("gated"));
   gate_.set_value();
@@ -98,7 +100,7 @@ TEST_F(TaskRunnerTest, AStopReachesATaskThatStillWaits) {
   runner_.start(
       QStringLiteral("second"),
       [](const std::stop_token& stop) { return stop.stop_requested() ? 1 : 0; },
-      [this](int made) { taken_.push_back(made); });
+      [this](int result) { taken_.push_back(result); });
   runner_.stop(QStringLiteral("second"));
   gate_.set_value();
   ASSERT_TRUE(rests());
@@ -123,7 +125,7 @@ TEST_F(TaskRunnerTest, ReportsOnTheWayAndNothingMoreOnceCancelled) {
 
 TEST_F(TaskRunnerTest, SaysWhyATaskFailedAndGoesOn) {
   const auto throwing = [](const std::stop_token&) -> int { throw std::runtime_error("no luck"); };
-  runner_.start(QStringLiteral("bad"), throwing, [this](int made) { taken_.push_back(made); });
+  runner_.start(QStringLiteral("bad"), throwing, [this](int result) { taken_.push_back(result); });
   runner_.start(
       QStringLiteral("large"), [](const std::stop_token&) -> int { throw std::bad_alloc(); },
       [](int) {});
@@ -137,7 +139,7 @@ TEST_F(TaskRunnerTest, SaysWhyATaskFailedAndGoesOn) {
   EXPECT_TRUE(failures_[1].contains(QStringLiteral("not enough memory")));
 }
 
-TEST(TaskRunner, GoesWhileItWorks) {
+TEST(TaskRunner, Destruction_WhileATaskRuns_IsSafe) {
   std::promise<void> begun;
   TaskRunner runner;
   runner.run(QStringLiteral("endless"),

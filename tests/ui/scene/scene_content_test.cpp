@@ -117,19 +117,19 @@ struct Stack {
   Viewpoint view;
 
   Stack() {
-    auto one = std::make_shared<sessions::LoadedCase>();
+    auto value = std::make_shared<sessions::LoadedCase>();
     for (const float z : {0.0F, 0.1F}) {
-      const auto first = static_cast<std::int32_t>(one->scene.vertices_in_station_m.size());
+      const auto first = static_cast<std::int32_t>(value->scene.vertices_in_station_m.size());
       const float half = z == 0.0F ? 0.05F : 0.1F;
       for (const auto& [x, y] :
            {std::pair(-half, -half), {half, -half}, {half, half}, {-half, half}})
-        one->scene.vertices_in_station_m.emplace_back(x, y, z);
-      one->scene.faces.push_back({{first, first + 1, first + 2}});
-      one->scene.faces.push_back({{first, first + 2, first + 3}});
+        value->scene.vertices_in_station_m.emplace_back(x, y, z);
+      value->scene.faces.push_back({{first, first + 1, first + 2}});
+      value->scene.faces.push_back({{first, first + 2, first + 3}});
     }
-    one->scene.part_of_face.assign(4, 0);
-    one->scene.parts.resize(1);
-    content.one = one;
+    value->scene.part_of_face.assign(4, 0);
+    value->scene.parts.resize(1);
+    content.one = value;
     content.bounds.minimum_m = {-0.1, -0.1, 0.0};
     content.bounds.maximum_m = {0.1, 0.1, 0.1};
     view.view_from_station.translation_m = {0.0, 0.0, 0.5};
@@ -157,7 +157,7 @@ TEST(PickTemplate, TakesTheNearestWithinReach) {
 TEST(PickTemplate, SeesNoneBehindAFace) {
   Stack stack;
   stack.addTemplate({0.0, 0.0, 0.1});   // behind the near square
-  stack.addTemplate({0.09, 0.0, 0.1});  // beside it
+  stack.addTemplate({0.09, 0.0, 0.1});  // next to it
   EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.0, 0.0, 0.1})), -1);
   EXPECT_EQ(pickTemplate(stack.content, stack.view, stack.at({0.09, 0.0, 0.1})), 1);
 }

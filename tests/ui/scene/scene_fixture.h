@@ -19,8 +19,8 @@ namespace boresight::test {
 
 /// The example station whose run exampleRun() is, made once per program.
 inline const std::shared_ptr<const sessions::LoadedCase>& sceneCase() {
-  static const auto made = loadedExample("os");
-  return made;
+  static const auto result = loadedExample("os");
+  return result;
 }
 
 /// A view state with the case and its finished run, at the last iteration that has templates.

@@ -60,8 +60,8 @@ TEST(OrbitCamera, LooksAlongTheAxesThatTheViewsName) {
   orbit.frame(someBox());
   const auto forward = [&](StandardView view) -> Eigen::Vector3d {
     orbit.lookFrom(view);
-    const Viewpoint made = orbit.viewpoint(kCanvas);
-    return made.view_from_station.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+    const Viewpoint viewpoint = orbit.viewpoint(kCanvas);
+    return viewpoint.view_from_station.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   };
   EXPECT_TRUE(forward(StandardView::kTop).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_TRUE(forward(StandardView::kBottom).isApprox(Eigen::Vector3d::UnitZ(), 1e-9));

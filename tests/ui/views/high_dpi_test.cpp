@@ -91,7 +91,7 @@ TEST_P(HighDpiTest, ThePointerTellsThePixelThatIsDrawnUnderIt) {
   EXPECT_GT(seen, 500);
 }
 
-TEST_P(HighDpiTest, AClickAndAToolTellTheSamePixelAsThePointer) {
+TEST_P(HighDpiTest, ClickToolAndPointer_GiveTheSamePixel) {
   QSignalSpy moves(&view_, &ImageView::cursorMoved);
   std::vector<QPointF> clicks;
   QObject::connect(&view_, &ImageView::clicked,

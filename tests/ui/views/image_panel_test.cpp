@@ -28,8 +28,8 @@ class ImagePanelTest : public ::testing::Test {
     panel_.resize(900, 700);
     panel_.show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel_));
-    static const auto one = test::loadedExample("os");
-    state_.setCase(one);
+    static const auto value = test::loadedExample("os");
+    state_.setCase(value);
   }
 
   /// With the middle of a screen pixel on this place.
@@ -59,28 +59,28 @@ class ImagePanelTest : public ::testing::Test {
 
 /// Pointing at the middle of a face tells that place, or one before it that hides it.
 TEST_F(ImagePanelTest, TheStationPointUnderThePointerIsTold) {
-  const auto& one = *state_.currentCase();
-  const MeshView mesh = one.scene.view();
-  Pose moved = *one.source.camera_from_station_truth;
+  const auto& value = *state_.currentCase();
+  const MeshView mesh = value.scene.view();
+  Pose moved = *value.source.camera_from_station_truth;
   moved.translation_m.x() += 0.01;
-  for (const Pose& pose : {one.source.camera_from_station_seed, moved}) {
-    if (&pose != &one.source.camera_from_station_seed) state_.setNudgedPose(pose);
+  for (const Pose& pose : {value.source.camera_from_station_seed, moved}) {
+    if (&pose != &value.source.camera_from_station_seed) state_.setNudgedPose(pose);
     int places = 0, seen = 0;
     for (std::size_t i = 0; i < mesh.faces.size(); i += 97) {
       Eigen::Vector3d centre = Eigen::Vector3d::Zero();
       for (const std::int32_t vertex : mesh.faces[i].vertex)
         centre += mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>() / 3.0;
       Eigen::Vector2d pixel;
-      if (!project(one.source.camera, pose * centre, pixel)) continue;
-      if (pixel.minCoeff() < 0.0 || pixel.x() > one.image.width - 1.0 ||
-          pixel.y() > one.image.height - 1.0)
+      if (!project(value.source.camera, pose * centre, pixel)) continue;
+      if (pixel.minCoeff() < 0.0 || pixel.x() > value.image.width - 1.0 ||
+          pixel.y() > value.image.height - 1.0)
         continue;
       pointAt({pixel.x(), pixel.y()});
       const auto point = pointInText();
       ASSERT_TRUE(point) << text_.toStdString();
       ++places;
       Eigen::Vector2d back;
-      ASSERT_TRUE(project(one.source.camera, pose * *point, back));
+      ASSERT_TRUE(project(value.source.camera, pose * *point, back));
       EXPECT_LT((back - pixel).norm(), 0.1) << "the text has hundredths of a millimetre";
       EXPECT_LT((pose * *point).z(), (pose * centre).z() + 2e-5);
       if ((*point - centre).norm() < 2e-5) ++seen;
@@ -90,7 +90,7 @@ TEST_F(ImagePanelTest, TheStationPointUnderThePointerIsTold) {
   }
 }
 
-TEST_F(ImagePanelTest, BesideTheStationOnlyThePixelIsTold) {
+TEST_F(ImagePanelTest, PointerOffTheStation_ShowsOnlyThePixel) {
   pointAt({3.0, 5.0});
   EXPECT_TRUE(text_.contains(QStringLiteral("gray ")));
   EXPECT_FALSE(pointInText());
@@ -118,10 +118,11 @@ TEST_F(ImagePanelTest, AHypothesisIsDrawnWithTheChosenPose) {
                !bitsOfLayer(LayerId::kChosenEdges).empty();
       },
       kPatienceMs));
-  const auto& one = *state_.currentCase();
+  const auto& value = *state_.currentCase();
   const auto isRenderOf = [&](LayerId id, const Pose& pose) {
     sessions::RenderTrace expected;
-    if (sessions::renderScene(one.source.camera, one.scene.view(), pose, expected) != Status::kOk)
+    if (sessions::renderScene(value.source.camera, value.scene.view(), pose, expected) !=
+        Status::kOk)
       return false;
     const auto words = bitsOfLayer(id).front().bits.words;
     return std::equal(words.begin(), words.end(), expected.edges.words.begin(),
@@ -187,7 +188,7 @@ TEST_F(LayersPanelTest, ABoxShowsAndHidesItsLayer) {
   }
 }
 
-TEST_F(LayersPanelTest, FollowsWhatAKeyHasDone) {
+TEST_F(LayersPanelTest, LayerKey_UpdatesThePanel) {
   LayerStyle style = image_.style(LayerId::kTruthEdges);
   style.visible = !style.visible;
   style.opacity = 0.25;

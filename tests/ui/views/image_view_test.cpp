@@ -71,7 +71,7 @@ class ImageViewTest : public ::testing::Test {
   ImageView view_;
 };
 
-TEST_F(ImageViewTest, FitsAndFollowsTheSizeUntilSomebodyZooms) {
+TEST_F(ImageViewTest, View_FitsTheWidgetUntilZoomed) {
   EXPECT_DOUBLE_EQ(view_.transform().scale(), 10.0);
   view_.resize(320, 320);
   QCoreApplication::processEvents();

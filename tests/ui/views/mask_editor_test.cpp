@@ -66,7 +66,7 @@ TEST_F(MaskEditorTest, ADragWithTheBrushIsOneStrokeThroughThePointersPlaces) {
   EXPECT_EQ(view_.transform().toWidget(QPointF(0.0, 0.0)), before) << "the image does not move";
 }
 
-TEST_F(MaskEditorTest, WhatIsDrawnShowsUntilTheMaskHasIt) {
+TEST_F(MaskEditorTest, DrawnStroke_ShowsUntilTheMaskContainsIt) {
   editor_.setTool(MaskTool::kBrush);
   editor_.setRadius(3.0);
   send(QEvent::MouseButtonPress, place(20, 30));
@@ -75,7 +75,7 @@ TEST_F(MaskEditorTest, WhatIsDrawnShowsUntilTheMaskHasIt) {
   EXPECT_NE(at(40, 32), QColor(60, 60, 60));
   EXPECT_EQ(at(40, 34), QColor(60, 60, 60));
   send(QEvent::MouseButtonRelease, place(60, 30));
-  EXPECT_EQ(at(40, 32), QColor(60, 60, 60)) << "nobody took the stroke";
+  EXPECT_EQ(at(40, 32), QColor(60, 60, 60)) << "the stroke is not stored";
   editor_.setPending(strokes_);
   EXPECT_NE(at(40, 32), QColor(60, 60, 60));
   editor_.setPending({});

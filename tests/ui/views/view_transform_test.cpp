@@ -170,7 +170,7 @@ TEST(DisplayStretch, DrawsBlackAndWhiteAtTheLevelsAndTheRestBetween) {
   for (int i = 0; i < 6; ++i) EXPECT_EQ(image.constScanLine(i / 3)[i % 3], expected[i]) << i;
 }
 
-TEST(DisplayStretch, EightBitsInFullAreAsTheyAre) {
+TEST(DisplayStretch, EightBitFullRange_IsUnchanged) {
   std::vector<std::uint16_t> values(256);
   for (int i = 0; i < 256; ++i) values[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
   const ImageSamples samples = samplesOf(values, 16, 8);

@@ -30,9 +30,9 @@ class CaseDetailsTest : public ::testing::Test {
     return trace;
   }
   std::vector<CaseRow> rows() const {
-    std::vector<CaseRow> made = caseRows(session_, {}, {}, stale_runs_);
-    details_.fill(made);
-    return made;
+    std::vector<CaseRow> case_rows = caseRows(session_, {}, {}, stale_runs_);
+    details_.fill(case_rows);
+    return case_rows;
   }
 
   mutable sessions::StaleRuns stale_runs_;
@@ -66,10 +66,10 @@ TEST_F(CaseDetailsTest, AMissingImageLeavesTheRowWithoutAPicture) {
 TEST_F(CaseDetailsTest, ErrorsAreThoseOfTheLatestRunAgainstTheTruth) {
   const sessions::LocalizationTrace trace = sessions::runCase(session_, id_);
   ASSERT_TRUE(trace.converged());
-  sessions::SessionCase one = *session_.cases[0];
-  one.camera_from_station_truth = trace.camera_from_station;
-  one.camera_from_station_truth->translation_m.z() += 2e-3;
-  session_ = sessions::withCase(session_, one);
+  sessions::SessionCase session_case = *session_.cases[0];
+  session_case.camera_from_station_truth = trace.camera_from_station;
+  session_case.camera_from_station_truth->translation_m.z() += 2e-3;
+  session_ = sessions::withCase(session_, session_case);
   session_ = sessions::withRun(
       session_, sessions::storeRun(session_, id_, trace, folder_.path() / "one.boresight.json"));
   read();
@@ -85,9 +85,9 @@ TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
   run();
   EXPECT_FALSE(rows()[0].stale);
   const sessions::Session before = session_;
-  sessions::SessionCase one = *session_.cases[0];
-  one.camera_from_station_seed.translation_m.x() += 0.001;
-  session_ = sessions::withCase(session_, one);
+  sessions::SessionCase session_case = *session_.cases[0];
+  session_case.camera_from_station_seed.translation_m.x() += 0.001;
+  session_ = sessions::withCase(session_, session_case);
   EXPECT_TRUE(rows()[0].stale);
   EXPECT_FALSE(rows()[1].stale) << "nothing has run";
   EXPECT_FALSE(caseRows(session_, QString::fromStdString(id_), {}, stale_runs_)[0].stale)
@@ -100,9 +100,9 @@ TEST_F(CaseDetailsTest, ARunOfOtherInputsOrOptionsIsStale) {
 
 TEST_F(CaseDetailsTest, WithoutATruthThereIsNoError) {
   run();
-  sessions::SessionCase one = *session_.cases[0];
-  one.camera_from_station_truth.reset();
-  session_ = sessions::withCase(session_, one);
+  sessions::SessionCase session_case = *session_.cases[0];
+  session_case.camera_from_station_truth.reset();
+  session_ = sessions::withCase(session_, session_case);
   read();
   EXPECT_FALSE(rows()[0].normal_mm.has_value());
   EXPECT_EQ(rows()[0].state, CaseState::kConverged);

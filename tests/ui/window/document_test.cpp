@@ -45,7 +45,7 @@ TEST_F(DocumentTest, EditsAreUndoneAndRedone) {
   EXPECT_FALSE(document.redo());
 }
 
-TEST_F(DocumentTest, WhatIsSavedComesBack) {
+TEST_F(DocumentTest, SavedSession_IsReadBack) {
   {
     Document document;
     ASSERT_TRUE(document.create(file_, example()));
@@ -59,7 +59,7 @@ TEST_F(DocumentTest, WhatIsSavedComesBack) {
   EXPECT_EQ(again.session(), withoutFirst(example()));
 }
 
-TEST_F(DocumentTest, WhatWasNotSavedIsOffered) {
+TEST_F(DocumentTest, UnsavedEdits_AreOfferedForRecovery) {
   {
     Document document;
     ASSERT_TRUE(document.create(file_, example()));
@@ -74,7 +74,7 @@ TEST_F(DocumentTest, WhatWasNotSavedIsOffered) {
   EXPECT_TRUE(again.isModified());
 }
 
-TEST_F(DocumentTest, ASecondOpenerMayOnlyLook) {
+TEST_F(DocumentTest, SecondProgram_OpensReadOnly) {
   Document first;
   ASSERT_TRUE(first.create(file_, example()));
   Document second;
@@ -86,7 +86,7 @@ TEST_F(DocumentTest, ASecondOpenerMayOnlyLook) {
   EXPECT_EQ(second.session(), example());
 }
 
-TEST_F(DocumentTest, WhatCannotBeOpenedIsToldInOneSentence) {
+TEST_F(DocumentTest, UnreadableSession_IsReportedInOneSentence) {
   Document document;
   QSignalSpy failures(&document, &Document::failed);
   EXPECT_FALSE(document.open(folder_.path() / "nothing.json"));
@@ -117,7 +117,7 @@ TEST_F(UntitledDocument, IsOfferedUntilItIsDiscarded) {
   Document document;
   ASSERT_TRUE(document.createUntitled(sessions::Session()));
   const std::filesystem::path file = document.file();
-  EXPECT_FALSE(Document::leftUntitled().has_value()) << "somebody has it open";
+  EXPECT_FALSE(Document::leftUntitled().has_value()) << "another program has it open";
   document.close();
   ASSERT_TRUE(Document::leftUntitled().has_value());
   EXPECT_EQ(*Document::leftUntitled(), file);
@@ -142,7 +142,7 @@ TEST_F(UntitledDocument, GivenANameItIsNotOfferedAgain) {
   EXPECT_EQ(document.session().cases.size(), example().cases.size());
 }
 
-TEST_F(UntitledDocument, OneWithANameIsNeverDiscarded) {
+TEST_F(UntitledDocument, NamedSession_IsNeverDiscarded) {
   const test::TemporaryFolder folder;
   Document document;
   ASSERT_TRUE(document.create(folder.path() / "named.boresight.json", sessions::Session()));

@@ -64,7 +64,7 @@ TEST(DroppedFiles, AnImageWithALabelBringsItsCamera) {
   EXPECT_FALSE(classify({os / "image.png"}, dropped).isCase()) << "another image has no label";
 }
 
-TEST(DroppedFiles, AnotherImageWithFilesOfItsOwnBeginsAnew) {
+TEST(DroppedFiles, AnotherImageWithItsFiles_StartsANewCase) {
   const std::filesystem::path bc = test::exampleFolder() / "bc", os = test::exampleFolder() / "os";
   const DroppedFiles failed =
       classify({bc / "image.png", bc / "camera.json", bc / "model.ply", bc / "seed.json"});
@@ -99,7 +99,7 @@ TEST(DroppedFiles, ResultsAreToldByTheirExtension) {
             std::filesystem::path("/data/Results.SQLite"));
 }
 
-TEST(DroppedFiles, WhatIsNothingKnownIsToldByName) {
+TEST(DroppedFiles, UnknownFile_IsReportedByName) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "odd.json") << R"({"format": "boresight-points", "version": 1})";
   std::ofstream(folder.path() / "broken.json") << "{";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the window keeps people waiting: event_gaps DATASET CASE opens a case, runs it to the
+// Longest time that the window is blocked: event_gaps DATASET CASE opens a case, runs it to the
 // end, walks through its iterations, runs it again and stops it at once. It prints the longest
 // times that the event loop was kept by one event, and how soon a stop was answered.
 #include <algorithm>
@@ -26,7 +26,7 @@ struct EventGap {
 };
 
 /// An application that times every event that its loop delivers. While an event is handled the
-/// window answers nobody: the longest one is the longest time that the window was frozen.
+/// window is blocked: the longest gap is the longest freeze.
 class EventClock : public QApplication {
  public:
   using QApplication::QApplication;
@@ -170,8 +170,8 @@ int main(int argc, char** argv) {
   if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
   EventClock clock(argc, argv);
   QStandardPaths::setTestModeEnabled(true);
-  const QTemporaryDir made;
-  const fs::path folder = made.path().toStdString();
+  const QTemporaryDir q_temporary_dir;
+  const fs::path folder = q_temporary_dir.path().toStdString();
   QTimer wake;  // so that waiting ends although nothing happens
   wake.start(5);
   ui::MainWindow window;

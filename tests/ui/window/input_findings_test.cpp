@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A session whose inputs lie beside it, so that they can be moved and changed.
+/// A session whose inputs lie next to it, so that they can be moved and changed.
 class InputFindingsTest : public test::WindowTest {
  protected:
   InputFindingsTest() { fs::copy(test::exampleFolder(), inputs_, fs::copy_options::recursive); }
@@ -34,7 +34,7 @@ class InputFindingsTest : public test::WindowTest {
   fs::path inputs_ = folder_.path() / "inputs";
 };
 
-TEST_F(InputFindingsTest, SaysNothingOfASessionThatIsWhole) {
+TEST_F(InputFindingsTest, CompleteSession_HasNoFindings) {
   open();
   EXPECT_TRUE(window_.findings().findings().empty());
 }
@@ -54,7 +54,7 @@ TEST_F(InputFindingsTest, AMovedImageIsMissedAtOnceAndFoundAgain) {
   EXPECT_TRUE(window_.document().canUndo());
 }
 
-TEST_F(InputFindingsTest, AMissingImageThatIsNowhereIsSaidToBe) {
+TEST_F(InputFindingsTest, MissingImage_NotFoundBelowTheFolder_IsReported) {
   open();
   fs::remove(image());
   reopen();
@@ -98,7 +98,7 @@ TEST_F(InputFindingsTest, AnotherCasesImageIsNotShownUnderTheNameOfOneThatIsMiss
   EXPECT_NE(window_.state().currentCase(), nullptr);
 }
 
-TEST_F(InputFindingsTest, AChangedFileIsTakenAsItIsWhenSomebodySaysSo) {
+TEST_F(InputFindingsTest, ChangedFile_AfterAcceptance_IsUsed) {
   open();
   const std::string id = window_.cases().caseId().toStdString();
   const auto hash = [&] { return window_.document().session().findCase(id)->image.source.sha256; };
@@ -106,7 +106,7 @@ TEST_F(InputFindingsTest, AChangedFileIsTakenAsItIsWhenSomebodySaysSo) {
   fs::copy_file(inputs_ / "os" / "image.png", image(), fs::copy_options::overwrite_existing);
   reopen();
   ASSERT_EQ(window_.state().currentCase(), nullptr);
-  EXPECT_TRUE(test::has(window_.image().view().hint(), "take it as it is"));
+  EXPECT_TRUE(test::has(window_.image().view().hint(), "accept"));
   QTimer yes;
   QObject::connect(&yes, &QTimer::timeout, &yes, [] {
     if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole program killed while somebody edits: nothing that it had shown as done is lost, and
+// The whole program killed during an edit: nothing that it had shown as done is lost, and
 // the session always opens. A handful of moments; fifty with BORESIGHT_ALL set.
 #include <gtest/gtest.h>
 

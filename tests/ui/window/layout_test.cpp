@@ -59,7 +59,7 @@ TEST_F(LayoutTest, IsRememberedByTheNextWindow) {
   EXPECT_FALSE(next.dock(QStringLiteral("cases"))->isHidden());
 }
 
-TEST_F(LayoutTest, PicturesAndTestsNeitherTakeNorLeaveOne) {
+TEST_F(LayoutTest, PicturesAndTests_NeitherReadNorStoreALayout) {
   {
     MainWindow window;
     window.show();
@@ -69,7 +69,7 @@ TEST_F(LayoutTest, PicturesAndTestsNeitherTakeNorLeaveOne) {
   EXPECT_TRUE(QSettings().allKeys().isEmpty());
 }
 
-TEST_F(LayoutTest, ArrangedAnewEveryPanelIsBack) {
+TEST_F(LayoutTest, ArrangePanels_RestoresEveryPanel) {
   MainWindow window;
   window.resize(1600, 1000);
   window.show();
@@ -82,8 +82,8 @@ TEST_F(LayoutTest, ArrangedAnewEveryPanelIsBack) {
   QApplication::processEvents();
   EXPECT_FALSE(window.dock(QStringLiteral("scene"))->isHidden());
   EXPECT_FALSE(window.dock(QStringLiteral("pose"))->isFloating());
-  const auto beside = window.tabifiedDockWidgets(window.dock(QStringLiteral("layers")));
-  EXPECT_TRUE(beside.contains(window.dock(QStringLiteral("pose"))));
+  const auto tabs = window.tabifiedDockWidgets(window.dock(QStringLiteral("layers")));
+  EXPECT_TRUE(tabs.contains(window.dock(QStringLiteral("pose"))));
   EXPECT_GT(window.image().width(), 400) << "the image has the most room";
 }
 
@@ -106,8 +106,8 @@ TEST_F(LayoutTest, RecentFilesAreTheNewestFirstWithoutThoseThatAreGone) {
   EXPECT_EQ(recentFiles().size(), 10);
 }
 
-/// Beside the session nothing may be written, and what waits in its journal is shown too.
-TEST_F(LayoutTest, APictureShowsWhatIsOnlyInTheJournalAndWritesNothingBesideTheSession) {
+/// The session's folder is read-only, and what waits in its journal is shown too.
+TEST_F(LayoutTest, Picture_ShowsJournalledEditsAndWritesNothingElse) {
   const std::filesystem::path file = folder_.path() / "one.boresight.json";
   const sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
   {

@@ -124,7 +124,7 @@ TEST_F(LevelsEditingTest, TheConversionIsAnEditThatMakesRunsStale) {
   EXPECT_FALSE(stalenessOf(session.runs[0], session, {}).stale());
 }
 
-TEST_F(LevelsEditingTest, WhatTheDisplayShowsCanBeGivenToTheCore) {
+TEST_F(LevelsEditingTest, AsDisplayed_CopiesTheDisplayLevelsToTheConversion) {
   find<QSpinBox>("displayBlack").setValue(160);
   find<QSpinBox>("displayWhite").setValue(3000);
   ASSERT_TRUE(wait([&] { return resting(); }));

@@ -23,7 +23,7 @@ class MainWindowTest : public test::WindowTest {
   QString runState() { return find<QLabel>("runState").text(); }
 };
 
-TEST_F(MainWindowTest, OpensEmptyAndOffersNothingThatCannotBeDone) {
+TEST_F(MainWindowTest, EmptyWindow_DisablesUnavailableActions) {
   EXPECT_TRUE(window_.image().view().grab().toImage().isNull() == false);
   EXPECT_EQ(window_.state().currentCase(), nullptr);
   QTest::keyClick(&window_, Qt::Key_F5);
@@ -73,7 +73,7 @@ TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
   ASSERT_TRUE(wait([&] { return resting(); }));
 }
 
-TEST_F(MainWindowTest, WhatWasUndoneIsNoLongerShownAfterTheNextEdit) {
+TEST_F(MainWindowTest, NextEdit_HidesTheUndoneState) {
   openExample();
   moveSeed(0.01);
   QTest::keySequence(&window_, QKeySequence::Undo);

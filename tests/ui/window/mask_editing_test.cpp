@@ -23,8 +23,8 @@ class MaskEditingTest : public test::WindowTest {
     return window_.document().session().findCase(id)->ignore_strokes;
   }
   bool ignored(int x, int y) {
-    const auto& one = window_.state().currentCase();
-    return one->ignore && one->ignore_bits.get(x, y);
+    const auto& value = window_.state().currentCase();
+    return value->ignore && value->ignore_bits.get(x, y);
   }
   /// Once the views have the document's mask.
   bool settled() {
@@ -105,7 +105,7 @@ TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
   EXPECT_EQ(session.runs[1].digest, headless.digest);
 }
 
-TEST_F(MaskEditingTest, AnEditLeavesTheShownPlaceOfTheRunAlone) {
+TEST_F(MaskEditingTest, Edit_KeepsTheShownIteration) {
   ASSERT_TRUE(runToTheEnd(1));
   window_.state().setCursor({0, Stage::kMatch});
   window_.state().selectTemplate(2);
@@ -122,11 +122,11 @@ TEST_F(MaskEditingTest, SaturatedPixelsAreThoseOfTheLevelOrMore) {
   find<QSpinBox>("saturationLevel").setValue(200);
   QTest::mouseClick(&find<QPushButton>("saturated"), Qt::LeftButton);
   ASSERT_TRUE(settled());
-  const auto& one = *window_.state().currentCase();
+  const auto& value = *window_.state().currentCase();
   std::int64_t bright = 0;
-  for (const std::uint8_t gray : one.image.pixels) bright += gray >= 200 ? 1 : 0;
+  for (const std::uint8_t gray : value.image.pixels) bright += gray >= 200 ? 1 : 0;
   ASSERT_GT(bright, 0);
-  EXPECT_EQ(one.ignore->ignored_count, bright);
+  EXPECT_EQ(value.ignore->ignored_count, bright);
   EXPECT_TRUE(
       find<QLabel>("maskSummary").text().startsWith(QString::number(bright) + QLatin1Char(' ')));
   QTest::mouseClick(&find<QPushButton>("clearMask"), Qt::LeftButton);
@@ -168,7 +168,7 @@ TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
   EXPECT_EQ(strokes("second"), strokes(id_));
 }
 
-TEST_F(MaskEditingTest, NothingIsDrawnInASessionThatCannotBeEdited) {
+TEST_F(MaskEditingTest, ReadOnlySession_CannotBeDrawnOn) {
   ASSERT_TRUE(window_.document().save());
   const auto file = folder_.path() / "one.boresight.json";
   window_.document().close();

@@ -66,7 +66,7 @@ TEST_F(NudgeEditingTest, DroppingTheNudgedPoseCanBeUndone) {
   EXPECT_EQ(nudged(), first);
 }
 
-TEST_F(NudgeEditingTest, AGestureUnderWayIsWhatUndoTakesBack) {
+TEST_F(NudgeEditingTest, Undo_DuringAGesture_RevertsIt) {
   nudge(Qt::Key_Right);
   const Pose first = nudged().value();
   auto* box = window_.findChild<QDoubleSpinBox*>(QStringLiteral("moveX"));
@@ -77,7 +77,7 @@ TEST_F(NudgeEditingTest, AGestureUnderWayIsWhatUndoTakesBack) {
   EXPECT_EQ(nudged(), first);
 }
 
-TEST_F(NudgeEditingTest, NudgingReadsNothingAnewAndMakesNoRunStale) {
+TEST_F(NudgeEditingTest, Nudging_ReloadsNothingAndKeepsRunsCurrent) {
   const auto before = window_.state().currentCase();
   const std::string digest = sessions::inputsDigest(edited());
   nudge(Qt::Key_Right);
@@ -90,7 +90,7 @@ TEST_F(NudgeEditingTest, NudgingReadsNothingAnewAndMakesNoRunStale) {
   EXPECT_EQ(nudged(), pose);
 }
 
-TEST_F(NudgeEditingTest, UsedAsSeedItIsOneEntryThatUndoTakesBackWhole) {
+TEST_F(NudgeEditingTest, UseAsSeed_IsOneUndoStep) {
   nudge(Qt::Key_Right);
   const Pose first = nudged().value();
   const Pose seed = edited().camera_from_station_seed;
@@ -103,7 +103,7 @@ TEST_F(NudgeEditingTest, UsedAsSeedItIsOneEntryThatUndoTakesBackWhole) {
   EXPECT_EQ(nudged(), first);
 }
 
-TEST_F(NudgeEditingTest, ReopenedItIsWhereItWas) {
+TEST_F(NudgeEditingTest, NudgedPose_IsRestoredOnOpening) {
   nudge(Qt::Key_PageUp);
   const Pose pose = nudged().value();
   ASSERT_TRUE(window_.document().save());
@@ -111,7 +111,7 @@ TEST_F(NudgeEditingTest, ReopenedItIsWhereItWas) {
   EXPECT_EQ(nudged(), pose);
 }
 
-TEST_F(NudgeEditingTest, EachCaseKeepsItsOwn) {
+TEST_F(NudgeEditingTest, NudgedPose_IsStoredPerCase) {
   nudge(Qt::Key_Right);
   const auto pose = nudged();
   const std::string other = window_.document().session().cases[1]->id;

@@ -125,7 +125,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   ASSERT_TRUE(rests());
   EXPECT_FALSE(one().onboard_record);
   EXPECT_EQ(window_.onboard().review(), nullptr);
-  EXPECT_FALSE(window_.state().snapshot()->replayed) << "nobody looks at a record that is gone";
+  EXPECT_FALSE(window_.state().snapshot()->replayed) << "a removed record is not shown";
 }
 
 TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
@@ -163,7 +163,7 @@ TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
   EXPECT_TRUE(test::has(table->item(table->rowCount() - 1, 1)->text(), "sigmas"));
 }
 
-TEST_F(OnboardTest, WhatCannotBeReadIsTold) {
+TEST_F(OnboardTest, UnreadableRecord_IsReported) {
   openExample();
   drop(folder_.write("not.whsr", "something else"));
   EXPECT_TRUE(test::has(window_.lastMessage(), "is not an onboard record"));
@@ -179,14 +179,14 @@ TEST_F(OnboardTest, WhatCannotBeReadIsTold) {
   drop(folder_.write("cut.whsr", cut));
   ASSERT_NE(window_.onboard().review(), nullptr);
   EXPECT_FALSE(window_.onboard().review()->record.whole());
-  EXPECT_TRUE(test::has(label("recordRemarks"), "lacks something"));
+  EXPECT_TRUE(test::has(label("recordRemarks"), "is incomplete"));
   // One that is another than it was attached as is not shown.
   folder_.write("cut.whsr", bytes);
   window_.document().save();
   ASSERT_TRUE(window_.openSession(folder_.path() / "one.boresight.json"));
   ASSERT_TRUE(wait([&] { return !window_.onboard().problem().isEmpty(); }));
   EXPECT_EQ(window_.onboard().review(), nullptr);
-  EXPECT_TRUE(test::has(label("recordSheet"), "not those of the record"));
+  EXPECT_TRUE(test::has(label("recordSheet"), "differs from the attached record"));
 }
 
 }  // namespace

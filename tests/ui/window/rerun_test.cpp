@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another option, and the run from the shown iteration on anew.
+// Repeats the run from the shown iteration with other options.
 #include <algorithm>
 
 #include "sessions/session/case_run.h"
@@ -40,19 +40,19 @@ class RerunTest : public test::WindowTest {
   ViewState::SnapshotPtr first_;
 };
 
-TEST_F(RerunTest, KeepsWhatWasBeforeAndRecordsARunThatIsTheSameHeadless) {
+TEST_F(RerunTest, Rerun_KeepsEarlierIterationsAndEqualsTheHeadlessRun) {
   openAndRun();
   window_.cases().setOptions(QStringLiteral("default"), otherOptions());
   rerun();
   ASSERT_EQ(runs().size(), 2u);
-  const ViewState::SnapshotPtr now = window_.state().snapshot();
-  ASSERT_TRUE(now->finished);
+  const ViewState::SnapshotPtr current = window_.state().snapshot();
+  ASSERT_TRUE(current->finished);
   for (int i = 0; i < kFrom; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    EXPECT_EQ(now->iterations[at]->camera_from_station.translation_m,
+    EXPECT_EQ(current->iterations[at]->camera_from_station.translation_m,
               first_->iterations[at]->camera_from_station.translation_m);
   }
-  EXPECT_NE(now->iterations[kFrom + 1]->camera_from_station.translation_m,
+  EXPECT_NE(current->iterations[kFrom + 1]->camera_from_station.translation_m,
             first_->iterations[kFrom + 1]->camera_from_station.translation_m);
   EXPECT_EQ(window_.cases().staleness(), QString());
 
@@ -60,7 +60,7 @@ TEST_F(RerunTest, KeepsWhatWasBeforeAndRecordsARunThatIsTheSameHeadless) {
   ASSERT_TRUE(record.rerun.has_value());
   EXPECT_EQ(record.rerun->from, first_->digest);
   EXPECT_EQ(record.rerun->changes.front().iteration, kFrom);
-  EXPECT_EQ(record.digest, now->digest);
+  EXPECT_EQ(record.digest, current->digest);
   const auto plan = sessions::planOf(record, window_.document().session(), "session");
   EXPECT_EQ(sessions::runCase(*window_.state().currentCase(), plan).digest, record.digest);
 }
@@ -196,10 +196,10 @@ TEST_F(ViewsRunWindowTest, WithoutOthersItSaysWhy) {
   const sessions::Session two = test::sessionOfTwoViews(folder_.path());
   open(sessions::withoutRigLink(two, two.cases[0]->id));
   EXPECT_FALSE(together()->isEnabled());
-  EXPECT_TRUE(test::has(together()->toolTip(), "of no rig"));
+  EXPECT_TRUE(test::has(together()->toolTip(), "has no rig"));
   window_.document().edit(two, QStringLiteral("Link"));
   EXPECT_TRUE(together()->isEnabled());
-  EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("of no rig")));
+  EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("has no rig")));
 }
 
 TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
@@ -213,7 +213,7 @@ TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
             sessions::runViews(session(), session().cases[0]->id)[0].digest);
 }
 
-TEST_F(ViewsRunWindowTest, ItIsNotGoneOnFromAnIteration) {
+TEST_F(ViewsRunWindowTest, ViewsRun_CannotContinueFromAnIteration) {
   open(test::sessionOfTwoViews(folder_.path()));
   together()->trigger();
   ASSERT_TRUE(wait([&] { return session().runs.size() == 2 && resting(); }));

@@ -40,7 +40,7 @@ class Operator {
       case 6:
       case 7:
       case 8:
-        return mark();
+        return annotate();
       default:
         return moveSeed();
     }
@@ -79,34 +79,35 @@ class Operator {
   }
 
   bool paintMask() {
-    sessions::SessionCase one = shownCase();
+    sessions::SessionCase session_case = shownCase();
     sessions::MaskStroke stroke;
     stroke.radius_px = random_.uniform(1.0, 9.0);
     stroke.points.emplace_back(random_.uniform(0.0, 900.0), random_.uniform(0.0, 900.0));
-    one.ignore_strokes.push_back(stroke);
-    return window_.document().edit(sessions::withCase(window_.document().session(), std::move(one)),
-                                   QStringLiteral("Paint"));
+    session_case.ignore_strokes.push_back(stroke);
+    return window_.document().edit(
+        sessions::withCase(window_.document().session(), std::move(session_case)),
+        QStringLiteral("Paint"));
   }
 
   /// Half-made pairs, whole ones, moves by keys, and now and then a pass that is put aside.
-  bool mark() {
-    ui::AnnotationController& annotation = window_.annotation();
+  bool annotate() {
+    ui::AnnotationController& annotator = window_.annotation();
     const Eigen::Vector2d pixel(random_.uniform(0.0, 900.0), random_.uniform(0.0, 900.0));
     switch (random_.below(5)) {
       case 0:
-        return !annotation.placeOnStation(1e-4 * Eigen::Vector3d(pixel.x(), pixel.y(), 10.0))
+        return !annotator.placeOnStation(1e-4 * Eigen::Vector3d(pixel.x(), pixel.y(), 10.0))
                     .empty();
       case 1: {
-        const bool moved = annotation.nudge({0.1, 0.0});
-        annotation.finishMove();
+        const bool moved = annotator.nudge({0.1, 0.0});
+        annotator.finishMove();
         return moved;
       }
       case 2:
-        if (random_.below(4) != 0 || annotation.marks().empty()) return false;
-        annotation.putAside(QStringLiteral("Ada"));
+        if (random_.below(4) != 0 || annotator.annotations().empty()) return false;
+        annotator.putAside(QStringLiteral("Ada"));
         return true;
       default:
-        return !annotation.placeInImage(pixel).empty();
+        return !annotator.placeInImage(pixel).empty();
     }
   }
 

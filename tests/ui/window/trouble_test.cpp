@@ -13,7 +13,7 @@
 namespace boresight::ui {
 namespace {
 
-/// No file of this process may grow beyond so many bytes as long as it lives: a full disk.
+/// Limits the size of this process's files during its lifetime: a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -109,7 +109,7 @@ TEST_F(TroubleTest, AFullDiskIsToldAndTheEditIsSavedElsewhere) {
   RoomElsewhere room(elsewhere_);
   setSeed(0.123);
   EXPECT_TRUE(test::has(room.answers.text(), "one.boresight.journal"));
-  EXPECT_TRUE(test::has(room.answers.text(), "nothing is lost"));
+  EXPECT_TRUE(test::has(room.answers.text(), "all changes are still in this window"));
   EXPECT_EQ(savedBytes(), before) << "the old file is as it was";
   ASSERT_TRUE(std::filesystem::exists(elsewhere_));
   EXPECT_EQ(window_.document().file(), elsewhere_);
@@ -141,7 +141,7 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
     Answers answers(QStringLiteral("Close"), {});
     QTest::keyClick(&window_, Qt::Key_F5);
     ASSERT_TRUE(wait([this] { return !window_.cases().unstoredRuns().isEmpty(); }));
-    EXPECT_TRUE(test::has(answers.text(), "nothing is lost"));
+    EXPECT_TRUE(test::has(answers.text(), "all changes are still in this window"));
     EXPECT_TRUE(window_.document().session().runs.empty());
   }
   {
@@ -193,7 +193,7 @@ TEST_F(TroubleTest, AReadOnlyFolderIsToldAndTheSessionIsSavedElsewhere) {
   std::filesystem::permissions(folder_.path(), std::filesystem::perms::owner_all);
 }
 
-TEST_F(TroubleTest, EditsOfAKilledProgramAreOfferedAndTaken) {
+TEST_F(TroubleTest, EditsOfAKilledProgram_AreOfferedAndRecovered) {
   openExample();
   setSeed(0.25);
   window_.document().close();  // as a kill does it: nothing is saved
@@ -231,7 +231,7 @@ TEST_F(TroubleTest, TheNewestRunIsShownAfterARecovery) {
   const std::string second = run(2);
   ASSERT_NE(first, second);
   window_.document().close();  // as a kill does it
-  window_.setQuiet(true);      // nobody answers yet
+  window_.setQuiet(true);      // no answer yet
   ASSERT_TRUE(window_.openSession(file_));
   ASSERT_TRUE(shown(first));
   ASSERT_TRUE(window_.document().acceptRecovery());

@@ -235,8 +235,8 @@ TEST(ImageLabel, CameraModelsThatDoNotFitTheImageAreLeftOut) {
   EXPECT_THAT(remarkFor(folder, model(60, 63, 24), uncut),
               HasSubstr("its principal point would be at (63.0, 24.0) of 64 x 48 px"));
   EXPECT_THAT(remarkFor(folder, model(60, 31, 600)), HasSubstr("no sub-frame is stated"));
-  EXPECT_THAT(remarkFor(folder, model(0.5, 31, 24)), HasSubstr("is no camera's: focal lengths"));
-  EXPECT_THAT(remarkFor(folder, model(1e7, 31, 24)), HasSubstr("is no camera's: focal lengths"));
+  EXPECT_THAT(remarkFor(folder, model(0.5, 31, 24)), HasSubstr("is invalid: focal lengths"));
+  EXPECT_THAT(remarkFor(folder, model(1e7, 31, 24)), HasSubstr("is invalid: focal lengths"));
   CahvModel longer = model(60, 31, 24);
   longer.a *= 1.01;
   EXPECT_THAT(remarkFor(folder, longer), HasSubstr("its axis A has the length 1.0100"));
@@ -270,7 +270,7 @@ TEST(ImageLabel, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
       HasSubstr("does not fit the sub-frame at sample 500, line 400: its principal point "
                 "would be at (1011.5, 911.5) of the detector, which has up to 1024 x 1024"));
   // Another mission's label: both readings are possible, so none is taken.
-  EXPECT_THAT(remarkFor(folder, part, cut, "", 256, 128), HasSubstr("does not show whether"));
+  EXPECT_THAT(remarkFor(folder, part, cut, "", 256, 128), HasSubstr("does not state whether"));
   // Far from the detector's middle the principal point is left of the cut: only one is possible.
   const std::string right = " FIRST_LINE = 401\r\n FIRST_LINE_SAMPLE = 701\r\n";
   EXPECT_EQ(
@@ -300,10 +300,10 @@ TEST(ImageLabel, OfTwoLabelsInAFileTheOneWithAModelCounts) {
   EXPECT_TRUE(same.flags.empty()) << same.flags.front();
   const ImageLabel lone = read(nullptr, &cahv);
   expectModel(lone, cahv);
-  EXPECT_THAT(lone.flags, Contains(HasSubstr("is that of the VICAR header inside the file")));
+  EXPECT_THAT(lone.flags, Contains(HasSubstr("comes from the VICAR header in the file")));
   const ImageLabel differing = read(&cahv, &other);
   expectModel(differing, cahv);
-  EXPECT_THAT(differing.flags, Contains(HasSubstr("states another camera model")));
+  EXPECT_THAT(differing.flags, Contains(HasSubstr("state different camera models")));
 }
 
 TEST(ImageLabel, FramesAreReadScalarFirst) {

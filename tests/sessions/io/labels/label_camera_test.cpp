@@ -89,19 +89,19 @@ TEST(LabelCamera, PrincipalPointsNearTheMiddleOfTheDetectorFit) {
 
 TEST(LabelCamera, SeveralModelsMustAgree) {
   const TemporaryFolder folder;
-  const GroupItems one = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
+  const GroupItems group_items = cameraItems(exampleModel(CameraModel::kCahvor, 60, 31, 24));
   const GroupItems other = cameraItems(exampleModel(CameraModel::kCahvor, 61, 31, 24));
   const GroupItems none = {{"MODEL_TYPE", "\"NONE\""}};
   for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", one}, {"CAMERA_MODEL", one}}))
+       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", group_items}, {"CAMERA_MODEL", group_items}}))
     EXPECT_TRUE(label.camera) << label.camera_remark;
   for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", one}, {"CAMERA_MODEL", other}})) {
+       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", group_items}, {"CAMERA_MODEL", other}})) {
     EXPECT_FALSE(label.camera);
     EXPECT_THAT(label.camera_remark, HasSubstr("several camera models that differ"));
   }
   for (const ImageLabel& label :
-       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", none}, {"CAMERA_MODEL", one}}))
+       labelsOf(folder, {{"GEOMETRIC_CAMERA_MODEL", none}, {"CAMERA_MODEL", group_items}}))
     EXPECT_TRUE(label.camera) << label.camera_remark;
 }
 
@@ -131,10 +131,10 @@ TEST(LabelCamera, MirroredAndSkewedModelsAreNoCameras) {
   EXPECT_EQ(misfit(good), "");
   CahvModel swapped = good;
   std::swap(swapped.h_px, swapped.v_px);
-  EXPECT_THAT(misfit(swapped), HasSubstr("of a mirrored image"));
+  EXPECT_THAT(misfit(swapped), HasSubstr("mirrors the image"));
   CahvModel reversed = good;
   reversed.v_px -= 2 * (good.v_px - 24 * good.a);
-  EXPECT_THAT(misfit(reversed), HasSubstr("of a mirrored image"));
+  EXPECT_THAT(misfit(reversed), HasSubstr("mirrors the image"));
   CahvModel skewed = good;
   skewed.v_px += std::tan(10 * kDegree_rad) * (good.h_px - 31 * good.a);
   EXPECT_THAT(misfit(skewed), HasSubstr("H and V are 10.0 deg off square"));

@@ -23,8 +23,8 @@ using test::TemporaryFolder;
 bool takes(const nlohmann::json& stated, bool floating, int bits, double sample) {
   std::vector<InvalidValue> values;
   addInvalidValues(&stated, floating, bits, values);
-  return std::any_of(values.begin(), values.end(), [sample](const InvalidValue& one) {
-    return std::abs(sample - one.value) <= one.tolerance;
+  return std::any_of(values.begin(), values.end(), [sample](const InvalidValue& invalid_value) {
+    return std::abs(sample - invalid_value.value) <= invalid_value.tolerance;
   });
 }
 
@@ -61,7 +61,7 @@ TEST(LabelConstants, NumbersAreExactUnlessBeyondAllMeasurement) {
   EXPECT_TRUE(takes({1, "2", "0x3"}, false, 16, 3.0));
 }
 
-TEST(LabelConstants, SamplesOfThemAreZeroAndOutOfTheRange) {
+TEST(LabelConstants, MissingConstants_BecomeZeroOutsideTheRange) {
   const TemporaryFolder folder;
   Raster raster = Raster::filled(6, 4, 1, [](std::size_t i) { return 0.5 * double(i); });
   raster.at(0, 1, 3) = -double(FLT_MAX);

@@ -188,7 +188,7 @@ TEST(LabelPds3, PointersAreUnderstoodOrRefused) {
                             "(12 <BYTES>)", "0", "-3", "\"\"", "1.5"})
     EXPECT_THAT(read(place), StartsWith("d.lbl: ")) << place;
   EXPECT_THAT(read("(\"P.DAT\",2)", "RECORD_BYTES = 128", "NO_BYTES = 1"),
-              HasSubstr("^IMAGE: counts records, but the label states no length of them"));
+              HasSubstr("^IMAGE: counts records, but the label does not state RECORD_BYTES"));
   EXPECT_THAT(read("\"P.DAT\"", "^IMAGE", "^QUBE"), HasSubstr("has no pointer ^IMAGE"));
   EXPECT_THAT(read("\"P.DAT\"", "OBJECT = IMAGE", "OBJECT = COMPRESSED_FILE"),
               StartsWith("d.lbl: "));
@@ -263,7 +263,7 @@ TEST(LabelPds3, LinesAreReadAsStoredWhateverTheirDisplay) {
   const auto file = folder.write("a.img", pds.bytes(raster));
   EXPECT_EQ(readSamples(file).values[1], 1);
   EXPECT_THAT(readImage(file).notes,
-              Contains(HasSubstr("displayed otherwise than it is stored (UP, LEFT)")));
+              Contains(HasSubstr("display order differs from its storage order (UP, LEFT)")));
 }
 
 }  // namespace

@@ -137,9 +137,8 @@ TEST(LabelPds4, LinesAreReadAsStoredWhateverTheirDisplay) {
   EXPECT_THAT(read("Top to Bottom"), IsEmpty());
   EXPECT_THAT(
       read("Bottom to Top"),
-      ElementsAre("the label has the image displayed otherwise than it is stored (Bottom to "
-                  "Top); it is read as it is stored, in the lines and samples of its "
-                  "camera model"));
+      ElementsAre("the label's display order differs from its storage order (Bottom to Top); the "
+                  "image is read as stored, in the lines and samples of its camera model"));
 }
 
 TEST(LabelPds4, NamesAreReadAsXmlHasThem) {

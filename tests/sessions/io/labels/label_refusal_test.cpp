@@ -16,7 +16,7 @@ namespace {
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
 
-TEST(LabelRefusal, WhatIsNoPictureIsRefusedInOneSentence) {
+TEST(LabelRefusal, NonImageProducts_AreRefusedInOneSentence) {
   const TemporaryFolder folder;
   VicarFile vicar;
   const auto message = [&](const auto& bytes) {
@@ -49,11 +49,11 @@ TEST(LabelRefusal, WhatIsNoPictureIsRefusedInOneSentence) {
     return message(altered(textOf(vicar.bytes(gray)), from, to));
   };
   EXPECT_THAT(refusal("  NL=8  ", "  NL=0  "),
-              HasSubstr("NL: 0 is no whole number from 1 to 16384"));
-  EXPECT_THAT(refusal("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is no whole"));
-  EXPECT_THAT(refusal("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is no whole"));
+              HasSubstr("NL: 0 is not a whole number from 1 to 16384"));
+  EXPECT_THAT(refusal("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is not a whole"));
+  EXPECT_THAT(refusal("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is not a whole"));
   EXPECT_THAT(refusal("  NS=8  ", "  NS=9999  "), HasSubstr("x.vic"));
-  EXPECT_THAT(refusal("  NB=1  ", "  NB=1000000  "), HasSubstr("NB: 1000000 is no whole"));
+  EXPECT_THAT(refusal("  NB=1  ", "  NB=1000000  "), HasSubstr("NB: 1000000 is not a whole"));
   EXPECT_THAT(refusal("FORMAT='BYTE'", "FORMAT='COMP'"), HasSubstr("x.vic: "));
   vicar.organization = "BIP";
   vicar.prefix_bytes = 4;
@@ -85,7 +85,7 @@ TEST(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
     const auto equals = item.find('=');
     EXPECT_THAT(message(altered(whole, std::string(from) + " ", item + " ")),
                 HasSubstr("x.vic: " + item.substr(0, equals) + ": " + item.substr(equals + 1) +
-                          " is no whole number from 1 to"));
+                          " is not a whole number from 1 to"));
   }
   const auto label_size = std::stoi(whole.substr(8, 8));
   EXPECT_EQ(message(altered(whole, "LBLSIZE=" + std::to_string(label_size),
@@ -97,8 +97,7 @@ TEST(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
   std::string at_end = textOf(vicar.bytes(gray));
   EXPECT_EQ(message(at_end), "(nothing)");
   at_end.pop_back();
-  EXPECT_EQ(message(at_end),
-            "x.vic: EOL: the part of the label at the file's end is not there in full");
+  EXPECT_EQ(message(at_end), "x.vic: EOL: the part of the label at the file's end is incomplete");
 }
 
 TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
@@ -110,7 +109,7 @@ TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
     const auto file = folder.write("x.img", altered(whole, from, to));
     return folder.message([&] { readImage(file); });
   };
-  const std::string reason = " is no whole number from 0 to 999999999";
+  const std::string reason = " is not a whole number from 0 to 999999999";
   EXPECT_EQ(message(" LINE_SAMPLES = 8", " LINE_SAMPLES = 4294967304"),
             "x.img: LINE_SAMPLES: 4294967304" + reason);
   EXPECT_EQ(message(" LINES = 8", " LINES = 8e0"), "x.img: LINES: 8e0" + reason);
@@ -120,7 +119,7 @@ TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
             "x.img: RECORD_BYTES: 4294967424" + reason);
 }
 
-TEST(LabelRefusal, LabelsThatLieOfTheirPixelsAreRefused) {
+TEST(LabelRefusal, LabelsThatContradictTheirPixels_AreRefused) {
   const TemporaryFolder folder;
   Pds3File pds;
   const Raster raster = Raster::counting(8, 8);

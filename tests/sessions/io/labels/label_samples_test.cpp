@@ -294,7 +294,7 @@ TEST(LabelOutliers, AFewAreClippedAndCounted) {
     EXPECT_GT(levelsOf(samples), 900u) << odd[0];
     EXPECT_THAT(samples.rule, HasSubstr(std::to_string(odd.size()) + " outliers beyond are"));
     EXPECT_THAT(samples.label->flags,
-                Contains(HasSubstr(std::to_string(odd.size()) + " samples lie far off all")));
+                Contains(HasSubstr(std::to_string(odd.size()) + " samples are far outliers")));
     double worst = 0.0;
     for (std::size_t i = 0; i < raster.samples.size(); ++i) {
       const double value = samples.offset + samples.scale * samples.values[i];
@@ -308,7 +308,7 @@ TEST(LabelOutliers, AFewAreClippedAndCounted) {
   }
 }
 
-TEST(LabelOutliers, RangeStaysWholeWhereNothingIsFarOff) {
+TEST(LabelOutliers, NoOutliers_KeepTheFullRange) {
   const TemporaryFolder folder;
   std::vector<double> bright;  // a small thing, 70 pixels of 8000
   for (int i = 0; i < 70; ++i) bright.push_back(40.0 + 0.01 * i);

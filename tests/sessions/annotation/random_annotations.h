@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/random.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 
 namespace boresight::test {
 
@@ -40,11 +40,11 @@ inline sessions::LinePair randomLine(Random& random, int i) {
 }
 
 /// Every fourth pair lacks one side.
-inline sessions::Marks randomMarks(Random& random, int points, int lines) {
-  sessions::Marks marks;
-  for (int i = 0; i < points; ++i) marks.points.push_back(randomPoint(random, i));
-  for (int i = 0; i < lines; ++i) marks.lines.push_back(randomLine(random, i));
-  return marks;
+inline sessions::Annotations randomAnnotations(Random& random, int points, int lines) {
+  sessions::Annotations annotations;
+  for (int i = 0; i < points; ++i) annotations.points.push_back(randomPoint(random, i));
+  for (int i = 0; i < lines; ++i) annotations.lines.push_back(randomLine(random, i));
+  return annotations;
 }
 
 }  // namespace boresight::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person marked in one image: places in the image paired with places of the station.
-// Edits of marks as values: what an annotator's gestures do to them.
+// What a person annotated in one image: places in the image paired with places of the station.
+// Edits of annotations as values: what an annotator's gestures do to them.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ inline constexpr double kMaxCoordinate_m = 1e6;
 
 /// A point of the station and where it was seen. One side may be missing: a pair half made.
 struct PointPair {
-  std::string id;  ///< unique among the marks of its image
+  std::string id;  ///< unique among the annotations of its image
   std::optional<Eigen::Vector3d> point_in_station_m;
   std::optional<Eigen::Vector2d> pixel;
   double sigma_px = 1.0;  ///< standard deviation per axis
@@ -52,7 +52,7 @@ struct ImageLine {
 /// A straight edge of the station and where a piece of it was seen. Only distances across the edge
 /// count. One side may be missing.
 struct LinePair {
-  std::string id;  ///< unique among the marks of its image, points included
+  std::string id;  ///< unique among the annotations of its image, points included
   std::optional<ModelEdge> edge;
   std::optional<ImageLine> line;
   double sigma_px = 1.0;  ///< standard deviation of either end across the edge
@@ -65,59 +65,60 @@ struct LinePair {
   bool operator==(const LinePair&) const = default;
 };
 
-/// The marks of one image, those that are off included.
-struct Marks {
+/// The annotations of one image, those that are off included.
+struct Annotations {
   std::vector<PointPair> points;
   std::vector<LinePair> lines;
 
   bool empty() const { return points.empty() && lines.empty(); }
-  bool operator==(const Marks&) const = default;
+  bool operator==(const Annotations&) const = default;
 };
 
 /// Whether a point or line has this id.
-bool hasMark(const Marks& marks, const std::string& id);
-/// "p1", "p2", ... (or with another letter): the first that no mark has.
-std::string unusedId(const Marks& marks, char letter);
+bool hasAnnotation(const Annotations& annotations, const std::string& id);
+/// "p1", "p2", ... (or with another letter): the first that no annotation has.
+std::string unusedId(const Annotations& annotations, char letter);
 
 /// nullptr when there is none of this id.
-const PointPair* findPoint(const Marks& marks, const std::string& id);
-const LinePair* findLine(const Marks& marks, const std::string& id);
+const PointPair* findPoint(const Annotations& annotations, const std::string& id);
+const LinePair* findLine(const Annotations& annotations, const std::string& id);
 
-/// The same marks with this one in place of that of id `replaced`, or at the end.
-Marks withPoint(Marks marks, const std::string& replaced, const PointPair& point);
-Marks withLine(Marks marks, const std::string& replaced, const LinePair& line);
-/// The same marks without one.
-Marks withoutMark(Marks marks, const std::string& id);
+/// The same annotations with this one in place of that of id `replaced`, or at the end.
+Annotations withPoint(Annotations annotations, const std::string& replaced, const PointPair& point);
+Annotations withLine(Annotations annotations, const std::string& replaced, const LinePair& line);
+/// The same annotations without one.
+Annotations withoutAnnotation(Annotations annotations, const std::string& id);
 
-/// A mark moved in the image as a whole, or by one end of its line (0 or 1). What has no place in
-/// the image stays as it is.
-Marks withMoved(Marks marks, const std::string& id, int end, const Eigen::Vector2d& to_px);
+/// An annotation moved in the image as a whole, or by one end of its line (0 or 1). What has no
+/// place in the image stays as it is.
+Annotations withMoved(Annotations annotations, const std::string& id, int end,
+                      const Eigen::Vector2d& to_px);
 
-/// The marks of one camera of a rig. A camera alone is a rig of its own, and so is a rig that did
-/// not move between several images.
-struct MarkedView {
-  std::string name;  ///< for people
+/// The annotations of one camera of a rig. A camera alone is a rig of its own, and so is a rig that
+/// did not move between several images.
+struct AnnotatedView {
+  std::string name;  ///< for display
   Camera camera;     ///< after prepareCamera
   Pose camera_from_rig;
-  Marks marks;
+  Annotations annotations;
 };
 
-/// Which of the two kinds a mark is.
-enum class MarkKind { kPoint, kLine };
+/// Which of the two kinds an annotation is.
+enum class AnnotationKind { kPoint, kLine };
 
-/// A mark of one of the views.
-struct MarkAddress {
+/// An annotation of one of the views.
+struct AnnotationAddress {
   std::size_t view = 0;
-  MarkKind kind = MarkKind::kPoint;
+  AnnotationKind kind = AnnotationKind::kPoint;
   std::size_t index = 0;  ///< among the view's points or lines
 
-  bool operator==(const MarkAddress&) const = default;
+  bool operator==(const AnnotationAddress&) const = default;
 };
 
-/// Every mark that takes part in solving, view by view, points first.
-std::vector<MarkAddress> usedMarks(std::span<const MarkedView> views);
+/// Every annotation that takes part in solving, view by view, points first.
+std::vector<AnnotationAddress> usedAnnotations(std::span<const AnnotatedView> views);
 
-const std::string& markId(std::span<const MarkedView> views, const MarkAddress& at);
-double markSigma_px(std::span<const MarkedView> views, const MarkAddress& at);
+const std::string& annotationId(std::span<const AnnotatedView> views, const AnnotationAddress& at);
+double annotationSigma_px(std::span<const AnnotatedView> views, const AnnotationAddress& at);
 
 }  // namespace boresight::sessions

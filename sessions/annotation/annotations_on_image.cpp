@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 
 #include <algorithm>
 #include <optional>
@@ -11,16 +11,16 @@
 namespace boresight::sessions {
 namespace {
 
-MarkResidual pointResidual(const Camera& camera, const PointPair& pair,
-                           const Pose& camera_from_station) {
+AnnotationResidual pointResidual(const Camera& camera, const PointPair& pair,
+                                 const Pose& camera_from_station) {
   const PredictedPlace place = predictPlace(camera, camera_from_station, *pair.point_in_station_m);
-  MarkResidual made;
-  made.valid = place.valid;
-  if (!made.valid) return made;
-  made.residual_px = *pair.pixel - place.pixel;
-  made.predicted_by_xi = place.pixel_by_xi;
-  made.depth_m = place.depth_m;
-  return made;
+  AnnotationResidual annotation_residual;
+  annotation_residual.valid = place.valid;
+  if (!annotation_residual.valid) return annotation_residual;
+  annotation_residual.residual_px = *pair.pixel - place.pixel;
+  annotation_residual.predicted_by_xi = place.pixel_by_xi;
+  annotation_residual.depth_m = place.depth_m;
+  return annotation_residual;
 }
 
 constexpr int kFootRounds = 4;
@@ -35,7 +35,7 @@ double nearestToRay(const Ray& ray, const Eigen::Vector3d& start_m, const Eigen:
 /// End `i` of the line, from the foot of its perpendicular on the projected edge; false where that
 /// does not project, or the edge runs along the ray.
 bool endResidual(const Camera& camera, const Pose& camera_from_station, const ModelEdge& edge,
-                 const Eigen::Vector2d& seen, int i, MarkResidual& made) {
+                 const Eigen::Vector2d& seen, int i, AnnotationResidual& annotation_residual) {
   Ray ray;
   if (!unprojectRay(camera, seen, ray)) return false;
   const Eigen::Vector3d way_m = edge.end_in_station_m - edge.start_in_station_m;
@@ -48,24 +48,27 @@ bool endResidual(const Camera& camera, const Pose& camera_from_station, const Mo
     if (!foot.valid || !(along.norm() > 1e-9 * foot.pixel_by_point.norm() * way_m.norm()))
       return false;
     const Eigen::Vector2d offset = seen - foot.pixel;
-    made.across[i] = Eigen::Vector2d(-along.y(), along.x()).normalized();
-    made.residual_px[i] = made.across[i].dot(offset);
-    made.predicted_by_xi.row(i) = made.across[i].transpose() * foot.pixel_by_xi;
+    annotation_residual.across[i] = Eigen::Vector2d(-along.y(), along.x()).normalized();
+    annotation_residual.residual_px[i] = annotation_residual.across[i].dot(offset);
+    annotation_residual.predicted_by_xi.row(i) =
+        annotation_residual.across[i].transpose() * foot.pixel_by_xi;
     share += along.dot(offset) / along.squaredNorm();
   }
   return true;
 }
 
-MarkResidual lineResidual(const Camera& camera, const LinePair& pair,
-                          const Pose& camera_from_station) {
-  MarkResidual made;
+AnnotationResidual lineResidual(const Camera& camera, const LinePair& pair,
+                                const Pose& camera_from_station) {
+  AnnotationResidual annotation_residual;
   const double start_depth_m = (camera_from_station * pair.edge->start_in_station_m).z();
   const double end_depth_m = (camera_from_station * pair.edge->end_in_station_m).z();
-  if (!(start_depth_m > 0.0) || !(end_depth_m > 0.0)) return made;
-  made.valid = endResidual(camera, camera_from_station, *pair.edge, pair.line->start, 0, made) &&
-               endResidual(camera, camera_from_station, *pair.edge, pair.line->end, 1, made);
-  made.depth_m = 0.5 * (start_depth_m + end_depth_m);
-  return made;
+  if (!(start_depth_m > 0.0) || !(end_depth_m > 0.0)) return annotation_residual;
+  annotation_residual.valid =
+      endResidual(camera, camera_from_station, *pair.edge, pair.line->start, 0,
+                  annotation_residual) &&
+      endResidual(camera, camera_from_station, *pair.edge, pair.line->end, 1, annotation_residual);
+  annotation_residual.depth_m = 0.5 * (start_depth_m + end_depth_m);
+  return annotation_residual;
 }
 
 constexpr int kMostSteps = 200;
@@ -85,17 +88,18 @@ bool isNegligible(const Vector6d& xi, const Pose& pose) {
 
 PredictedPlace predictPlace(const Camera& camera, const Pose& camera_from_station,
                             const Eigen::Vector3d& point_in_station_m) {
-  PredictedPlace made;
+  PredictedPlace predicted_place;
   const Eigen::Vector3d point = camera_from_station * point_in_station_m;
-  made.valid = projectWithJacobian(camera, point, made.pixel, made.pixel_by_point);
-  if (!made.valid) return made;
-  made.depth_m = point.z();
+  predicted_place.valid =
+      projectWithJacobian(camera, point, predicted_place.pixel, predicted_place.pixel_by_point);
+  if (!predicted_place.valid) return predicted_place;
+  predicted_place.depth_m = point.z();
   // The point moves by omega x p + v.
   for (int i = 0; i < 2; ++i) {
-    const Eigen::Vector3d row = made.pixel_by_point.row(i).transpose();
-    made.pixel_by_xi.row(i) << point.cross(row).transpose(), row.transpose();
+    const Eigen::Vector3d row = predicted_place.pixel_by_point.row(i).transpose();
+    predicted_place.pixel_by_xi.row(i) << point.cross(row).transpose(), row.transpose();
   }
-  return made;
+  return predicted_place;
 }
 
 bool isInImage(const Camera& camera, const Eigen::Vector2d& pixel) {
@@ -125,41 +129,45 @@ std::vector<Eigen::Vector2d> edgeOnImage(const Camera& camera, const Pose& camer
   return places;
 }
 
-MarkResidual markResidual(const MarkedView& view, const MarkAddress& at,
-                          const Pose& camera_from_station) {
-  if (at.kind == MarkKind::kPoint)
-    return pointResidual(view.camera, view.marks.points[at.index], camera_from_station);
-  return lineResidual(view.camera, view.marks.lines[at.index], camera_from_station);
+AnnotationResidual annotationResidual(const AnnotatedView& view, const AnnotationAddress& at,
+                                      const Pose& camera_from_station) {
+  if (at.kind == AnnotationKind::kPoint)
+    return pointResidual(view.camera, view.annotations.points[at.index], camera_from_station);
+  return lineResidual(view.camera, view.annotations.lines[at.index], camera_from_station);
 }
 
-NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
-                              std::span<const double> weight, const Pose& rig_from_station) {
+NormalEquations annotationEquations(std::span<const AnnotatedView> views,
+                                    std::span<const AnnotationAddress> annotations,
+                                    std::span<const double> weight, const Pose& rig_from_station) {
   NormalEquations sum;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    const MarkedView& view = views[marks[i].view];
+  for (std::size_t i = 0; i < annotations.size(); ++i) {
+    const AnnotatedView& view = views[annotations[i].view];
     const double factor = weight.empty() ? 1.0 : weight[i];
     if (factor == 0.0) continue;
-    const MarkResidual mark = markResidual(view, marks[i], view.camera_from_rig * rig_from_station);
-    if (!mark.valid) {
+    const AnnotationResidual annotation =
+        annotationResidual(view, annotations[i], view.camera_from_rig * rig_from_station);
+    if (!annotation.valid) {
       ++sum.missing;
       continue;
     }
-    const double sigma_px = markSigma_px(views, marks[i]);
+    const double sigma_px = annotationSigma_px(views, annotations[i]);
     const double w = factor / (sigma_px * sigma_px);
-    const Eigen::Matrix<double, 2, 6> rows = mark.predicted_by_xi * adjointOf(view.camera_from_rig);
+    const Eigen::Matrix<double, 2, 6> rows =
+        annotation.predicted_by_xi * adjointOf(view.camera_from_rig);
     sum.information += w * rows.transpose() * rows;
-    sum.gradient += w * rows.transpose() * mark.residual_px;
-    sum.squares += w * mark.residual_px.squaredNorm();
+    sum.gradient += w * rows.transpose() * annotation.residual_px;
+    sum.squares += w * annotation.residual_px.squaredNorm();
     ++sum.projected;
   }
   return sum;
 }
 
-bool refineMarks(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
-                 std::span<const double> weight, Pose& rig_from_station,
-                 NormalEquations& equations) {
+bool refineAnnotations(std::span<const AnnotatedView> views,
+                       std::span<const AnnotationAddress> annotations,
+                       std::span<const double> weight, Pose& rig_from_station,
+                       NormalEquations& equations) {
   Pose pose = rig_from_station;
-  equations = markEquations(views, marks, weight, pose);
+  equations = annotationEquations(views, annotations, weight, pose);
   double damping = 0.0;
   for (int step = 0; step < kMostSteps && damping <= kLargestDamping; ++step) {
     Vector6d xi;
@@ -169,7 +177,7 @@ bool refineMarks(std::span<const MarkedView> views, std::span<const MarkAddress>
     }
     Pose next = perturbed(xi, pose);
     next.rotation.normalize();
-    const NormalEquations there = markEquations(views, marks, weight, next);
+    const NormalEquations there = annotationEquations(views, annotations, weight, next);
     const bool negligible = isNegligible(xi, pose);
     if (next.isFinite() && there.cost() <= equations.cost() * (1.0 + kRoundingOfCost)) {
       pose = next;
@@ -186,22 +194,27 @@ bool refineMarks(std::span<const MarkedView> views, std::span<const MarkAddress>
   return true;
 }
 
-std::vector<MarkVector> markVectors(const MarkedView& view, const Pose& camera_from_station) {
-  std::vector<MarkVector> vectors;
-  for (std::size_t i = 0; i < view.marks.points.size(); ++i) {
-    const PointPair& point = view.marks.points[i];
+std::vector<AnnotationVector> annotationVectors(const AnnotatedView& view,
+                                                const Pose& camera_from_station) {
+  std::vector<AnnotationVector> vectors;
+  for (std::size_t i = 0; i < view.annotations.points.size(); ++i) {
+    const PointPair& point = view.annotations.points[i];
     if (!point.complete()) continue;
-    const MarkResidual mark = markResidual(view, {0, MarkKind::kPoint, i}, camera_from_station);
-    if (mark.valid) vectors.push_back({point.id, *point.pixel - mark.residual_px, *point.pixel});
+    const AnnotationResidual annotation =
+        annotationResidual(view, {0, AnnotationKind::kPoint, i}, camera_from_station);
+    if (annotation.valid)
+      vectors.push_back({point.id, *point.pixel - annotation.residual_px, *point.pixel});
   }
-  for (std::size_t i = 0; i < view.marks.lines.size(); ++i) {
-    const LinePair& line = view.marks.lines[i];
+  for (std::size_t i = 0; i < view.annotations.lines.size(); ++i) {
+    const LinePair& line = view.annotations.lines[i];
     if (!line.complete()) continue;
-    const MarkResidual mark = markResidual(view, {0, MarkKind::kLine, i}, camera_from_station);
-    if (!mark.valid) continue;
+    const AnnotationResidual annotation =
+        annotationResidual(view, {0, AnnotationKind::kLine, i}, camera_from_station);
+    if (!annotation.valid) continue;
     const Eigen::Vector2d ends[2] = {line.line->start, line.line->end};
     for (int end = 0; end < 2; ++end)
-      vectors.push_back({line.id, ends[end] - mark.residual_px[end] * mark.across[end], ends[end]});
+      vectors.push_back(
+          {line.id, ends[end] - annotation.residual_px[end] * annotation.across[end], ends[end]});
   }
   return vectors;
 }

@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "sessions/session/case_marks.h"
+#include "sessions/session/case_annotations.h"
 #include "ui/models/rows_model.h"
 
 namespace boresight::ui {
 
-/// A row's mark: what points and lines have in common, and what the solved pose says of it. The
-/// pointers are valid until the marks change.
-struct MarkRow {
+/// A row's annotation: what points and lines have in common, and what the solved pose says of it.
+/// The pointers are valid until the annotations change.
+struct AnnotationRow {
   const sessions::PointPair* point = nullptr;  ///< nullptr where it is a line
   const sessions::LinePair* line = nullptr;    ///< nullptr where it is a point
   std::string id;
@@ -23,15 +23,16 @@ struct MarkRow {
   bool complete = false;
   std::optional<Eigen::Vector2d> pixel;               ///< of a line its first place
   std::optional<Eigen::Vector3d> point_in_station_m;  ///< of a line the edge's start
-  std::optional<sessions::SolvedMark> solved;
+  std::optional<sessions::SolvedAnnotation> solved;
   std::optional<sessions::LeftOut> left_out;
 
   bool isOutlier() const { return solved && solved->isOutlier(); }
 };
 
-/// The marks of one image, points before lines, one row each, with what the solved pose says of
-/// them. What a person edits is told, not done: who owns the marks answers by setting them again.
-class MarksModel : public RowsModel<MarkRow> {
+/// The annotations of one image, points before lines, one row each, with what the solved pose says
+/// of them. What a person edits is told, not done: who owns the annotations answers by setting them
+/// again.
+class AnnotationsModel : public RowsModel<AnnotationRow> {
   Q_OBJECT
 
  public:
@@ -54,18 +55,19 @@ class MarksModel : public RowsModel<MarkRow> {
     kLocked,
     kComment,
   };
-  /// Which marks a list shows.
+  /// Which annotations a list shows.
   enum class Show { kAll, kUsed, kOff, kHalfMade, kStandOut, kLines };
 
-  using SolutionPtr = std::shared_ptr<const sessions::CaseMarksSolution>;
+  using SolutionPtr = std::shared_ptr<const sessions::CaseAnnotationsSolution>;
 
-  explicit MarksModel(QObject* parent = nullptr);
+  explicit AnnotationsModel(QObject* parent = nullptr);
 
-  void setMarks(const sessions::Marks& marks);
-  /// Of these marks; residuals of marks that moved since are shown dimmed. nullptr: none.
+  void setAnnotations(const sessions::Annotations& annotations);
+  /// Of these annotations; residuals of annotations that moved since are shown dimmed. nullptr:
+  /// none.
   void setSolution(SolutionPtr solution, bool stale);
 
-  const sessions::Marks& marks() const { return marks_; }
+  const sessions::Annotations& annotations() const { return annotations_; }
   const std::string& idOf(int row) const { return at(row).id; }
   int rowOf(const std::string& id) const;  ///< -1 when there is none
   /// The names of `Show`, in its order.
@@ -76,19 +78,19 @@ class MarksModel : public RowsModel<MarkRow> {
   Qt::ItemFlags flags(const QModelIndex& index) const override;
 
  Q_SIGNALS:
-  /// What the mark of this id should become, and what to call it.
+  /// What the annotation of this id should become, and what to call it.
   void pointEdited(const std::string& replaced, const boresight::sessions::PointPair& point,
                    const QString& text);
   void lineEdited(const std::string& replaced, const boresight::sessions::LinePair& line,
                   const QString& text);
 
  protected:
-  QVariant look(const MarkRow& row, int column, int role) const override;
+  QVariant look(const AnnotationRow& row, int column, int role) const override;
 
  private:
   void fillRows();
 
-  sessions::Marks marks_;
+  sessions::Annotations annotations_;
   SolutionPtr solution_;
   bool stale_ = false;
 };

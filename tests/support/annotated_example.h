@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/mesh_snap.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
@@ -35,10 +35,10 @@ inline std::vector<SeenCorner> spreadCorners(const ExampleCase& example, std::si
       candidates.push_back({corner, place.pixel});
   }
   std::vector<SeenCorner> chosen;
-  const auto distance = [&chosen](const SeenCorner& one) {
+  const auto distance = [&chosen](const SeenCorner& seen_corner) {
     double least = 1e9;
     for (const SeenCorner& other : chosen)
-      least = std::min(least, (one.pixel - other.pixel).norm());
+      least = std::min(least, (seen_corner.pixel - other.pixel).norm());
     return least;
   };
   while (chosen.size() < std::min(count, candidates.size()))
@@ -48,37 +48,39 @@ inline std::vector<SeenCorner> spreadCorners(const ExampleCase& example, std::si
   return chosen;
 }
 
-/// These corners as somebody might mark them: with noise, or as they are with the sigma 0.2 px.
-inline sessions::Marks marksOf(const std::vector<SeenCorner>& corners, double noise_px,
-                               Random& random) {
-  sessions::Marks marks;
+/// These corners as an annotator would place them: with noise, or as they are with the sigma 0.2
+/// px.
+inline sessions::Annotations annotationsOf(const std::vector<SeenCorner>& corners, double noise_px,
+                                           Random& random) {
+  sessions::Annotations annotations;
   for (const SeenCorner& corner : corners) {
     sessions::PointPair point;
-    point.id = sessions::unusedId(marks, 'p');
+    point.id = sessions::unusedId(annotations, 'p');
     point.point_in_station_m = corner.in_station_m;
     const double x = random.normal();
     const double y = random.normal();
     point.pixel = corner.pixel + noise_px * Eigen::Vector2d(x, y);
     point.sigma_px = noise_px > 0.0 ? noise_px : 0.2;
-    marks.points.push_back(point);
+    annotations.points.push_back(point);
   }
-  return marks;
+  return annotations;
 }
 
 /// The id of the case of a station.
 inline std::string caseOfStation(const sessions::Session& session, const std::string& station) {
-  for (const auto& one : session.cases)
-    if (one->station == station) return one->id;
+  for (const auto& session_case : session.cases)
+    if (session_case->station == station) return session_case->id;
   return "";
 }
 
-/// A session of the example's two cases, ten corners of each marked.
-inline sessions::Session markedExample(double noise_px) {
+/// A session of the example's two cases, ten corners of each annotated.
+inline sessions::Session annotatedExample(double noise_px) {
   sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
   Random random = randomFor("markedExample");
   for (const char* station : {"bc", "os"})
-    session = withAnnotation(session, caseOfStation(session, station),
-                             marksOf(spreadCorners(ExampleCase(station), 10), noise_px, random));
+    session =
+        withAnnotations(session, caseOfStation(session, station),
+                        annotationsOf(spreadCorners(ExampleCase(station), 10), noise_px, random));
   return session;
 }
 

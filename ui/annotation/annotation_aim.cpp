@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annotation/mark_aim.h"
+#include "ui/annotation/annotation_aim.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <QCoreApplication>
 #include <QFontMetricsF>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/run/surface_point.h"
 #include "ui/views/overlay_painters.h"
 
@@ -33,7 +33,7 @@ constexpr std::array<const char*, 3> kMeshSnapNames = {"vertex", "model edge", "
 
 /// Which of several, and how many there are to choose from.
 template <class Snap>
-const Snap& chosenOf(const std::vector<Snap>& snaps, int turn, MarkAim& aim) {
+const Snap& chosenOf(const std::vector<Snap>& snaps, int turn, AnnotationAim& aim) {
   aim.found = static_cast<int>(snaps.size());
   aim.chosen = turn % aim.found;
   return snaps[static_cast<std::size_t>(aim.chosen)];
@@ -45,15 +45,16 @@ double snapRadius_px(double scale) {
   return std::clamp(kSnapRadius / scale, kLeastRadius_px, kMostRadius_px);
 }
 
-MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& pointer,
-                   const AimRules& rules) {
-  MarkAim aim;
+AnnotationAim aimAtImage(const sessions::LoadedCase& loaded_case, const Eigen::Vector2d& pointer,
+                         const AimRules& rules) {
+  AnnotationAim aim;
   aim.side = AimSide::kImage;
   aim.pixel = pointer;
   aim.text = aimText("free");
   if (!rules.snaps) return aim;
-  std::vector<ImageSnap> snaps = sessions::imageSnaps(
-      one.image.view(), pointer, rules.radius_px, std::max(kLeastRim_px, kRims * rules.radius_px));
+  std::vector<ImageSnap> snaps =
+      sessions::imageSnaps(loaded_case.image.view(), pointer, rules.radius_px,
+                           std::max(kLeastRim_px, kRims * rules.radius_px));
   // Ends of a line lie on an edge; where it ends or what it goes round does not count.
   if (rules.line)
     std::stable_partition(snaps.begin(), snaps.end(), [](const ImageSnap& snap) {
@@ -66,11 +67,11 @@ MarkAim aimAtImage(const sessions::LoadedCase& one, const Eigen::Vector2d& point
   return aim;
 }
 
-MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_station,
-                     const Eigen::Vector2d& pointer, std::vector<MeshSnap> snaps,
-                     const AimRules& rules) {
-  MarkAim aim;
-  const Camera& camera = one.source.camera;
+AnnotationAim aimAtStation(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station,
+                           const Eigen::Vector2d& pointer, std::vector<MeshSnap> snaps,
+                           const AimRules& rules) {
+  AnnotationAim aim;
+  const Camera& camera = loaded_case.source.camera;
   if (rules.line) std::erase_if(snaps, [](const MeshSnap& snap) { return !snap.edge; });
   if (!snaps.empty() && (rules.snaps || rules.line)) {
     const MeshSnap& snap = chosenOf(snaps, rules.turn, aim);
@@ -85,7 +86,7 @@ MarkAim aimAtStation(const sessions::LoadedCase& one, const Pose& camera_from_st
   }
   if (rules.line) return aim;
   const auto surface =
-      sessions::surfacePointAt(camera, one.scene.view(), camera_from_station, pointer);
+      sessions::surfacePointAt(camera, loaded_case.scene.view(), camera_from_station, pointer);
   if (!surface) return aim;
   aim.side = AimSide::kStation;
   aim.pixel = pointer;
@@ -122,7 +123,7 @@ QPolygonF ellipseOnWidget(const ViewTransform& transform, const sessions::Ellips
   return line;
 }
 
-void paintFound(QPainter& painter, const ViewTransform& transform, const MarkAim& aim) {
+void paintFound(QPainter& painter, const ViewTransform& transform, const AnnotationAim& aim) {
   const QPointF at = toWidget(transform, aim.pixel);
   if (aim.snap && aim.snap->kind == sessions::ImageSnapKind::kEllipse)
     painter.drawPolyline(ellipseOnWidget(transform, aim.snap->ellipse));
@@ -139,7 +140,7 @@ void paintFound(QPainter& painter, const ViewTransform& transform, const MarkAim
 
 }  // namespace
 
-void paintAim(QPainter& painter, const ViewTransform& transform, const MarkAim& aim,
+void paintAim(QPainter& painter, const ViewTransform& transform, const AnnotationAim& aim,
               const QPointF& pointer) {
   if (aim.side == AimSide::kNone) return;
   const QPointF at = toWidget(transform, aim.pixel);
@@ -175,15 +176,15 @@ QRectF paintBox(QPainter& painter, const QPointF& top_left, const QString& text,
   return box;
 }
 
-void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& beside,
+void paintNote(QPainter& painter, const QRectF& area, const QRectF& taken, const QPointF& anchor,
                const QString& text) {
   if (text.isEmpty()) return;
   const QFontMetricsF metrics(painter.font());
   const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * kPadding, metrics.height() + 4.0);
-  QRectF box(beside + QPointF(kBeside, kBeside), size);
-  if (box.right() > area.right() || box.intersects(taken)) box.moveRight(beside.x() - kBeside);
-  if (box.left() < area.left()) box.moveTopLeft(QPointF(area.left(), beside.y() + 2.0 * kBeside));
-  if (box.bottom() > area.bottom()) box.moveBottom(beside.y() - kBeside);
+  QRectF box(anchor + QPointF(kBeside, kBeside), size);
+  if (box.right() > area.right() || box.intersects(taken)) box.moveRight(anchor.x() - kBeside);
+  if (box.left() < area.left()) box.moveTopLeft(QPointF(area.left(), anchor.y() + 2.0 * kBeside));
+  if (box.bottom() > area.bottom()) box.moveBottom(anchor.y() - kBeside);
   paintBox(painter, box.topLeft(), text);
 }
 

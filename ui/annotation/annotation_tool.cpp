@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annotation/mark_tool.h"
+#include "ui/annotation/annotation_tool.h"
 
 #include <utility>
 
 #include <QtWidgets>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/views/image_view.h"
 #include "ui/views/view_transform.h"
@@ -32,34 +32,35 @@ Eigen::Vector2d directionOf(int key) {
 
 }  // namespace
 
-MarkTool::MarkTool(ImageView& view, AnnotationController& controller, ViewState& state,
-                   StationSnapper& snapper, QObject* parent)
+AnnotationTool::AnnotationTool(ImageView& view, AnnotationController& controller, ViewState& state,
+                               StationSnapper& snapper, QObject* parent)
     : QObject(parent), view_(view), controller_(controller), state_(state), snapper_(snapper) {
   view_.installEventFilter(this);
-  connect(&controller_, &AnnotationController::modeChanged, this, &MarkTool::showMode);
-  connect(&controller_, &AnnotationController::marksChanged, this, [this] { view_.update(); });
+  connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationTool::showMode);
+  connect(&controller_, &AnnotationController::annotationsChanged, this,
+          [this] { view_.update(); });
   connect(&controller_, &AnnotationController::selectionChanged, this, [this] {
     if (!drag_) end_ = 0;
     view_.update();
   });
-  state_.onChange(ViewChange::kCase, this, &MarkTool::clearAim);
-  connect(&snapper_, &StationSnapper::meshChanged, this, &MarkTool::updateAim);
+  state_.onChange(ViewChange::kCase, this, &AnnotationTool::clearAim);
+  connect(&snapper_, &StationSnapper::meshChanged, this, &AnnotationTool::updateAim);
 }
 
-void MarkTool::setSnaps(bool snaps) {
+void AnnotationTool::setSnaps(bool snaps) {
   if (snaps == snaps_) return;
   snaps_ = snaps;
   updateAim();
   Q_EMIT snapsChanged();
 }
 
-Pose MarkTool::stationPose() const {
+Pose AnnotationTool::stationPose() const {
   const std::optional<Pose> solved = controller_.solvedPose();
   return solved && view_.layer(LayerId::kAnnotationEdges).style.visible ? *solved
                                                                         : state_.shownPose();
 }
 
-void MarkTool::showMode() {
+void AnnotationTool::showMode() {
   view_.setCursor(active() ? Qt::CrossCursor : Qt::ArrowCursor);
   press_.reset();
   line_start_.reset();
@@ -72,14 +73,14 @@ void MarkTool::showMode() {
   }
 }
 
-AimRules MarkTool::rules() const {
+AimRules AnnotationTool::rules() const {
   return {.snaps = snaps_ && (modifiers_ & Qt::AltModifier) == 0,
-          .line = marksLines(),
+          .line = annotationsLines(),
           .radius_px = snapRadius_px(view_.transform().scale()),
           .turn = turn_};
 }
 
-void MarkTool::clearAim() {
+void AnnotationTool::clearAim() {
   aim_ = {};
   pointer_.reset();
   focus_.reset();
@@ -88,25 +89,25 @@ void MarkTool::clearAim() {
   Q_EMIT aimChanged();
 }
 
-void MarkTool::updateAim() {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!active() || !one || !pointer_ || drag_) return;
+void AnnotationTool::updateAim() {
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!active() || !loaded_case || !pointer_ || drag_) return;
   const Eigen::Vector2d pixel = vectorOf(*pointer_);
   const QPointF place = view_.transform().toWidget(*pointer_);
   aim_ = {};
   if ((modifiers_ & Qt::ControlModifier) != 0) {
     const Pose pose = stationPose();
     const AimRules how = rules();
-    aim_ = aimAtStation(*one, pose, pixel,
-                        snapper_.near(one->source.camera, pose, pixel, how.radius_px), how);
+    aim_ = aimAtStation(*loaded_case, pose, pixel,
+                        snapper_.near(loaded_case->source.camera, pose, pixel, how.radius_px), how);
   } else if (const auto handle = line_start_ ? std::nullopt : handleUnder(place)) {
     aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
   } else if (const auto* proposal = proposalUnder(place)) {
-    aim_ = aimAtImage(*one, pixel, rules());
-    aim_.text = tr("%1, %2: click marks it here, right click to place it later")
+    aim_ = aimAtImage(*loaded_case, pixel, rules());
+    aim_.text = tr("%1, %2: click places it, right click to place it later")
                     .arg(QString::fromStdString(proposal->landmark.name), aim_.text);
   } else {
-    aim_ = aimAtImage(*one, pixel, rules());
+    aim_ = aimAtImage(*loaded_case, pixel, rules());
   }
   focus_ = pointer_;
   view_.update();
@@ -114,8 +115,8 @@ void MarkTool::updateAim() {
 }
 
 /// The chosen pair waits for its place in the image.
-bool MarkTool::lacksImageSide() const {
-  if (marksLines()) {
+bool AnnotationTool::lacksImageSide() const {
+  if (annotationsLines()) {
     const sessions::LinePair* line = controller_.selectedLine();
     return line && line->edge && !line->line;
   }
@@ -123,14 +124,14 @@ bool MarkTool::lacksImageSide() const {
   return point && point->point_in_station_m && !point->pixel;
 }
 
-double MarkTool::screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const {
+double AnnotationTool::screenDistance(const Eigen::Vector2d& pixel, const QPointF& place) const {
   const QPointF away = view_.transform().toWidget(pointOf(pixel)) - place;
   return std::hypot(away.x(), away.y());
 }
 
 /// The nearest within reach. While a chosen pair waits for its place, a click is that place.
-const sessions::Proposal* MarkTool::proposalUnder(const QPointF& place) const {
-  if (marksLines() || lacksImageSide()) return nullptr;
+const sessions::Proposal* AnnotationTool::proposalUnder(const QPointF& place) const {
+  if (annotationsLines() || lacksImageSide()) return nullptr;
   if (!view_.layer(LayerId::kProposals).style.visible) return nullptr;
   const sessions::Proposal* found = nullptr;
   double nearest = kReach;
@@ -144,7 +145,7 @@ const sessions::Proposal* MarkTool::proposalUnder(const QPointF& place) const {
 }
 
 /// The nearest point or end of a line within reach.
-std::optional<MarkTool::Handle> MarkTool::handleUnder(const QPointF& place) const {
+std::optional<AnnotationTool::Handle> AnnotationTool::handleUnder(const QPointF& place) const {
   std::optional<Handle> found;
   double nearest = kReach;
   const auto offer = [&](const std::string& id, int end, const Eigen::Vector2d& pixel) {
@@ -153,9 +154,9 @@ std::optional<MarkTool::Handle> MarkTool::handleUnder(const QPointF& place) cons
     nearest = distance;
     found = Handle{id, end, pixel};
   };
-  for (const sessions::PointPair& point : controller_.marks().points)
+  for (const sessions::PointPair& point : controller_.annotations().points)
     if (point.pixel) offer(point.id, 0, *point.pixel);
-  for (const sessions::LinePair& line : controller_.marks().lines) {
+  for (const sessions::LinePair& line : controller_.annotations().lines) {
     if (!line.line) continue;
     offer(line.id, 0, line.line->start);
     offer(line.id, 1, line.line->end);
@@ -164,19 +165,19 @@ std::optional<MarkTool::Handle> MarkTool::handleUnder(const QPointF& place) cons
 }
 
 /// A point without a place in the image that the pose predicts within reach, or "".
-std::string MarkTool::stationOnlyUnder(const QPointF& place) const {
-  const ViewState::CasePtr& one = state_.currentCase();
-  if (!one || lacksImageSide()) return {};
-  for (const sessions::PointPair& point : controller_.marks().points) {
+std::string AnnotationTool::stationOnlyUnder(const QPointF& place) const {
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case || lacksImageSide()) return {};
+  for (const sessions::PointPair& point : controller_.annotations().points) {
     if (point.pixel || !point.point_in_station_m) continue;
-    const auto at =
-        sessions::predictPlace(one->source.camera, stationPose(), *point.point_in_station_m);
+    const auto at = sessions::predictPlace(loaded_case->source.camera, stationPose(),
+                                           *point.point_in_station_m);
     if (at.valid && screenDistance(at.pixel, place) <= kReach) return point.id;
   }
   return {};
 }
 
-bool MarkTool::eventFilter(QObject* watched, QEvent* event) {
+bool AnnotationTool::eventFilter(QObject* watched, QEvent* event) {
   if (!active() || view_.toolActive() || !state_.currentCase())
     return QObject::eventFilter(watched, event);
   switch (event->type()) {
@@ -204,14 +205,14 @@ bool MarkTool::eventFilter(QObject* watched, QEvent* event) {
   }
 }
 
-bool MarkTool::mouseEvent(QEvent::Type type, const QMouseEvent& event) {
+bool AnnotationTool::mouseEvent(QEvent::Type type, const QMouseEvent& event) {
   const QPointF place = pointerPlace(event, view_);
   if (type == QEvent::MouseMove) return move(place, event.modifiers());
   if (type == QEvent::MouseButtonRelease) return event.button() == Qt::LeftButton && release(event);
   return press(event, place);
 }
 
-bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
+bool AnnotationTool::press(const QMouseEvent& event, const QPointF& place) {
   modifiers_ = event.modifiers();
   if (event.button() == Qt::RightButton) return takeProposal(event, place);
   if (event.button() != Qt::LeftButton) return false;
@@ -231,9 +232,9 @@ bool MarkTool::press(const QMouseEvent& event, const QPointF& place) {
   return true;
 }
 
-/// A proposal is marked where the operator clicks, or on what that snaps to; by another button or
-/// with Ctrl it is begun.
-bool MarkTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
+/// A proposal is annotated where the operator clicks, or on what that snaps to; by another button
+/// or with Ctrl it is begun.
+bool AnnotationTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
   const sessions::Proposal* proposal = proposalUnder(place);
   if (!proposal || (event.button() == Qt::LeftButton && handleUnder(place))) return false;
   const sessions::Proposal taken = *proposal;  // the controller forgets it
@@ -249,7 +250,7 @@ bool MarkTool::takeProposal(const QMouseEvent& event, const QPointF& place) {
   return true;
 }
 
-bool MarkTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers) {
+bool AnnotationTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   modifiers_ = modifiers;
   const QPointF delta = place - std::exchange(last_, place);
   pointer_ = view_.transform().toPixel(place);
@@ -270,8 +271,8 @@ bool MarkTool::move(const QPointF& place, Qt::KeyboardModifiers modifiers) {
   return false;
 }
 
-/// The mark keeps its distance from the pointer, so that taking hold of it moves nothing.
-void MarkTool::dragTo(const QPointF& pixel) {
+/// The annotation keeps its distance from the pointer, so that taking hold of it moves nothing.
+void AnnotationTool::dragTo(const QPointF& pixel) {
   Handle& handle = drag_->handle;
   const Eigen::Vector2d by = vectorOf(pixel - view_.transform().toPixel(*press_));
   aim_ = aimAtImage(*state_.currentCase(), handle.pixel + by, rules());
@@ -288,7 +289,7 @@ void MarkTool::dragTo(const QPointF& pixel) {
   Q_EMIT aimChanged();
 }
 
-bool MarkTool::release(const QMouseEvent&) {
+bool AnnotationTool::release(const QMouseEvent&) {
   const std::optional<QPointF> pressed = std::exchange(press_, std::nullopt);
   if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
     if (drag->moved) controller_.finishMove();
@@ -303,43 +304,42 @@ bool MarkTool::release(const QMouseEvent&) {
   return true;
 }
 
-void MarkTool::place() {
+void AnnotationTool::place() {
   turn_ = 0;
   if (aim_.side == AimSide::kImage) {
     placeImage();
-  } else if (aim_.side == AimSide::kStation && marksLines()) {
+  } else if (aim_.side == AimSide::kStation && annotationsLines()) {
     controller_.placeEdgeOnStation(*aim_.edge);
   } else if (aim_.side == AimSide::kStation) {
     controller_.placeOnStation(*aim_.point_in_station_m);
   } else if ((modifiers_ & Qt::ControlModifier) != 0) {
-    Q_EMIT controller_.told(
-        marksLines() ? tr("There is no edge of the station within reach of the pointer; point at "
-                          "one of the drawn edges with Ctrl held.")
-                     : tr("There is no station under the pointer in the shown pose; point at its "
-                          "drawn edges with Ctrl held, or pick the place in the scene."));
+    Q_EMIT controller_.told(annotationsLines()
+                                ? tr("No edge of the station is near the pointer; point at a drawn "
+                                     "edge with Ctrl held.")
+                                : tr("The station is not under the pointer; point at its drawn "
+                                     "edges with Ctrl held, or pick in the scene."));
   }
   updateAim();
 }
 
-void MarkTool::placeImage() {
+void AnnotationTool::placeImage() {
   if (!sessions::isInImage(state_.currentCase()->source.camera, aim_.pixel)) {
-    Q_EMIT controller_.told(tr("That place is outside of the image."));
+    Q_EMIT controller_.told(tr("This position is outside the image."));
     return;
   }
-  if (!marksLines()) {
+  if (!annotationsLines()) {
     controller_.placeInImage(aim_.pixel);
   } else if (!line_start_) {
-    if (!lacksImageSide()) controller_.select({});  // the line that is begun is another mark
+    if (!lacksImageSide()) controller_.select({});  // the line that is begun is another annotation
     line_start_ = aim_.pixel;
   } else if ((aim_.pixel - *line_start_).norm() * view_.transform().scale() < kShortestLine) {
-    Q_EMIT controller_.told(
-        tr("The two places of a line must lie apart; click farther along the edge."));
+    Q_EMIT controller_.told(tr("The two points of a line coincide; click farther along the edge."));
   } else {
     controller_.placeLineInImage({*std::exchange(line_start_, std::nullopt), aim_.pixel});
   }
 }
 
-void MarkTool::paint(QPainter& painter, const QRectF& taken) const {
+void AnnotationTool::paint(QPainter& painter, const QRectF& taken) const {
   if (!active() || !pointer_) return;
   if (line_start_) {
     painter.setRenderHint(QPainter::Antialiasing, true);
@@ -359,14 +359,14 @@ void MarkTool::paint(QPainter& painter, const QRectF& taken) const {
   paintNote(painter, view_.rect(), taken, view_.transform().toWidget(*pointer_), text);
 }
 
-bool MarkTool::isOwnKey(const QKeyEvent& event) {
+bool AnnotationTool::isOwnKey(const QKeyEvent& event) {
   const int key = event.key();
   if ((event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0) return key == Qt::Key_Alt;
   return !directionOf(key).isZero() || key == Qt::Key_Delete || key == Qt::Key_Escape ||
          key == Qt::Key_Tab;
 }
 
-bool MarkTool::keyPress(const QKeyEvent& event) {
+bool AnnotationTool::keyPress(const QKeyEvent& event) {
   if (!isOwnKey(event)) return false;
   switch (event.key()) {
     case Qt::Key_Escape:
@@ -386,8 +386,8 @@ bool MarkTool::keyPress(const QKeyEvent& event) {
   }
 }
 
-/// Without a chosen mark the arrows are the view's.
-bool MarkTool::nudge(const QKeyEvent& event) {
+/// Without a chosen annotation the arrows are the view's.
+bool AnnotationTool::nudge(const QKeyEvent& event) {
   if (controller_.selected().empty()) return false;
   const bool large = (event.modifiers() & Qt::ShiftModifier) != 0;
   const Eigen::Vector2d by = (large ? kLargeStep_px : kSmallStep_px) * directionOf(event.key());
@@ -402,7 +402,7 @@ bool MarkTool::nudge(const QKeyEvent& event) {
   return true;
 }
 
-void MarkTool::escape() {
+void AnnotationTool::escape() {
   turn_ = 0;
   if (const std::optional<Drag> drag = std::exchange(drag_, std::nullopt)) {
     press_.reset();

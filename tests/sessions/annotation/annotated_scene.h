@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 #include "tests/support/random_pose.h"
 
-/// Marks of known truth for tests.
+/// Annotations of known truth for tests.
 namespace boresight::test {
 
 /// A narrow camera, with distortion unless it is a pinhole.
@@ -35,31 +35,31 @@ inline Eigen::Vector2d gaussian(Random& random, double sigma_px) {
   return sigma_px * Eigen::Vector2d(x, y);
 }
 
-struct MarkedScene {
-  sessions::MarkedView view;
+struct AnnotatedScene {
+  sessions::AnnotatedView view;
   Pose camera_from_station;  ///< the truth
 
-  std::vector<sessions::MarkedView> views() const { return {view}; }
+  std::vector<sessions::AnnotatedView> views() const { return {view}; }
 };
 
 /// Adds a pair at this place of the station, seen with noise. False when the camera does not see
 /// it.
-inline bool addPoint(sessions::MarkedView& view, const Pose& camera_from_station,
+inline bool addPoint(sessions::AnnotatedView& view, const Pose& camera_from_station,
                      const Eigen::Vector3d& place_m, double noise_px, double sigma_px,
                      Random& random) {
   Eigen::Vector2d pixel;
   if (!project(view.camera, camera_from_station * place_m, pixel)) return false;
   sessions::PointPair pair;
-  pair.id = sessions::unusedId(view.marks, 'p');
+  pair.id = sessions::unusedId(view.annotations, 'p');
   pair.point_in_station_m = place_m;
   pair.pixel = pixel + gaussian(random, noise_px);
   pair.sigma_px = sigma_px;
-  view.marks.points.push_back(pair);
+  view.annotations.points.push_back(pair);
   return true;
 }
 
 /// Adds an edge between two places, seen at a fifth and four fifths of its length.
-inline bool addLine(sessions::MarkedView& view, const Pose& camera_from_station,
+inline bool addLine(sessions::AnnotatedView& view, const Pose& camera_from_station,
                     const Eigen::Vector3d& start_m, const Eigen::Vector3d& end_m, double noise_px,
                     double sigma_px, Random& random) {
   sessions::ImageLine line;
@@ -70,27 +70,27 @@ inline bool addLine(sessions::MarkedView& view, const Pose& camera_from_station,
   line.start += gaussian(random, noise_px);
   line.end += gaussian(random, noise_px);
   sessions::LinePair pair;
-  pair.id = sessions::unusedId(view.marks, 'l');
+  pair.id = sessions::unusedId(view.annotations, 'l');
   pair.edge = sessions::ModelEdge{start_m, end_m};
   pair.line = line;
   pair.sigma_px = sigma_px;
-  view.marks.lines.push_back(pair);
+  view.annotations.lines.push_back(pair);
   return true;
 }
 
 /// Points in a box of 20 cm half a metre away (its third side `thickness_m`), and edges of it.
-inline MarkedScene randomScene(Random& random, CameraModel model, int points, int lines,
-                               double noise_px, double thickness_m = 0.2) {
-  MarkedScene scene;
+inline AnnotatedScene randomScene(Random& random, CameraModel model, int points, int lines,
+                                  double noise_px, double thickness_m = 0.2) {
+  AnnotatedScene scene;
   scene.view.name = "camera";
   scene.view.camera = annotatedCamera(model);
   scene.camera_from_station = randomCameraFromStation(random, 0.5);
   const Eigen::Vector3d size_m(0.2, 0.2, thickness_m);
   const auto place = [&] { return randomVector(random, 0.5).cwiseProduct(size_m).eval(); };
   const double sigma_px = noise_px > 0.0 ? noise_px : 1.0;
-  while (static_cast<int>(scene.view.marks.points.size()) < points)
+  while (static_cast<int>(scene.view.annotations.points.size()) < points)
     addPoint(scene.view, scene.camera_from_station, place(), noise_px, sigma_px, random);
-  while (static_cast<int>(scene.view.marks.lines.size()) < lines) {
+  while (static_cast<int>(scene.view.annotations.lines.size()) < lines) {
     const Eigen::Vector3d start_m = place();
     const Eigen::Vector3d end_m = place();
     if ((end_m - start_m).norm() > 0.05)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annotation/mark_content.h"
+#include "ui/annotation/annotation_content.h"
 
 #include <utility>
 
 #include <QCoreApplication>
 
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
@@ -27,15 +27,15 @@ Mark sign(MarkShape shape, const Eigen::Vector2d& pixel, int item) {
   return mark;
 }
 
-/// Collects the signs of one case's marks.
+/// Collects the signs of one case's annotations.
 class Signs {
  public:
-  explicit Signs(const MarkLook& look) : look_(look) {}
+  explicit Signs(const AnnotationLook& look) : look_(look) {}
 
   void addPoint(const sessions::PointPair& point, int item) {
     if (point.pixel) {
       Mark mark = sign(shapeOf(point), *point.pixel, item);
-      mark.label = markLabel(point.id, stateOf(point));
+      mark.label = annotationLabel(point.id, stateOf(point));
       finish(std::move(mark), point);
     } else if (point.point_in_station_m) {
       const auto place = sessions::predictPlace(look_.camera, look_.camera_from_station,
@@ -51,13 +51,13 @@ class Signs {
   void addLine(const sessions::LinePair& line, int item) {
     if (line.line) {
       Mark mark = segment(line.line->start, line.line->end, item);
-      mark.label = markLabel(line.id, stateOf(line));
+      mark.label = annotationLabel(line.id, stateOf(line));
       mark.dashed = !line.edge;
       finish(std::move(mark), line);
       for (const Eigen::Vector2d& end : {line.line->start, line.line->end}) {
         Mark handle = sign(line.locked ? MarkShape::kSquare : MarkShape::kCircle, end, item);
         handle.size_px = kEndSize;
-        if (!line.enabled) handle.color = kDisabledMark;
+        if (!line.enabled) handle.color = kDisabledAnnotation;
         signs_.push_back(std::move(handle));
       }
     } else if (line.edge) {
@@ -87,7 +87,7 @@ class Signs {
       mark.dashed = true;
       if (2 * i == places.size() + 1)
         mark.label = contentText("%1 (not placed)").arg(QString::fromStdString(line.id));
-      if (line.id == look_.selected) mark.color = kChosenMark;
+      if (line.id == look_.selected) mark.color = kChosenAnnotation;
       signs_.push_back(std::move(mark));
     }
   }
@@ -99,7 +99,7 @@ class Signs {
   }
 
   template <class Pair>
-  MarkState stateOf(const Pair& pair) const {
+  AnnotationState stateOf(const Pair& pair) const {
     const double outlier = isOutlier(pair) ? look_.outliers.at(pair.id) : 0.0;
     return {pair.complete(), pair.enabled, pair.id == look_.selected, outlier};
   }
@@ -109,13 +109,13 @@ class Signs {
     for (Mark& each : withState(std::move(mark), stateOf(pair))) signs_.push_back(std::move(each));
   }
 
-  const MarkLook& look_;
+  const AnnotationLook& look_;
   std::vector<Mark> signs_;
 };
 
 }  // namespace
 
-QString markLabel(const std::string& id, const MarkState& state) {
+QString annotationLabel(const std::string& id, const AnnotationState& state) {
   const QString name = QString::fromStdString(id);
   if (!state.complete) return contentText("%1 ?").arg(name);
   if (!state.enabled) return contentText("%1 (off)").arg(name);
@@ -124,15 +124,15 @@ QString markLabel(const std::string& id, const MarkState& state) {
   return name;
 }
 
-QColor markColor(const MarkState& state) {
-  if (state.outlier > 0.0) return kOutlierMark;
-  if (state.chosen) return kChosenMark;
-  return state.enabled ? QColor() : kDisabledMark;
+QColor annotationColor(const AnnotationState& state) {
+  if (state.outlier > 0.0) return kOutlierAnnotation;
+  if (state.chosen) return kChosenAnnotation;
+  return state.enabled ? QColor() : kDisabledAnnotation;
 }
 
-std::vector<Mark> withState(Mark sign, const MarkState& state) {
+std::vector<Mark> withState(Mark sign, const AnnotationState& state) {
   std::vector<Mark> signs;
-  sign.color = markColor(state);
+  sign.color = annotationColor(state);
   const auto add_round = [&](MarkShape shape, double size_px) {
     Mark& round = signs.emplace_back(sign);
     round.shape = shape;
@@ -148,22 +148,23 @@ std::vector<Mark> withState(Mark sign, const MarkState& state) {
   return signs;
 }
 
-std::vector<Mark> markSigns(const sessions::Marks& marks, const MarkLook& look) {
+std::vector<Mark> annotationSigns(const sessions::Annotations& annotations,
+                                  const AnnotationLook& look) {
   Signs signs(look);
   int item = 0;
-  for (const sessions::PointPair& point : marks.points) signs.addPoint(point, item++);
-  for (const sessions::LinePair& line : marks.lines) signs.addLine(line, item++);
+  for (const sessions::PointPair& point : annotations.points) signs.addPoint(point, item++);
+  for (const sessions::LinePair& line : annotations.lines) signs.addLine(line, item++);
   return signs.take();
 }
 
-std::vector<Mark> residualSigns(const std::vector<sessions::MarkVector>& vectors,
-                                const MarkLook& look, double magnification, bool stale) {
+std::vector<Mark> residualSigns(const std::vector<sessions::AnnotationVector>& vectors,
+                                const AnnotationLook& look, double magnification, bool stale) {
   std::vector<Mark> signs;
-  for (const sessions::MarkVector& vector : vectors) {
+  for (const sessions::AnnotationVector& vector : vectors) {
     Mark mark = sign(MarkShape::kArrow, vector.predicted, -1);
     mark.to = pointOf(vector.predicted + magnification * (vector.seen - vector.predicted));
     mark.dashed = stale;
-    if (look.outliers.contains(vector.id)) mark.color = kOutlierMark;
+    if (look.outliers.contains(vector.id)) mark.color = kOutlierAnnotation;
     signs.push_back(std::move(mark));
   }
   return signs;
@@ -198,12 +199,12 @@ std::vector<Mark> bandSigns(const std::vector<sessions::BandPiece>& band) {
   return signs;
 }
 
-std::string idOfSign(const sessions::Marks& marks, int item) {
+std::string idOfSign(const sessions::Annotations& annotations, int item) {
   if (item < 0) return {};
   const auto index = static_cast<std::size_t>(item);
-  if (index < marks.points.size()) return marks.points[index].id;
-  const std::size_t line = index - marks.points.size();
-  return line < marks.lines.size() ? marks.lines[line].id : std::string();
+  if (index < annotations.points.size()) return annotations.points[index].id;
+  const std::size_t line = index - annotations.points.size();
+  return line < annotations.lines.size() ? annotations.lines[line].id : std::string();
 }
 
 }  // namespace boresight::ui

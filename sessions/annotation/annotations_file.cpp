@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 
 #include <set>
 
@@ -16,8 +16,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kMarksFormat = "boresight-points";
-constexpr int kMarksVersion = 1;
+constexpr const char* kAnnotationsFormat = "boresight-points";
+constexpr int kAnnotationsVersion = 1;
 constexpr double kMaxSigma_px = 1e4;
 
 constexpr auto kPlace = jsonCodec<Eigen::Vector3d>(
@@ -36,7 +36,7 @@ constexpr auto endsOf(End end) {
                  const auto ends = json.elements(2);
                  const Segment segment{end.read(ends[0]), end.read(ends[1])};
                  const auto& [start, stop] = segment;
-                 if (start == stop) json.fail("both ends are the same place");
+                 if (start == stop) json.fail("both ends coincide");
                  return segment;
                }};
 }
@@ -52,17 +52,17 @@ void commonFields(Archive& archive, Pair& pair) {
 
 bool isTable(const std::filesystem::path& file) { return file.extension() == ".csv"; }
 
-std::vector<MarkedView> readViews(const JsonReader& root) {
-  std::vector<MarkedView> views;
+std::vector<AnnotatedView> readViews(const JsonReader& root) {
+  std::vector<AnnotatedView> views;
   std::set<std::string> names;
   for (const JsonReader& json : root.at("views").elements()) {
-    MarkedView view;
+    AnnotatedView view;
     view.name = json.at("name").nonEmptyText();
     if (!names.insert(view.name).second)
       json.failMember("name", "'" + view.name + "' is given twice");
     view.camera = readCamera(json.at("camera").path());
     view.camera_from_rig = readTransform(json.at("camera_from_rig"));
-    view.marks = readMarks(json.at("points").path());
+    view.annotations = readAnnotations(json.at("points").path());
     views.push_back(view);
   }
   if (views.empty()) root.failMember("views", "there is none");
@@ -87,14 +87,14 @@ void fields(Archive& archive, Self& line) {
   commonFields(archive, line);
 }
 
-template <class Archive, ConstOr<Marks> Self>
-void fields(Archive& archive, Self& marks) {
-  archive.optionalList("points", marks.points);
-  archive.optionalList("lines", marks.lines);
+template <class Archive, ConstOr<Annotations> Self>
+void fields(Archive& archive, Self& annotations) {
+  archive.optionalList("points", annotations.points);
+  archive.optionalList("lines", annotations.lines);
 }
 
-Marks readMarks(const JsonReader& json) {
-  const auto marks = readFields<Marks>(json);
+Annotations readAnnotations(const JsonReader& json) {
+  const auto annotations = readFields<Annotations>(json);
   std::set<std::string> ids;
   for (const char* list : {"points", "lines"})
     if (const auto pairs = json.find(list))
@@ -102,29 +102,30 @@ Marks readMarks(const JsonReader& json) {
         const std::string id = pair.at("id").text();
         if (!ids.insert(id).second) pair.failMember("id", "'" + id + "' is given twice");
       }
-  return marks;
+  return annotations;
 }
 
-ordered_json toJson(const Marks& marks) { return fieldsJson(marks); }
+ordered_json toJson(const Annotations& annotations) { return fieldsJson(annotations); }
 
-Marks readMarks(const std::filesystem::path& file) {
+Annotations readAnnotations(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes, FileUse::kMarks);
-  if (isTable(file)) return parseMarksCsv(file, asText(bytes));
+  if (isTable(file)) return parseAnnotationsCsv(file, asText(bytes));
   return JsonDocument(file, asText(bytes))
-      .read(kMarksFormat, kMarksVersion, [](const JsonReader& root) { return readMarks(root); });
+      .read(kAnnotationsFormat, kAnnotationsVersion,
+            [](const JsonReader& root) { return readAnnotations(root); });
 }
 
-void writeMarks(const std::filesystem::path& file, const Marks& marks) {
+void writeAnnotations(const std::filesystem::path& file, const Annotations& annotations) {
   if (isTable(file)) {
-    writeFileAtomically(file, marksCsv(marks), FileUse::kMarks);
+    writeFileAtomically(file, annotationsCsv(annotations), FileUse::kMarks);
     return;
   }
-  ordered_json json = {{"format", kMarksFormat}, {"version", kMarksVersion}};
-  json.update(toJson(marks));
+  ordered_json json = {{"format", kAnnotationsFormat}, {"version", kAnnotationsVersion}};
+  json.update(toJson(annotations));
   writeFileAtomically(file, prettyJson(json), FileUse::kMarks);
 }
 
-std::vector<MarkedView> readRig(const std::filesystem::path& file) {
+std::vector<AnnotatedView> readRig(const std::filesystem::path& file) {
   return JsonDocument(file).read("boresight-rig", 1, readViews);
 }
 

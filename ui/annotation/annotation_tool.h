@@ -8,8 +8,8 @@
 #include <QObject>
 #include <QPointF>
 
+#include "ui/annotation/annotation_aim.h"
 #include "ui/annotation/annotation_controller.h"
-#include "ui/annotation/mark_aim.h"
 
 class QKeyEvent;
 class QMouseEvent;
@@ -19,26 +19,28 @@ namespace boresight::ui {
 class ImageView;
 class StationSnapper;
 
-/// Marks with the pointer on the image while the operator annotates. A click marks a place of the
-/// image, Ctrl+click the place of the station that is drawn there (on the edges of the annotation
-/// while these show, else of the shown pose); in line mode two clicks mark a line, Ctrl+click an
-/// edge. Before the click it shows where the mark would go and what it snaps to; Tab goes on to
-/// another thing to snap to, Alt held refuses it. A press on a mark chooses it, and drags it; a
-/// drag elsewhere pans. Arrows move the chosen mark by 0.1 px, with Shift by 1 px; Delete removes
-/// it; Escape drops the half-made gesture, then the choice, then the mode.
-class MarkTool : public QObject {
+/// Annotations with the pointer on the image while the operator annotates. A click annotates a
+/// place of the image, Ctrl+click the place of the station that is drawn there (on the edges of the
+/// annotation while these show, else of the shown pose); in line mode two clicks annotate a line,
+/// Ctrl+click an edge. Before the click it shows where the annotation would go and what it snaps
+/// to; Tab goes on to another thing to snap to, Alt held refuses it. A press on an annotation
+/// chooses it, and drags it; a drag elsewhere pans. Arrows move the chosen annotation by 0.1 px,
+/// with Shift by 1 px; Delete removes it; Escape drops the half-made gesture, then the choice, then
+/// the mode.
+class AnnotationTool : public QObject {
   Q_OBJECT
 
  public:
-  MarkTool(ImageView& view, AnnotationController& controller, ViewState& state,
-           StationSnapper& snapper, QObject* parent = nullptr);
+  AnnotationTool(ImageView& view, AnnotationController& controller, ViewState& state,
+                 StationSnapper& snapper, QObject* parent = nullptr);
 
   bool snaps() const { return snaps_; }
   void setSnaps(bool snaps);
 
   /// Where a click would go now; side kNone where it would do nothing.
-  const MarkAim& aim() const { return aim_; }
-  /// What the pointer, or an operator who moves a mark by keys, looks at; px. Nothing: nowhere.
+  const AnnotationAim& aim() const { return aim_; }
+  /// What the pointer, or an operator who moves an annotation by keys, looks at; px. Nothing:
+  /// nowhere.
   const std::optional<QPointF>& focus() const { return focus_; }
   /// camera_from_station of the edges on which the station is picked.
   Pose stationPose() const;
@@ -64,7 +66,7 @@ class MarkTool : public QObject {
   };
 
   bool active() const { return controller_.mode() != PlaceMode::kOff; }
-  bool marksLines() const { return controller_.mode() == PlaceMode::kLine; }
+  bool annotationsLines() const { return controller_.mode() == PlaceMode::kLine; }
   bool mouseEvent(QEvent::Type type, const QMouseEvent& event);
   bool press(const QMouseEvent& event, const QPointF& place);
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
@@ -94,7 +96,7 @@ class MarkTool : public QObject {
   ViewState& state_;
   StationSnapper& snapper_;
   bool snaps_ = true;
-  MarkAim aim_;
+  AnnotationAim aim_;
   std::optional<QPointF> pointer_;  ///< px
   std::optional<QPointF> focus_;    ///< px
   Qt::KeyboardModifiers modifiers_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Run at a screen scaling of one and of one and a half.
-#include "ui/annotation/mark_tool.h"
+#include "ui/annotation/annotation_tool.h"
 
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "ui/annotation/image_annotation.h"
@@ -10,17 +10,17 @@ namespace {
 
 const Eigen::Vector2d kMiddle(200.3, 150.7);
 
-class MarkToolTest : public ImageAnnotationTest {
+class AnnotationToolTest : public ImageAnnotationTest {
  protected:
   void SetUp() override {
     ImageAnnotationTest::SetUp();
     controller_.setMode(PlaceMode::kPoint);
   }
   Eigen::Vector2d place(const std::string& id) {
-    const sessions::PointPair* point = sessions::findPoint(marks(), id);
+    const sessions::PointPair* point = sessions::findPoint(annotations(), id);
     return point && point->pixel ? *point->pixel : Eigen::Vector2d(-1e9, -1e9);
   }
-  /// Marks p1 where it is clicked; its place.
+  /// Annotations p1 where it is clicked; its place.
   Eigen::Vector2d markMiddle() {
     tool().setSnaps(false);
     zoom(kMiddle, 3.7);
@@ -41,9 +41,9 @@ double covered(int x, int y, const Inside& inside) {
   return 40.0 + 160.0 * count / (kParts * kParts);
 }
 
-class PlacingTest : public MarkToolTest, public testing::WithParamInterface<double> {};
+class PlacingTest : public AnnotationToolTest, public testing::WithParamInterface<double> {};
 
-TEST_P(PlacingTest, AClickMarksThePlaceUnderThePointer) {
+TEST_P(PlacingTest, Click_AnnotatesThePointUnderThePointer) {
   tool().setSnaps(false);
   int count = 0;
   for (const Eigen::Vector2d& off :
@@ -51,15 +51,15 @@ TEST_P(PlacingTest, AClickMarksThePlaceUnderThePointer) {
     const Eigen::Vector2d wanted = kMiddle + off + Eigen::Vector2d(count * 60.0 / GetParam(), 0.0);
     zoom(kMiddle, GetParam());
     click(wanted);
-    ASSERT_EQ(marks().points.size(), static_cast<std::size_t>(++count));
-    const Eigen::Vector2d error = *marks().points.back().pixel - wanted;
+    ASSERT_EQ(annotations().points.size(), static_cast<std::size_t>(++count));
+    const Eigen::Vector2d error = *annotations().points.back().pixel - wanted;
     EXPECT_LE(error.cwiseAbs().maxCoeff(), (0.5 + 1e-6) * screenPixel_px());
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Zooms, PlacingTest, testing::Values(1.0, 3.7, 16.0));
 
-TEST_F(MarkToolTest, SnapsToACornerAnEllipseAndAnEdgeAndIsRefused) {
+TEST_F(AnnotationToolTest, Snapping_FindsCornerEllipseAndEdgeAndCanBeDisabled) {
   const Eigen::Vector2d corner(120.25, 90.6), centre(260.4, 150.3);
   const double edge_x = 60.35;
   paintImage([&](int x, int y) {
@@ -70,20 +70,20 @@ TEST_F(MarkToolTest, SnapsToACornerAnEllipseAndAnEdgeAndIsRefused) {
     });
   });
   zoom({160.0, 120.0}, 2.0);
-  const auto aimed = [&](const Eigen::Vector2d& pixel) -> const MarkAim& {
+  const auto aimed = [&](const Eigen::Vector2d& pixel) -> const AnnotationAim& {
     moveTo(pixel);
     return tool().aim();
   };
-  const MarkAim at_corner = aimed(corner + Eigen::Vector2d(1.5, 1.0));
+  const AnnotationAim at_corner = aimed(corner + Eigen::Vector2d(1.5, 1.0));
   ASSERT_TRUE(at_corner.snap);
   EXPECT_EQ(at_corner.snap->kind, sessions::ImageSnapKind::kCorner);
   EXPECT_LT((at_corner.pixel - corner).norm(), 0.35) << "blur rounds a corner";
   EXPECT_EQ(at_corner.text, QStringLiteral("corner"));
-  const MarkAim at_ellipse = aimed(centre + Eigen::Vector2d(-2.0, 1.0));
+  const AnnotationAim at_ellipse = aimed(centre + Eigen::Vector2d(-2.0, 1.0));
   ASSERT_TRUE(at_ellipse.snap);
   EXPECT_EQ(at_ellipse.snap->kind, sessions::ImageSnapKind::kEllipse);
   EXPECT_LT((at_ellipse.pixel - centre).norm(), 0.1);
-  const MarkAim at_edge = aimed({edge_x + 3.0, 200.0});
+  const AnnotationAim at_edge = aimed({edge_x + 3.0, 200.0});
   ASSERT_TRUE(at_edge.snap);
   EXPECT_EQ(at_edge.snap->kind, sessions::ImageSnapKind::kEdge);
   EXPECT_NEAR(at_edge.pixel.x(), edge_x, 0.1);
@@ -99,7 +99,7 @@ TEST_F(MarkToolTest, SnapsToACornerAnEllipseAndAnEdgeAndIsRefused) {
   EXPECT_NEAR(place("p3").x(), edge_x + 3.0, screenPixel_px());
 }
 
-TEST_F(MarkToolTest, TabGoesOnToTheNextThingFound) {
+TEST_F(AnnotationToolTest, Tab_SelectsTheNextSnapTarget) {
   const Eigen::Vector2d corner(120.25, 90.6);
   paintImage([&](int x, int y) {
     return covered(
@@ -116,26 +116,26 @@ TEST_F(MarkToolTest, TabGoesOnToTheNextThingFound) {
   EXPECT_GT(place("p1").y(), corner.y() + 0.9);
   controller_.remove("p1");
   moveTo(near);
-  EXPECT_EQ(tool().aim().snap->kind, sessions::ImageSnapKind::kCorner) << "a mark begins anew";
+  EXPECT_EQ(tool().aim().snap->kind, sessions::ImageSnapKind::kCorner) << "a new annotation starts";
 }
 
-TEST_F(MarkToolTest, ADragMovesAMarkWithoutAJumpAndIsUndoneByName) {
+TEST_F(AnnotationToolTest, Drag_MovesAnAnnotationWithoutAJumpAndIsOneUndoStep) {
   const Eigen::Vector2d before = markMiddle();
-  // Taken hold of beside its middle.
+  // Grabbed off its centre.
   drag(before + Eigen::Vector2d(1.0, -0.7), before + Eigen::Vector2d(9.0, 3.3));
   EXPECT_LT((place("p1") - before - Eigen::Vector2d(8.0, 4.0)).norm(), 2.0 * screenPixel_px());
-  EXPECT_EQ(marks().points.size(), 1u);
+  EXPECT_EQ(annotations().points.size(), 1u);
   EXPECT_EQ(document_.undoText(), QStringLiteral("Move p1"));
   ASSERT_TRUE(document_.undo());
   EXPECT_EQ(place("p1"), before);
   EXPECT_EQ(document_.undoText(), QStringLiteral("Place p1 on the image"));
   ASSERT_TRUE(document_.undo());
-  EXPECT_TRUE(marks().empty());
+  EXPECT_TRUE(annotations().empty());
   ASSERT_TRUE(document_.redo());
   EXPECT_EQ(place("p1"), before);
 }
 
-TEST_F(MarkToolTest, EscapeWhileDraggingPutsTheMarkBack) {
+TEST_F(AnnotationToolTest, EscapeWhileDragging_RestoresTheAnnotation) {
   const Eigen::Vector2d before = markMiddle();
   send(QEvent::MouseButtonPress, before);
   send(QEvent::MouseMove, before + Eigen::Vector2d(20.0, 0.0), Qt::NoModifier, Qt::LeftButton,
@@ -144,12 +144,12 @@ TEST_F(MarkToolTest, EscapeWhileDraggingPutsTheMarkBack) {
   QTest::keyClick(&view(), Qt::Key_Escape);
   send(QEvent::MouseButtonRelease, before + Eigen::Vector2d(20.0, 0.0));
   EXPECT_EQ(place("p1"), before);
-  EXPECT_EQ(marks().points.size(), 1u);
+  EXPECT_EQ(annotations().points.size(), 1u);
 }
 
-TEST_F(MarkToolTest, ALockedMarkStaysAndSaysSo) {
+TEST_F(AnnotationToolTest, LockedAnnotation_IsNotMovedAndReported) {
   const Eigen::Vector2d before = markMiddle();
-  sessions::PointPair locked = *sessions::findPoint(marks(), "p1");
+  sessions::PointPair locked = *sessions::findPoint(annotations(), "p1");
   locked.locked = true;
   ASSERT_TRUE(controller_.replacePoint("p1", locked, QStringLiteral("Lock p1")));
   drag(before, before + Eigen::Vector2d(20.0, 0.0));
@@ -158,18 +158,18 @@ TEST_F(MarkToolTest, ALockedMarkStaysAndSaysSo) {
   EXPECT_EQ(document_.undoText(), QStringLiteral("Lock p1"));
 }
 
-TEST_F(MarkToolTest, ADragElsewherePansAndMarksNothing) {
+TEST_F(AnnotationToolTest, DragOffAnnotations_PansOnly) {
   zoom(kMiddle, 3.7);
   const QPointF before = view().transform().toWidget(QPointF(0.0, 0.0));
   drag(kMiddle, kMiddle + Eigen::Vector2d(30.0, 10.0));
-  EXPECT_TRUE(marks().empty());
+  EXPECT_TRUE(annotations().empty());
   const QPointF by = view().transform().toWidget(QPointF(0.0, 0.0)) - before;
   EXPECT_GT(by.x(), 50.0);
   click(kMiddle);
-  EXPECT_EQ(marks().points.size(), 1u);
+  EXPECT_EQ(annotations().points.size(), 1u);
 }
 
-TEST_F(MarkToolTest, ArrowsMoveTheChosenMarkByATenthOrAWholePixel) {
+TEST_F(AnnotationToolTest, Arrows_MoveTheSelectedAnnotationByATenthOrAWholePixel) {
   const Eigen::Vector2d before = markMiddle();
   for (const int key : {Qt::Key_Right, Qt::Key_Right, Qt::Key_Down})
     QTest::keyClick(&view(), static_cast<Qt::Key>(key));
@@ -182,10 +182,10 @@ TEST_F(MarkToolTest, ArrowsMoveTheChosenMarkByATenthOrAWholePixel) {
   const QPointF shown = view().transform().toWidget(QPointF(0.0, 0.0));
   QTest::keyClick(&view(), Qt::Key_Left);
   EXPECT_NE(view().transform().toWidget(QPointF(0.0, 0.0)), shown)
-      << "without a chosen mark the arrows pan";
+      << "without a selected annotation the arrows pan";
 }
 
-TEST_F(MarkToolTest, PairsAreMadeInBothOrders) {
+TEST_F(AnnotationToolTest, PairsAreMadeInBothOrders) {
   state_.setNudgedPose(truth());  // what the views show
   const auto corners = corners_m(6);
   ASSERT_GE(corners.size(), 2u);
@@ -195,103 +195,103 @@ TEST_F(MarkToolTest, PairsAreMadeInBothOrders) {
   };
   tool().setSnaps(true);
   click(pixelOf(corners[0]), Qt::AltModifier);
-  ASSERT_EQ(marks().points.size(), 1u) << told_.toStdString();
-  EXPECT_FALSE(marks().points[0].complete());
+  ASSERT_EQ(annotations().points.size(), 1u) << told_.toStdString();
+  EXPECT_FALSE(annotations().points[0].complete());
   stationClick(corners[0]);
-  ASSERT_EQ(marks().points.size(), 1u);
-  ASSERT_TRUE(marks().points[0].complete());
-  EXPECT_EQ(*marks().points[0].point_in_station_m, corners[0]) << "snapped to the vertex";
+  ASSERT_EQ(annotations().points.size(), 1u);
+  ASSERT_TRUE(annotations().points[0].complete());
+  EXPECT_EQ(*annotations().points[0].point_in_station_m, corners[0]) << "snapped to the vertex";
 
   stationClick(corners[3]);
-  ASSERT_EQ(marks().points.size(), 2u);
-  EXPECT_FALSE(marks().points[1].pixel);
-  EXPECT_EQ(*marks().points[1].point_in_station_m, corners[3]);
+  ASSERT_EQ(annotations().points.size(), 2u);
+  EXPECT_FALSE(annotations().points[1].pixel);
+  EXPECT_EQ(*annotations().points[1].point_in_station_m, corners[3]);
   click(pixelOf(corners[3]), Qt::AltModifier);
-  ASSERT_EQ(marks().points.size(), 2u);
-  EXPECT_TRUE(marks().points[1].complete());
-  EXPECT_LT((*marks().points[1].pixel - pixelOf(corners[3])).norm(), screenPixel_px());
+  ASSERT_EQ(annotations().points.size(), 2u);
+  EXPECT_TRUE(annotations().points[1].complete());
+  EXPECT_LT((*annotations().points[1].pixel - pixelOf(corners[3])).norm(), screenPixel_px());
 }
 
-TEST_F(MarkToolTest, WithoutSnappingTheStationsSurfaceIsMarked) {
+TEST_F(AnnotationToolTest, WithoutSnappingTheStationsSurfaceIsAnnotated) {
   state_.setNudgedPose(truth());
   const auto corners = corners_m(3);
-  const Eigen::Vector2d beside = pixelOf(corners[1]);
-  zoom(beside, 6.0);
+  const Eigen::Vector2d corner_px = pixelOf(corners[1]);
+  zoom(corner_px, 6.0);
   tool().setSnaps(false);
   for (const Eigen::Vector2d& off : {Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1),
                                      Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1)}) {
-    click(beside + off, Qt::ControlModifier);
-    if (!marks().empty()) break;
+    click(corner_px + off, Qt::ControlModifier);
+    if (!annotations().empty()) break;
   }
-  ASSERT_EQ(marks().points.size(), 1u);
-  const Eigen::Vector3d placed = *marks().points[0].point_in_station_m;
+  ASSERT_EQ(annotations().points.size(), 1u);
+  const Eigen::Vector3d placed = *annotations().points[0].point_in_station_m;
   EXPECT_NE(placed, corners[1]);
-  EXPECT_LT((pixelOf(placed) - beside).norm(), 2.0);
+  EXPECT_LT((pixelOf(placed) - corner_px).norm(), 2.0);
 }
 
-TEST_F(MarkToolTest, CtrlClickBesideTheStationIsRefusedWithASentence) {
+TEST_F(AnnotationToolTest, CtrlClickOffTheStation_IsRefusedWithAReason) {
   click({1.0, 1.0}, Qt::ControlModifier);
-  EXPECT_TRUE(marks().empty());
+  EXPECT_TRUE(annotations().empty());
   EXPECT_TRUE(told_.contains(QStringLiteral("no station"))) << told_.toStdString();
 }
 
-TEST_F(MarkToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
+TEST_F(AnnotationToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {
   state_.setNudgedPose(truth());
   const auto corners = corners_m(5);
   controller_.setMode(PlaceMode::kLine);
   markMiddle();
-  EXPECT_TRUE(marks().lines.empty()) << "half drawn";
+  EXPECT_TRUE(annotations().lines.empty()) << "half drawn";
   QTest::keyClick(&view(), Qt::Key_Escape);
   EXPECT_EQ(controller_.mode(), PlaceMode::kLine);
   click(kMiddle + Eigen::Vector2d(5.0, 0.0));
   click(kMiddle + Eigen::Vector2d(25.0, 7.0));
-  ASSERT_EQ(marks().lines.size(), 1u);
-  const sessions::ImageLine line = *marks().lines[0].line;
+  ASSERT_EQ(annotations().lines.size(), 1u);
+  const sessions::ImageLine line = *annotations().lines[0].line;
   EXPECT_LT((line.start - kMiddle - Eigen::Vector2d(5.0, 0.0)).norm(), screenPixel_px());
   EXPECT_LT((line.end - kMiddle - Eigen::Vector2d(25.0, 7.0)).norm(), screenPixel_px());
   zoom(pixelOf(corners[2]), 6.0);
   click(pixelOf(corners[2]), Qt::ControlModifier);
-  ASSERT_TRUE(marks().lines[0].complete());
-  const sessions::ModelEdge edge = *marks().lines[0].edge;
+  ASSERT_TRUE(annotations().lines[0].complete());
+  const sessions::ModelEdge edge = *annotations().lines[0].edge;
   EXPECT_LT(std::min((edge.start_in_station_m - corners[2]).norm(),
                      (edge.end_in_station_m - corners[2]).norm()),
             1e-9);
   // Its second end is dragged.
   zoom(line.end, 3.7);
   drag(line.end, line.end + Eigen::Vector2d(6.0, 0.0));
-  EXPECT_EQ(marks().lines[0].line->start, line.start);
-  EXPECT_NEAR(marks().lines[0].line->end.x(), line.end.x() + 6.0, 2.0 * screenPixel_px());
+  EXPECT_EQ(annotations().lines[0].line->start, line.start);
+  EXPECT_NEAR(annotations().lines[0].line->end.x(), line.end.x() + 6.0, 2.0 * screenPixel_px());
 }
 
-/// Otherwise Ctrl+Del would remove a mark that nobody has just pointed at.
-TEST_F(MarkToolTest, AClickThatBeginsALineDropsTheChoice) {
+/// Otherwise Ctrl+Del would remove an annotation that the operator did not point at.
+TEST_F(AnnotationToolTest, ClickThatStartsALine_ClearsTheSelection) {
   markMiddle();
   ASSERT_EQ(controller_.selected(), "p1");
   controller_.setMode(PlaceMode::kLine);
-  click(kMiddle + Eigen::Vector2d(15.0 * screenPixel_px(), 0.0));  // just beside the point
+  click(kMiddle + Eigen::Vector2d(15.0 * screenPixel_px(), 0.0));  // just off the point
   EXPECT_EQ(controller_.selected(), "");
-  EXPECT_EQ(marks().points.size(), 1u);
+  EXPECT_EQ(annotations().points.size(), 1u);
 }
 
-TEST_F(MarkToolTest, ALineThatWaitsForItsPlaceStaysChosenWhileItIsDrawn) {
+TEST_F(AnnotationToolTest, IncompleteLine_StaysSelectedWhileDrawn) {
   state_.setNudgedPose(truth());
   controller_.setMode(PlaceMode::kLine);
   tool().setSnaps(false);
   const Eigen::Vector2d corner = pixelOf(corners_m(5)[2]);
   zoom(corner, 6.0);
   click(corner, Qt::ControlModifier);
-  ASSERT_EQ(marks().lines.size(), 1u);
+  ASSERT_EQ(annotations().lines.size(), 1u);
   click(corner + Eigen::Vector2d(20.0, 0.0));
   click(corner + Eigen::Vector2d(20.0, 10.0));
-  ASSERT_EQ(marks().lines.size(), 1u);
-  EXPECT_TRUE(marks().lines[0].complete());
+  ASSERT_EQ(annotations().lines.size(), 1u);
+  EXPECT_TRUE(annotations().lines[0].complete());
 }
 
-TEST_F(MarkToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
+TEST_F(AnnotationToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
   markMiddle();
   click(kMiddle + Eigen::Vector2d(30.0, 0.0));
   QTest::keyClick(&view(), Qt::Key_Delete);
-  ASSERT_EQ(marks().points.size(), 1u);
+  ASSERT_EQ(annotations().points.size(), 1u);
   EXPECT_EQ(document_.undoText(), QStringLiteral("Remove p2"));
   controller_.select("p1");
   QTest::keyClick(&view(), Qt::Key_Escape);
@@ -300,25 +300,25 @@ TEST_F(MarkToolTest, DeleteRemovesAndEscapeLeavesStepByStep) {
   QTest::keyClick(&view(), Qt::Key_Escape);
   EXPECT_EQ(controller_.mode(), PlaceMode::kOff);
   click(kMiddle + Eigen::Vector2d(50.0, 20.0));
-  EXPECT_EQ(marks().points.size(), 1u) << "nobody annotates";
+  EXPECT_EQ(annotations().points.size(), 1u) << "annotation mode is off";
 }
 
-TEST_F(MarkToolTest, APressOnAMarkChoosesItAndADoubleClickDoesNotFit) {
+TEST_F(AnnotationToolTest, PressOnAnAnnotation_SelectsItAndDoubleClickDoesNotFit) {
   markMiddle();
   click(kMiddle + Eigen::Vector2d(30.0, 0.0));
   EXPECT_EQ(controller_.selected(), "p2");
   click(place("p1"));
   EXPECT_EQ(controller_.selected(), "p1");
-  EXPECT_EQ(marks().points.size(), 2u);
+  EXPECT_EQ(annotations().points.size(), 2u);
   const ViewTransform before = view().transform();
   send(QEvent::MouseButtonDblClick, place("p1"));
   send(QEvent::MouseButtonRelease, place("p1"));
   EXPECT_EQ(view().transform(), before);
 }
 
-/// With three named points marked, the others are proposed: a click marks one there, the right
-/// button begins it and the next click is its place.
-TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
+/// With three named points annotated, the others are proposed: a click annotates one there, the
+/// right button begins it and the next click is its place.
+TEST_F(AnnotationToolTest, ProposalClick_ConfirmsOrStartsAPair) {
   const auto corners = corners_m(8);
   ASSERT_GE(corners.size(), 6u);
   openLandmarks(corners, {0, 2, 5});
@@ -331,7 +331,7 @@ TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
   const sessions::Proposal first = far(controller_.answer().proposals[0]);
   const Eigen::Vector2d seen = first.pixel + Eigen::Vector2d(0.5, -0.25);
   click(seen, Qt::AltModifier);
-  const sessions::PointPair* taken = sessions::findPoint(marks(), first.landmark.name);
+  const sessions::PointPair* taken = sessions::findPoint(annotations(), first.landmark.name);
   ASSERT_TRUE(taken);
   EXPECT_LT((*taken->pixel - seen).norm(), screenPixel_px())
       << "where it was clicked: a prediction is no measurement";
@@ -339,12 +339,12 @@ TEST_F(MarkToolTest, ProposalsAreConfirmedOrBegun) {
   ASSERT_FALSE(controller_.answer().proposals.empty());
   const sessions::Proposal second = far(controller_.answer().proposals[0]);
   click(second.pixel, Qt::NoModifier, Qt::RightButton);
-  const sessions::PointPair* begun = sessions::findPoint(marks(), second.landmark.name);
+  const sessions::PointPair* begun = sessions::findPoint(annotations(), second.landmark.name);
   ASSERT_TRUE(begun);
   EXPECT_FALSE(begun->pixel);
   const Eigen::Vector2d by_hand = second.pixel + Eigen::Vector2d(0.5, 0.25);
   click(by_hand, Qt::AltModifier);
-  begun = sessions::findPoint(marks(), second.landmark.name);
+  begun = sessions::findPoint(annotations(), second.landmark.name);
   ASSERT_TRUE(begun && begun->pixel);
   EXPECT_LT((*begun->pixel - by_hand).norm(), screenPixel_px());
 }
@@ -358,7 +358,7 @@ class ImageAnnotationLayersTest : public ImageAnnotationTest {
   }
   const Layer& layer(LayerId id) { return view().layer(id); }
   bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, kPatience_ms); }
-  void markAndSolve() {
+  void annotateAndSolve() {
     markCorners(8);
     ASSERT_TRUE(solved());
     ASSERT_TRUE(controller_.solvedPose());
@@ -367,7 +367,7 @@ class ImageAnnotationLayersTest : public ImageAnnotationTest {
 
 TEST_F(ImageAnnotationLayersTest, TheSolvedPosesEdgesShowAndGoWithTheirLayer) {
   EXPECT_TRUE(layer(LayerId::kAnnotationEdges).bits.empty());
-  markAndSolve();
+  annotateAndSolve();
   ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).bits.empty(); }));
   show(LayerId::kAnnotationEdges, false);
   EXPECT_TRUE(layer(LayerId::kAnnotationEdges).bits.empty());
@@ -376,25 +376,25 @@ TEST_F(ImageAnnotationLayersTest, TheSolvedPosesEdgesShowAndGoWithTheirLayer) {
 }
 
 TEST_F(ImageAnnotationLayersTest, TheStationIsPickedOnTheEdgesThatShow) {
-  markAndSolve();
+  annotateAndSolve();
   EXPECT_EQ(tool().stationPose(), *controller_.solvedPose());
   show(LayerId::kAnnotationEdges, false);
   EXPECT_EQ(tool().stationPose(), state_.shownPose());
 }
 
-TEST_F(ImageAnnotationLayersTest, TheBandIsThatOfTheMarksAsTheyAreNow) {
-  markAndSolve();
+TEST_F(ImageAnnotationLayersTest, Band_FollowsTheCurrentAnnotations) {
+  annotateAndSolve();
   EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "it is not switched on";
   show(LayerId::kAnnotationBand, true);
   ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationBand).marks.empty(); }));
   const auto before = layer(LayerId::kAnnotationBand).marks;
-  const auto& moved = marks().points.front();
+  const auto& moved = annotations().points.front();
   ASSERT_TRUE(controller_.dragInImage(moved.id, *moved.pixel + Eigen::Vector2d(1.5, 0.0)));
   EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "it is not known yet";
   controller_.finishMove();
   ASSERT_TRUE(solved());
   ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationBand).marks.empty(); }));
-  // Marks that agree less well allow more poses.
+  // Annotations that agree less well allow more poses.
   const auto width = [](const std::vector<Mark>& signs) {
     const QPolygonF& outline = signs.front().outline;
     const QPointF across = outline.front() - outline.back();
@@ -404,18 +404,18 @@ TEST_F(ImageAnnotationLayersTest, TheBandIsThatOfTheMarksAsTheyAreNow) {
 }
 
 TEST_F(ImageAnnotationLayersTest, ResidualsAreDrawnAsLongAsTheyAreMagnified) {
-  markAndSolve();
-  const auto& moved = marks().points.front();
+  annotateAndSolve();
+  const auto& moved = annotations().points.front();
   ASSERT_TRUE(controller_.dragInImage(moved.id, *moved.pixel + Eigen::Vector2d(2.0, 0.0)));
   controller_.finishMove();
   ASSERT_TRUE(solved());
   const auto longest = [&] {
     double most = 0.0;
-    for (const Mark& mark : layer(LayerId::kMarkResiduals).marks)
+    for (const Mark& mark : layer(LayerId::kAnnotationResiduals).marks)
       most = std::max(most, std::hypot(mark.to.x() - mark.at.x(), mark.to.y() - mark.at.y()));
     return most;
   };
-  EXPECT_EQ(layer(LayerId::kMarkResiduals).marks.size(), marks().points.size());
+  EXPECT_EQ(layer(LayerId::kAnnotationResiduals).marks.size(), annotations().points.size());
   annotation_.setMagnification(1.0);
   const double plain_px = longest();
   EXPECT_GT(plain_px, 0.3);
@@ -426,14 +426,14 @@ TEST_F(ImageAnnotationLayersTest, ResidualsAreDrawnAsLongAsTheyAreMagnified) {
   }
 }
 
-TEST_F(ImageAnnotationLayersTest, AClickOnAMarkChoosesItAlsoWhenNobodyAnnotates) {
+TEST_F(ImageAnnotationLayersTest, ClickOnAnAnnotation_SelectsItOutsideAnnotationMode) {
   markCorners(3);
   controller_.select({});
-  const auto& point = marks().points[1];
+  const auto& point = annotations().points[1];
   zoom(*point.pixel, 5.0);
   click(*point.pixel);
   EXPECT_EQ(controller_.selected(), point.id);
-  EXPECT_EQ(marks().points.size(), 3u);
+  EXPECT_EQ(annotations().points.size(), 3u);
 }
 
 }  // namespace

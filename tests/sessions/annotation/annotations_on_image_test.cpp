@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/marks_on_image.h"
+#include "sessions/annotation/annotations_on_image.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/sessions/annotation/marked_scene.h"
+#include "tests/sessions/annotation/annotated_scene.h"
 
 namespace boresight::sessions {
 namespace {
 
-using test::MarkedScene;
+using test::AnnotatedScene;
 using test::randomFor;
 using test::randomScene;
 
@@ -42,11 +42,11 @@ TEST(IsInImage, EachPixelIsOneWideAboutItsCentre) {
     EXPECT_FALSE(isInImage(camera, outside)) << outside.transpose();
 }
 
-class MarksOnImageTest : public testing::TestWithParam<CameraModel> {};
+class AnnotationsOnImageTest : public testing::TestWithParam<CameraModel> {};
 
-TEST_P(MarksOnImageTest, AVectorLeadsFromWhereThePosePutsTheMarkToWhereItIs) {
+TEST_P(AnnotationsOnImageTest, ResidualVector_PointsFromProjectionToAnnotation) {
   Random random = test::randomFor("MarksOnImage");
-  MarkedView view;
+  AnnotatedView view;
   view.camera = test::annotatedCamera(GetParam());
   Pose truth;
   truth.rotation = rotationExp({0.2, -0.1, 0.3});
@@ -54,23 +54,23 @@ TEST_P(MarksOnImageTest, AVectorLeadsFromWhereThePosePutsTheMarkToWhereItIs) {
   ASSERT_TRUE(test::addPoint(view, truth, {0.1, 0.05, 0.02}, 0.0, 1.0, random));
   ASSERT_TRUE(
       test::addLine(view, truth, {-0.15, -0.1, 0.0}, {0.15, -0.05, 0.05}, 0.0, 1.0, random));
-  const ModelEdge edge = *view.marks.lines[0].edge;
-  view.marks.points[0].enabled = false;
+  const ModelEdge edge = *view.annotations.lines[0].edge;
+  view.annotations.points[0].enabled = false;
   PointPair half;
   half.id = "half";
   half.pixel = Eigen::Vector2d(1.0, 2.0);
-  view.marks.points.push_back(half);
+  view.annotations.points.push_back(half);
 
   const Pose moved =
       perturbed((Vector6d() << 4e-4, -3e-4, 5e-4, 3e-4, -2e-4, 5e-4).finished(), truth);
-  const auto vectors = markVectors(view, moved);
+  const auto vectors = annotationVectors(view, moved);
   ASSERT_EQ(vectors.size(), 3u) << "a point that is off, and both ends of the line";
   Eigen::Vector2d pixel;
-  ASSERT_TRUE(project(view.camera, moved * *view.marks.points[0].point_in_station_m, pixel));
+  ASSERT_TRUE(project(view.camera, moved * *view.annotations.points[0].point_in_station_m, pixel));
   EXPECT_LT((vectors[0].predicted - pixel).norm(), 1e-9);
-  EXPECT_EQ(vectors[0].seen, *view.marks.points[0].pixel);
-  for (const MarkVector& vector : {vectors[1], vectors[2]}) {
-    EXPECT_EQ(vector.id, view.marks.lines[0].id);
+  EXPECT_EQ(vectors[0].seen, *view.annotations.points[0].pixel);
+  for (const AnnotationVector& vector : {vectors[1], vectors[2]}) {
+    EXPECT_EQ(vector.id, view.annotations.lines[0].id);
     Eigen::Vector2d nearest = Eigen::Vector2d::Zero();
     const double away = distanceToEdge(view.camera, moved, edge, vector.seen, nearest);
     EXPECT_GT(away, 0.05) << "the pose was moved";
@@ -78,7 +78,7 @@ TEST_P(MarksOnImageTest, AVectorLeadsFromWhereThePosePutsTheMarkToWhereItIs) {
   }
 }
 
-TEST_P(MarksOnImageTest, AnEdgeIsDrawnAsTheCameraBendsIt) {
+TEST_P(AnnotationsOnImageTest, Edge_IsDrawnWithLensDistortion) {
   const Camera camera = test::annotatedCamera(GetParam());
   Pose pose;
   pose.translation_m = {0.0, 0.0, 0.5};
@@ -95,7 +95,7 @@ TEST_P(MarksOnImageTest, AnEdgeIsDrawnAsTheCameraBendsIt) {
   EXPECT_TRUE(edgeOnImage(camera, pose, behind, 8).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, MarksOnImageTest,
+INSTANTIATE_TEST_SUITE_P(Models, AnnotationsOnImageTest,
                          testing::Values(CameraModel::kPinhole, CameraModel::kBrownConrady,
                                          CameraModel::kKannalaBrandt));
 
@@ -103,50 +103,52 @@ constexpr CameraModel kModels[] = {CameraModel::kPinhole, CameraModel::kBrownCon
                                    CameraModel::kKannalaBrandt, CameraModel::kCahvor,
                                    CameraModel::kCahvore};
 
-TEST(MarkEquations, ResidualsVanishAtTheTruth) {
+TEST(AnnotationEquations, ResidualsVanishAtTheTruth) {
   Random random = randomFor("MarkEquations.Truth");
   for (const CameraModel model : kModels) {
-    const MarkedScene scene = randomScene(random, model, 5, 5, 0.0);
-    for (const MarkAddress& at : usedMarks(scene.views())) {
-      const MarkResidual mark = markResidual(scene.view, at, scene.camera_from_station);
-      ASSERT_TRUE(mark.valid);
-      EXPECT_LT(mark.residual_px.norm(), 1e-6);
-      EXPECT_NEAR(mark.depth_m, 0.5, 0.2);
+    const AnnotatedScene scene = randomScene(random, model, 5, 5, 0.0);
+    for (const AnnotationAddress& at : usedAnnotations(scene.views())) {
+      const AnnotationResidual annotation =
+          annotationResidual(scene.view, at, scene.camera_from_station);
+      ASSERT_TRUE(annotation.valid);
+      EXPECT_LT(annotation.residual_px.norm(), 1e-6);
+      EXPECT_NEAR(annotation.depth_m, 0.5, 0.2);
     }
   }
 }
 
-TEST(MarkEquations, JacobiansAreTheDifferencesOfResiduals) {
+TEST(AnnotationEquations, JacobiansAreTheDifferencesOfResiduals) {
   Random random = randomFor("MarkEquations.Jacobian");
   constexpr double kStep = 1e-6;
   for (const CameraModel model : kModels) {
-    const MarkedScene scene = randomScene(random, model, 10, 10, 0.0);
-    for (const MarkAddress& at : usedMarks(scene.views())) {
-      const MarkResidual mark = markResidual(scene.view, at, scene.camera_from_station);
+    const AnnotatedScene scene = randomScene(random, model, 10, 10, 0.0);
+    for (const AnnotationAddress& at : usedAnnotations(scene.views())) {
+      const AnnotationResidual annotation =
+          annotationResidual(scene.view, at, scene.camera_from_station);
       for (int i = 0; i < 6; ++i) {
         const Vector6d xi = kStep * Vector6d::Unit(i);
-        const MarkResidual ahead =
-            markResidual(scene.view, at, perturbed(xi, scene.camera_from_station));
-        const MarkResidual behind =
-            markResidual(scene.view, at, perturbed(-xi, scene.camera_from_station));
+        const AnnotationResidual ahead =
+            annotationResidual(scene.view, at, perturbed(xi, scene.camera_from_station));
+        const AnnotationResidual behind =
+            annotationResidual(scene.view, at, perturbed(-xi, scene.camera_from_station));
         const Eigen::Vector2d difference = (behind.residual_px - ahead.residual_px) / (2.0 * kStep);
-        EXPECT_LT((difference - mark.predicted_by_xi.col(i)).norm(),
+        EXPECT_LT((difference - annotation.predicted_by_xi.col(i)).norm(),
                   1e-5 * (1.0 + difference.norm()));
       }
     }
   }
 }
 
-TEST(MarkEquations, ALinesResidualIsItsDistanceFromTheProjectedEdge) {
+TEST(AnnotationEquations, ALinesResidualIsItsDistanceFromTheProjectedEdge) {
   // By brute force: the nearest of many points of the edge, projected with distortion and all.
   Random random = randomFor("MarkEquations.Distance");
   for (const CameraModel model : kModels) {
     for (int trial = 0; trial < 20; ++trial) {
-      const MarkedScene scene = randomScene(random, model, 0, 1, 0.5);
-      const LinePair& pair = scene.view.marks.lines[0];
-      const MarkResidual mark =
-          markResidual(scene.view, {0, MarkKind::kLine, 0}, scene.camera_from_station);
-      ASSERT_TRUE(mark.valid);
+      const AnnotatedScene scene = randomScene(random, model, 0, 1, 0.5);
+      const LinePair& pair = scene.view.annotations.lines[0];
+      const AnnotationResidual annotation =
+          annotationResidual(scene.view, {0, AnnotationKind::kLine, 0}, scene.camera_from_station);
+      ASSERT_TRUE(annotation.valid);
       const Eigen::Vector2d ends[2] = {pair.line->start, pair.line->end};
       for (int end = 0; end < 2; ++end) {
         double nearest_px = 1e9;
@@ -159,13 +161,13 @@ TEST(MarkEquations, ALinesResidualIsItsDistanceFromTheProjectedEdge) {
                       pixel))
             nearest_px = std::min(nearest_px, (pixel - ends[end]).norm());
         }
-        EXPECT_NEAR(std::abs(mark.residual_px[end]), nearest_px, 0.01 * nearest_px + 2e-3);
+        EXPECT_NEAR(std::abs(annotation.residual_px[end]), nearest_px, 0.01 * nearest_px + 2e-3);
       }
     }
   }
 }
 
-TEST(MarkEquations, TheAdjointMovesARigsPerturbationToItsCamera) {
+TEST(AnnotationEquations, TheAdjointMovesARigsPerturbationToItsCamera) {
   Random random = randomFor("MarkEquations.Adjoint");
   for (int trial = 0; trial < 50; ++trial) {
     const Pose camera_from_rig = test::randomPose(random);
@@ -177,13 +179,13 @@ TEST(MarkEquations, TheAdjointMovesARigsPerturbationToItsCamera) {
   }
 }
 
-TEST(MarkEquations, WhatDoesNotProjectCountsAsMissing) {
+TEST(AnnotationEquations, UnprojectedAnnotation_IsLeftOut) {
   Random random = randomFor("MarkEquations.Missing");
-  const MarkedScene scene = randomScene(random, CameraModel::kPinhole, 4, 2, 0.0);
+  const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 4, 2, 0.0);
   Pose behind = scene.camera_from_station;
   behind.translation_m.z() = -5.0;
   const NormalEquations equations =
-      markEquations(scene.views(), usedMarks(scene.views()), {}, behind);
+      annotationEquations(scene.views(), usedAnnotations(scene.views()), {}, behind);
   EXPECT_EQ(equations.missing, 6);
   EXPECT_EQ(equations.projected, 0);
 }

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 #include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
@@ -24,27 +24,28 @@ namespace boresight::sessions {
 /// The centre of the top-left pixel is (0, 0). Only `id` must be there: sigma_px is 1, enabled
 /// true, locked false without them; of a half-made pair the station's or the image's side is
 /// missing. Members that the format does not know are refused. InputError.
-Marks readMarks(const std::filesystem::path& file);
+Annotations readAnnotations(const std::filesystem::path& file);
 
 /// Writes points.json, or a table where the name ends in .csv; reading it back gives the same
 /// values. OutputError.
-void writeMarks(const std::filesystem::path& file, const Marks& marks);
+void writeAnnotations(const std::filesystem::path& file, const Annotations& annotations);
 
-/// Marks as a table for spreadsheets, RFC 4180, a header and one row a mark:
+/// Annotations as a table for spreadsheets, RFC 4180, a header and one row an annotation:
 ///
 ///     kind,id,x1_px,y1_px,x2_px,y2_px,x1_m,y1_m,z1_m,x2_m,y2_m,z2_m,sigma_px,enabled,locked,comment
 ///
 /// A point has the first place of each side, a line both; the side of a half-made pair is empty.
 /// Metres in the station's frame, the centre of the top-left pixel is (0, 0). Numbers are written
 /// so that reading gives the same bits.
-std::string marksCsv(const Marks& marks);
+std::string annotationsCsv(const Annotations& annotations);
 
 /// InputError (`file` names the text) with line and column for anything else.
-Marks parseMarksCsv(const std::filesystem::path& file, std::string_view text);
+Annotations parseAnnotationsCsv(const std::filesystem::path& file, std::string_view text);
 
-/// Marks inside another file: an object with `points` and `lines`, of which either may be missing.
-Marks readMarks(const JsonReader& json);
-nlohmann::ordered_json toJson(const Marks& marks);
+/// Annotations inside another file: an object with `points` and `lines`, of which either may be
+/// missing.
+Annotations readAnnotations(const JsonReader& json);
+nlohmann::ordered_json toJson(const Annotations& annotations);
 
 /// rig.json (`boresight-rig`, version 1): cameras that are solved as one, or images of cameras of a
 /// rig that did not move between them. Files are relative to rig.json.
@@ -54,6 +55,6 @@ nlohmann::ordered_json toJson(const Marks& marks);
 ///                 "camera_from_rig": [[4x4]]}, ...]}
 ///
 /// InputError, also for no view and for a name given twice.
-std::vector<MarkedView> readRig(const std::filesystem::path& file);
+std::vector<AnnotatedView> readRig(const std::filesystem::path& file);
 
 }  // namespace boresight::sessions

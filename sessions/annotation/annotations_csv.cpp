@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/marks_file.h"
+#include "sessions/annotation/annotations_file.h"
 
 #include <array>
 #include <charconv>
@@ -68,7 +68,7 @@ class CsvReader {
       more = at_ < text_.size() && text_[at_] == ',';
     }
     if (at_ < text_.size() && text_[at_] == '\r') ++at_;
-    if (at_ < text_.size() && text_[at_] != '\n') fail(line_, "text after a closing quote");
+    if (at_ < text_.size() && text_[at_] != '\n') fail(line_, "text follows a closing quote");
     ++at_;
     ++line_;
     return true;
@@ -88,7 +88,7 @@ class CsvReader {
     const int begun = line_;
     std::string field;
     for (++at_;; ++at_) {
-      if (at_ >= text_.size()) fail(begun, "a quote is not closed");
+      if (at_ >= text_.size()) fail(begun, "closing quote is missing");
       if (text_[at_] == '\n') ++line_;
       if (text_[at_] == '"' && !text_.substr(++at_).starts_with('"')) return field;
       field += text_[at_];
@@ -136,9 +136,9 @@ class RowReader {
     bool empty = true;
     for (std::size_t i = 0; i < N; ++i) empty = empty && text(column + i).empty();
     if (empty) return {};
-    Eigen::Matrix<double, N, 1> made;
-    for (std::size_t i = 0; i < N; ++i) made[static_cast<Eigen::Index>(i)] = number(column + i);
-    return made;
+    Eigen::Matrix<double, N, 1> matrix;
+    for (std::size_t i = 0; i < N; ++i) matrix[static_cast<Eigen::Index>(i)] = number(column + i);
+    return matrix;
   }
 
   template <class Pair>
@@ -164,7 +164,7 @@ PointPair readPoint(const RowReader& row) {
   point.point_in_station_m = row.vector<3>(kFirstPlace);
   for (const std::size_t column :
        {kFirstPixel + 2, kFirstPixel + 3, kFirstPlace + 3, kFirstPlace + 4, kFirstPlace + 5})
-    if (!row.text(column).empty()) row.fail(column, "a point has one place only");
+    if (!row.text(column).empty()) row.fail(column, "a point has only one pixel");
   return point;
 }
 
@@ -174,29 +174,29 @@ LinePair readLine(const RowReader& row) {
   const auto start = row.vector<2>(kFirstPixel);
   const auto end = row.vector<2>(kFirstPixel + 2);
   if (start.has_value() != end.has_value() || (start && *start == *end))
-    row.fail(kFirstPixel, "a line needs two places in the image, or none");
+    row.fail(kFirstPixel, "a line needs two pixels, or none");
   if (start) line.line = ImageLine{*start, *end};
   const auto from = row.vector<3>(kFirstPlace);
   const auto to = row.vector<3>(kFirstPlace + 3);
   if (from.has_value() != to.has_value() || (from && *from == *to))
-    row.fail(kFirstPlace, "an edge needs two places of the station, or none");
+    row.fail(kFirstPlace, "an edge needs two points of the station, or none");
   if (from) line.edge = ModelEdge{*from, *to};
   return line;
 }
 
 }  // namespace
 
-std::string marksCsv(const Marks& marks) {
+std::string annotationsCsv(const Annotations& annotations) {
   Row header;
   for (std::size_t i = 0; i < kColumns.size(); ++i) header[i] = kColumns[i];
   std::string text = lineOf(header);
-  for (const PointPair& point : marks.points) {
+  for (const PointPair& point : annotations.points) {
     Row row = commonRow("point", point);
     if (point.pixel) put(*point.pixel, kFirstPixel, row);
     if (point.point_in_station_m) put(*point.point_in_station_m, kFirstPlace, row);
     text += lineOf(row);
   }
-  for (const LinePair& line : marks.lines) {
+  for (const LinePair& line : annotations.lines) {
     Row row = commonRow("line", line);
     if (line.line) {
       put(line.line->start, kFirstPixel, row);
@@ -211,26 +211,27 @@ std::string marksCsv(const Marks& marks) {
   return text;
 }
 
-Marks parseMarksCsv(const std::filesystem::path& file, std::string_view text) {
+Annotations parseAnnotationsCsv(const std::filesystem::path& file, std::string_view text) {
   CsvReader reader(file, text);
   Record record;
   if (!reader.next(record) ||
       record.fields != std::vector<std::string>(kColumns.begin(), kColumns.end()))
-    throw InputError(file, "line 1", "is not the header of a table of marks (kind,id,x1_px,...)");
-  Marks marks;
+    throw InputError(file, "line 1",
+                     "is not the header of an annotation table (kind,id,x1_px,...)");
+  Annotations annotations;
   std::set<std::string> ids;
   while (reader.next(record)) {
     const RowReader row(file, record);
     if (!ids.insert(row.text(1)).second) row.fail(1, "'" + row.text(1) + "' is given twice");
     if (row.text(0) == "point") {
-      marks.points.push_back(readPoint(row));
+      annotations.points.push_back(readPoint(row));
     } else if (row.text(0) == "line") {
-      marks.lines.push_back(readLine(row));
+      annotations.lines.push_back(readLine(row));
     } else {
       row.fail(0, "must be point or line");
     }
   }
-  return marks;
+  return annotations;
 }
 
 }  // namespace boresight::sessions

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Errors and covariances agree over many draws of noise.
-#include "sessions/annotation/solve_marks.h"
+#include "sessions/annotation/solve_annotations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,27 +10,27 @@
 #include <opencv2/calib3d.hpp>
 
 #include "core/pnp/normal_equations.h"
-#include "tests/sessions/annotation/marked_scene.h"
+#include "tests/sessions/annotation/annotated_scene.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::addLine;
 using test::addPoint;
-using test::MarkedScene;
+using test::AnnotatedScene;
 using test::randomFor;
 using test::randomScene;
 using testing::HasSubstr;
 
 double distance(const Pose& a, const Pose& b) { return perturbationBetween(a, b).norm(); }
 
-TEST(SolveMarks, FindsTheTruthWithEveryCamera) {
+TEST(SolveAnnotations, FindsTheTruthWithEveryCamera) {
   Random random = randomFor("SolveMarks.Truth");
   for (const CameraModel model :
        {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt}) {
     for (int trial = 0; trial < 30; ++trial) {
-      const MarkedScene scene = randomScene(random, model, 4 + trial % 5, trial % 4, 0.0);
-      const MarksResult result = solveMarks(scene.views(), {});
+      const AnnotatedScene scene = randomScene(random, model, 4 + trial % 5, trial % 4, 0.0);
+      const AnnotationsResult result = solveAnnotations(scene.views(), {});
       ASSERT_TRUE(result.solution) << result.reason;
       EXPECT_LT(distance(result.solution->rig_from_station, scene.camera_from_station), 1e-7);
       EXPECT_LT(result.solution->rms_px, 1e-5);
@@ -38,16 +38,16 @@ TEST(SolveMarks, FindsTheTruthWithEveryCamera) {
   }
 }
 
-TEST(SolveMarks, LinesAloneDoFromAGuess) {
+TEST(SolveAnnotations, LinesAlone_FromAnInitialPose_AreSolved) {
   Random random = randomFor("SolveMarks.Lines");
   for (int trial = 0; trial < 30; ++trial) {
-    const MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 0, 8, 0.0);
-    EXPECT_THAT(solveMarks(scene.views(), {}).reason, HasSubstr("guess"));
-    SolveMarksOptions options;
+    const AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 0, 8, 0.0);
+    EXPECT_THAT(solveAnnotations(scene.views(), {}).reason, HasSubstr("guess"));
+    SolveAnnotationsOptions options;
     Vector6d off;
     off << 0.03, -0.05, 0.04, 0.01, -0.01, 0.02;
     options.rig_from_station_guess = perturbed(off, scene.camera_from_station);
-    const MarksResult result = solveMarks(scene.views(), options);
+    const AnnotationsResult result = solveAnnotations(scene.views(), options);
     ASSERT_TRUE(result.solution) << result.reason;
     EXPECT_LT(distance(result.solution->rig_from_station, scene.camera_from_station), 1e-7);
   }
@@ -57,9 +57,9 @@ cv::Mat cameraMatrix(const Camera& camera) {
   return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
 }
 
-void toOpenCv(const Marks& marks, std::vector<cv::Point3d>& places,
+void toOpenCv(const Annotations& annotations, std::vector<cv::Point3d>& places,
               std::vector<cv::Point2d>& pixels) {
-  for (const PointPair& point : marks.points) {
+  for (const PointPair& point : annotations.points) {
     const Eigen::Vector3d& p = *point.point_in_station_m;
     places.emplace_back(p.x(), p.y(), p.z());
     pixels.emplace_back(point.pixel->x(), point.pixel->y());
@@ -75,13 +75,13 @@ Pose fromOpenCv(const cv::Mat& rotation, const cv::Mat& translation) {
   return pose;
 }
 
-TEST(SolveMarks, AgreesWithOpenCvsIterativeSolution) {
+TEST(SolveAnnotations, AgreesWithOpenCvsIterativeSolution) {
   Random random = randomFor("SolveMarks.OpenCv");
   for (int trial = 0; trial < 30; ++trial) {
-    const MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 12, 0, 0.5);
+    const AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 12, 0, 0.5);
     std::vector<cv::Point3d> places;
     std::vector<cv::Point2d> pixels;
-    toOpenCv(scene.view.marks, places, pixels);
+    toOpenCv(scene.view.annotations, places, pixels);
     const std::vector<double> distortion(scene.view.camera.distortion.begin(),
                                          scene.view.camera.distortion.begin() + 5);
     cv::Mat rotation;
@@ -91,18 +91,18 @@ TEST(SolveMarks, AgreesWithOpenCvsIterativeSolution) {
     cv::solvePnPRefineLM(
         places, pixels, cameraMatrix(scene.view.camera), distortion, rotation, translation,
         cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-14));
-    const MarksResult result = solveMarks(scene.views(), {});
+    const AnnotationsResult result = solveAnnotations(scene.views(), {});
     ASSERT_TRUE(result.solution) << result.reason;
     EXPECT_LT(distance(result.solution->rig_from_station, fromOpenCv(rotation, translation)), 1e-5);
   }
 }
 
-TEST(SolveMarks, ShowsBothPosesOfAPlaneAsIppeDoes) {
+TEST(SolveAnnotations, ShowsBothPosesOfAPlaneAsIppeDoes) {
   Random random = randomFor("SolveMarks.Plane");
   int ambiguous = 0;
   for (int trial = 0; trial < 40; ++trial) {
     // Small and far away: nearly parallel rays, where both poses fit.
-    MarkedScene scene = randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
+    AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 0, 0, 0.0);
     const double azimuth = random.uniform(-kPi, kPi);
     const Eigen::Vector3d tilt_axis(std::cos(azimuth), std::sin(azimuth), 0.0);
     scene.camera_from_station.rotation = rotationExp(random.uniform(0.3, 0.9) * tilt_axis) *
@@ -116,14 +116,14 @@ TEST(SolveMarks, ShowsBothPosesOfAPlaneAsIppeDoes) {
       ASSERT_TRUE(addPoint(scene.view, scene.camera_from_station, place_m, 0.3, 0.3, random));
     std::vector<cv::Point3d> places;
     std::vector<cv::Point2d> pixels;
-    toOpenCv(scene.view.marks, places, pixels);
+    toOpenCv(scene.view.annotations, places, pixels);
     std::vector<cv::Mat> rotations;
     std::vector<cv::Mat> translations;
     std::vector<double> errors;
     cv::solvePnPGeneric(places, pixels, cameraMatrix(scene.view.camera), cv::noArray(), rotations,
                         translations, false, cv::SOLVEPNP_IPPE, cv::noArray(), cv::noArray(),
                         errors);
-    const MarksResult result = solveMarks(scene.views(), {});
+    const AnnotationsResult result = solveAnnotations(scene.views(), {});
     ASSERT_TRUE(result.solution) << result.reason;
     // Never worse than IPPE's best.
     double least = 1e9;
@@ -150,61 +150,61 @@ TEST(SolveMarks, ShowsBothPosesOfAPlaneAsIppeDoes) {
   EXPECT_GT(ambiguous, 5);
 }
 
-TEST(SolveMarks, RobustlyIgnoresMarksThatAreFarOut) {
+TEST(SolveAnnotations, Robust_IgnoresFarOutliers) {
   Random random = randomFor("SolveMarks.Robust");
-  SolveMarksOptions robust;
+  SolveAnnotationsOptions robust;
   robust.robust = true;
   for (int trial = 0; trial < 30; ++trial) {
-    MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 14, 4, 0.3);
-    const MarksResult clean = solveMarks(scene.views(), robust);
+    AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 14, 4, 0.3);
+    const AnnotationsResult clean = solveAnnotations(scene.views(), robust);
     ASSERT_TRUE(clean.solution);
-    *scene.view.marks.points[2].pixel += Eigen::Vector2d(60.0, -25.0);
-    *scene.view.marks.points[9].pixel += Eigen::Vector2d(-8.0, 12.0);
-    scene.view.marks.lines[1].line->start += Eigen::Vector2d(30.0, 30.0);
-    const MarksResult result = solveMarks(scene.views(), robust);
+    *scene.view.annotations.points[2].pixel += Eigen::Vector2d(60.0, -25.0);
+    *scene.view.annotations.points[9].pixel += Eigen::Vector2d(-8.0, 12.0);
+    scene.view.annotations.lines[1].line->start += Eigen::Vector2d(30.0, 30.0);
+    const AnnotationsResult result = solveAnnotations(scene.views(), robust);
     ASSERT_TRUE(result.solution) << result.reason;
     const double robust_error =
         distance(result.solution->rig_from_station, scene.camera_from_station);
     EXPECT_LT(robust_error,
               3.0 * distance(clean.solution->rig_from_station, scene.camera_from_station) + 2e-3);
-    EXPECT_EQ(result.solution->marks[2].weight, 0.0);
-    EXPECT_EQ(result.solution->marks[9].weight, 0.0);
-    EXPECT_GT(result.solution->marks[2].normalized, 3.0);
-    const MarksResult plain = solveMarks(scene.views(), {});
+    EXPECT_EQ(result.solution->annotations[2].weight, 0.0);
+    EXPECT_EQ(result.solution->annotations[9].weight, 0.0);
+    EXPECT_GT(result.solution->annotations[2].normalized, 3.0);
+    const AnnotationsResult plain = solveAnnotations(scene.views(), {});
     ASSERT_TRUE(plain.solution);
     EXPECT_GT(distance(plain.solution->rig_from_station, scene.camera_from_station), robust_error);
   }
 }
 
-TEST(SolveMarks, ARigIsSolvedAsOne) {
+TEST(SolveAnnotations, Rig_IsSolvedTogether) {
   Random random = randomFor("SolveMarks.Rig");
   double single = 0.0;
   double together = 0.0;
   for (int trial = 0; trial < 40; ++trial) {
-    const MarkedScene left = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
-    MarkedView right;
+    const AnnotatedScene left = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
+    AnnotatedView right;
     right.name = "right";
     right.camera = test::annotatedCamera(CameraModel::kPinhole);
     right.camera_from_rig.translation_m = {-0.15, 0.01, 0.0};
     right.camera_from_rig.rotation = rotationExp({0.02, 0.25, -0.03});
     const Pose right_from_station = right.camera_from_rig * left.camera_from_station;
-    for (const PointPair& point : left.view.marks.points)
+    for (const PointPair& point : left.view.annotations.points)
       addPoint(right, right_from_station, *point.point_in_station_m, 0.5, 0.5, random);
-    const std::vector<MarkedView> views = {left.view, right};
-    const MarksResult result = solveMarks(views, {});
+    const std::vector<AnnotatedView> views = {left.view, right};
+    const AnnotationsResult result = solveAnnotations(views, {});
     ASSERT_TRUE(result.solution) << result.reason;
     EXPECT_LT(distance(result.solution->camera_from_station[1],
                        right.camera_from_rig * result.solution->rig_from_station),
               1e-12);
-    const MarksResult alone = solveMarks(left.views(), {});
+    const AnnotationsResult alone = solveAnnotations(left.views(), {});
     ASSERT_TRUE(alone.solution);
-    const auto off_m = [&](const MarksSolution& solution) {
+    const auto off_m = [&](const AnnotationsSolution& solution) {
       return (solution.rig_from_station.translation_m - left.camera_from_station.translation_m)
           .norm();
     };
     single += off_m(*alone.solution);
     together += off_m(*result.solution);
-    const auto stated = [](const MarksSolution& solution) {
+    const auto stated = [](const AnnotationsSolution& solution) {
       return solution.covariance.trace() / (solution.noise_factor * solution.noise_factor);
     };
     EXPECT_LT(stated(*result.solution), stated(*alone.solution));
@@ -212,12 +212,12 @@ TEST(SolveMarks, ARigIsSolvedAsOne) {
   EXPECT_LT(together, 0.7 * single);
 }
 
-TEST(SolveMarks, TheFrameOfARigChangesNothing) {
+TEST(SolveAnnotations, RigFrame_DoesNotChangeTheSolution) {
   Random random = randomFor("SolveMarks.RigFrame");
-  MarkedScene scene = randomScene(random, CameraModel::kPinhole, 8, 0, 0.5);
-  const MarksResult plain = solveMarks(scene.views(), {});
+  AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 8, 0, 0.5);
+  const AnnotationsResult plain = solveAnnotations(scene.views(), {});
   scene.view.camera_from_rig = test::randomPose(random);
-  const MarksResult framed = solveMarks(scene.views(), {});
+  const AnnotationsResult framed = solveAnnotations(scene.views(), {});
   ASSERT_TRUE(plain.solution && framed.solution);
   EXPECT_LT(distance(plain.solution->rig_from_station, framed.solution->camera_from_station[0]),
             1e-8);
@@ -226,17 +226,17 @@ TEST(SolveMarks, TheFrameOfARigChangesNothing) {
             1e-6 * plain.solution->covariance.norm());
 }
 
-TEST(SolveMarks, LeavingOneOutIsSolvingWithoutIt) {
+TEST(SolveAnnotations, LeavingOneOutIsSolvingWithoutIt) {
   Random random = randomFor("SolveMarks.LeaveOneOut");
-  MarkedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
-  const MarksResult whole = solveMarks(scene.views(), {});
+  AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
+  const AnnotationsResult whole = solveAnnotations(scene.views(), {});
   ASSERT_TRUE(whole.solution);
   const std::vector<LeftOut> left_out = leaveOneOut(scene.views(), *whole.solution);
   ASSERT_EQ(left_out.size(), 8u);
   for (std::size_t i = 0; i < 6; ++i) {
-    MarkedScene without = scene;
-    without.view.marks.points[i].enabled = false;
-    const MarksResult result = solveMarks(without.views(), {});
+    AnnotatedScene without = scene;
+    without.view.annotations.points[i].enabled = false;
+    const AnnotationsResult result = solveAnnotations(without.views(), {});
     ASSERT_TRUE(result.solution && left_out[i].determined);
     const double rotation_mrad =
         1000.0 * rotationLog((result.solution->rig_from_station.rotation *
@@ -249,48 +249,49 @@ TEST(SolveMarks, LeavingOneOutIsSolvingWithoutIt) {
   }
 }
 
-TEST(SolveMarks, WithoutASpareMarkNothingIsDetermined) {
+TEST(SolveAnnotations, LeaveOneOut_WithoutRedundancy_IsUndetermined) {
   Random random = randomFor("SolveMarks.Exact");
-  const MarkedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
-  SolveMarksOptions options;
+  const AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
+  SolveAnnotationsOptions options;
   options.rig_from_station_guess = scene.camera_from_station;
-  const MarksResult result = solveMarks(scene.views(), options);
+  const AnnotationsResult result = solveAnnotations(scene.views(), options);
   ASSERT_TRUE(result.solution) << result.reason;
   EXPECT_EQ(result.solution->degrees_of_freedom, 0);
   EXPECT_EQ(result.solution->noise_factor, 1.0);
-  for (const LeftOut& one : leaveOneOut(scene.views(), *result.solution))
-    EXPECT_FALSE(one.determined);
+  for (const LeftOut& left_out : leaveOneOut(scene.views(), *result.solution))
+    EXPECT_FALSE(left_out.determined);
 }
 
-TEST(SolveMarks, ThatAreOffOrHalfMadeCountForNothing) {
+TEST(SolveAnnotations, DisabledOrIncompletePairs_AreNotUsed) {
   Random random = randomFor("SolveMarks.Off");
-  MarkedScene scene = randomScene(random, CameraModel::kPinhole, 6, 0, 0.4);
-  const MarksResult before = solveMarks(scene.views(), {});
+  AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 6, 0, 0.4);
+  const AnnotationsResult before = solveAnnotations(scene.views(), {});
   PointPair wrong;
   wrong.id = "off";
   wrong.enabled = false;
   wrong.pixel = Eigen::Vector2d(1.0, 2.0);
   wrong.point_in_station_m = Eigen::Vector3d(1.0, 2.0, 3.0);
-  scene.view.marks.points.insert(scene.view.marks.points.begin(), wrong);
+  scene.view.annotations.points.insert(scene.view.annotations.points.begin(), wrong);
   wrong.id = "half";
   wrong.enabled = true;
   wrong.pixel.reset();
-  scene.view.marks.points.push_back(wrong);
-  const MarksResult after = solveMarks(scene.views(), {});
+  scene.view.annotations.points.push_back(wrong);
+  const AnnotationsResult after = solveAnnotations(scene.views(), {});
   ASSERT_TRUE(before.solution && after.solution);
   EXPECT_EQ(before.solution->rig_from_station, after.solution->rig_from_station);
-  EXPECT_EQ(after.solution->marks[0].address, (MarkAddress{0, MarkKind::kPoint, 1}));
+  EXPECT_EQ(after.solution->annotations[0].address,
+            (AnnotationAddress{0, AnnotationKind::kPoint, 1}));
 }
 
-TEST(SolveMarks, SaysWhyThereIsNoPose) {
+TEST(SolveAnnotations, SaysWhyThereIsNoPose) {
   Random random = randomFor("SolveMarks.Reason");
-  MarkedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
-  EXPECT_THAT(solveMarks(scene.views(), {}).reason, HasSubstr("needs 4"));
+  AnnotatedScene scene = randomScene(random, CameraModel::kPinhole, 3, 0, 0.0);
+  EXPECT_THAT(solveAnnotations(scene.views(), {}).reason, HasSubstr("needs 4"));
   scene = randomScene(random, CameraModel::kPinhole, 6, 0, 0.0);
-  for (PointPair& point : scene.view.marks.points)
+  for (PointPair& point : scene.view.annotations.points)
     point.point_in_station_m = Eigen::Vector3d(point.point_in_station_m->x(), 0.0, 0.0);
-  EXPECT_THAT(solveMarks(scene.views(), {}).reason, HasSubstr("one line"));
-  EXPECT_THAT(solveMarks({}, {}).reason, HasSubstr("too few"));
+  EXPECT_THAT(solveAnnotations(scene.views(), {}).reason, HasSubstr("one line"));
+  EXPECT_THAT(solveAnnotations({}, {}).reason, HasSubstr("too few"));
 }
 
 struct Setting {
@@ -302,10 +303,10 @@ struct Setting {
   double stated_factor;  ///< the stated sigma by the noise
 };
 
-class SolveMarksStatistics : public testing::TestWithParam<Setting> {};
+class SolveAnnotationsStatistics : public testing::TestWithParam<Setting> {};
 
 /// e' C^-1 e / 6 with the variance estimated from f degrees of freedom follows F(6, f).
-TEST_P(SolveMarksStatistics, NormalizedErrorSquaredHasTheRightMean) {
+TEST_P(SolveAnnotationsStatistics, NormalizedErrorSquaredHasTheRightMean) {
   const Setting& setting = GetParam();
   Random random = randomFor(setting.name);
   double sum = 0.0;
@@ -313,13 +314,13 @@ TEST_P(SolveMarksStatistics, NormalizedErrorSquaredHasTheRightMean) {
   constexpr int kDraws = 1000;
   int freedom = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    MarkedScene scene =
+    AnnotatedScene scene =
         randomScene(random, setting.model, setting.points, setting.lines, setting.noise_px);
-    for (PointPair& point : scene.view.marks.points) point.sigma_px *= setting.stated_factor;
-    for (LinePair& line : scene.view.marks.lines) line.sigma_px *= setting.stated_factor;
-    const MarksResult result = solveMarks(scene.views(), {});
+    for (PointPair& point : scene.view.annotations.points) point.sigma_px *= setting.stated_factor;
+    for (LinePair& line : scene.view.annotations.lines) line.sigma_px *= setting.stated_factor;
+    const AnnotationsResult result = solveAnnotations(scene.views(), {});
     ASSERT_TRUE(result.solution) << result.reason;
-    const MarksSolution& solution = *result.solution;
+    const AnnotationsSolution& solution = *result.solution;
     freedom = solution.degrees_of_freedom;
     ASSERT_EQ(freedom, 2 * (setting.points + setting.lines) - 6);
     const Vector6d error =
@@ -338,7 +339,7 @@ TEST_P(SolveMarksStatistics, NormalizedErrorSquaredHasTheRightMean) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Settings, SolveMarksStatistics,
+    Settings, SolveAnnotationsStatistics,
     testing::Values(Setting{"Points", CameraModel::kPinhole, 10, 0, 0.3, 1.0},
                     Setting{"LargeNoise", CameraModel::kPinhole, 20, 0, 1.0, 1.0},
                     Setting{"SmallNoise", CameraModel::kBrownConrady, 8, 0, 0.1, 1.0},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annotation/mark_content.h"
+#include "ui/annotation/annotation_content.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 namespace boresight::ui {
 namespace {
 
-class MarkContentTest : public testing::Test {
+class AnnotationContentTest : public testing::Test {
  protected:
-  MarkContentTest() {
+  AnnotationContentTest() {
     look_.camera.width = look_.camera.height = 1000;
     look_.camera.fx = look_.camera.fy = 1000.0;
     look_.camera.cx = look_.camera.cy = 500.0;
@@ -32,15 +32,15 @@ class MarkContentTest : public testing::Test {
     return {};
   }
   Mark signOf(const sessions::PointPair& point) {
-    sessions::Marks marks;
-    marks.points = {point};
-    return labelled(markSigns(marks, look_));
+    sessions::Annotations annotations;
+    annotations.points = {point};
+    return labelled(annotationSigns(annotations, look_));
   }
 
-  MarkLook look_;
+  AnnotationLook look_;
 };
 
-TEST_F(MarkContentTest, EveryStateOfAPointHasAShapeOrWordsOfItsOwn) {
+TEST_F(AnnotationContentTest, PointStates_DifferInShapeOrLabel) {
   std::vector<sessions::PointPair> points(6, complete("p1"));
   points[1].point_in_station_m.reset();
   points[2].pixel.reset();
@@ -61,7 +61,7 @@ TEST_F(MarkContentTest, EveryStateOfAPointHasAShapeOrWordsOfItsOwn) {
   EXPECT_EQ(looks.size(), points.size());
 }
 
-TEST_F(MarkContentTest, WhatIsNotInTheImageYetStandsWhereThePosePredictsIt) {
+TEST_F(AnnotationContentTest, PointWithoutPixel_IsDrawnAtItsProjection) {
   sessions::PointPair point = complete("p1");
   point.pixel.reset();
   const Mark mark = signOf(point);
@@ -72,26 +72,26 @@ TEST_F(MarkContentTest, WhatIsNotInTheImageYetStandsWhereThePosePredictsIt) {
   EXPECT_TRUE(signOf(point).label.isEmpty()) << "behind the camera it stands nowhere";
 }
 
-TEST_F(MarkContentTest, TheChosenMarkHasARingAndItsItemTellsItsId) {
-  sessions::Marks marks;
-  marks.points = {complete("p1"), complete("p2")};
+TEST_F(AnnotationContentTest, SelectedAnnotation_HasARingAndAnItemId) {
+  sessions::Annotations annotations;
+  annotations.points = {complete("p1"), complete("p2")};
   sessions::LinePair line;
   line.id = "l1";
   line.line = sessions::ImageLine{{10.0, 20.0}, {110.0, 60.0}};
-  marks.lines = {line};
-  const std::size_t unchosen = markSigns(marks, look_).size();
+  annotations.lines = {line};
+  const std::size_t unchosen = annotationSigns(annotations, look_).size();
   look_.selected = "p2";
-  const auto signs = markSigns(marks, look_);
+  const auto signs = annotationSigns(annotations, look_);
   EXPECT_EQ(signs.size(), unchosen + 1);
   std::set<std::string> ids;
-  for (const Mark& mark : signs) ids.insert(idOfSign(marks, mark.item));
+  for (const Mark& mark : signs) ids.insert(idOfSign(annotations, mark.item));
   EXPECT_EQ(ids, (std::set<std::string>{"p1", "p2", "l1"}));
-  EXPECT_EQ(idOfSign(marks, -1), "");
-  EXPECT_EQ(idOfSign(marks, 3), "");
+  EXPECT_EQ(idOfSign(annotations, -1), "");
+  EXPECT_EQ(idOfSign(annotations, 3), "");
 }
 
-TEST_F(MarkContentTest, ResidualsAreMagnifiedFromWhereThePosePutsTheMark) {
-  const std::vector<sessions::MarkVector> vectors = {{"p1", {100.0, 50.0}, {100.25, 49.5}}};
+TEST_F(AnnotationContentTest, Residuals_AreMagnifiedFromTheProjection) {
+  const std::vector<sessions::AnnotationVector> vectors = {{"p1", {100.0, 50.0}, {100.25, 49.5}}};
   for (const double factor : {1.0, 40.0}) {
     const auto signs = residualSigns(vectors, look_, factor, false);
     ASSERT_EQ(signs.size(), 1u);
@@ -103,7 +103,7 @@ TEST_F(MarkContentTest, ResidualsAreMagnifiedFromWhereThePosePutsTheMark) {
   EXPECT_TRUE(residualSigns(vectors, look_, 1.0, true)[0].dashed) << "not up to date";
 }
 
-TEST_F(MarkContentTest, TheBandLiesOnBothSidesOfTheEdge) {
+TEST_F(AnnotationContentTest, TheBandLiesOnBothSidesOfTheEdge) {
   sessions::BandPiece piece;
   for (const double x : {0.0, 10.0, 20.0})
     piece.places.push_back({{x, 5.0}, {0.0, 1.0}, 0.5 + 0.1 * x});

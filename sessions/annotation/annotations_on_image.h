@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a pose puts marks on the image, and least squares over marks.
+// Where a pose puts annotations on the image, and least squares over annotations.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "core/pnp/normal_equations.h"
-#include "sessions/annotation/marks.h"
+#include "sessions/annotation/annotations.h"
 
 namespace boresight::sessions {
 
@@ -46,10 +46,10 @@ bool isSeen(const Camera& camera, const MeshView& mesh, const Pose& camera_from_
 std::vector<Eigen::Vector2d> edgeOnImage(const Camera& camera, const Pose& camera_from_station,
                                          const ModelEdge& edge, int pieces = 16);
 
-/// What a mark says about a pose: two residuals (pixels, seen minus predicted) and how they change.
-/// Of a point these are x and y; of a line the distances of its two ends from the projected edge,
-/// with the whole camera model.
-struct MarkResidual {
+/// What an annotation says about a pose: two residuals (pixels, seen minus predicted) and how they
+/// change. Of a point these are x and y; of a line the distances of its two ends from the projected
+/// edge, with the whole camera model.
+struct AnnotationResidual {
   bool valid = false;  ///< false where the pose does not project it
   Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
   /// d predicted / d xi, xi = (rotation rad, translation m), left perturbation, camera frame.
@@ -59,22 +59,24 @@ struct MarkResidual {
   double depth_m = 0.0;  ///< of the point, or of the edge's middle
 };
 
-MarkResidual markResidual(const MarkedView& view, const MarkAddress& at,
-                          const Pose& camera_from_station);
+AnnotationResidual annotationResidual(const AnnotatedView& view, const AnnotationAddress& at,
+                                      const Pose& camera_from_station);
 
-/// Normal equations of all `marks` in xi of rig_from_station; `weight` (one per mark, or empty: all
-/// 1) multiplies 1 / sigma^2. A mark that does not project counts as missing.
-NormalEquations markEquations(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
-                              std::span<const double> weight, const Pose& rig_from_station);
+/// Normal equations of all `annotations` in xi of rig_from_station; `weight` (one per annotation,
+/// or empty: all 1) multiplies 1 / sigma^2. An annotation that does not project counts as missing.
+NormalEquations annotationEquations(std::span<const AnnotatedView> views,
+                                    std::span<const AnnotationAddress> annotations,
+                                    std::span<const double> weight, const Pose& rig_from_station);
 
-/// Least squares over marks from a start: damped Gauss-Newton steps until one is negligible. False
-/// when the marks do not determine the pose there; the pose is then left as it was.
-[[nodiscard]] bool refineMarks(std::span<const MarkedView> views,
-                               std::span<const MarkAddress> marks, std::span<const double> weight,
-                               Pose& rig_from_station, NormalEquations& equations);
+/// Least squares over annotations from a start: damped Gauss-Newton steps until one is negligible.
+/// False when the annotations do not determine the pose there; the pose is then left as it was.
+[[nodiscard]] bool refineAnnotations(std::span<const AnnotatedView> views,
+                                     std::span<const AnnotationAddress> annotations,
+                                     std::span<const double> weight, Pose& rig_from_station,
+                                     NormalEquations& equations);
 
-/// What a pose leaves of a mark, as a vector on the image.
-struct MarkVector {
+/// What a pose leaves of an annotation, as a vector on the image.
+struct AnnotationVector {
   std::string id;
   Eigen::Vector2d predicted =
       Eigen::Vector2d::Zero();  ///< where the pose puts the point; of a
@@ -82,7 +84,9 @@ struct MarkVector {
   Eigen::Vector2d seen = Eigen::Vector2d::Zero();
 };
 
-/// Of every complete mark that projects, also those that are off; a line has one for each end.
-std::vector<MarkVector> markVectors(const MarkedView& view, const Pose& camera_from_station);
+/// Of every complete annotation that projects, also those that are off; a line has one for each
+/// end.
+std::vector<AnnotationVector> annotationVectors(const AnnotatedView& view,
+                                                const Pose& camera_from_station);
 
 }  // namespace boresight::sessions

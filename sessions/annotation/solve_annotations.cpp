@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/annotation/solve_marks.h"
+#include "sessions/annotation/solve_annotations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <opencv2/calib3d.hpp>
 
 #include "core/pnp/correspondence.h"
+#include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/geometry_meter.h"
-#include "sessions/annotation/marks_on_image.h"
 
 namespace boresight::sessions {
 namespace {
@@ -27,17 +27,18 @@ constexpr double kFirstThreshold_px = 8.0;
 constexpr int kMostSamples = 5000;
 constexpr double kConfidence = 0.999;  ///< of having drawn a sample without outliers
 
-std::vector<Correspondence> correspondencesOf(const MarkedView& view) {
-  std::vector<Correspondence> made;
-  for (const PointPair& point : view.marks.points)
-    if (point.used()) made.push_back({*point.point_in_station_m, *point.pixel, point.sigma_px});
-  return made;
+std::vector<Correspondence> correspondencesOf(const AnnotatedView& view) {
+  std::vector<Correspondence> correspondences;
+  for (const PointPair& point : view.annotations.points)
+    if (point.used())
+      correspondences.push_back({*point.point_in_station_m, *point.pixel, point.sigma_px});
+  return correspondences;
 }
 
 /// What OpenCV's solvers say where most points of a view agree (P3P with RANSAC, then SQPnP, and
 /// IPPE for points in a plane, which may have two poses), camera from station. Bearings are those
 /// of the camera's centre in the plane z = 1: exact enough for a start, also where the pupil moves.
-std::vector<Pose> consensus(const MarkedView& view, double threshold_px) {
+std::vector<Pose> consensus(const AnnotatedView& view, double threshold_px) {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> places;
   for (const Correspondence& item : correspondencesOf(view)) {
@@ -86,19 +87,19 @@ std::vector<Pose> consensus(const MarkedView& view, double threshold_px) {
   return poses;
 }
 
-/// Where least squares over marks may begin: poses that agree with most points of the view that has
-/// the most of them. None where no view has four, or none agree.
-std::vector<Pose> firstPoses(std::span<const MarkedView> views) {
-  const MarkedView* most = nullptr;
+/// Where least squares over annotations may begin: poses that agree with most points of the view
+/// that has the most of them. None where no view has four, or none agree.
+std::vector<Pose> firstPoses(std::span<const AnnotatedView> views) {
+  const AnnotatedView* most = nullptr;
   std::size_t most_points = kFewestPoints - 1;
-  for (const MarkedView& view : views) {
+  for (const AnnotatedView& view : views) {
     const std::size_t points = correspondencesOf(view).size();
     if (points <= most_points) continue;
     most = &view;
     most_points = points;
   }
   if (most == nullptr) return {};
-  // Careful marks first; then any pose at all, for marks that are far out.
+  // Careful annotations first; then any pose at all, for annotations that are far out.
   for (const double threshold_px : {kFirstThreshold_px, 10.0 * kFirstThreshold_px, 1e4}) {
     std::vector<Pose> poses = consensus(*most, threshold_px);
     for (Pose& pose : poses) pose = most->camera_from_rig.inverse() * pose;
@@ -107,11 +108,12 @@ std::vector<Pose> firstPoses(std::span<const MarkedView> views) {
   return {};
 }
 
-/// The other pose that a plane of marks may have: its normal mirrored about the line of sight
+/// The other pose that a plane of annotations may have: its normal mirrored about the line of sight
 /// (Schweighofer and Pinz, "Robust Pose Estimation from a Planar Target", PAMI 2006). Nothing where
-/// the marks do not lie in a plane.
-std::optional<Pose> mirroredPose(std::span<const MarkedView> views, const Pose& rig_from_station) {
-  const MarkedSpread spread = markedSpread(views);
+/// the annotations do not lie in a plane.
+std::optional<Pose> mirroredPose(std::span<const AnnotatedView> views,
+                                 const Pose& rig_from_station) {
+  const AnnotatedSpread spread = annotatedSpread(views);
   if (!spread.coplanar()) return {};
   const Pose camera_from_station = views.front().camera_from_rig * rig_from_station;
   const Eigen::Vector3d sight = (camera_from_station * spread.middle_in_station_m).normalized();
@@ -131,16 +133,18 @@ std::optional<Pose> mirroredPose(std::span<const MarkedView> views, const Pose& 
 struct Fit {
   Pose rig_from_station;
   NormalEquations equations;
-  std::vector<double> weight;  ///< one per mark
+  std::vector<double> weight;  ///< one per annotation
 };
 
-std::vector<double> weightedNorms(std::span<const MarkedView> views,
-                                  std::span<const MarkAddress> marks, const Pose& pose) {
+std::vector<double> weightedNorms(std::span<const AnnotatedView> views,
+                                  std::span<const AnnotationAddress> annotations,
+                                  const Pose& pose) {
   std::vector<double> norms;
-  for (const MarkAddress& at : marks) {
-    const MarkedView& view = views[at.view];
-    const MarkResidual mark = markResidual(view, at, view.camera_from_rig * pose);
-    norms.push_back(mark.valid ? mark.residual_px.norm() / markSigma_px(views, at) : 1e9);
+  for (const AnnotationAddress& at : annotations) {
+    const AnnotatedView& view = views[at.view];
+    const AnnotationResidual annotation = annotationResidual(view, at, view.camera_from_rig * pose);
+    norms.push_back(annotation.valid ? annotation.residual_px.norm() / annotationSigma_px(views, at)
+                                     : 1e9);
   }
   return norms;
 }
@@ -151,7 +155,7 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-/// Tukey's biweight; its scale is not taken below the marks' own sigma.
+/// Tukey's biweight; its scale is not taken below the annotations' own sigma.
 std::vector<double> tukeyWeights(const std::vector<double>& norms) {
   const double limit = kTukey * std::max(1.0, medianOf(norms) / kMedianOfRayleigh);
   std::vector<double> weight;
@@ -162,18 +166,21 @@ std::vector<double> tukeyWeights(const std::vector<double>& norms) {
   return weight;
 }
 
-std::optional<Fit> fitFrom(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
-                           const Pose& start, bool robust) {
-  Fit fit{start, {}, std::vector<double>(marks.size(), 1.0)};
+std::optional<Fit> fitFrom(std::span<const AnnotatedView> views,
+                           std::span<const AnnotationAddress> annotations, const Pose& start,
+                           bool robust) {
+  Fit fit{start, {}, std::vector<double>(annotations.size(), 1.0)};
   if (!robust) {
-    if (!refineMarks(views, marks, fit.weight, fit.rig_from_station, fit.equations)) return {};
+    if (!refineAnnotations(views, annotations, fit.weight, fit.rig_from_station, fit.equations))
+      return {};
     return fit;
   }
-  // The start agrees with most marks, so the first weights come from it.
+  // The start agrees with most annotations, so the first weights come from it.
   for (int round = 0; round < kRobustRounds; ++round) {
     const std::vector<double> before = fit.weight;
-    fit.weight = tukeyWeights(weightedNorms(views, marks, fit.rig_from_station));
-    if (!refineMarks(views, marks, fit.weight, fit.rig_from_station, fit.equations)) return {};
+    fit.weight = tukeyWeights(weightedNorms(views, annotations, fit.rig_from_station));
+    if (!refineAnnotations(views, annotations, fit.weight, fit.rig_from_station, fit.equations))
+      return {};
     double change = 0.0;
     for (std::size_t i = 0; i < before.size(); ++i)
       change = std::max(change, std::abs(before[i] - fit.weight[i]));
@@ -188,9 +195,11 @@ double rmsOf(const Fit& fit) {
   return std::sqrt(fit.equations.squares / std::max(1.0, 2.0 * weights));
 }
 
-/// The better of what the starts lead to. Robust fits leave marks out: the one with more left wins.
-std::optional<Fit> bestFit(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
-                           const SolveMarksOptions& options) {
+/// The better of what the starts lead to. Robust fits leave annotations out: the one with more left
+/// wins.
+std::optional<Fit> bestFit(std::span<const AnnotatedView> views,
+                           std::span<const AnnotationAddress> annotations,
+                           const SolveAnnotationsOptions& options) {
   std::optional<Fit> best;
   const auto cost = [](const Fit& fit) {
     double excluded = 0.0;
@@ -199,7 +208,7 @@ std::optional<Fit> bestFit(std::span<const MarkedView> views, std::span<const Ma
   };
   const auto consider = [&](const std::optional<Pose>& start) {
     if (!start) return;
-    const std::optional<Fit> fit = fitFrom(views, marks, *start, options.robust);
+    const std::optional<Fit> fit = fitFrom(views, annotations, *start, options.robust);
     if (fit && (!best || cost(*fit) < cost(*best))) best = fit;
   };
   for (const Pose& pose : firstPoses(views)) consider(pose);
@@ -208,12 +217,12 @@ std::optional<Fit> bestFit(std::span<const MarkedView> views, std::span<const Ma
   return best;
 }
 
-std::optional<AmbiguousPose> ambiguousPoseOf(std::span<const MarkedView> views,
-                                             std::span<const MarkAddress> marks, const Fit& fit,
-                                             bool robust) {
+std::optional<AmbiguousPose> ambiguousPoseOf(std::span<const AnnotatedView> views,
+                                             std::span<const AnnotationAddress> annotations,
+                                             const Fit& fit, bool robust) {
   const std::optional<Pose> start = mirroredPose(views, fit.rig_from_station);
   if (!start) return {};
-  const std::optional<Fit> other = fitFrom(views, marks, *start, robust);
+  const std::optional<Fit> other = fitFrom(views, annotations, *start, robust);
   if (!other) return {};
   const Eigen::Quaterniond turn =
       (other->rig_from_station.rotation * fit.rig_from_station.rotation.conjugate()).normalized();
@@ -223,50 +232,54 @@ std::optional<AmbiguousPose> ambiguousPoseOf(std::span<const MarkedView> views,
   return AmbiguousPose{other->rig_from_station, rms_px};
 }
 
-/// Residual scaled by its own deviation: what a mark pulls on the pose makes its residual smaller
-/// (studentized; Cook and Weisberg 1982). Of a weight of 0 it pulls nothing, and the pose's own
-/// deviation adds to its noise.
-double normalizedResidual(const MarkResidual& mark, const Matrix6d& camera_covariance,
+/// Residual scaled by its own deviation: what an annotation pulls on the pose makes its residual
+/// smaller (studentized; Cook and Weisberg 1982). Of a weight of 0 it pulls nothing, and the pose's
+/// own deviation adds to its noise.
+double normalizedResidual(const AnnotationResidual& annotation, const Matrix6d& camera_covariance,
                           double noise_px, double weight) {
   Eigen::Matrix2d variance = noise_px * noise_px * Eigen::Matrix2d::Identity() +
-                             (1.0 - 2.0 * weight) * mark.predicted_by_xi * camera_covariance *
-                                 mark.predicted_by_xi.transpose();
-  // A mark that alone holds the pose has no residual to speak of.
+                             (1.0 - 2.0 * weight) * annotation.predicted_by_xi * camera_covariance *
+                                 annotation.predicted_by_xi.transpose();
+  // An annotation that alone holds the pose has no residual to speak of.
   for (int i = 0; i < 2; ++i) variance(i, i) = std::max(variance(i, i), 1e-4 * noise_px * noise_px);
   double largest = 0.0;
   for (int i = 0; i < 2; ++i)
-    largest = std::max(largest, std::abs(mark.residual_px[i]) / std::sqrt(variance(i, i)));
+    largest = std::max(largest, std::abs(annotation.residual_px[i]) / std::sqrt(variance(i, i)));
   return largest;
 }
 
 double pixelsPerRadian(const Camera& camera) { return 0.5 * (camera.fx + camera.fy); }
 
-void describeMarks(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
-                   const Fit& fit, MarksSolution& solution) {
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    const MarkedView& view = views[marks[i].view];
-    const MarkResidual mark =
-        markResidual(view, marks[i], solution.camera_from_station[marks[i].view]);
-    SolvedMark made;
-    made.address = marks[i];
-    made.weight = fit.weight[i];
-    made.projected = mark.valid;
-    if (mark.valid) {
-      made.residual_px = mark.residual_px;
-      made.residual_mm = mark.residual_px * (1000.0 * mark.depth_m / pixelsPerRadian(view.camera));
-      const double noise_px = markSigma_px(views, marks[i]) * std::max(solution.noise_factor, 1e-6);
-      made.normalized =
-          normalizedResidual(mark, cameraCovariance(solution, view), noise_px, made.weight);
+void describeAnnotations(std::span<const AnnotatedView> views,
+                         std::span<const AnnotationAddress> annotations, const Fit& fit,
+                         AnnotationsSolution& solution) {
+  for (std::size_t i = 0; i < annotations.size(); ++i) {
+    const AnnotatedView& view = views[annotations[i].view];
+    const AnnotationResidual annotation =
+        annotationResidual(view, annotations[i], solution.camera_from_station[annotations[i].view]);
+    SolvedAnnotation solved_annotation;
+    solved_annotation.address = annotations[i];
+    solved_annotation.weight = fit.weight[i];
+    solved_annotation.projected = annotation.valid;
+    if (annotation.valid) {
+      solved_annotation.residual_px = annotation.residual_px;
+      solved_annotation.residual_mm =
+          annotation.residual_px * (1000.0 * annotation.depth_m / pixelsPerRadian(view.camera));
+      const double noise_px =
+          annotationSigma_px(views, annotations[i]) * std::max(solution.noise_factor, 1e-6);
+      solved_annotation.normalized = normalizedResidual(
+          annotation, cameraCovariance(solution, view), noise_px, solved_annotation.weight);
     }
-    solution.marks.push_back(made);
+    solution.annotations.push_back(solved_annotation);
   }
 }
 
-MarksSolution describe(std::span<const MarkedView> views, std::span<const MarkAddress> marks,
-                       const Fit& fit, bool robust) {
-  MarksSolution solution;
+AnnotationsSolution describe(std::span<const AnnotatedView> views,
+                             std::span<const AnnotationAddress> annotations, const Fit& fit,
+                             bool robust) {
+  AnnotationsSolution solution;
   solution.rig_from_station = fit.rig_from_station;
-  for (const MarkedView& view : views)
+  for (const AnnotatedView& view : views)
     solution.camera_from_station.push_back(view.camera_from_rig * fit.rig_from_station);
   double weights = 0.0;
   for (const double weight : fit.weight) weights += weight;
@@ -277,17 +290,18 @@ MarksSolution describe(std::span<const MarkedView> views, std::span<const MarkAd
   Matrix6d covariance;
   if (invert(fit.equations.information, covariance))
     solution.covariance = solution.noise_factor * solution.noise_factor * covariance;
-  describeMarks(views, marks, fit, solution);
+  describeAnnotations(views, annotations, fit, solution);
   double squares_px = 0.0;
-  for (const SolvedMark& mark : solution.marks)
-    squares_px += mark.weight * mark.residual_px.squaredNorm();
+  for (const SolvedAnnotation& annotation : solution.annotations)
+    squares_px += annotation.weight * annotation.residual_px.squaredNorm();
   solution.rms_px = std::sqrt(squares_px / std::max(1.0, 2.0 * weights));
-  solution.ambiguous = ambiguousPoseOf(views, marks, fit, robust);
+  solution.ambiguous = ambiguousPoseOf(views, annotations, fit, robust);
   return solution;
 }
 
 /// Why nothing can be solved, or "".
-std::string hindrance(std::span<const MarkedView> views, const SolveMarksOptions& options) {
+std::string hindrance(std::span<const AnnotatedView> views,
+                      const SolveAnnotationsOptions& options) {
   const Pose* guess = options.rig_from_station_guess ? &*options.rig_from_station_guess : nullptr;
   for (const GeometryWarning& warning : geometryWarnings(views, guess, {}))
     if (warning.prevents) return warning.text;
@@ -296,49 +310,51 @@ std::string hindrance(std::span<const MarkedView> views, const SolveMarksOptions
 
 }  // namespace
 
-MarksResult solveMarks(std::span<const MarkedView> views, const SolveMarksOptions& options) {
+AnnotationsResult solveAnnotations(std::span<const AnnotatedView> views,
+                                   const SolveAnnotationsOptions& options) {
   const std::string hindered = hindrance(views, options);
   if (!hindered.empty()) return {{}, hindered};
-  const std::vector<MarkAddress> marks = usedMarks(views);
-  const std::optional<Fit> fit = bestFit(views, marks, options);
+  const std::vector<AnnotationAddress> annotations = usedAnnotations(views);
+  const std::optional<Fit> fit = bestFit(views, annotations, options);
   if (!fit)
-    return {{},
-            "no pose agrees with the marks: look for mixed-up pairs, or add a pair far from the "
-            "others"};
-  return {describe(views, marks, *fit, options.robust), ""};
+    return {
+        {},
+        "no pose fits the annotations: check for swapped pairs, or add one far from the others"};
+  return {describe(views, annotations, *fit, options.robust), ""};
 }
 
-std::vector<LeftOut> leaveOneOut(std::span<const MarkedView> views, const MarksSolution& solution) {
-  std::vector<MarkAddress> marks;
+std::vector<LeftOut> leaveOneOut(std::span<const AnnotatedView> views,
+                                 const AnnotationsSolution& solution) {
+  std::vector<AnnotationAddress> annotations;
   std::vector<double> weight;
-  for (const SolvedMark& mark : solution.marks) {
-    marks.push_back(mark.address);
-    weight.push_back(mark.weight);
+  for (const SolvedAnnotation& annotation : solution.annotations) {
+    annotations.push_back(annotation.address);
+    weight.push_back(annotation.weight);
   }
-  const Eigen::Vector3d middle_m = markedSpread(views).middle_in_station_m;
+  const Eigen::Vector3d middle_m = annotatedSpread(views).middle_in_station_m;
   std::vector<LeftOut> all;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  for (std::size_t i = 0; i < annotations.size(); ++i) {
     std::vector<double> without = weight;
     without[i] = 0.0;
     Pose pose = solution.rig_from_station;
     NormalEquations equations;
-    LeftOut made;
-    made.address = marks[i];
-    made.determined = refineMarks(views, marks, without, pose, equations);
-    if (made.determined) {
-      made.translation_mm =
+    LeftOut left_out;
+    left_out.address = annotations[i];
+    left_out.determined = refineAnnotations(views, annotations, without, pose, equations);
+    if (left_out.determined) {
+      left_out.translation_mm =
           1000.0 * (pose * middle_m - solution.rig_from_station * middle_m).norm();
-      made.rotation_mrad =
+      left_out.rotation_mrad =
           1000.0 *
           rotationLog((pose.rotation * solution.rig_from_station.rotation.conjugate()).normalized())
               .norm();
     }
-    all.push_back(made);
+    all.push_back(left_out);
   }
   return all;
 }
 
-Matrix6d cameraCovariance(const MarksSolution& solution, const MarkedView& view) {
+Matrix6d cameraCovariance(const AnnotationsSolution& solution, const AnnotatedView& view) {
   const Matrix6d camera_by_rig = adjointOf(view.camera_from_rig);
   return camera_by_rig * solution.covariance * camera_by_rig.transpose();
 }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What annotations look like as layers of the image.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <QColor>
+
+#include "sessions/annotation/annotations_on_image.h"
+#include "sessions/annotation/edge_band.h"
+#include "sessions/annotation/landmarks.h"
+#include "ui/views/layer.h"
+
+namespace boresight::ui {
+
+inline const QColor kChosenAnnotation(255, 255, 255);
+inline const QColor kDisabledAnnotation(175, 175, 175);
+inline const QColor kOutlierAnnotation(255, 130, 60);
+
+/// State that the marks of annotations show.
+struct AnnotationLook {
+  std::string selected;
+  std::map<std::string, double> outliers;  ///< normalized residual by id
+  Camera camera;
+  Pose camera_from_station;  ///< predicts what has no place in the image yet
+};
+
+/// State of an annotation as its sign shows it.
+struct AnnotationState {
+  bool complete = true;
+  bool enabled = true;
+  bool chosen = false;
+  double outlier = 0.0;  ///< residual in sigmas where it stands out, else 0
+};
+/// "p1", "p1 ?" (incomplete), "p1 (off)", "p1 ! 4.2 sigma".
+QString annotationLabel(const std::string& id, const AnnotationState& state);
+/// Colour of an annotation's sign; invalid: the layer's own.
+QColor annotationColor(const AnnotationState& state);
+/// The sign of an annotation, with a triangle round an outlier and a ring round the chosen
+/// annotation.
+std::vector<Mark> withState(Mark sign, const AnnotationState& state);
+
+/// One sign for each annotation, its item being the index of the point, or the number of points
+/// plus the index of the line. A complete pair is a target, a locked one a square, one without its
+/// station side a circle with "?", one without its place in the image a dashed diamond where the
+/// pose predicts it, one that is off is struck through, one that stands out has a triangle round
+/// it.
+std::vector<Mark> annotationSigns(const sessions::Annotations& annotations,
+                                  const AnnotationLook& look);
+
+/// From where the pose puts each annotation to where it was annotated, magnified. `stale`: dashed.
+std::vector<Mark> residualSigns(const std::vector<sessions::AnnotationVector>& vectors,
+                                const AnnotationLook& look, double magnification, bool stale);
+
+std::vector<Mark> proposalSigns(const std::vector<sessions::Proposal>& proposals);
+
+/// Strips along the edges.
+std::vector<Mark> bandSigns(const std::vector<sessions::BandPiece>& band);
+
+/// The annotation that an item of `annotationSigns` is of, or nothing.
+std::string idOfSign(const sessions::Annotations& annotations, int item);
+
+}  // namespace boresight::ui
