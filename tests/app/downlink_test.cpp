@@ -292,7 +292,7 @@ TEST_F(Downlink, ItsCameraIsWrittenAndFitted) {
   const std::string other_ending = folder_ / "left.cahvore";
   sessions::writeCahvorFile(other_ending, with_covariance);
   EXPECT_THAT(runWhs({"camera", other_ending, "--out", folder_ / "left.json"}, 0).err,
-              HasSubstr("the covariance of left.cahvore stays behind"));
+              HasSubstr("the covariance of left.cahvore is not written"));
   EXPECT_THAT(runWhs({"camera", text, "--out", other_ending}).err,
               HasSubstr("the vectors belong to a cahvor model"));
   runWhs({"camera", image_.string()}, 2);

@@ -232,7 +232,7 @@ TEST(ReplayRecord, DifferencesFromTheRunOnBoard_AreReported) {
   ExampleCase other("os");
   for (auto& value : other.image.pixels) value = static_cast<std::uint8_t>(255 - value / 2);
   EXPECT_THAT(remarks(whole.run.record, other.problem()),
-              testing::AllOf(Contains(HasSubstr("other pixels")),
+              testing::AllOf(Contains(HasSubstr("pixels differ from this case's image")),
                              Contains(HasSubstr("image edges differ"))));
   const ExampleCase bc("bc");
   EXPECT_THAT(
@@ -280,7 +280,7 @@ TEST(RecordedPlan, SaysWhichOptionsItDoesNotKnow) {
   const sessions::RecordedPlan plan = planOf(record);
   EXPECT_TRUE(plan.has_options);
   EXPECT_THAT(plan.remarks, testing::UnorderedElementsAre(HasSubstr("later.option (5 on board)"),
-                                                          HasSubstr("no option pnp.seed"),
+                                                          HasSubstr("lacks the option pnp.seed"),
                                                           HasSubstr("loop.max_attempts was 99")));
   record.options.clear();
   EXPECT_FALSE(planOf(record).has_options);

@@ -151,7 +151,7 @@ class QueueOfExample : public ::testing::Test {
     lost.id = "lost";
     run(session_->cases[0]->id, *session_);
     Session strict = *session_;
-    strict.options = {{"pnp.min_inliers", std::int64_t{100}}};
+    strict.options = {{"pnp.min_inliers", std::int64_t{100}}, {"refinement.enabled", false}};
     run(session_->cases[1]->id, strict);
     *session_ = withCase(*session_, lost);
     run("lost", *session_);

@@ -85,13 +85,13 @@ class RunDifferenceTest : public ::testing::Test {
 TEST_F(RunDifferenceTest, NamesTheOptionTheFirstDifferenceAndWhoIsBetter) {
   const std::string first = run({});
   EXPECT_FALSE(lastTwoRuns(session_, id_)) << "one run has none before it";
-  const std::string second = run({{"pnp.min_inliers", std::int64_t{100}}});
+  const std::string second = run({{"support.min_probability", 1.0}});
   const RunDifference run_difference = compare();
   EXPECT_EQ(run_difference.before.digest, first);
   EXPECT_EQ(run_difference.after.digest, second);
   ASSERT_EQ(run_difference.options.size(), 1u);
-  EXPECT_EQ(run_difference.options[0].name, "pnp.min_inliers");
-  EXPECT_EQ(run_difference.options[0].after, "100");
+  EXPECT_EQ(run_difference.options[0].name, "support.min_probability");
+  EXPECT_EQ(run_difference.options[0].after, "1");
   ASSERT_TRUE(run_difference.comparison.first);
   EXPECT_EQ(run_difference.comparison.first->part, RunPart::kOptions);
   EXPECT_TRUE(run_difference.before.converged);
@@ -111,7 +111,7 @@ TEST_F(RunDifferenceTest, NamesTheOptionTheFirstDifferenceAndWhoIsBetter) {
                     (check.before == CheckState::kPassed && check.after == CheckState::kFailed);
   }
   EXPECT_TRUE(has_converged) << "a check that failed for the second run alone";
-  EXPECT_THAT(differenceText(run_difference), ::testing::HasSubstr("pnp.min_inliers"));
+  EXPECT_THAT(differenceText(run_difference), ::testing::HasSubstr("support.min_probability"));
   EXPECT_THAT(changeText(run_difference), ::testing::StartsWith("Worse"));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/runner.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -147,7 +148,9 @@ TEST_F(RunnerViewsTest, ABlackViewIsLeftOutAndTheOtherKeepsItsBits) {
 TEST_F(RunnerViewsTest, BlackFirstView_StillGivesTheSeed) {
   blacken(0);
   const std::vector<LocalizationTrace> views = watched();
-  EXPECT_EQ(views[0].status, LocalizationStatus::kTooFewMatches);
+  // By templates it has too few matches, by refinement too few edges.
+  EXPECT_THAT(views[0].status,
+              testing::AnyOf(LocalizationStatus::kTooFewMatches, LocalizationStatus::kPnpFailed));
   EXPECT_EQ(views[1].status, LocalizationStatus::kConverged);
   EXPECT_LT(perturbationBetween(views[1].camera_from_station, example_.truth.camera_from_station)
                 .tail<3>()

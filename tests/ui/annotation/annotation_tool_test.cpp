@@ -232,7 +232,7 @@ TEST_F(AnnotationToolTest, WithoutSnappingTheStationsSurfaceIsAnnotated) {
 TEST_F(AnnotationToolTest, CtrlClickOffTheStation_IsRefusedWithAReason) {
   click({1.0, 1.0}, Qt::ControlModifier);
   EXPECT_TRUE(annotations().empty());
-  EXPECT_TRUE(told_.contains(QStringLiteral("no station"))) << told_.toStdString();
+  EXPECT_TRUE(told_.contains(QStringLiteral("not under the pointer"))) << told_.toStdString();
 }
 
 TEST_F(AnnotationToolTest, TwoClicksMakeALineAndCtrlClickItsEdge) {

@@ -27,7 +27,7 @@ struct RunExample {
   }
   sessions::Session strictSession() const {
     sessions::Session next_session = session;
-    next_session.options = {{"pnp.min_inliers", std::int64_t{100}}};
+    next_session.options = {{"pnp.min_inliers", std::int64_t{100}}, {"refinement.enabled", false}};
     return next_session;
   }
   sessions::Session withRuns(const std::filesystem::path& file) const {
@@ -209,7 +209,7 @@ TEST_F(QueuePanelTest, ComparesTheLastTwoRuns) {
   EXPECT_TRUE(row.siblingAtColumn(DifferencesModel::kChange)
                   .data()
                   .toString()
-                  .contains(QStringLiteral("worse")));
+                  .startsWith(QStringLiteral("Worse")));
   EXPECT_TRUE(row.siblingAtColumn(DifferencesModel::kWhy)
                   .data()
                   .toString()

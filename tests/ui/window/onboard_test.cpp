@@ -140,7 +140,7 @@ TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
   ASSERT_TRUE(found.first);
   EXPECT_EQ(found.first->part, RunPart::kMatches);
   EXPECT_EQ(found.first->template_index, static_cast<int>(kAltered));
-  EXPECT_TRUE(test::has(label("firstDifference"), "template 6 was found"));
+  EXPECT_TRUE(test::has(label("firstDifference"), "template 6 has different matches"));
   QTest::keyClick(&window_, Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_EQ(window_.state().cursor().iteration, 0);
   EXPECT_EQ(window_.state().selectedTemplate(), static_cast<int>(kAltered));
@@ -155,8 +155,8 @@ TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
   const auto& found = *window_.onboard().comparison();
   EXPECT_EQ(found.verdict, RunVerdict::kWithinLimits) << sessions::comparisonText(found);
   EXPECT_EQ(found.first->part, RunPart::kPixels);
-  EXPECT_TRUE(test::has(label("verdict"), "within the limits"));
-  EXPECT_TRUE(test::has(label("recordRemarks"), "other pixels"));
+  EXPECT_TRUE(test::has(label("verdict"), "Within the limits"));
+  EXPECT_TRUE(test::has(label("recordRemarks"), "pixels differ from this case"));
   const auto* table = window_.findChild<QTableWidget*>(QStringLiteral("comparison"));
   ASSERT_EQ(table->rowCount(), static_cast<int>(found.iterations.size()) + 1);
   EXPECT_TRUE(test::has(table->item(0, 1)->text(), " of "));

@@ -136,7 +136,7 @@ class ViewsRunWindowTest : public test::WindowTest {
  protected:
   QAction* together() {
     for (QAction* each : window_.findChildren<QAction*>())
-      if (each->text().remove(QLatin1Char('&')) == QStringLiteral("Run with the other views"))
+      if (each->text().remove(QLatin1Char('&')) == QStringLiteral("Run all cameras of this rig"))
         return each;
     return nullptr;
   }

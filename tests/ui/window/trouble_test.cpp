@@ -147,7 +147,7 @@ TEST_F(TroubleTest, ARunThatDidNotFitIsStoredWhenThereIsRoomAgain) {
   {
     Answers answers(QStringLiteral("Cancel"), {});
     EXPECT_FALSE(window_.close()) << "the run would be lost";
-    EXPECT_TRUE(test::has(answers.text(), "no room"));
+    EXPECT_TRUE(test::has(answers.text(), "No space"));
   }
   window_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
