@@ -312,16 +312,15 @@ StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& re
   return report;
 }
 
-/// A pose that views support, compared with those of other candidates by the mean probability over
-/// all views: a pose that a view contradicts yields to one that all support.
+/// A pose that views support: as probable as in the view that supports it best.
 StepReport ViewsLocalizer::takePose(const StepReport& report) {
   const LocalizationStatus status = LocalizationStatus::kConverged;
   if (!first().searches()) return finish(status, report);
-  double sum = 0.0;
-  for (std::size_t v = 0; v < views_.size(); ++v) sum += result_.views[v].probability;
-  const CandidateTrials::Next next =
-      trials_.takePose(attempt_, leading().camera_from_station_before,
-                       sum / static_cast<double>(views_.size()), first().context());
+  double probability = 0.0;
+  for (const ViewReport& view : result_.views)
+    probability = std::max(probability, view.probability);
+  const CandidateTrials::Next next = trials_.takePose(
+      attempt_, leading().camera_from_station_before, probability, first().context());
   if (next != CandidateTrials::Next::kConclude || !options_.support.gate)
     return follow(next, status, report);
   phase_ = Phase::kCompare;

@@ -34,9 +34,8 @@ namespace boresight {
 /// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
 /// The result is the pose for which all remaining views have support.
 ///
-/// A run that searches does so in every view; attempts start from the candidates of all views, and
-/// the pose with the largest mean probability over all views is the result. It is ambiguous when
-/// another pose competes with it in every view (jointCompetingPoses).
+/// A run that searches does so in every view; attempts start from the candidates of all views. The
+/// result is ambiguous when another pose competes with it in every view (jointCompetingPoses).
 /// Not offered: matches from outside.
 class ViewsLocalizer {
  public:

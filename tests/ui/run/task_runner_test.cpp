@@ -136,7 +136,7 @@ TEST_F(TaskRunnerTest, SaysWhyATaskFailedAndGoesOn) {
   EXPECT_EQ(taken_, std::vector<int>{3});
   ASSERT_EQ(failures_.size(), 2);
   EXPECT_EQ(failures_[0], QStringLiteral("no luck"));
-  EXPECT_TRUE(failures_[1].contains(QStringLiteral("not enough memory")));
+  EXPECT_TRUE(failures_[1].contains(QStringLiteral("Not enough memory")));
 }
 
 TEST(TaskRunner, Destruction_WhileATaskRuns_IsSafe) {

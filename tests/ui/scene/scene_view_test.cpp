@@ -82,7 +82,7 @@ TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
   click(at);
   EXPECT_EQ(readout(), stationPlaceText(expected->in_station_m, QStringLiteral("surface")));
   click({3, 3});
-  EXPECT_TRUE(readout().startsWith(QStringLiteral("Nothing")));
+  EXPECT_TRUE(readout().startsWith(QStringLiteral("No object")));
 }
 
 TEST_F(SceneViewTest, ADoubleClickShowsTheWholeScene) {

@@ -50,7 +50,7 @@ TEST_F(MainWindowTest, ADropThatFailedIsNotPartOfTheNextCase) {
   EXPECT_TRUE(test::has(window_.lastMessage(), "bad.png"));
   EXPECT_EQ(window_.statusBar()->currentMessage(), QString()) << "nothing is being read any more";
   window_.takeFiles({os / "image.png", mesh, os / "seed.json"});
-  EXPECT_TRUE(test::has(window_.statusBar()->currentMessage(), "Still missing: a camera"));
+  EXPECT_TRUE(test::has(window_.statusBar()->currentMessage(), "Still needed: a camera"));
 }
 
 TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
