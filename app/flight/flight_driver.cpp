@@ -156,11 +156,12 @@ int localize(const LocalizationProblem& problem, const LocalizerOptions& options
   if (localizer.status() == Status::kArenaTooSmall) {
     std::size_t needed = 0;
     if (requiredBytes(sizeOf(problem), options, needed) != Status::kOk) needed = 0;
-    std::fprintf(stderr,
-                 "%s: needs %lu bytes besides its inputs, %lu are free; use a smaller image or a "
-                 "coarser mesh\n",
-                 problem_file, static_cast<unsigned long>(needed),
-                 static_cast<unsigned long>(memory.size()));
+    std::fprintf(
+        stderr,
+        "%s: needs %lu bytes in addition to its inputs, %lu are free; use a smaller image or a "
+        "coarser mesh\n",
+        problem_file, static_cast<unsigned long>(needed),
+        static_cast<unsigned long>(memory.size()));
     return kBadInput;
   }
   if (localizer.status() != Status::kOk)

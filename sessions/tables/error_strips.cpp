@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "sessions/tables/method_tables.h"
+#include "sessions/tables/station_runs.h"
 
 namespace boresight::sessions {
 namespace {
@@ -31,7 +30,7 @@ constexpr PdfColor kRed = {0.80, 0.15, 0.10};
 struct StripAxis {
   const char* label;
   double PoseError::*part;
-  std::optional<double> (*limit)(const Requirement&);
+  RequirementLimit limit;
   bool is_signed;
 };
 
@@ -43,44 +42,14 @@ const StripAxis kStripAxes[] = {
     {"rotation error, mrad", &PoseError::rotation_mrad, &rotationLimit_mrad, false},
 };
 
-/// One station, near or far: its methods in their order.
-struct StripRow {
-  std::string title;
-  std::vector<RunGroup> methods;
-};
-
-std::vector<StripRow> stripRows(std::span<const RunResult> runs) {
-  std::vector<StripRow> rows;
-  std::map<std::pair<std::string, bool>, std::size_t> at;
-  for (RunGroup& group : runGroups(runs)) {
-    const auto [found, is_new] = at.emplace(std::pair(group.station, group.far), rows.size());
-    if (is_new) rows.push_back({group.station + (group.far ? ", far" : ""), {}});
-    rows[found->second].methods.push_back(std::move(group));
-  }
-  return rows;
-}
-
 /// Errors of the seeds, each once.
-std::vector<double> seedErrors(const StripRow& row, double PoseError::*part) {
+std::vector<double> seedErrors(const StationRuns& row, double PoseError::*part) {
   std::set<std::pair<std::string, std::int32_t>> seen;
   std::vector<double> errors;
-  for (const RunGroup& group : row.methods)
-    for (const RunResult* run : group.runs)
-      if (run->seed_error && seen.insert({run->case_id, run->reseed}).second)
-        errors.push_back((*run->seed_error).*part);
+  for (const RunResult* run : row.all)
+    if (run->seed_error && seen.insert({run->case_id, run->reseed}).second)
+      errors.push_back((*run->seed_error).*part);
   return errors;
-}
-
-/// The requirement's limit where all runs share it.
-std::optional<double> sharedLimit(const StripRow& row, const StripAxis& axis) {
-  std::optional<double> shared;
-  for (const RunGroup& group : row.methods)
-    for (const RunResult* run : group.runs) {
-      const auto limit = run->requirement ? axis.limit(*run->requirement) : std::nullopt;
-      if (!limit || (shared && *shared != *limit)) return std::nullopt;
-      shared = limit;
-    }
-  return shared;
 }
 
 std::vector<double> evenlyByRank(std::vector<double> values) {
@@ -154,10 +123,11 @@ void drawName(PdfCanvas& canvas, const Panel& panel, std::size_t strip, const st
               {5.5, false, false, kFaintInk, 2, PdfTextStyle::Align::kCentre});
 }
 
-void drawPanel(PdfCanvas& canvas, const PdfBox& box, const StripRow& row, const StripAxis& axis) {
+void drawPanel(PdfCanvas& canvas, const PdfBox& box, const StationRuns& row,
+               const StripAxis& axis) {
   const std::vector<double> seeds = seedErrors(row, axis.part);
   std::vector<ErrorStrip> strips;
-  double most = std::abs(sharedLimit(row, axis).value_or(kUnit));
+  double most = std::abs(sharedLimit(row.all, axis.limit).value_or(kUnit));
   for (const RunGroup& group : row.methods) {
     strips.push_back(errorStrip(group.runs, axis.part));
     for (const std::vector<double>* values :
@@ -171,7 +141,7 @@ void drawPanel(PdfCanvas& canvas, const PdfBox& box, const StripRow& row, const 
   panel.low = axis.is_signed ? -panel.high : 0.0;
   panel.strips = 1 + strips.size();
   canvas.text(box.x, box.y, box.width, row.title + ": " + axis.label, {7.5, true, false, kInk, 1});
-  drawScale(canvas, panel, axis, sharedLimit(row, axis));
+  drawScale(canvas, panel, axis, sharedLimit(row.all, axis.limit));
   drawMarks(canvas, panel, 0, seeds, kPdfBlue, false);
   drawName(canvas, panel, 0, "input");
   for (std::size_t i = 0; i < strips.size(); ++i) {
@@ -199,7 +169,7 @@ double signedDecades(double value, double unit) {
 }
 
 Figure errorStripsFigure(std::span<const RunResult> runs, CanvasFormat format) {
-  const std::vector<StripRow> rows = stripRows(runs);
+  const std::vector<StationRuns> rows = stationRuns(runs);
   const std::string title = "Distribution of errors: seeds, completed runs, failed runs";
   PdfCanvas canvas(title, format, PdfCanvas::kWidth,
                    2.0 * kStripMargin + kStripTitleHeight + kStripFootHeight +
@@ -208,7 +178,7 @@ Figure errorStripsFigure(std::span<const RunResult> runs, CanvasFormat format) {
   canvas.text(kStripMargin, kStripMargin, width, title, {10.0, true, false, kInk, 1});
   const double panel_width = width / static_cast<double>(std::size(kStripAxes));
   double y = kStripMargin + kStripTitleHeight;
-  for (const StripRow& row : rows) {
+  for (const StationRuns& row : rows) {
     for (std::size_t i = 0; i < std::size(kStripAxes); ++i)
       drawPanel(canvas,
                 {kStripMargin + panel_width * static_cast<double>(i), y, panel_width - 6.0,

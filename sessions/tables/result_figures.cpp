@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "sessions/report/pdf_canvas.h"
-#include "sessions/tables/method_tables.h"
 #include "sessions/tables/results_set.h"
+#include "sessions/tables/station_runs.h"
 
 namespace boresight::sessions {
 namespace {
@@ -23,28 +23,6 @@ constexpr int kSeedBins = 8;
 constexpr int kToleranceSteps = 41;
 
 using Members = std::vector<const RunResult*>;
-
-/// The runs of a station, near or far, by method.
-struct Group {
-  std::string title;
-  std::map<std::string, Members, decltype(&methodBefore)> methods{&methodBefore};
-  Members all;
-};
-
-std::vector<Group> groupsOf(std::span<const RunResult> runs) {
-  std::map<std::pair<std::string, bool>, Group> groups;
-  for (const RunResult& run : runs) {
-    if (run.inputFailed()) continue;
-    const bool far = run.hasTag(kFarTag);
-    Group& group = groups[{run.station, far}];
-    group.title = run.station + (far ? ", far" : "");
-    group.methods[run.method].push_back(&run);
-    group.all.push_back(&run);
-  }
-  std::vector<Group> made;
-  for (auto& [key, group] : groups) made.push_back(std::move(group));
-  return made;
-}
 
 /// How methods are told apart, by colour (Okabe and Ito 2008) and by dashes.
 class Styles {
@@ -104,29 +82,18 @@ std::vector<std::uint8_t> drawPanels(const std::string& title, CanvasFormat form
   return canvas.finish();
 }
 
-PdfPlot emptyPlot(const Group& group, const std::string& x_label, const std::string& y_label) {
-  PdfPlot plot{group.title, x_label, y_label, {}};
+PdfPlot emptyPlot(const StationRuns& station, const std::string& x_label,
+                  const std::string& y_label) {
+  PdfPlot plot{station.title, x_label, y_label, {}};
   plot.with_names = false;
   return plot;
-}
-
-/// The one value of the requirement that all runs share; nothing when they differ.
-template <class Limit>
-std::optional<double> sharedLimit(const Members& members, Limit&& limit) {
-  std::optional<double> shared;
-  for (const RunResult* run : members) {
-    const std::optional<double> value = run->requirement ? limit(*run->requirement) : std::nullopt;
-    if (!value || (shared && *shared != *value)) return std::nullopt;
-    shared = value;
-  }
-  return shared;
 }
 
 /// One of the three errors that are judged.
 struct ErrorAxis {
   const char* label;
   double PoseError::*part;
-  std::optional<double> (*limit)(const Requirement&);
+  RequirementLimit limit;
 };
 
 const ErrorAxis kAxes[] = {
@@ -147,51 +114,51 @@ PdfSeries staircase(PdfSeries style, const CurvePoints& points, double from, dou
   return style;
 }
 
-PdfPlot errorPlot(const Group& group, const ErrorAxis& axis, const Styles& styles) {
+PdfPlot errorPlot(const StationRuns& station, const ErrorAxis& axis, const Styles& styles) {
   constexpr double kLow = 1e-3;
   constexpr double kHigh = 1e3;
-  PdfPlot plot = emptyPlot(group, axis.label, "% of runs at or below");
+  PdfPlot plot = emptyPlot(station, axis.label, "% of runs at or below");
   plot.log_x = true;
   plot.x_range = {kLow, kHigh};
   plot.y_range = {0.0, 104.0};
-  for (const auto& [method, members] : group.methods) {
+  for (const RunGroup& group : station.methods) {
     std::vector<double> values;
-    for (const RunResult* run : members)
+    for (const RunResult* run : group.runs)
       if (run->completed && run->error)
         values.push_back(std::max(kLow, std::abs((*run->error).*axis.part)));
     plot.series.push_back(
-        staircase(styles.of(method), shareBelow(values, members.size()), kLow, kHigh));
+        staircase(styles.of(group.method), shareBelow(values, group.runs.size()), kLow, kHigh));
   }
-  if (const auto limit = sharedLimit(group.all, axis.limit))
+  if (const auto limit = sharedLimit(station.all, axis.limit))
     plot.guides.push_back({*limit, "requirement"});
   return plot;
 }
 
-PdfPlot tolerancePlot(const Group& group, const Styles& styles) {
+PdfPlot tolerancePlot(const StationRuns& station, const Styles& styles) {
   static const std::vector<double> kFactors = geometricSteps(0.05, 20.0, kToleranceSteps);
-  PdfPlot plot = emptyPlot(group, "multiple of the requirement", "% of runs within");
+  PdfPlot plot = emptyPlot(station, "multiple of the requirement", "% of runs within");
   plot.log_x = true;
   plot.x_range = {kFactors.front(), kFactors.back()};
   plot.y_range = {0.0, 104.0};
   plot.guides.push_back({1.0, "requirement"});
-  for (const auto& [method, members] : group.methods) {
-    plot.series.push_back(styles.of(method));
+  for (const RunGroup& group : station.methods) {
+    plot.series.push_back(styles.of(group.method));
     plot.series.back().marks = false;
-    plot.series.back().points = successAgainstTolerance(members, kFactors);
+    plot.series.back().points = successAgainstTolerance(group.runs, kFactors);
   }
   return plot;
 }
 
-PdfPlot seedPlot(const Group& group, SeedMeasure measure, const Styles& styles) {
+PdfPlot seedPlot(const StationRuns& station, SeedMeasure measure, const Styles& styles) {
   PdfPlot plot =
-      emptyPlot(group,
+      emptyPlot(station,
                 measure == SeedMeasure::kDistance_mm ? "seed off, mm (normal and lateral)"
                                                      : "seed off, mrad (whole angle)",
                 "% successful");
   plot.y_range = {0.0, 104.0};
-  for (const auto& [method, members] : group.methods) {
-    plot.series.push_back(styles.of(method));
-    plot.series.back().points = successAgainstSeed(members, measure, kSeedBins);
+  for (const RunGroup& group : station.methods) {
+    plot.series.push_back(styles.of(group.method));
+    plot.series.back().points = successAgainstSeed(group.runs, measure, kSeedBins);
   }
   return plot;
 }
@@ -233,11 +200,11 @@ std::array<double, 2> decades(const std::vector<double>& values) {
 }
 
 /// All panels have the same axes.
-void takeSharedAxes(const std::vector<Group>& groups, PdfPlot& plot) {
+void takeSharedAxes(const std::vector<StationRuns>& stations, PdfPlot& plot) {
   std::vector<double> seconds;
   std::vector<double> errors;
-  for (const Group& group : groups)
-    for (const auto& point : timeAgainstError(group.all)) {
+  for (const StationRuns& station : stations)
+    for (const auto& point : timeAgainstError(station.all)) {
       seconds.push_back(point[0]);
       errors.push_back(point[1]);
     }
@@ -316,18 +283,18 @@ std::vector<double> geometricSteps(double low, double high, int count) {
 }
 
 std::vector<Figure> resultFigures(std::span<const RunResult> runs, CanvasFormat format) {
-  const std::vector<Group> groups = groupsOf(runs);
+  const std::vector<StationRuns> stations = stationRuns(runs);
   const Styles styles(runs);
   std::vector<PdfPlot> errors, tolerances, seeds, times;
-  for (const Group& group : groups) {
-    for (const ErrorAxis& axis : kAxes) errors.push_back(errorPlot(group, axis, styles));
-    tolerances.push_back(tolerancePlot(group, styles));
+  for (const StationRuns& station : stations) {
+    for (const ErrorAxis& axis : kAxes) errors.push_back(errorPlot(station, axis, styles));
+    tolerances.push_back(tolerancePlot(station, styles));
     for (const SeedMeasure measure : {SeedMeasure::kDistance_mm, SeedMeasure::kAngle_mrad})
-      seeds.push_back(seedPlot(group, measure, styles));
-    times.push_back(emptyPlot(group, "seconds per run", "lateral error, mm"));
-    takeSharedAxes(groups, times.back());
-    for (const auto& [method, members] : group.methods)
-      addTimes(members, styles.of(method), times.back());
+      seeds.push_back(seedPlot(station, measure, styles));
+    times.push_back(emptyPlot(station, "seconds per run", "lateral error, mm"));
+    takeSharedAxes(stations, times.back());
+    for (const RunGroup& group : station.methods)
+      addTimes(group.runs, styles.of(group.method), times.back());
   }
   const auto figure = [&](const char* name, const char* title, int columns,
                           const std::vector<PdfPlot>& plots) {

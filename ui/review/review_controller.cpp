@@ -227,7 +227,7 @@ QString ReviewController::obstacle(Act act, const sessions::Signature& who) cons
   if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
   if (act == Act::kValidate && !current_) return tr("the checks are running");
   try {
-    (void)after(act, {"a second person", "?"});  // what a signature does not mend
+    (void)after(act, {"a second person", "?"});  // obstacles that remain with a signature
     (void)after(act, who);
   } catch (const std::exception& error) {
     return QString::fromUtf8(error.what());

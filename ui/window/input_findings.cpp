@@ -18,7 +18,7 @@ using sessions::FindingKind;
 InputFindings::InputFindings(const WindowParts& parts, Banner& bar, QWidget& window)
     : QObject(&window), parts_(parts), bar_(bar), window_(window) {
   connect(&parts_.document, &Document::opened, this, &InputFindings::check);
-  connect(&bar_, &Banner::actionRequested, this, &InputFindings::mend);
+  connect(&bar_, &Banner::actionRequested, this, &InputFindings::repair);
   connect(&tasks_, &TaskRunner::failed, this, &InputFindings::failed);
 }
 
@@ -65,7 +65,7 @@ bool InputFindings::has(FindingKind kind) const {
   });
 }
 
-void InputFindings::mend() {
+void InputFindings::repair() {
   if (has(FindingKind::kMissing)) {
     findMoved();
   } else if (has(FindingKind::kChanged)) {

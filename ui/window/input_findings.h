@@ -31,8 +31,8 @@ class InputFindings : public QObject {
   QString adviceFor(const QString& case_id) const;
 
  public Q_SLOTS:
-  /// What the bar's button does.
-  void mend();
+  /// Action of the bar's button: finds moved files, accepts changed ones, or checks again.
+  void repair();
 
  Q_SIGNALS:
   void changed();

@@ -47,7 +47,7 @@ TEST_F(InputFindingsTest, AMovedImageIsMissedAtOnceAndFoundAgain) {
   ASSERT_EQ(window_.findings().findings().size(), 1u);
   EXPECT_EQ(window_.findings().findings()[0].kind, sessions::FindingKind::kMissing);
   EXPECT_EQ(window_.state().currentCase(), nullptr);
-  window_.findings().mend();
+  window_.findings().repair();
   settle();
   EXPECT_TRUE(window_.findings().findings().empty());
   EXPECT_NE(window_.state().currentCase(), nullptr) << "the case that could not be read is read";
@@ -58,7 +58,7 @@ TEST_F(InputFindingsTest, MissingImage_NotFoundBelowTheFolder_IsReported) {
   open();
   fs::remove(image());
   reopen();
-  window_.findings().mend();
+  window_.findings().repair();
   settle();
   EXPECT_TRUE(test::has(window_.lastMessage(), "None of the missing files"));
   EXPECT_EQ(window_.findings().findings().size(), 1u);

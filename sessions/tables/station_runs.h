@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sessions/evaluation/run_result.h"
+#include "sessions/tables/method_tables.h"
+
+// Runs of a station, grouped for the panels of a figure.
+namespace boresight::sessions {
+
+/// Runs of one station, near or far.
+struct StationRuns {
+  std::string title;  ///< "bc", "bc, far"
+  std::vector<RunGroup> methods;
+  std::vector<const RunResult*> all;  ///< of all methods
+};
+
+/// By station, near before far. Runs whose input was refused are left out.
+std::vector<StationRuns> stationRuns(std::span<const RunResult> runs);
+
+/// A limit of a requirement; nothing when the requirement lacks it.
+using RequirementLimit = std::optional<double> (*)(const Requirement&);
+/// The limit where all runs share it; nothing when they differ.
+std::optional<double> sharedLimit(std::span<const RunResult* const> runs, RequirementLimit limit);
+
+}  // namespace boresight::sessions
