@@ -17,9 +17,11 @@
 #include "app/plain_output.h"
 #include "app/written_pages.h"
 #include "sessions/version.h"
+#include "ui/style/theme.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
 #include "ui/window/shortcut_sheet.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::app {
 namespace {
@@ -33,7 +35,8 @@ constexpr int kMostRows = 100000;  ///< of iterations and hypotheses
 struct Arguments {
   bool self_test = false;
   ui::ScreenshotOrder screenshot;
-  bool dark = false;
+  std::string theme;  ///< "": as on the last day
+  std::string workspace;
   std::string out, view, size = "1600x1000", annotation;  ///< of the screenshot
   std::string documents;  ///< where pages of the manual are written, or empty
   std::vector<std::string> files;
@@ -68,7 +71,14 @@ void Arguments::addTo(CLI::App& app) {
       ->type_name("N");
   app.add_option("--annotation", annotation, "Annotation that is edited in the picture")
       ->type_name("ID");
-  app.add_flag("--dark", dark, "Dark colours");
+  app.add_option("--workspace", workspace,
+                 "Workspace in the picture, or to begin in; a picture prints the image's share of "
+                 "the window")
+      ->check(CLI::IsMember({"start", "run", "diagnose", "annotate", "review", "onboard"},
+                            CLI::ignore_case))
+      ->type_name("NAME");
+  app.add_option("--theme", theme, "Light or dark colours")->check(CLI::IsMember({"light", "dark"}));
+  app.add_flag_callback("--dark", [this] { theme = "dark"; }, "Dark colours");
   app.add_option("--documents", documents, "Write pages of the manual")->group("");
 }
 
@@ -83,6 +93,7 @@ void Arguments::check() {
   screenshot.out = out;
   screenshot.view = QString::fromStdString(view);
   screenshot.annotation = QString::fromStdString(annotation);
+  screenshot.workspace = ui::workspaceNamed(QString::fromStdString(workspace));
   if (!out.empty() && files.size() > 1)
     throw CLI::ValidationError(
         "--screenshot",
@@ -131,26 +142,35 @@ int runProgram(int argc, char** argv) {
     return writePages(arguments.documents,
                       {{"boresight.md", "# boresight on the command line\n\n" + commandText(app)},
                        {"keys.md", keysPage()}});
-  if (arguments.dark) ui::useDarkColors(application);
+  const bool picture = !arguments.screenshot.out.empty();
+  const ui::ThemeName unstated = picture ? ui::ThemeName::kLight : ui::rememberedTheme();
+  ui::applyTheme(application, arguments.theme == "dark"    ? ui::ThemeName::kDark
+                              : arguments.theme == "light" ? ui::ThemeName::kLight
+                                                           : unstated);
   ui::MainWindow window;
-  if (!arguments.screenshot.out.empty()) {
+  if (picture) {
     window.setQuiet(true);
     const QTemporaryDir folder;
     QString failure;
     if (!arguments.files.empty())
       failure = ui::openForPictures(window, arguments.files.front(), folder.path().toStdString());
+    double share = 0.0;
+    arguments.screenshot.share = &share;
     if (failure.isEmpty()) failure = ui::takeScreenshot(window, arguments.screenshot);
-    if (failure.isEmpty()) return kDone;
+    if (failure.isEmpty()) {
+      if (arguments.screenshot.workspace)
+        std::printf("%s %s: the image takes %.1f %% of the window\n", arguments.workspace.c_str(),
+                    arguments.size.c_str(), 100.0 * share);
+      return kDone;
+    }
     std::cerr << "boresight: " << failure.toStdString() << "\n";
     return kBadInput;
   }
   window.rememberLayout();
   window.show();
-  if (!arguments.files.empty()) {
+  if (arguments.screenshot.workspace) window.workspaces().show(*arguments.screenshot.workspace);
+  if (!arguments.files.empty())
     window.takeFiles({arguments.files.begin(), arguments.files.end()});
-  } else {
-    window.offerLeftSessions();
-  }
   return QApplication::exec();
 }
 

@@ -57,6 +57,11 @@ void requireUsable(const sessions::SessionCase& session_case) {
   const auto loaded = sessions::loadCase(session_case);
   sessions::requireSameSize(loaded->image, session_case.camera);
   sessions::requireField("case " + session_case.id, "camera", session_case.camera);
+  if (!session_case.has_seed) {
+    note("case " + session_case.id +
+         " has no seed: annotate it in the desktop program, and use the solved pose as its seed");
+    return;
+  }
   try {
     sessions::requireRunnable(*loaded);
   } catch (const sessions::InputError& refusal) {
@@ -70,8 +75,7 @@ sessions::Session sessionOf(const NewArguments& arguments) {
   if (!arguments.dataset.path.empty())
     return sessions::makeSession(arguments.dataset.open(), arguments.cases);
   for (const auto& [name, value] :
-       {std::pair("--image", &arguments.image), std::pair("--mesh", &arguments.mesh),
-        std::pair("--seed", &arguments.seed)})
+       {std::pair("--image", &arguments.image), std::pair("--mesh", &arguments.mesh)})
     if (value->empty()) throw CLI::ValidationError(name, "is needed where there is no --dataset");
   sessions::CaseFiles case_files = arguments.files();
   case_files.id = arguments.id;

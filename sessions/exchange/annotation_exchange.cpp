@@ -110,7 +110,9 @@ ExchangeCamera exchangeCamera(const SessionCase& session_case) {
   try {
     const FittedCamera fitted =
         fitCamera(own, CameraModel::kBrownConrady,
-                  session_case.camera_from_station_seed.translation_m.norm());
+                  session_case.has_seed
+                      ? session_case.camera_from_station_seed.translation_m.norm()
+                      : 1.0);
     return {fitted.camera, std::string("its ") + cameraModelName(own.model) +
                                " camera is written as brown_conrady, " + fitText(fitted)};
   } catch (const std::runtime_error& error) {

@@ -193,7 +193,7 @@ double drawNamedPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& rep
 
 void drawEndEffector(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const SessionCase& session_case = caseOf(report);
-  if (!session_case.camera_from_end_effector) return;
+  if (!session_case.camera_from_end_effector || !session_case.has_seed) return;
   const EndEffectorPose end_effector_pose =
       endEffectorPose(session_case.camera_from_station_seed, report.pose.camera_from_station,
                       *session_case.camera_from_end_effector, report.pose.covariance.total());
@@ -233,7 +233,10 @@ double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
   const InputSigmas sigmas(session_case);
   row("known to", "scale " + meshScaleText(sigmas) + "; calibration " + calibrationText(sigmas));
   if (session_case.ignore || !session_case.ignore_strokes.empty()) row("ignored pixels", "a mask");
-  row("seed", vectorText(1e3 * session_case.camera_from_station_seed.translation_m, "mm", "%.1f"));
+  row("seed", session_case.has_seed
+                  ? vectorText(1e3 * session_case.camera_from_station_seed.translation_m, "mm",
+                               "%.1f")
+                  : "none");
   if (report.trace) {
     row("run",
         formatted("%s, %zu iterations, version %s", localizationStatusText(report.trace->status),

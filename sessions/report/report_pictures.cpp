@@ -98,9 +98,10 @@ ReportResiduals ofAnnotations(const PoseReport& report, const Camera& camera) {
 ReportPicture overlayPicture(const PoseReport& report) {
   Camera camera = report.loaded->source.camera;
   if (prepareCamera(camera) != Status::kOk) return palePicture(report);
-  const OverlayLayer layers[] = {
-      {"seed", report.loaded->source.camera_from_station_seed, kSeedColor, true},
-      {"pose", report.pose.camera_from_station, kResultColor, true}};
+  std::vector<OverlayLayer> layers;
+  if (report.loaded->source.has_seed)
+    layers.push_back({"seed", report.loaded->source.camera_from_station_seed, kSeedColor, true});
+  layers.push_back({"pose", report.pose.camera_from_station, kResultColor, true});
   ColorImage drawn =
       drawOverlay(report.loaded->image.view(), camera, report.loaded->scene.view(), layers);
   return cut(cv::Mat(drawn.height, drawn.width, CV_8UC3, drawn.bgr.data()), stationArea(report));

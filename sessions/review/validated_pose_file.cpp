@@ -250,7 +250,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   if (session_case.camera_reference)
     json["frames"] = toJson(namedPoses(session_case.camera_reference, session_case.station_frame,
                                        pose.camera_from_station));
-  if (session_case.camera_from_end_effector)
+  if (session_case.camera_from_end_effector && session_case.has_seed)
     json["end_effector"] = endEffectorJson(pose, session_case);
   json["chain"] = chainJson(pose, session_case, alone);
   json["decision"] = decisionJson(pose, reviewStatusOf(alone, session_case.id));

@@ -186,7 +186,9 @@ void fields(Archive& archive, Self& self) {
   archive.list("parts", self.parts);
   archive.optional("feature_size_m", self.feature_size_m, numberIn(1e-6, 100.0));
   archive.optional("mesh_scale_sigma", self.mesh_scale_sigma, plainCodec(&readMeshScaleSigma));
-  archive.field("seed", self.camera_from_station_seed, kExactPose);
+  std::optional<Pose> seed;
+  if (!Archive::kReads && self.has_seed) seed = self.camera_from_station_seed;
+  archive.optional("seed", seed, kExactPose);
   archive.field("uncertainty", self.uncertainty, kUncertainty);
   archive.object("camera_reference", self.camera_reference);
   archive.object("station_frame", self.station_frame);
@@ -205,6 +207,8 @@ void fields(Archive& archive, Self& self) {
   if constexpr (Archive::kReads) {
     self.camera = camera.camera;
     self.calibration_sigma = camera.calibration_sigma;
+    self.has_seed = seed.has_value();
+    self.camera_from_station_seed = seed.value_or(Pose());
     if (std::none_of(self.parts.begin(), self.parts.end(),
                      [](const MeshInput& part) { return part.source.part.match; }))
       archive.json().failMember("parts", "no part is to be matched");

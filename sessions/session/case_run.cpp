@@ -83,6 +83,9 @@ std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before,
 
 void requireRunnable(const LoadedCase& loaded) {
   const SessionCase& session_case = loaded.source;
+  if (!session_case.has_seed)
+    throw InputError("case " + session_case.id, "seed",
+                     "there is none: annotate the case and use the solved pose as its seed");
   requireSameSize(loaded.image, session_case.camera);
   requireField("case " + session_case.id, "camera", session_case.camera);
   requireSensibleSeed(session_case.camera, loaded.scene, session_case.camera_from_station_seed,

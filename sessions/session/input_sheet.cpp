@@ -157,9 +157,13 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
                                     ": of the focal length and of the "
                                     "principal point");
   add("station", fixedText(extent_mm.x(), 1) + " x " + fixedText(extent_mm.y(), 1) + " x " +
-                     fixedText(extent_mm.z(), 1) + " mm; the view is " +
-                     fixedText(view_width_mm, 1) + " mm wide at its distance");
-  add("seed", fixedText(seed_distance_m, 4) + " m from the camera to the station's middle");
+                     fixedText(extent_mm.z(), 1) + " mm" +
+                     (session_case.has_seed ? "; the view is " + fixedText(view_width_mm, 1) +
+                                                  " mm wide at its distance"
+                                            : ""));
+  add("seed", session_case.has_seed ? fixedText(seed_distance_m, 4) +
+                                          " m from the camera to the station's middle"
+                                    : "none");
   if (loaded.ignore)
     add("ignored", std::to_string(loaded.ignore->ignored_count) + " px, " +
                        fixedText(100.0 * static_cast<double>(loaded.ignore->ignored_count) /
@@ -265,10 +269,11 @@ InputSheet inputSheet(const LoadedCase& loaded) {
   const GrayImage& image = loaded.image;
   const ImageSheet image_sheet = imageSheet(image);
   const CameraSheet camera = cameraSheet(session_case.camera);
-  const std::optional<ImageQuality> quality =
-      measureImageQuality(image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
-                          stationRegion(session_case.camera, loaded.scene.view(),
-                                        session_case.camera_from_station_seed));
+  std::optional<ImageQuality> quality;
+  if (session_case.has_seed)
+    quality = measureImageQuality(image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
+                                  stationRegion(session_case.camera, loaded.scene.view(),
+                                                session_case.camera_from_station_seed));
   describe(loaded, image_sheet, camera, quality, sheet);
   sheet.flags = image_sheet.flags;
   flagQuality(quality, sheet);
@@ -281,7 +286,7 @@ InputSheet inputSheet(const LoadedCase& loaded) {
   for (const MeshInfo& info : loaded.scene.infos)
     for (const std::string& note : info.notes())
       sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
-  flagSeed(session_case, loaded.scene, sheet);
+  if (session_case.has_seed) flagSeed(session_case, loaded.scene, sheet);
   if (image.label) flagLabel(session_case, *image.label, sheet.flags);
   return sheet;
 }

@@ -36,7 +36,9 @@ std::string cameraConcern(const SessionCase& session_case, const CameraFile& lab
   if (stated.width != session_case.camera.width || stated.height != session_case.camera.height)
     return "";
   const double distance_m =
-      std::max(session_case.camera_from_station_seed.translation_m.norm(), 1e-3);
+      session_case.has_seed
+          ? std::max(session_case.camera_from_station_seed.translation_m.norm(), 1e-3)
+          : 1.0;
   const auto difference_px = largestDifference_px(stated, session_case.camera, distance_m);
   if (!difference_px || *difference_px > kAgreeing_px)
     return "the camera is not that of the image's label: " +

@@ -150,6 +150,7 @@ std::string inputsDigest(const SessionCase& session_case) {
   inputs.image.pixels_sha256 = session_case.image.pixels_sha256;
   inputs.camera = session_case.camera;
   inputs.parts = session_case.parts;
+  inputs.has_seed = session_case.has_seed;
   inputs.camera_from_station_seed = session_case.camera_from_station_seed;
   inputs.uncertainty = session_case.uncertainty;
   inputs.ignore = session_case.ignore;
@@ -185,6 +186,7 @@ std::string viewsDigest(const Session& session, const std::vector<std::string>& 
     if (found == nullptr || !found->rig) return "";
     SessionCase session_case = *found;
     if (i > 0) {
+      session_case.has_seed = true;
       session_case.camera_from_station_seed = Pose();
       session_case.uncertainty = {};
     }

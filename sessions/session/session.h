@@ -70,6 +70,8 @@ struct SessionCase {
   std::optional<double> mesh_scale_sigma;
   /// Nothing: that of a CalibrationSigma by default. No input of a run.
   std::optional<CalibrationSigma> calibration_sigma;
+  /// False: the case can be annotated, but not run, and its seed is the identity.
+  bool has_seed = true;
   Pose camera_from_station_seed;
   /// Of a seed that was given in a named frame. No input of a run.
   std::optional<StationFrame> station_frame;

@@ -232,6 +232,15 @@ void SessionDocument::save() {
   fs::remove(journalFileOf(file_), error);  // one that stays is recognized when opened
 }
 
+void SessionDocument::discardChanges() {
+  requireEditable();
+  std::error_code error;
+  fs::remove(journalFileOf(file_), error);
+  if (error) throw OutputError(journalFileOf(file_), error.message());
+  journal_.reset();
+  session_ = saved_;
+}
+
 void SessionDocument::saveAs(const fs::path& file) {
   SessionDocument other(file);
   if (other.file_ == file_) return save();

@@ -78,6 +78,9 @@ class SessionDocument {
   /// Writes the file and drops the journal. OutputError, also when another program has changed the
   /// file meanwhile; then file and journal are as they were.
   void save();
+  /// The session is again what the file holds, and nothing is left to recover. OutputError when the
+  /// document is read-only.
+  void discardChanges();
   /// Goes on under another name, whatever lay there before; traces of runs are copied along. The
   /// former file stays as it was last saved. OutputError leaves the document as it was.
   void saveAs(const std::filesystem::path& file);

@@ -107,13 +107,14 @@ MadeCase makeCase(const CaseFiles& files) {
   PoseFrames frames{camera.reference};
   for (const fs::path& file : files.transforms)
     frames.transforms.push_back(readFrameTransform(file));
-  const PoseFile seed = readPose(files.seed, frames);
+  session_case.has_seed = !files.seed.empty();
+  const PoseFile seed = session_case.has_seed ? readPose(files.seed, frames) : PoseFile();
   session_case.camera_from_station_seed = seed.camera_from_station;
   session_case.station_frame = seed.station_frame;
   const DeclaredUncertainty stated = seed.uncertainty.value_or(DeclaredUncertainty());
   session_case.uncertainty = files.uncertainty.value_or(stated);
   session_case.uncertainty.pivot = files.pivot.value_or(stated.pivot);
-  if (!files.uncertainty && !seed.uncertainty)
+  if (session_case.has_seed && !files.uncertainty && !seed.uncertainty)
     result.notes.push_back("the seed states no uncertainty; taking 0.03 m and 5 deg");
   const std::string projected = projectionNote(seed.rotation_deviation);
   if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);

@@ -21,7 +21,7 @@ struct CaseFiles {
   /// Between the camera model's frame and those of seed and truth, where these differ.
   std::vector<std::filesystem::path> transforms;
   std::vector<PartSource> parts;
-  std::filesystem::path seed;
+  std::filesystem::path seed;  ///< "": a case without a seed
   std::optional<DeclaredUncertainty> uncertainty;  ///< instead of the seed file's, but its pivot
   std::optional<UncertaintyPivot> pivot;           ///< instead of the seed file's
   std::optional<std::filesystem::path> truth;

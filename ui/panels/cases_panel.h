@@ -78,6 +78,7 @@ class CasesPanel : public QWidget {
   /// Ids in the order in which they are listed.
   QStringList listed() const;
   const CasesModel& model() const { return model_; }
+  CasesModel& model() { return model_; }
 
  Q_SIGNALS:
   void openRequested(const QString& id);

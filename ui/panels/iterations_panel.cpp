@@ -81,6 +81,17 @@ const StageText& textOf(Stage stage) {
 
 }  // namespace
 
+QString iterationNameOf(const sessions::LocalizationTrace& run, int iteration) {
+  if (iteration < 0 || iteration >= static_cast<int>(run.iterations.size()))
+    return RunScrubber::tr("seed");
+  const int attempt = run.iterations[static_cast<std::size_t>(iteration)]->attempt;
+  int number = 1;
+  for (int i = iteration; i > 0 && run.iterations[static_cast<std::size_t>(i - 1)]->attempt == attempt;
+       --i)
+    ++number;
+  return QStringLiteral("%1.%2").arg(attempt + 1).arg(number);
+}
+
 RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   ui_.setupUi(this);
   actions_ = {ui_.goFirst, ui_.goPrevious,      ui_.goNext,
@@ -105,7 +116,15 @@ RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), vi
   showCursor();
 }
 
-void RunScrubber::setPlace(const QString& text) { ui_.shownIteration->setText(text); }
+/// "2.3 (5 of 13)".
+void RunScrubber::showPlace() {
+  const auto* run = view_.snapshot().get();
+  const int iteration = view_.cursor().iteration;
+  const QString name = run ? iterationNameOf(*run, iteration) : tr("seed");
+  ui_.shownIteration->setText(
+      iteration < 0 ? name
+                    : tr("%1 (%2 of %3)").arg(name).arg(iteration + 1).arg(run->iterations.size()));
+}
 
 void RunScrubber::go(Step step) {
   const RunCursor& cursor = view_.cursor();
@@ -144,6 +163,7 @@ void RunScrubber::showCursor() {
   action(Step::kPrevious)->setEnabled(!at_start);
   action(Step::kNext)->setEnabled(!at_end);
   action(Step::kLast)->setEnabled(!at_end);
+  showPlace();
   showStages();
 }
 
@@ -349,13 +369,9 @@ IterationsModel::IterationsModel(QObject* parent) : RowsModel(iterationColumns()
 void IterationsModel::setSnapshot(SnapshotPtr snapshot) {
   std::vector<IterationRow> rows;
   if (snapshot) rows.push_back({tr("seed"), nullptr, {}});
-  int number = 0;
-  for (std::size_t i = 0; snapshot && i < snapshot->iterations.size(); ++i) {
-    const auto& value = snapshot->iterations[i];
-    number = i > 0 && value->attempt == snapshot->iterations[i - 1]->attempt ? number + 1 : 1;
-    rows.push_back({QStringLiteral("%1.%2").arg(value->attempt + 1).arg(number), value,
+  for (std::size_t i = 0; snapshot && i < snapshot->iterations.size(); ++i)
+    rows.push_back({iterationNameOf(*snapshot, static_cast<int>(i)), snapshot->iterations[i],
                     statusText(*snapshot, i)});
-  }
   const bool goes_on = continues(snapshot_.get(), snapshot.get());
   snapshot_ = std::move(snapshot);
   setRows(std::move(rows), goes_on);
@@ -378,8 +394,6 @@ QVariant IterationsModel::look(const IterationRow& row, int column, int role) co
 
 IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   ui_.setupUi(this);
-  scrubber_ = new RunScrubber(view_, this);
-  ui_.column->insertWidget(1, scrubber_);
   buildTable();
   buildPlots();
   view_.onChange(ViewChange::kSnapshot, this, &IterationsPanel::showSnapshot);
@@ -392,7 +406,7 @@ void IterationsPanel::buildTable() {
   setUpTable(*ui_.iterations, model_);
   connect(ui_.iterations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &IterationsPanel::chooseRow);
-  auto* hint = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));
+  auto* hint = new EmptyHint(*ui_.iterations);
   hint->setText(
       tr("Run the case to its end (F5), by an iteration (F6) or a stage (F7). Each iteration is a "
          "row; every view shows the selected one."));
@@ -430,7 +444,6 @@ void IterationsPanel::showSnapshot() {
   showing_ = true;
   model_.setSnapshot(view_.snapshot());
   showing_ = false;
-  ui_.runStatus->showRun(view_.snapshot().get());
   ui_.iterations->resizeColumnsToContents();
   ui_.plots->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
   fillPlots();
@@ -445,10 +458,6 @@ void IterationsPanel::showCursor() {
   showing_ = false;
   corrections_->setMarked(iteration);
   fit_->setMarked(iteration);
-  const int count = std::max(0, IterationsModel::iterationOf(model_.rowCount()));
-  const QString name = model_.iterationName(iteration);
-  scrubber_->setPlace(iteration < 0 ? name
-                                    : tr("%1 (%2 of %3)").arg(name).arg(iteration + 1).arg(count));
 }
 
 void IterationsPanel::chooseRow(const QModelIndex& current) {

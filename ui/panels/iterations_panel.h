@@ -34,6 +34,9 @@ int shownStage(const std::vector<Stage>& stages, Stage cursor);
 /// stage of an iteration is kFinished, so that a cursor there follows an iteration under way.
 RunCursor stageFrom(const sessions::LocalizationTrace& run, const RunCursor& cursor, int steps);
 
+/// "2.3": the third iteration of the second attempt; "seed" for -1.
+QString iterationNameOf(const sessions::LocalizationTrace& run, int iteration);
+
 /// Walks the cursor through a run: a slider over the iterations (leftmost: the seed), buttons, and
 /// one button per stage of the chosen iteration. The window gives the actions their shortcuts.
 class RunScrubber : public QWidget {
@@ -46,13 +49,12 @@ class RunScrubber : public QWidget {
   explicit RunScrubber(ViewState& view, QWidget* parent = nullptr);
 
   QAction* action(Step step) const { return actions_[static_cast<std::size_t>(step)]; }
-  /// The name of the iteration under the cursor, for the label.
-  void setPlace(const QString& text);
 
  private:
   void go(Step step);
   void chooseStage(int index);
   void showCursor();
+  void showPlace();
   void showStages();
 
   ViewState& view_;
@@ -115,8 +117,7 @@ class IterationsModel : public RowsModel<IterationRow> {
   SnapshotPtr snapshot_;
 };
 
-/// The run as it went: where it stands, a scrubber, a table, plots. All of them show the cursor and
-/// move it.
+/// The run as it went: a table and plots. Both show the cursor and move it.
 class IterationsPanel : public QWidget {
   Q_OBJECT
 
@@ -124,7 +125,6 @@ class IterationsPanel : public QWidget {
   explicit IterationsPanel(ViewState& view, QWidget* parent = nullptr);
 
   const IterationsModel& model() const { return model_; }
-  RunScrubber& scrubber() const { return *scrubber_; }
 
  private:
   void buildTable();
@@ -137,7 +137,6 @@ class IterationsPanel : public QWidget {
 
   ViewState& view_;
   IterationsModel model_;
-  RunScrubber* scrubber_ = nullptr;
   DoublePlot* corrections_ = nullptr;
   DoublePlot* fit_ = nullptr;
   bool showing_ = false;  ///< the table follows the cursor, not a person

@@ -31,7 +31,13 @@ QString exportNote(const sessions::ExportReport& report, const std::filesystem::
 }
 
 QString inSessionFolder(const Document& document, const QString& name) {
-  return fromText((document.file().parent_path() / name.toStdString()).string());
+  // Sessions without a name lie in a folder that file dialogs do not list.
+  const bool hidden = document.isUntitled() || !document.isOpen();
+  const std::filesystem::path folder =
+      hidden ? std::filesystem::path(
+                   QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation).toStdString())
+             : document.file().parent_path();
+  return fromText((folder / name.toStdString()).string());
 }
 
 std::filesystem::path askForNewFile(QWidget& window, const QString& title, const QString& proposed,

@@ -26,7 +26,7 @@ QString joinedNotes(const std::vector<std::string>& notes);
 /// What came of an export to `path`, for the status bar.
 QString exportNote(const sessions::ExportReport& report, const std::filesystem::path& path);
 
-/// A path in the session's folder.
+/// A path in the session's folder; of a session without a name in the operator's documents.
 QString inSessionFolder(const Document& document, const QString& name);
 /// Asks for a file to write; a name without a suffix gets that of the proposed path. Empty when the
 /// operator cancels.

@@ -25,6 +25,10 @@ QImage toImage(const sessions::ColorImage& picture) {
 /// The last run's pose if it has one, else the seed in its own colour.
 QImage pictureOf(const sessions::LoadedCase& loaded, const QueueRow& row, const QSize& size_px) {
   const bool converged = row.subject && row.subject->run->converged();
+  if (!converged && !loaded.source.has_seed)
+    return toImage(sessions::stationPicture(loaded.image.view(), loaded.source.camera,
+                                            loaded.scene.view(), {}, {}, size_px.width(),
+                                            size_px.height()));
   return toImage(sessions::poseThumbnail(
       loaded.image.view(), loaded.source.camera, loaded.scene.view(),
       converged ? row.subject->camera_from_station : loaded.source.camera_from_station_seed,

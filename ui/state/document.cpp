@@ -115,6 +115,14 @@ void Document::discardUntitled() {
   removeWithCompanions(discarded);
 }
 
+bool Document::discardChanges() {
+  if (!document_) return false;
+  history_.emplace(*document_);  // nothing of it can be redone
+  return attempt(&Document::changed, [&] { document_->discardChanges(); });
+}
+
+void Document::removeUntitled(const std::filesystem::path& file) { removeWithCompanions(file); }
+
 std::optional<std::filesystem::path> Document::leftUntitled() {
   std::vector<std::filesystem::path> files;
   std::error_code ignored;

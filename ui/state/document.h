@@ -44,6 +44,8 @@ class Document : public QObject {
   void close();
   /// Removes an untitled session with its runs; nothing is open afterwards.
   void discardUntitled();
+  /// Drops what was changed since the session was saved, for good.
+  bool discardChanges();
   bool acceptRecovery();
   bool declineRecovery();
 
@@ -63,6 +65,8 @@ class Document : public QObject {
   static std::filesystem::path untitledFolder();
   /// The newest session without a name that no program has open, or nothing.
   static std::optional<std::filesystem::path> leftUntitled();
+  /// Removes such a session with its runs.
+  static void removeUntitled(const std::filesystem::path& file);
 
  Q_SIGNALS:
   void opened();   ///< another document, or none

@@ -15,6 +15,7 @@ std::optional<Pose> poseOf(const ViewState& state, PoseRole role) {
   if (!state.currentCase()) return std::nullopt;
   switch (role) {
     case PoseRole::kSeed:
+      if (!state.snapshot() && !state.currentCase()->source.has_seed) return std::nullopt;
       return state.snapshot() ? state.snapshot()->camera_from_station_seed
                               : state.currentCase()->source.camera_from_station_seed;
     case PoseRole::kEstimate:

@@ -46,8 +46,9 @@ constexpr const char* kPaths[] = {
     "O 8 8 6 M 6.2 6.4 L 6.8 5.2 L 8.2 4.8 L 9.6 5.4 L 9.8 6.8 L 8 8.4 L 8 9.4 M 8 11.2 L 8 11.5",
     "M 4 14 L 4 2.5 L 12.5 2.5 L 10.5 5.5 L 12.5 8.5 L 4 8.5",
     "M 6 3.5 L 10.5 8 L 6 12.5",
+    "M 2 3 L 14 3 L 14 13 L 2 13 Z M 9.5 3 L 9.5 13",
 };
-static_assert(std::size(kPaths) == static_cast<std::size_t>(Icon::kNext) + 1);
+static_assert(std::size(kPaths) == static_cast<std::size_t>(Icon::kSidePane) + 1);
 
 QPainterPath pathOf(const char* text) {
   QPainterPath path;

@@ -39,6 +39,7 @@ enum class Icon {
   kHelp,
   kFlag,
   kNext,
+  kSidePane,
 };
 
 /// In a colour of the theme that is in use when the icon is drawn; disabled: that of hints.

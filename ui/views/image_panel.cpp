@@ -211,7 +211,8 @@ void ImagePanel::showTemplates() {
 void ImagePanel::askForRenders() {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   if (!loaded_case) return;
-  askForRender(LayerId::kSeedEdges, "seed edges", loaded_case->source.camera_from_station_seed);
+  if (loaded_case->source.has_seed)
+    askForRender(LayerId::kSeedEdges, "seed edges", loaded_case->source.camera_from_station_seed);
   if (loaded_case->source.camera_from_station_truth)
     askForRender(LayerId::kTruthEdges, "truth edges",
                  *loaded_case->source.camera_from_station_truth);

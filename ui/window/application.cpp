@@ -24,6 +24,8 @@
 #include "ui/views/image_view.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/main_window.h"
+#include "ui/workspaces/image_share.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -126,25 +128,6 @@ void nameApplication(QApplication& application) {
   QGuiApplication::setDesktopFileName(QStringLiteral("boresight"));
   QApplication::setWindowIcon(QIcon::fromTheme(QStringLiteral("boresight")));
   application.setStyle(new VisibleBoxes);
-}
-
-void useDarkColors(QApplication& application) {
-  const QColor ground(45, 46, 48);
-  const QColor text(225, 226, 228);
-  QPalette dark(ground, ground);  // with the shades of frames
-  dark.setColor(QPalette::Base, QColor(32, 33, 35));
-  dark.setColor(QPalette::AlternateBase, QColor(40, 41, 44));
-  dark.setColor(QPalette::ToolTipBase, ground);
-  dark.setColor(QPalette::Link, QColor(95, 165, 255));
-  dark.setColor(QPalette::Highlight, QColor(60, 120, 215));
-  dark.setColor(QPalette::HighlightedText, Qt::white);
-  for (const QPalette::ColorRole role :
-       {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText})
-    dark.setColor(role, text);
-  for (const QPalette::ColorRole role :
-       {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::Link})
-    dark.setColor(QPalette::Disabled, role, QColor(125, 126, 128));
-  application.setPalette(dark);
 }
 
 int runSelfTest(std::ostream& output) {
@@ -261,6 +244,7 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
     dock->show();
     dock->raise();
   }
+  if (order.workspace) window.workspaces().show(*order.workspace);
   const auto resting = [&window] { return isResting(window); };
   // What cannot be shown or run is drawn as the window has it, with its warnings.
   const auto refused = [&window] { return !window.lastMessage().isEmpty(); };
@@ -284,6 +268,7 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
         .arg(hypotheses->model().rowCount());
   if (order.hypothesis > 0) hypotheses->choose(order.hypothesis - 1);
   const auto iteration = window.state().iteration();
+  if (order.workspace) window.workspaces().show(*order.workspace);  // opening chose another one
   if (iteration && !iteration->templates.empty() && window.state().selectedTemplate() < 0)
     window.state().selectTemplate(0);
   window.image().view().fit();
@@ -296,6 +281,7 @@ QString takeScreenshot(MainWindow& window, const ScreenshotOrder& order) {
   } catch (const sessions::FileError& error) {
     return QString::fromUtf8(error.what());
   }
+  if (order.share) *order.share = imageShare(window);
   const QPixmap picture = shown->grab();
   if (picture.isNull() || !picture.save(QString::fromStdString(order.out.string()), "PNG"))
     return QObject::tr("cannot write %1").arg(QString::fromStdString(order.out.string()));

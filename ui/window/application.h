@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 
 #include <QSize>
 #include <QString>
+
+#include "ui/workspaces/workspace.h"
 
 class QApplication;
 
@@ -21,8 +24,6 @@ void prepareApplication(bool without_display);
 /// Name, organisation and style, which also say where settings are kept.
 void nameApplication(QApplication& application);
 
-void useDarkColors(QApplication& application);
-
 /// Tests the installed program on the example that ships, without a display: one line per test,
 /// then "N passed, N failed". Returns how many failed.
 int runSelfTest(std::ostream& output);
@@ -36,6 +37,8 @@ struct ScreenshotOrder {
                        ///< image; "": none
   int iteration = -2;  ///< index to show; -1: the seed; -2: the last
   int hypothesis = 0;  ///< row under Hypotheses to show, from 1; 0: none
+  std::optional<Workspace> workspace = {};  ///< nothing: the one that the session opens in
+  double* share = nullptr;  ///< takes the part of the window that shows the image
 };
 
 /// Shows a session and what was not saved of it, without writing anything next to it: it goes on in

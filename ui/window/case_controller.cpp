@@ -45,6 +45,14 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   connect(&run_, &RunController::failed, this, [this](const QString& message) {
     run_is_prepared_ = false;
     Q_EMIT failed(message);
+  });
+  connect(&batch_, &Batch::changed, this, &CaseController::batchChanged);
+  connect(&batch_, &Batch::caseEnded, this,
+          [this](const QString& id, const ViewState::SnapshotPtr& trace) {
+            store({batch_session_, id.toStdString(), trace, {}, {}, true});
+          });
+  connect(&batch_, &Batch::caseFailed, this, [this](const QString&, const QString& message) {
+    batch_failures_ << message;
     runNext();
   });
 }
@@ -75,9 +83,7 @@ void CaseController::documentChanged() {
 }
 
 void CaseController::chooseCase(const QString& id) {
-  if (id == case_id_) return;
-  endBatch();
-  show(id);
+  if (id != case_id_) show(id);
 }
 
 void CaseController::show(const QString& id) {
@@ -128,14 +134,11 @@ void CaseController::loadFailed(const QString& id, const QString& message) {
   const ViewState::CasePtr& shown = state_.currentCase();
   if (shown && QString::fromStdString(shown->source.id) != id) state_.setCase(nullptr);
   Q_EMIT failed(message);
-  runNext();
 }
 
 void CaseController::loaded(const QString& id,
                             std::shared_ptr<const sessions::LoadedCase> loaded_case) {
   if (id != case_id_) return;
-  // A case that was edited while a batch ran it is run again.
-  if (batch_ && run_.state() == RunState::kWorking) run_when_loaded_ = StepUntil::kEnd;
   run_.reset({});
   run_is_prepared_ = false;
   const ViewState::CasePtr& before = state_.currentCase();
@@ -216,7 +219,6 @@ void CaseController::start(const std::function<void()>& prepare, StepUntil until
     prepare();
   } catch (const std::exception& error) {
     Q_EMIT failed(QString::fromUtf8(error.what()));
-    runNext();
     return;
   }
   run_.advance(until);
@@ -233,6 +235,14 @@ void CaseController::runPlan(const sessions::RunPlan& plan) {
     if (!problem.empty()) throw std::runtime_error(problem + ".");
     prepareRun({.plan = plan});
   });
+}
+
+QString CaseController::whyNotRunnable() const {
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  if (!session_case) return tr("Open a case first");
+  return session_case->has_seed
+             ? QString()
+             : tr("The case has no seed: annotate it, then use the solved pose as its seed");
 }
 
 QString CaseController::whyAlone() const {
@@ -303,8 +313,6 @@ void CaseController::storeRun() {
   run_is_prepared_ = false;
   if (const auto snapshot = run_.snapshot())
     store({run_session_, case_id_.toStdString(), snapshot, run_.inputs().continued, run_.views()});
-  else
-    runNext();
 }
 
 /// Written into the session's folder: one, or one of every view.
@@ -348,9 +356,9 @@ void CaseController::store(const EndedRun& ended) {
             return ended_run.snapshot == ended.snapshot;
           });
           Q_EMIT stalenessChanged();
+          if (ended.of_batch) showRunOf(ended.case_id);
         }
-        // A run that was begun meanwhile goes on.
-        if (run_.state() != RunState::kWorking && !run_when_loaded_) runNext();
+        if (ended.of_batch) runNext();
       });
 }
 
@@ -373,29 +381,33 @@ void CaseController::finishStoring() {
 }
 
 void CaseController::runAll(const QStringList& ids) {
-  queue_.assign(ids.begin(), ids.end());
-  batch_ = BatchProgress{0, static_cast<int>(ids.size())};
+  if (ids == QStringList{case_id_}) return advance(StepUntil::kEnd);
+  batch_failures_.clear();
+  batch_.start(ids);
   runNext();
 }
 
 void CaseController::endBatch() {
-  queue_.clear();
-  if (!std::exchange(batch_, std::nullopt)) return;
-  run_when_loaded_.reset();
-  Q_EMIT batchChanged();
+  batch_.stop();
+  if (!batch_failures_.isEmpty())
+    Q_EMIT failed(std::exchange(batch_failures_, {}).join(QLatin1Char('\n')));
 }
 
 /// Goes on with the batch, if there is one.
 void CaseController::runNext() {
-  if (!batch_) return;
-  if (queue_.empty()) return endBatch();
-  const QString next = queue_.front();
-  queue_.erase(queue_.begin());
-  ++batch_->at;
-  Q_EMIT batchChanged();
-  if (next == case_id_ && state_.currentCase()) return advance(StepUntil::kEnd);
-  run_when_loaded_ = StepUntil::kEnd;
-  next == case_id_ ? load(next) : show(next);
+  if (!batch_.isActive()) return;
+  const QString next = batch_.takeNext();
+  batch_session_ = document_.session();
+  next.isEmpty() ? endBatch() : batch_.run(batch_session_, next);
+}
+
+/// Of a batch, in the views, where they show that case and no other run of it is under way.
+void CaseController::showRunOf(const std::string& case_id) {
+  if (case_id != case_id_.toStdString() || run_.state() == RunState::kWorking || !isLoaded())
+    return;
+  run_.reset({});
+  run_is_prepared_ = false;
+  loadLatestRun(case_id_);
 }
 
 void CaseController::runIfWaiting() {
@@ -406,10 +418,29 @@ void CaseController::useAsSeed(const Pose& camera_from_station) {
   const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
   if (!session_case) return;
   sessions::SessionCase changed = *session_case;
+  changed.has_seed = true;
   changed.camera_from_station_seed = camera_from_station;
   changed.camera_from_station_working.reset();
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),
                  tr("Move the seed of %1").arg(case_id_));
+}
+
+void CaseController::runWithUncertainty(const sessions::DeclaredUncertainty& uncertainty) {
+  const std::string id = case_id_.toStdString();
+  const bool edited = document_.edit(
+      sessions::withChanged(document_.session(), id,
+                            [&](sessions::SessionCase& one) { one.uncertainty = uncertainty; }),
+      tr("State the uncertainty of the seed of %1").arg(case_id_));
+  if (edited) advance(StepUntil::kEnd);
+}
+
+void CaseController::runWithWiderSearch() {
+  constexpr double kHalfTurn_deg = 180.0;
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
+  if (!session_case) return;
+  sessions::DeclaredUncertainty wider = session_case->uncertainty;
+  wider.rotation_deg.z() = kHalfTurn_deg;
+  runWithUncertainty(wider);
 }
 
 void CaseController::keepNudgedPose() {

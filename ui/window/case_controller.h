@@ -14,6 +14,7 @@
 
 #include "core/localizer/localizer_options.h"
 #include "sessions/run/runner.h"
+#include "ui/run/batch.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/view_state.h"
 
@@ -21,12 +22,6 @@ namespace boresight::ui {
 
 class Document;
 class TaskRunner;
-
-/// Several cases that are run one after another.
-struct BatchProgress {
-  int at = 0;  ///< the case at work, from 1
-  int of = 0;  ///< number of cases
-};
 
 /// What happens between document, worker and view state: a case that is chosen is read and shown
 /// with its latest run, a run is shown as it goes and stored when it ends.
@@ -47,12 +42,16 @@ class CaseController : public QObject {
   /// Why the case cannot be run together with other views, one sentence; empty when it can.
   QString whyAlone() const;
   /// The batch under way, from its first case's reading to its last run's storing; else nothing.
-  const std::optional<BatchProgress>& batch() const { return batch_; }
+  const std::optional<BatchProgress>& batch() const { return batch_.progress(); }
+  /// Why the shown case cannot be run, or empty.
+  QString whyNotRunnable() const;
 
  public Q_SLOTS:
-  /// Shows another case. A batch ends here.
+  /// Shows another case; a batch goes on.
   void chooseCase(const QString& id);
   void advance(boresight::sessions::StepUntil until);
+  /// The case that is being read, as soon as it is there.
+  void runOnceLoaded() { run_when_loaded_ = sessions::StepUntil::kEnd; }
   /// Keeps the shown run's iterations before this one and computes those from it on with the
   /// options as they are now.
   void rerunFrom(int iteration);
@@ -62,6 +61,7 @@ class CaseController : public QObject {
   void stop();
   /// Drops the shown run; the next step begins again.
   void reset();
+  /// In the background: the shown case stays, and shows its run when its turn is over.
   void runAll(const QStringList& ids);
   /// Runs the case to its end together with the other views of its rig, as one pose; each gets a
   /// run of its own.
@@ -72,6 +72,10 @@ class CaseController : public QObject {
   /// Waits until a run that has ended is in the session: what was shown as done is not lost.
   void finishStoring();
   void useAsSeed(const boresight::Pose& camera_from_station);
+  /// States how far the seed may be off, and runs the case again.
+  void runWithUncertainty(const boresight::sessions::DeclaredUncertainty& uncertainty);
+  /// The same with a seed that may be turned by any angle about the view axis.
+  void runWithWiderSearch();
   /// A gesture has ended: where the pose is nudged to becomes an edit of the document.
   void keepNudgedPose();
   void setOptions(const QString& profile, const boresight::LocalizerOptions& options);
@@ -94,6 +98,7 @@ class CaseController : public QObject {
     ViewState::SnapshotPtr snapshot;
     std::string continued;  ///< digest of the run that it goes on from, or empty
     std::vector<ViewState::SnapshotPtr> views;  ///< of several that were solved as one
+    bool of_batch = false;
   };
 
   void documentOpened();
@@ -116,6 +121,7 @@ class CaseController : public QObject {
   void storeAgain();
   void runNext();
   void endBatch();
+  void showRunOf(const std::string& case_id);
   void runIfWaiting();
   void showNudgedPose();
 
@@ -133,8 +139,9 @@ class CaseController : public QObject {
   std::filesystem::path unstored_file_;  ///< where there was no room
   sessions::Session run_session_;        ///< what the run that is prepared is made from
   std::optional<sessions::StepUntil> run_when_loaded_;
-  std::vector<QString> queue_;  ///< cases of the batch that wait
-  std::optional<BatchProgress> batch_;
+  Batch batch_;
+  sessions::Session batch_session_;  ///< what the case at work is run from
+  QStringList batch_failures_;  ///< told together at its end
 };
 
 }  // namespace boresight::ui

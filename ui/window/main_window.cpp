@@ -8,6 +8,7 @@
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/panels/widgets.h"
+#include "ui/review/review_panel.h"
 #include "ui/scene/scene_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/annotation_files.h"
@@ -16,24 +17,20 @@
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
+#include "ui/window/window_frame.h"
 #include "ui/window/window_menus.h"
+#include "ui/workspaces/job_controller.h"
+#include "ui/workspaces/remedies_panel.h"
+#include "ui/workspaces/run_bar.h"
+#include "ui/workspaces/verdict_bar.h"
+#include "ui/workspaces/verdict_controller.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr const char* kGeometryKey = "window/geometry";
-constexpr const char* kLayoutKey = "window/state";
 constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
-constexpr int kLayoutVersion = 8;  // of another set of panels, a layout is not taken over
-
-QString stateText(RunState state, const std::optional<BatchProgress>& batch) {
-  if (batch && batch->of > 1)
-    return MainWindow::tr("Running %1 of %2...").arg(batch->at).arg(batch->of);
-  return state == RunState::kWorking    ? MainWindow::tr("Running...")
-         : state == RunState::kHalted   ? MainWindow::tr("Halted")
-         : state == RunState::kFinished ? MainWindow::tr("Finished")
-                                        : MainWindow::tr("Ready");
-}
 
 }  // namespace
 
@@ -43,15 +40,19 @@ MainWindow::MainWindow(QWidget* parent)
       annotation_(document_, state_),
       onboard_(document_, state_, tasks_),
       parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_},
-      docks_(std::make_unique<WindowDocks>(*this, parts_)),
+      body_(named(new QMainWindow, "body")),
+      docks_(std::make_unique<WindowDocks>(*body_, *this, parts_)),
+      workspaces_(new Workspaces(*body_, docks_->all(), this)),
       files_(new SessionFiles(*this, parts_)),
-      menus_(new WindowMenus(*this, parts_, *docks_, *files_)),
+      frame_(new WindowFrame(*this, *body_, parts_, *docks_, *workspaces_, *files_)),
+      menus_(new WindowMenus(*this, parts_, *docks_, *workspaces_, frame_->runBar(), *files_)),
       findings_(new InputFindings(parts_, docks_->findings, *this)) {
   setObjectName(QStringLiteral("mainWindow"));
   setAcceptDrops(true);
-  buildStatusBar();
+  body_->setWindowFlags(Qt::Widget);
+  frame_->takeMenus();
   connectAll();
-  resize(1280, 800);
+  resizeToScreen();
   showDocument();
 }
 
@@ -59,19 +60,32 @@ MainWindow::~MainWindow() = default;
 
 ImagePanel& MainWindow::image() { return docks_->image; }
 
-QDockWidget* MainWindow::dock(const QString& name) const { return findChild<QDockWidget*>(name); }
+QDockWidget* MainWindow::dock(const QString& name) const { return workspaces_->dock(name); }
 
-void MainWindow::buildStatusBar() {
-  auto* place = named(new QLabel, "place");
-  run_label_ = named(new QLabel, "runState");
-  statusBar()->addWidget(place, 1);
-  statusBar()->addPermanentWidget(run_label_);
-  connect(&image(), &ImagePanel::placeText, place, &QLabel::setText);
+TopBar& MainWindow::topBar() { return frame_->topBar(); }
+
+/// The whole window is on the screen at the first start, with its title.
+void MainWindow::resizeToScreen() {
+  constexpr QSize kFirst(1280, 800);
+  constexpr int kTitle = 40;
+  const QScreen* screen = QGuiApplication::primaryScreen();
+  const QSize room = screen ? screen->availableSize() - QSize(0, kTitle) : kFirst;
+  resize(kFirst.boundedTo(room).expandedTo(minimumSizeHint().boundedTo(room)));
 }
 
 void MainWindow::connectAll() {
   const auto note = [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); };
   auto* links = new PanelLinks(parts_, *docks_, this);
+  connect(links, &PanelLinks::warningsChanged, &frame_->verdict(), &VerdictBar::setWarnings);
+  auto* verdicts = new VerdictController(
+      {parts_, *docks_, *workspaces_, *files_, *findings_}, frame_->verdict(), *this);
+  connect(&docks_->remedies, &RemediesPanel::stepRequested, verdicts, &VerdictController::perform);
+  connect(menus_, &WindowMenus::verdictStepRequested, &frame_->verdict(), [this, verdicts] {
+    verdicts->perform(frame_->verdict().verdict().step);
+  });
+  auto* jobs = new JobController(parts_, docks_->review.controller(), frame_->jobs(), this);
+  connect(menus_, &WindowMenus::stopRequested, jobs, &JobController::stop);
+  connect(&document_, &Document::opened, this, &MainWindow::showFittingWorkspace);
   new QueueLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels, this);
   connect(levels, &LevelsController::noted, this, note);
@@ -93,7 +107,7 @@ void MainWindow::connectAll() {
   connect(findings_, &InputFindings::changed, this, &MainWindow::showHint);
   connect(files_, &SessionFiles::failed, this, &MainWindow::showMessage);
   connect(files_, &SessionFiles::queueWanted, this,
-          [this] { docks_->raise(QStringLiteral("queue")); });
+          [this] { workspaces_->reveal(QStringLiteral("queue")); });
   connect(files_, &SessionFiles::noted, this, [this](const QString& message) {
     statusBar()->showMessage(message, kNote_ms);
     if (!state_.currentCase()) image().setHint(message);  // where the operator looks
@@ -144,8 +158,6 @@ void MainWindow::showMessage(const QString& message) {
 
 bool MainWindow::openSession(const std::filesystem::path& file) { return files_->open(file); }
 
-void MainWindow::offerLeftSessions() { files_->offerUntitled(); }
-
 void MainWindow::takeFiles(const std::vector<std::filesystem::path>& files) { files_->take(files); }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
@@ -160,22 +172,34 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   if (!remembers_layout_) return;
   QSettings settings;
   settings.setValue(QLatin1String(kGeometryKey), saveGeometry());
-  settings.setValue(QLatin1String(kLayoutKey), saveState(kLayoutVersion));
+  workspaces_->save(settings);
 }
 
 void MainWindow::rememberLayout() {
   remembers_layout_ = true;
   const QSettings settings;
   restoreGeometry(settings.value(QLatin1String(kGeometryKey)).toByteArray());
-  arranged_ = restoreState(settings.value(QLatin1String(kLayoutKey)).toByteArray(), kLayoutVersion);
+  workspaces_->restore(settings);
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  workspaces_->windowResized();
+  frame_->arrange();
 }
 
 /// Panels take sizes only once the window has its own.
-void MainWindow::showEvent(QShowEvent* event) {
-  QMainWindow::showEvent(event);
-  if (!std::exchange(arranged_, true))
-    QMetaObject::invokeMethod(
-        this, [this] { docks_->giveSizes(); }, Qt::QueuedConnection);
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  if (isVisible()) workspaces_->windowResized();
+}
+
+void MainWindow::showFittingWorkspace() {
+  const bool empty = document_.session().cases.empty();
+  if (empty)
+    workspaces_->show(Workspace::kStart);
+  else if (workspaces_->current() == Workspace::kStart)
+    workspaces_->show(Workspace::kRun);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -199,7 +223,6 @@ void MainWindow::showDocument() {
 
 void MainWindow::showState() {
   menus_->update();
-  run_label_->setText(stateText(run_.state(), cases_.batch()));
   const bool read_only = document_.isOpen() && !document_.readOnlyReason().isEmpty();
   const QString name = document_.isUntitled() ? tr("Untitled")
                        : document_.isOpen()

@@ -17,17 +17,19 @@
 #include "ui/window/window_parts.h"
 
 class QDockWidget;
-class QLabel;
 
 namespace boresight::ui {
 
 class ImagePanel;
 class InputFindings;
 class SessionFiles;
+class TopBar;
 class WindowDocks;
+class WindowFrame;
 class WindowMenus;
+class Workspaces;
 
-/// The window: docks round the image, menus, keys. It only connects the other parts of this folder.
+/// The window: workspaces round the image, menus, keys. It only connects the other parts.
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
@@ -43,8 +45,6 @@ class MainWindow : public QMainWindow {
   /// Messages are kept instead of shown, for pictures and tests.
   void setQuiet(bool quiet) { quiet_ = quiet; }
   const QString& lastMessage() const { return last_message_; }
-  /// Offers sessions that never got a name and were left by a program that was killed.
-  void offerLeftSessions();
 
   /// Takes the place, size and panels that the window had when it was last closed, and leaves them
   /// to the next one. Without this the window is as at the first start.
@@ -59,17 +59,22 @@ class MainWindow : public QMainWindow {
   OnboardController& onboard() { return onboard_; }
   ImagePanel& image();
   InputFindings& findings() { return *findings_; }
+  Workspaces& workspaces() { return *workspaces_; }
+  WindowFrame& frame() { return *frame_; }
+  TopBar& topBar();
   /// The dock of this object name, or nullptr.
   QDockWidget* dock(const QString& name) const;
 
  protected:
   void showEvent(QShowEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
 
  private:
-  void buildStatusBar();
+  void resizeToScreen();
+  void showFittingWorkspace();
   void connectAll();
   void showDocument();
   void showState();
@@ -84,13 +89,14 @@ class MainWindow : public QMainWindow {
   AnnotationController annotation_;
   OnboardController onboard_;
   WindowParts parts_;
+  QMainWindow* body_ = nullptr;  ///< holds the docks
   std::unique_ptr<WindowDocks> docks_;
+  Workspaces* workspaces_ = nullptr;
   SessionFiles* files_ = nullptr;
+  WindowFrame* frame_ = nullptr;
   WindowMenus* menus_ = nullptr;
   InputFindings* findings_ = nullptr;
-  QLabel* run_label_ = nullptr;
   bool quiet_ = false;
-  bool arranged_ = false;
   bool remembers_layout_ = false;
   QString last_message_;
 };

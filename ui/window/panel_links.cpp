@@ -75,8 +75,6 @@ PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObje
   linkPoses();
   parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showInputs);
   connect(&docks_.inputs, &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
-  connect(&docks_.warnings, &Banner::actionRequested, this,
-          [this] { docks_.raise(QStringLiteral("inputs")); });
 }
 
 void PanelLinks::linkCases() {
@@ -128,10 +126,13 @@ void PanelLinks::linkPoses() {
 }
 
 void PanelLinks::showCases() {
-  const bool working = parts_.run.state() == RunState::kWorking || parts_.cases.batch();
+  const auto& batch = parts_.cases.batch();
+  const bool working = parts_.run.state() == RunState::kWorking || batch;
+  const QString running = batch     ? batch->case_id
+                          : working ? parts_.cases.caseId()
+                                    : QString();
   std::vector<CaseRow> rows =
-      caseRows(parts_.document.session(), working ? parts_.cases.caseId() : QString(),
-               parts_.document.file(), stale_runs_);
+      caseRows(parts_.document.session(), running, parts_.document.file(), stale_runs_);
   details_->fill(rows);
   docks_.cases.setRows(std::move(rows));
   docks_.cases.setRunnable(!working);
@@ -155,7 +156,7 @@ void PanelLinks::showConfiguration() {
 void PanelLinks::showInputs() {
   const ViewState::CasePtr loaded_case = parts_.state.currentCase();
   docks_.inputs.setSheet(std::nullopt);
-  docks_.warnings.showWarnings({});
+  Q_EMIT warningsChanged({});
   showConfiguration();
   if (!loaded_case) return;
   parts_.tasks.start(
@@ -165,7 +166,7 @@ void PanelLinks::showInputs() {
         if (loaded_case != parts_.state.currentCase()) return;
         QStringList flags;
         for (const sessions::RedFlag& flag : sheet.flags) flags << fromText(flag.text);
-        docks_.warnings.showWarnings(flags);
+        Q_EMIT warningsChanged(flags);
         docks_.inputs.setSheet(std::move(sheet));
       });
 }

@@ -5,6 +5,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 
 #include "sessions/session/session.h"
 #include "ui/window/window_parts.h"
@@ -49,6 +50,8 @@ class PanelLinks : public QObject {
  Q_SIGNALS:
   /// A panel cannot show something; one sentence.
   void failed(const QString& message);
+  /// What looks wrong with the shown case's inputs; sentences.
+  void warningsChanged(const QStringList& sentences);
 
  private:
   void linkCases();

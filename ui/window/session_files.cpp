@@ -7,178 +7,18 @@
 
 #include <QtWidgets>
 
-#include "sessions/io/cahvor_file.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/labels/image_label.h"
+#include "sessions/io/scene_mesh.h"
+#include "sessions/session/session_document.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_of_results.h"
-#include "sessions/text/plain_text.h"
 #include "ui/review/onboard_controller.h"
+#include "ui/review/pose_export.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/window/case_controller.h"
 
 namespace boresight::ui {
-
-namespace {
-
-/// What a file is, as what it does to the files taken so far.
-using Take = void (*)(const std::filesystem::path& file, DroppedFiles& taken);
-
-/// Throws when the label of an image cannot be read or lacks its pixels.
-void takeImage(const std::filesystem::path& file, DroppedFiles& taken) {
-  std::optional<std::string> remark;
-  if (sessions::hasImageLabel(file)) {
-    const sessions::ImageLabel label = sessions::readImageLabel(file);
-    remark = label.camera ? std::string() : label.camera_remark;
-  }
-  taken.one.image = file;
-  taken.label_camera_remark = remark;
-}
-
-void takeMesh(const std::filesystem::path& file, DroppedFiles& taken) {
-  taken.one.parts.emplace_back().mesh = file;
-}
-
-void takeCamera(const std::filesystem::path& file, DroppedFiles& taken) { taken.one.camera = file; }
-
-void takePose(const std::filesystem::path& file, DroppedFiles& taken) {
-  if (sessions::lowerCase(file.stem().string()).find("truth") != std::string::npos)
-    taken.one.truth = file;
-  else
-    taken.one.seed = file;
-}
-
-void takeTransform(const std::filesystem::path& file, DroppedFiles& taken) {
-  taken.one.transforms.push_back(file);
-}
-
-template <std::optional<std::filesystem::path> DroppedFiles::*Member>
-void takeAs(const std::filesystem::path& file, DroppedFiles& taken) {
-  taken.*Member = file;
-}
-
-struct FileKind {
-  std::vector<std::string> names;  ///< extensions, or values of `format`
-  Take take;
-};
-
-Take findTake(const std::vector<FileKind>& kinds, const std::string& name) {
-  for (const FileKind& kind : kinds)
-    if (std::ranges::find(kind.names, name) != kind.names.end()) return kind.take;
-  return nullptr;
-}
-
-Take takeOfJson(const std::filesystem::path& file) {
-  static const std::vector<FileKind> kFormats = {
-      {{"boresight-camera"}, takeCamera},
-      {{"boresight-pose"}, takePose},
-      {{"boresight-transform"}, takeTransform},
-      {{"boresight-dataset"}, takeAs<&DroppedFiles::dataset>},
-      {{"boresight-session"}, takeAs<&DroppedFiles::session>},
-  };
-  const auto bytes =
-      sessions::readFileBytes(file, sessions::kMaxJsonBytes, sessions::FileUse::kFree);
-  const sessions::JsonDocument document(file, sessions::asText(bytes));
-  const std::string format = document.root().at("format").nonEmptyText();
-  if (const Take take = findTake(kFormats, format)) return take;
-  throw std::runtime_error(
-      file.string() + ": the format '" + format +
-      "' cannot be opened in the window (camera, pose, transform, dataset, session)");
-}
-
-/// Throws when it is nothing known.
-Take takeOf(const std::filesystem::path& file) {
-  static const std::vector<FileKind> kExtensions = {
-      {{".png", ".jpg", ".jpeg", ".tif", ".tiff"}, takeImage},
-      {{".ply", ".obj", ".stl", ".gltf", ".glb"}, takeMesh},
-      {{".whsr"}, takeAs<&DroppedFiles::record>},
-      {{".sqlite"}, takeAs<&DroppedFiles::results>},
-  };
-  const std::string extension = sessions::lowerCase(file.extension().string());
-  if (const Take take = findTake(kExtensions, extension)) return take;
-  if (extension == ".json") return takeOfJson(file);
-  if (extension == ".zip")
-    throw std::runtime_error(file.string() + ": an archive; unpack it, then open its session");
-  if (sessions::isCahvorFile(file)) return takeCamera;
-  if (sessions::hasImageLabel(file)) return takeImage;
-  throw std::runtime_error(
-      file.string() +
-      ": not an image (png, jpg, tif, or with a VICAR, PDS3 or PDS4 label), a mesh (ply, obj, "
-      "stl, gltf, glb), a camera (json, cahvor), an onboard record (whsr), results (sqlite) "
-      "or a json file");
-}
-
-}  // namespace
-
-bool DroppedFiles::isCase() const {
-  return !one.image.empty() && hasCamera() && !one.seed.empty() && !one.parts.empty();
-}
-
-bool DroppedFiles::hasCamera() const {
-  return !one.camera.empty() || (label_camera_remark && label_camera_remark->empty());
-}
-
-bool DroppedFiles::isRecordAlone() const {
-  return record && !dataset && one.image.empty() && one.camera.empty() && one.seed.empty() &&
-         one.parts.empty() && !one.truth;
-}
-
-std::string DroppedFiles::missing() const {
-  std::vector<std::string> names;
-  if (one.image.empty()) names.emplace_back("an image");
-  if (!hasCamera())
-    names.emplace_back("a camera (json)" +
-                       (label_camera_remark ? ": " + *label_camera_remark : ""));
-  if (one.parts.empty()) names.emplace_back("a mesh");
-  if (one.seed.empty()) names.emplace_back("a seed pose (json)");
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
-    text += names[i];
-  }
-  return text;
-}
-
-bool DroppedFiles::beginsAnew(const DroppedFiles& earlier) const {
-  const bool more =
-      !one.camera.empty() || !one.seed.empty() || !one.parts.empty() || one.truth.has_value();
-  return isCase() || (!one.image.empty() && !earlier.one.image.empty() && more);
-}
-
-std::string DroppedFiles::keptNames(const DroppedFiles& earlier) const {
-  std::string names;
-  const auto add = [&names](const std::filesystem::path& file, bool replaced) {
-    if (!file.empty() && !replaced) names += (names.empty() ? "" : ", ") + file.filename().string();
-  };
-  add(earlier.one.image, !one.image.empty());
-  add(earlier.one.camera, !one.camera.empty());
-  for (const sessions::PartSource& part : earlier.one.parts) add(part.mesh, !one.parts.empty());
-  add(earlier.one.seed, !one.seed.empty());
-  add(earlier.one.truth.value_or(""), one.truth.has_value());
-  for (const std::filesystem::path& file : earlier.one.transforms) add(file, false);
-  add(earlier.record.value_or(""), record.has_value());
-  return names;
-}
-
-DroppedFiles classify(const std::vector<std::filesystem::path>& files,
-                      const DroppedFiles& earlier) {
-  DroppedFiles dropped_files;
-  dropped_files.one = earlier.one;
-  dropped_files.record = earlier.record;
-  dropped_files.label_camera_remark = earlier.label_camera_remark;
-  dropped_files.one.parts.clear();
-  for (const std::filesystem::path& file : files) {
-    try {
-      takeOf(file)(file, dropped_files);
-    } catch (const std::exception& error) {
-      dropped_files.problems.emplace_back(error.what());
-    }
-  }
-  if (dropped_files.one.parts.empty()) dropped_files.one.parts = earlier.one.parts;
-  return dropped_files;
-}
 
 namespace {
 
@@ -205,6 +45,27 @@ void noteRecentFile(const std::filesystem::path& file) {
   files.prepend(name);
   while (files.size() > kRecentFiles) files.removeLast();
   QSettings().setValue(QLatin1String(kRecentKey), files);
+}
+
+std::filesystem::path sessionFileName(std::filesystem::path file) {
+  constexpr std::string_view kJson = ".json";
+  if (file.extension() != kJson) file += ".boresight.json";
+  return file;
+}
+
+namespace {
+
+double metresOf(const char* unit) {
+  const std::string_view name = unit;
+  return name == "mm" ? 1e-3 : name == "cm" ? 1e-2 : name == "in" ? 0.0254 : name == "ft" ? 0.3048 : 1.0;
+}
+
+}  // namespace
+
+QString meshUnitText(const char* unit, const std::optional<double>& extent) {
+  if (!extent) return QString::fromLatin1(unit);
+  const double size_mm = 1e3 * metresOf(unit) * *extent;
+  return QObject::tr("%1: %2 mm across").arg(QString::fromLatin1(unit)).arg(size_mm, 0, 'g', 3);
 }
 
 SessionFiles::SessionFiles(QWidget& window, const WindowParts& parts)
@@ -249,14 +110,21 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
     return;
   }
   collected_ = dropped;
+  kept_ = QString::fromStdString(kept);
+  Q_EMIT collectedChanged();
   // Of the case that is open, unless it comes with the files of another.
   if (dropped.isRecordAlone() && parts_.state.currentCase()) {
-    parts_.onboard.attach(*std::exchange(collected_, {}).record);
+    const std::filesystem::path record = *collected_.record;
+    forgetCollected();
+    parts_.onboard.attach(record);
     return;
   }
   if (!dropped.dataset && !dropped.isCase()) {
     if (dropped.problems.empty())
-      Q_EMIT noted(tr("Added. Still needed: %1").arg(QString::fromStdString(dropped.missing())));
+      Q_EMIT noted(tr("%1 of 4 files added. Still needed: %2.")
+                       .arg(dropped.count())
+                       .arg(QString::fromStdString(dropped.missing())));
+    measureMesh();
     return;
   }
   if (dropped.dataset) {
@@ -265,15 +133,97 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
                         .arg(text(dropped.record->filename())));
     makeFrom(*dropped.dataset, false);
   } else {
-    addCase(QString::fromStdString(kept));
+    measureMesh();
+    makeCollected();
   }
+}
+
+FilesSituation SessionFiles::situation() const {
+  const std::string missing = collected_.missing();
+  FilesSituation situation{collected_.count(), {}};
+  if (situation.added > 0 && !missing.empty())
+    situation.missing = tr("Still needed: %1.").arg(QString::fromStdString(missing));
+  return situation;
+}
+
+void SessionFiles::forgetCollected() {
+  collected_ = {};
+  mesh_extent_.reset();
+  Q_EMIT collectedChanged();
+}
+
+void SessionFiles::makeSeedless() {
+  if (collected_.isSeedless()) makeCollected();
+}
+
+void SessionFiles::setMeshUnit(const std::string& unit) {
+  for (sessions::PartSource& part : collected_.one.parts) part.mesh_unit = unit;
+  Q_EMIT collectedChanged();
+}
+
+/// What the unit would make of the mesh: a mesh takes a while to read.
+void SessionFiles::measureMesh() {
+  mesh_extent_.reset();
+  if (collected_.one.parts.empty() || !collected_.one.parts.front().mesh_unit.empty()) return;
+  std::vector<sessions::PartSource> parts = collected_.one.parts;
+  for (sessions::PartSource& part : parts) {
+    const std::string extension = part.mesh.extension().string();
+    if (extension == ".gltf" || extension == ".glb") return;
+    part.mesh_unit = "m";
+  }
+  parts_.tasks.start(
+      QStringLiteral("mesh size"),
+      [parts](const std::stop_token&) {
+        const sessions::SceneMesh scene = sessions::readScene(parts);
+        double extent = 0.0;
+        for (const sessions::MeshInfo& info : scene.infos)
+          extent = std::max(extent, info.diagonal_m());
+        return extent;
+      },
+      [this, mesh = parts.front().mesh](double extent) {
+        if (collected_.one.parts.empty() || collected_.one.parts.front().mesh != mesh) return;
+        mesh_extent_ = extent;
+        Q_EMIT collectedChanged();
+      },
+      [](const QString&) {});  // told when the case is made
+}
+
+/// After the mesh was measured: the same thread does one after the other.
+void SessionFiles::makeCollected() {
+  parts_.tasks.start(
+      QStringLiteral("mesh measured"), [](const std::stop_token&) { return true; },
+      [this](bool) { addCase(kept_); });
+}
+
+QStringList SessionFiles::unitTexts() const {
+  QStringList texts;
+  for (const char* unit : kMeshUnits) texts << meshUnitText(unit, mesh_extent_);
+  return texts;
+}
+
+void SessionFiles::openExample(const std::filesystem::path& file) {
+  if (!mayLeave()) return;
+  try {
+    const auto example = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
+    if (parts_.document.createUntitled(example.session())) parts_.cases.runOnceLoaded();
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+  }
+}
+
+void SessionFiles::recoverUntitled(const std::filesystem::path& file) {
+  if (mayLeave()) parts_.document.open(file);
+}
+
+void SessionFiles::closeSession() {
+  if (mayLeave()) parts_.document.close();
 }
 
 /// Every image and mesh is read and hashed: off the UI's thread. Runs of results become cases, the
 /// most troubled first, and the queue comes to the front.
 void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
   if (!mayLeave()) return;
-  collected_ = {};
+  forgetCollected();
   Q_EMIT noted(
       (results ? tr("Reading %1 and its dataset's files ...") : tr("Reading %1 and its files ..."))
           .arg(text(file.filename())));
@@ -303,7 +253,7 @@ void SessionFiles::addCase(const QString& kept) {
       },
       [this, kept](sessions::SessionCase session_case) {
         // Until now: whatever was wrong may be mended by a further file, e.g. a transform.
-        collected_ = {};
+        forgetCollected();
         Q_EMIT noted(kept.isEmpty() ? QString() : tr("Also of earlier drops: %1").arg(kept));
         takeCase(std::move(session_case));
       });
@@ -312,8 +262,11 @@ void SessionFiles::addCase(const QString& kept) {
 void SessionFiles::takeCase(sessions::SessionCase session_case) {
   const QString id = QString::fromStdString(session_case.id);
   Document& document = parts_.document;
-  const sessions::Session session = sessions::withCase(document.session(), std::move(session_case));
-  if (!document.isEditable()) {
+  const bool alone = makes_new_session_ || !document.isEditable();
+  if (alone && document.isEditable() && !mayLeave()) return;
+  const sessions::Session session = sessions::withCase(
+      alone ? sessions::Session() : document.session(), std::move(session_case));
+  if (alone) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {
     parts_.cases.chooseCase(id);
@@ -326,14 +279,13 @@ bool SessionFiles::askForUnits() {
     const std::string extension = part.mesh.extension().string();
     if (extension == ".gltf" || extension == ".glb") continue;  // metres by their definition
     bool chosen = false;
+    const QStringList units = unitTexts();
     const QString unit = QInputDialog::getItem(
         &window_, tr("Unit of the mesh"),
-        tr("%1 states no unit. Its coordinates are in").arg(text(part.mesh.filename())),
-        {QStringLiteral("m"), QStringLiteral("mm"), QStringLiteral("cm"), QStringLiteral("in"),
-         QStringLiteral("ft")},
-        0, false, &chosen);
+        tr("%1 states no unit. Its coordinates are in").arg(text(part.mesh.filename())), units, 0,
+        false, &chosen);
     if (!chosen) return false;
-    part.mesh_unit = unit.toStdString();
+    part.mesh_unit = kMeshUnits[static_cast<std::size_t>(units.indexOf(unit))];
   }
   return true;
 }
@@ -344,10 +296,19 @@ bool SessionFiles::save() {
 }
 
 bool SessionFiles::saveAs() {
-  const QString file = QFileDialog::getSaveFileName(&window_, tr("Save the session"), {},
-                                                    tr("Sessions (*.boresight.json)"));
-  if (file.isEmpty() || !parts_.document.saveAs(path(file))) return false;
-  noteRecentFile(path(file));
+  const Document& document = parts_.document;
+  const QString name = document.isUntitled() || !document.isOpen()
+                           ? tr("session.boresight.json")
+                           : text(document.file().filename());
+  // With the suffix the dialog asks about the file that is written.
+  QFileDialog dialog(&window_, tr("Save the session"), {}, tr("Sessions (*.boresight.json)"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(QStringLiteral("boresight.json"));
+  dialog.selectFile(inSessionFolder(document, name));
+  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return false;
+  const std::filesystem::path file = sessionFileName(path(dialog.selectedFiles().front()));
+  if (!parts_.document.saveAs(file)) return false;
+  noteRecentFile(file);
   return true;
 }
 
@@ -387,34 +348,24 @@ bool SessionFiles::mayLeave() {
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &window_);
   box.setInformativeText(
       untitled ? tr("Discarding deletes the session and its runs; its input files stay.")
-               : tr("Unsaved changes stay in the journal and can be recovered when the session is "
-                    "opened again."));
+               : tr("Discarding drops them for good."));
   const int answer = box.exec();
   if (answer == QMessageBox::Save) return save();
-  if (answer == QMessageBox::Discard && untitled) document.discardUntitled();
+  if (answer == QMessageBox::Discard) untitled ? document.discardUntitled() : document.discardChanges();
   return answer == QMessageBox::Discard;
-}
-
-void SessionFiles::offerUntitled() {
-  const std::optional<std::filesystem::path> left = Document::leftUntitled();
-  if (!left) return;
-  QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  tr("Recover the unsaved session of the last program run?"),
-                  QMessageBox::Yes | QMessageBox::No, &window_);
-  box.setInformativeText(tr("It is stored in %1 until it is saved or discarded.").arg(text(*left)));
-  if (box.exec() == QMessageBox::Yes) parts_.document.open(*left);
 }
 
 void SessionFiles::offerRecovery() {
   Document& document = parts_.document;
   if (!document.recovery()) return;
   const sessions::Recovery& recovery = **document.recovery();
+  const QString time = QString::fromStdString(recovery.time);
+  const QString changes = recovery.edits.size() == 1
+                              ? tr("1 change")
+                              : tr("%1 changes").arg(recovery.edits.size());
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
-                  (recovery.edits.size() == 1
-                       ? tr("%1 has an unsaved change of %2.")
-                       : tr("%1 has %3 unsaved changes, the last of %2.")
-                             .replace(QLatin1String("%3"), QString::number(recovery.edits.size())))
-                      .arg(text(document.file().filename()), QString::fromStdString(recovery.time)),
+                  tr("Recover unsaved work of %1 from %2 (%3)?")
+                      .arg(text(document.file().filename()), time, changes),
                   QMessageBox::NoButton, &window_);
   QStringList edits;
   for (const std::string& edit : recovery.edits) edits << QString::fromStdString(edit);

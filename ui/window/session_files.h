@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,47 +12,27 @@
 #include <QStringList>
 
 #include "sessions/session/session.h"
-#include "sessions/session/session_maker.h"
+#include "ui/window/dropped_files.h"
 #include "ui/window/window_parts.h"
+#include "ui/workspaces/verdict.h"
 
 class QWidget;
 
 namespace boresight::ui {
 
-/// What files that were dropped or opened together are.
-struct DroppedFiles {
-  std::optional<std::filesystem::path> session;
-  std::optional<std::filesystem::path> dataset;
-  std::optional<std::filesystem::path> results;  ///< of `whs evaluate`
-  std::optional<std::filesystem::path> record;   ///< of an onboard run
-  sessions::CaseFiles one;                       ///< as far as it goes
-  /// Of an image with a label: why that has no camera, or "" where it has one.
-  std::optional<std::string> label_camera_remark;
-  std::vector<std::string> problems;  ///< one sentence each: files that are nothing known, twice
-                                      ///< the same kind
-
-  /// What of a case is still missing, for the operator: "a camera and a seed", or "".
-  std::string missing() const;
-  bool isCase() const;         ///< an image, a camera, a mesh and a seed
-  bool hasCamera() const;      ///< a file of its own, or the label of the image
-  bool isRecordAlone() const;  ///< an onboard record, and nothing of a case
-  /// Whether these have nothing to do with files of an earlier drop: a whole case, or another image
-  /// that comes with files of its own.
-  bool beginsAnew(const DroppedFiles& earlier) const;
-  /// Names of the files of an earlier drop that these leave in place: "a.png, b.json", or "".
-  std::string keptNames(const DroppedFiles& earlier) const;
-};
-
-/// Tells files by their content (JSON by its `format`) and by their extension (".whsr" is a
-/// record, ".sqlite" holds results). Files of an earlier drop are completed by `earlier`. Two poses
-/// are the seed and, if its name says so, the truth.
-DroppedFiles classify(const std::vector<std::filesystem::path>& files,
-                      const DroppedFiles& earlier = {});
-
 /// Sessions that were opened or saved last, the newest first, as absolute paths. Kept in the
 /// program's settings; files that are gone are left out.
 QStringList recentFiles();
 void noteRecentFile(const std::filesystem::path& file);
+
+/// A session's file with the suffix by which sessions are listed: "sol" becomes
+/// "sol.boresight.json".
+std::filesystem::path sessionFileName(std::filesystem::path file);
+
+/// The units that a mesh can be in, the likely ones first.
+inline constexpr std::array<const char*, 5> kMeshUnits = {"m", "mm", "cm", "in", "ft"};
+/// "m: 412 mm across"; the unit alone where the extent is not known.
+QString meshUnitText(const char* unit, const std::optional<double>& extent);
 
 /// Sessions and what they are made of, from and to files: opening, making, saving, recovering. Asks
 /// a person where it must, in front of the window.
@@ -70,12 +51,28 @@ class SessionFiles : public QObject {
   bool mayLeave();
   /// Offers the edits of a program that was killed, if there are any.
   void offerRecovery();
-  /// Offers the newest session without a name that a program has left and no other has open.
-  void offerUntitled();
+
+  /// Files of a case that is not complete yet.
+  const DroppedFiles& collected() const { return collected_; }
+  FilesSituation situation() const;
+  /// Largest extent of the collected mesh in the file's own numbers; nothing until it is measured.
+  const std::optional<double>& meshExtent() const { return mesh_extent_; }
+  void setMeshUnit(const std::string& unit);
+  /// A case that has all but a seed.
+  void makeSeedless();
+  void forgetCollected();
+  /// Whether a case becomes a session of its own, or is added to the one that is open.
+  void setMakesNewSession(bool makes) { makes_new_session_ = makes; }
+  /// A session of the examples under a new name, run at once.
+  void openExample(const std::filesystem::path& file);
+  /// An untitled session that a program has left.
+  void recoverUntitled(const std::filesystem::path& file);
 
  public Q_SLOTS:
   void askForSession();
   void askForFiles();
+  /// Makes room for another session.
+  void closeSession();
   bool save();
   bool saveAs();
   /// Says why nothing can be written where the session lies, and offers to save it elsewhere.
@@ -86,6 +83,8 @@ class SessionFiles : public QObject {
   void failed(const QString& message);
   /// What happened, for the status bar.
   void noted(const QString& message);
+  /// Files of a case have come, or are gone.
+  void collectedChanged();
   /// The session that has just been made is one to go through in the queue.
   void queueWanted();
 
@@ -93,12 +92,18 @@ class SessionFiles : public QObject {
   void makeFrom(const std::filesystem::path& file, bool results);
   void addCase(const QString& kept);
   void takeCase(sessions::SessionCase session_case);
+  void makeCollected();
+  void measureMesh();
   bool askForUnits();
+  QStringList unitTexts() const;
   bool mayLoseRuns();
 
   QWidget& window_;
   WindowParts parts_;
   DroppedFiles collected_;  ///< of a case that is not complete yet
+  QString kept_;            ///< names of those that came with an earlier drop
+  std::optional<double> mesh_extent_;
+  bool makes_new_session_ = false;
 };
 
 }  // namespace boresight::ui

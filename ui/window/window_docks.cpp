@@ -25,20 +25,18 @@
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
 #include "ui/views/mask_editor.h"
+#include "ui/workspaces/canvas_frame.h"
+#include "ui/workspaces/remedies_panel.h"
+#include "ui/workspaces/result_panel.h"
 
 namespace boresight::ui {
 namespace {
-
-constexpr double kCasesShare = 0.20;  // of the window's width
-constexpr double kRightShare = 0.30;
-constexpr double kBottomShare = 0.34;  // of its height
-constexpr double kSceneShare = 0.40;
 
 QString windowText(const char* text) { return QMainWindow::tr(text); }
 
 }  // namespace
 
-WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
+WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& parts)
     : image(*new ImagePanel(parts.state, parts.tasks)),
       cases(*new CasesPanel),
       configuration(*new ConfigurationPanel(parts.state)),
@@ -53,19 +51,20 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       snapper(*new StationSnapper(parts.state, &window)),
       scene(*new SceneView(parts.state)),
       image_annotation(*new ImageAnnotation(image, parts.annotation, parts.state, snapper, &image)),
-      warnings(*new Banner),
       findings(*new Banner),
-      window_(window) {
-  window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
-                         QMainWindow::AllowTabbedDocks);
-  // Tables of poses and options are long, the one of iterations is wide.
-  window_.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+      remedies(*new RemediesPanel(parts.state)),
+      canvas(*new CanvasFrame(image)),
+      body_(body) {
+  body_.setDockOptions(QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks);
   auto* ambiguity = new AmbiguityView(parts.annotation, parts.state, snapper);
   QObject::connect(ambiguity, &AmbiguityView::otherRequested, &poses.nudgeController(),
                    &NudgeController::setPose);
   annotation.addBeside(ambiguity);
   scene.setAnnotation(parts.annotation, snapper);
-  buildCentre();
+  findings.setAction(
+      windowText("Fix ..."),
+      windowText("Search missing files below the session's folder, or accept changed files"));
+  findings.showWarnings({});
   add(QStringLiteral("cases"), windowText("Cases"), &cases);
   add(QStringLiteral("layers"), windowText("Layers"), new LayersPanel(image));
   add(QStringLiteral("mask"), windowText("Mask"), &mask);
@@ -81,79 +80,14 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("review"), windowText("Review"), &review);
   add(QStringLiteral("queue"), windowText("Queue"), &queue);
   add(QStringLiteral("inputs"), windowText("Inputs"), &inputs);
+  add(QStringLiteral("result"), windowText("Result"), new ResultPanel(parts.state));
+  add(QStringLiteral("remedies"), windowText("What may help"), &remedies);
   add(QStringLiteral("onboard"), windowText("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));
-  place();
-}
-
-void WindowDocks::buildCentre() {
-  warnings.setAction(windowText("Inputs"), windowText("Show the inputs' properties and warnings"));
-  findings.setAction(
-      windowText("Fix ..."),
-      windowText("Search missing files below the session's folder, or accept changed files"));
-  for (Banner* each : {&warnings, &findings}) each->showWarnings({});
-  auto* centre = new QWidget;
-  auto* column = new QVBoxLayout(centre);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(&findings);
-  column->addWidget(&warnings);
-  column->addWidget(&image, 1);
-  window_.setCentralWidget(centre);
-}
-
-QDockWidget* WindowDocks::dock(const QString& name) const {
-  return window_.findChild<QDockWidget*>(name);
-}
-
-void WindowDocks::raise(const QString& name) const {
-  QDockWidget* found = dock(name);
-  if (!found) return;
-  found->show();
-  found->raise();
-}
-
-void WindowDocks::arrange() const {
-  place();
-  giveSizes();
-}
-
-void WindowDocks::place() const {
-  for (QDockWidget* each : docks_) each->setFloating(false);
-  QDockWidget* layers = dock(QStringLiteral("layers"));
-  QDockWidget* iterations = dock(QStringLiteral("iterations"));
-  window_.addDockWidget(Qt::LeftDockWidgetArea, dock(QStringLiteral("cases")));
-  window_.addDockWidget(Qt::RightDockWidgetArea, dock(QStringLiteral("scene")));
-  window_.addDockWidget(Qt::RightDockWidgetArea, layers);
-  // As many as can be named at 1280 pixels.
-  for (const char* name : {"mask", "levels", "pose", "configuration"})
-    window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
-  window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name :
-       {"hypotheses", "inspector", "annotation", "review", "queue", "onboard", "inputs"})
-    window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
-  for (QDockWidget* each : docks_) each->show();
-  layers->raise();
-  iterations->raise();
-}
-
-void WindowDocks::giveSizes() const {
-  window_.layout()->activate();  // as minimum sizes are now
-  QDockWidget* iterations = dock(QStringLiteral("iterations"));
-  const int width = window_.width();
-  const int height = window_.height();
-  window_.resizeDocks(
-      {dock(QStringLiteral("cases")), dock(QStringLiteral("layers"))},
-      {static_cast<int>(kCasesShare * width), static_cast<int>(kRightShare * width)},
-      Qt::Horizontal);
-  window_.resizeDocks(
-      {iterations, dock(QStringLiteral("scene"))},
-      {static_cast<int>(kBottomShare * height), static_cast<int>(kSceneShare * height)},
-      Qt::Vertical);
 }
 
 void WindowDocks::add(const QString& name, const QString& title, QWidget* widget) {
-  auto* result = new QDockWidget(title, &window_);
+  auto* result = new QDockWidget(title, &body_);
   result->setObjectName(name);
   result->setWidget(widget);
   docks_.push_back(result);

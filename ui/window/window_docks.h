@@ -9,11 +9,13 @@
 
 class QDockWidget;
 class QMainWindow;
+class QWidget;
 
 namespace boresight::ui {
 
 class AnnotationPanel;
 class Banner;
+class CanvasFrame;
 class CasesPanel;
 class ConfigurationPanel;
 class ImageAnnotation;
@@ -24,16 +26,18 @@ class MaskEditor;
 class MaskPanel;
 class PosePanel;
 class QueuePanel;
+class RemediesPanel;
 class ReviewPanel;
 class SceneView;
 class StationSnapper;
 
-/// The panels of the window and the docks that they lie in, as they are when the program starts for
-/// the first time. Each dock has an object name by which its place is remembered and by which
-/// pictures of it are asked for.
+/// The panels of the window and the docks that they lie in; where these lie is the workspaces'
+/// affair. Each dock has an object name by which its place is remembered and by which pictures of
+/// it are asked for.
 class WindowDocks {
  public:
-  WindowDocks(QMainWindow& window, const WindowParts& parts);
+  /// `body` is to hold the docks; `window` owns what has no place in it.
+  WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& parts);
 
   ImagePanel& image;
   CasesPanel& cases;
@@ -49,25 +53,17 @@ class WindowDocks {
   StationSnapper& snapper;  ///< for every view
   SceneView& scene;
   ImageAnnotation& image_annotation;
-  Banner& warnings;  ///< above the image: what looks wrong with the case's inputs
   Banner& findings;  ///< above the image: files that are missing or have changed
+  RemediesPanel& remedies;
+  CanvasFrame& canvas;  ///< round the image
 
-  /// Brings a dock to the front.
-  void raise(const QString& name) const;
-  /// Every dock where it was when the program started for the first time.
-  void arrange() const;
-  /// Sizes that suit the window as large as it is now; only once it is shown.
-  void giveSizes() const;
   /// In the order in which menus list them.
   const std::vector<QDockWidget*>& all() const { return docks_; }
 
  private:
-  void buildCentre();
-  void place() const;
-  QDockWidget* dock(const QString& name) const;
   void add(const QString& name, const QString& title, QWidget* widget);
 
-  QMainWindow& window_;
+  QMainWindow& body_;
   std::vector<QDockWidget*> docks_;
 };
 

@@ -21,12 +21,15 @@
 #include "ui/run/run_controller.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
+#include "ui/style/icons.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
 #include "ui/window/window_docks.h"
+#include "ui/workspaces/run_bar.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -50,8 +53,14 @@ void connectSwitch(QAction* action, Owner* owner, bool (Owner::*isOn)() const,
 }  // namespace
 
 WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
-                         SessionFiles& files)
-    : QObject(&window), window_(window), parts_(parts), docks_(docks), files_(files) {
+                         Workspaces& workspaces, RunBar& run_bar, SessionFiles& files)
+    : QObject(&window),
+      window_(window),
+      parts_(parts),
+      docks_(docks),
+      workspaces_(workspaces),
+      run_bar_(run_bar),
+      files_(files) {
   ui_.setupUi(&window);
   connectFile();
   connectEdit();
@@ -60,6 +69,7 @@ WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const Wi
   connectRun();
   connectOnboard();
   fillGoMenu();
+  fillWorkspaces();
   connectView();
   connectQueue();
   fillLayersMenu();
@@ -71,6 +81,7 @@ WindowMenus::WindowMenus(QMainWindow& window, const WindowParts& parts, const Wi
 void WindowMenus::connectFile() {
   on(ui_.newFromFiles, &files_, &SessionFiles::askForFiles);
   on(ui_.openSession, &files_, &SessionFiles::askForSession);
+  on(ui_.closeSession, &files_, &SessionFiles::closeSession);
   connect(ui_.recentMenu, &QMenu::aboutToShow, this, &WindowMenus::showRecent);
   on(ui_.save, &files_, &SessionFiles::save);
   on(ui_.saveAs, &files_, &SessionFiles::saveAs);
@@ -107,7 +118,7 @@ void WindowMenus::connectMode(QAction* action, PlaceMode mode) {
   on(action, this, [this, mode](bool checked) {
     docks_.mask_editor.setTool(MaskTool::kNone);  // one tool at a time
     parts_.annotation.setMode(checked ? mode : PlaceMode::kOff);
-    if (checked) docks_.raise(QStringLiteral("annotation"));
+    if (checked) workspaces_.reveal(QStringLiteral("annotation"));
   });
   connect(&annotation, &AnnotationController::modeChanged, action,
           [action, mode, &annotation] { action->setChecked(annotation.mode() == mode); });
@@ -162,7 +173,8 @@ void WindowMenus::connectRun() {
   on(ui_.stepStage, cases, advance(sessions::StepUntil::kStage));
   on(ui_.runTogether, cases, &CaseController::runTogether);
   on(ui_.rerunFromHere, cases, [this] { parts_.cases.rerunFrom(parts_.state.cursor().iteration); });
-  on(ui_.stop, cases, &CaseController::stop);
+  on(ui_.stop, this, &WindowMenus::stopRequested);
+  on(ui_.verdictStep, this, &WindowMenus::verdictStepRequested);
   on(ui_.reset, cases, &CaseController::reset);
   on(ui_.runAll, this, [this] {
     QStringList ids;
@@ -171,6 +183,11 @@ void WindowMenus::connectRun() {
     parts_.cases.runAll(ids);
   });
   parts_.state.onChange(ViewChange::kCursor, this, &WindowMenus::update);
+  ui_.runToEnd->setIcon(iconOf(Icon::kRun));
+  ui_.stepIteration->setIcon(iconOf(Icon::kStepIteration));
+  ui_.stepStage->setIcon(iconOf(Icon::kStepStage));
+  ui_.reset->setIcon(iconOf(Icon::kReset));
+  run_bar_.setActions({ui_.runToEnd, ui_.stepIteration, ui_.stepStage, ui_.reset});
 }
 
 void WindowMenus::connectOnboard() {
@@ -206,8 +223,7 @@ void WindowMenus::fillGoMenu() {
       {Step::kFirst, "Ctrl+Home"},
       {Step::kLast, "Ctrl+End"},
   };
-  const auto* scrubber = window_.findChild<RunScrubber*>();
-  if (!scrubber) return;
+  const RunScrubber* scrubber = &run_bar_.scrubber();
   for (const Key& each : kKeys) {
     QAction* go = scrubber->action(each.step);
     go->setShortcut(QKeySequence(QString::fromLatin1(each.keys)));
@@ -216,13 +232,48 @@ void WindowMenus::fillGoMenu() {
   }
 }
 
+/// One key a workspace, in the order of the tabs.
+void WindowMenus::fillWorkspaces() {
+  auto* group = new QActionGroup(ui_.viewMenu);
+  for (int i = 0; i < kWorkspaceCount; ++i) {
+    const auto workspace = static_cast<Workspace>(i);
+    auto* each = new QAction(QCoreApplication::translate("Workspace", workspaceInfo(workspace).name),
+                             ui_.viewMenu);
+    each->setShortcut(QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1)));
+    each->setStatusTip(QCoreApplication::translate("Workspace", workspaceInfo(workspace).help));
+    each->setCheckable(true);
+    group->addAction(each);
+    ui_.viewMenu->insertAction(ui_.layersMenu->menuAction(), each);
+    on(each, this, [this, workspace] { workspaces_.show(workspace); });
+    connect(&workspaces_, &Workspaces::changed, each, [each, workspace](Workspace now) {
+      if (now == workspace) each->setChecked(true);
+    });
+    each->setChecked(workspace == workspaces_.current());
+  }
+  ui_.viewMenu->insertSeparator(ui_.layersMenu->menuAction());
+  on(ui_.nextCase, this, [this] { showCase(1); });
+  on(ui_.previousCase, this, [this] { showCase(-1); });
+}
+
+void WindowMenus::showCase(int steps) {
+  const auto& cases = parts_.document.session().cases;
+  const std::string shown = parts_.cases.caseId().toStdString();
+  const auto count = static_cast<int>(cases.size());
+  for (int i = 0; i < count; ++i)
+    if (cases[static_cast<std::size_t>(i)]->id == shown && i + steps >= 0 && i + steps < count)
+      return parts_.cases.chooseCase(
+          QString::fromStdString(cases[static_cast<std::size_t>(i + steps)]->id));
+}
+
 void WindowMenus::connectView() {
   ImagePanel* image = &docks_.image;
   on(ui_.blink, image, &ImagePanel::toggleBlink);
   on(ui_.swipe, image, &ImagePanel::toggleSwipe);
   on(ui_.coreView, image, &ImagePanel::toggleCoreView);
-  on(ui_.review, this, [this] { docks_.raise(QStringLiteral("review")); });
-  on(ui_.arrange, this, [this] { docks_.arrange(); });
+  on(ui_.review, this, [this] { workspaces_.reveal(QStringLiteral("review")); });
+  on(ui_.arrange, &workspaces_, &Workspaces::arrange);
+  on(ui_.sidePane, this, [this] { workspaces_.toggleArea(Qt::RightDockWidgetArea); });
+  on(ui_.bottomPane, this, [this] { workspaces_.toggleArea(Qt::BottomDockWidgetArea); });
   for (QDockWidget* each : docks_.all())
     ui_.viewMenu->insertAction(ui_.arrange, each->toggleViewAction());
   ui_.viewMenu->insertSeparator(ui_.arrange);
@@ -233,7 +284,7 @@ void WindowMenus::connectView() {
 void WindowMenus::connectQueue() {
   QueuePanel* queue = &docks_.queue;
   on(ui_.showQueue, queue, [this] {
-    docks_.raise(QStringLiteral("queue"));
+    workspaces_.reveal(QStringLiteral("queue"));
     docks_.queue.focusList();
   });
   on(ui_.queueOpen, queue, &QueuePanel::openChosen);
@@ -242,7 +293,7 @@ void WindowMenus::connectQueue() {
   on(ui_.queueNext, queue, &QueuePanel::next);
   on(ui_.queuePrevious, queue, &QueuePanel::previous);
   on(ui_.queueDifferences, queue, [this] {
-    docks_.raise(QStringLiteral("queue"));
+    workspaces_.reveal(QStringLiteral("queue"));
     docks_.queue.showDifferences(true);
   });
 }
@@ -331,11 +382,15 @@ void WindowMenus::update() {
   ui_.redo->setEnabled(editable && document.canRedo());
   ui_.undo->setText(document.canUndo() ? tr("&Undo: %1").arg(document.undoText()) : tr("&Undo"));
   ui_.redo->setText(document.canRedo() ? tr("&Redo: %1").arg(document.redoText()) : tr("&Redo"));
+  const QString obstacle = parts_.cases.whyNotRunnable();
   for (QAction* each : {ui_.runToEnd, ui_.stepIteration, ui_.stepStage})
-    each->setEnabled(has_case && !working);
+    each->setEnabled(has_case && !working && obstacle.isEmpty());
+  if (run_tip_.isEmpty()) run_tip_ = ui_.runToEnd->statusTip();
+  setTip(*ui_.runToEnd, obstacle.isEmpty() ? run_tip_ : obstacle);
+  ui_.closeSession->setEnabled(open);
   ui_.rerunFromHere->setEnabled(has_case && !working && parts_.state.snapshot());
   updateTogether(has_case && !working);
-  ui_.stop->setEnabled(working);
+  ui_.stop->setEnabled(true);  // there is no moment at which it does not stop
   ui_.reset->setEnabled(has_case && !working && parts_.state.snapshot());
   const QList<QAction*> edits = ui_.maskMenu->actions() + annotation_edits_;
   for (QAction* each : edits) each->setEnabled(editable && has_case);

@@ -14,20 +14,27 @@ class QAction;
 
 namespace boresight::ui {
 
+class RunBar;
 class SessionFiles;
 class WindowDocks;
+class Workspaces;
 
-/// Menus, tool bar and keys: what a person can ask of the window, and when. Every action is in a
+/// Menus and keys: what a person can ask of the window, and when. Every action is in a
 /// menu, so that the sheet of keys can list it.
 class WindowMenus : public QObject {
   Q_OBJECT
 
  public:
   WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
-              SessionFiles& files);
+              Workspaces& workspaces, RunBar& run_bar, SessionFiles& files);
 
   /// Enables what can be done now.
   void update();
+
+ Q_SIGNALS:
+  /// The verdict bar's action, by its key.
+  void verdictStepRequested();
+  void stopRequested();
 
  private:
   void connectFile();
@@ -38,6 +45,8 @@ class WindowMenus : public QObject {
   void connectRun();
   void connectOnboard();
   void fillGoMenu();
+  void fillWorkspaces();
+  void showCase(int steps);
   void connectView();
   void connectQueue();
   void fillLayersMenu();
@@ -53,9 +62,12 @@ class WindowMenus : public QObject {
   QMainWindow& window_;
   WindowParts parts_;
   const WindowDocks& docks_;
+  Workspaces& workspaces_;
+  RunBar& run_bar_;
   SessionFiles& files_;
   Ui::WindowMenus ui_;
   QList<QAction*> annotation_edits_;
+  QString run_tip_;       ///< of "Run"
   QString together_tip_;  ///< of "Run with the other views"
   QString shown_change_;  ///< what the status bar says of the last undo or redo
   QList<QAction*> mask_actions_;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/run/run_headline.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "sessions/run/acceptance.h"
+#include "sessions/run/run_text.h"
+#include "sessions/text/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+std::string percent(double share) { return fixedText(100.0 * share, 1) + " %"; }
+
+std::string countText(std::size_t count, const char* item) {
+  return std::to_string(count) + " " + item + (count == 1 ? "" : "s");
+}
+
+std::string acceptedText(const LocalizationTrace& trace) {
+  const auto& limits = trace.lastOptions().support;
+  if (hasProbability(trace))
+    return " The pose is right with a probability of " + percent(trace.probability) + " (" +
+           percent(limits.min_probability) + " needed).";
+  if (!limits.gate) return "";
+  return " " + percent(trace.support.share()) + " of the edges agree (" +
+         percent(limits.min_support) + " needed).";
+}
+
+std::string convergedSentence(const LocalizationTrace& trace) {
+  double variance = 0.0;
+  for (int i = 3; i < 6; ++i) variance = std::max(variance, trace.covariance(i, i));
+  std::string text = "in " + countText(trace.iterations.size(), "iteration");
+  if (trace.attempts > 1) text += " and " + countText(static_cast<std::size_t>(trace.attempts), "attempt");
+  if (!trace.replayed) text += ", " + fixedText(trace.seconds.total(), 2) + " s";
+  return text + "." + acceptedText(trace) + " Position good to " +
+         fixedText(1e3 * std::sqrt(variance), 3) + " mm (1 sigma at the camera).";
+}
+
+std::string notSupportedSentence(const LocalizationTrace& trace) {
+  const auto& limits = trace.lastOptions().support;
+  if (hasProbability(trace))
+    return "The pose is right with a probability of " + percent(trace.probability) + " only, " +
+           percent(limits.min_probability) + " needed. The seed may be turned or too far off.";
+  const EdgeSupport& support = trace.support;
+  const bool chance = support.coverage() <= 1.5 * support.chanceCoverage();
+  return std::string(chance ? "The edges fit no better than chance: " : "Too few edges fit: ") +
+         percent(support.share()) + " agree, " + percent(limits.min_support) +
+         " needed. The seed may be turned.";
+}
+
+std::string noPoseSentence(const LocalizationTrace& trace) {
+  if (trace.status == LocalizationStatus::kPnpFailed && !trace.iterations.empty()) {
+    const IterationTrace& last = *trace.iterations.back();
+    if (last.kind == IterationKind::kMatch)
+      return "Only " + std::to_string(last.pnp.inlier_count) + " of " +
+             std::to_string(last.correspondence_count) + " matches agree, " +
+             std::to_string(trace.lastOptions().pnp.min_inliers) + " needed.";
+  }
+  std::string text = explanation(trace);
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
+}
+
+}  // namespace
+
+bool isRejected(const LocalizationTrace& trace) {
+  switch (trace.status) {
+    case LocalizationStatus::kNotSupported:
+    case LocalizationStatus::kAmbiguous:
+    case LocalizationStatus::kBlurred:
+    case LocalizationStatus::kCameraMismatch:
+      return true;
+    default:
+      return false;
+  }
+}
+
+RunHeadline runHeadline(const LocalizationTrace& trace) {
+  if (trace.converged()) return {"Converged", convergedSentence(trace)};
+  if (trace.status == LocalizationStatus::kNotSupported)
+    return {"Rejected", notSupportedSentence(trace)};
+  return {isRejected(trace) ? "Rejected" : "No pose found", noPoseSentence(trace)};
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "sessions/run/trace.h"
+
+namespace boresight::sessions {
+
+/// How a run ended, for one line: a word or two, and a sentence with what was measured and needed.
+struct RunHeadline {
+  std::string head;
+  std::string sentence;
+};
+RunHeadline runHeadline(const LocalizationTrace& trace);
+
+/// Whether the pose was found but refused, in contrast to a run that came to no pose.
+bool isRejected(const LocalizationTrace& trace);
+
+}  // namespace boresight::sessions

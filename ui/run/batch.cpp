@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/run/batch.h"
+
+#include <utility>
+
+#include "sessions/run/runner.h"
+
+namespace boresight::ui {
+namespace {
+
+QString taskKey() { return QStringLiteral("batch"); }
+
+}  // namespace
+
+Batch::Batch(QObject* parent) : QObject(parent) {}
+
+void Batch::start(const QStringList& ids) {
+  waiting_ = ids;
+  progress_ = BatchProgress{0, static_cast<int>(ids.size()), {}, 0, std::nullopt};
+  watch_.start();
+  Q_EMIT changed();
+}
+
+QString Batch::takeNext() {
+  if (!progress_) return {};
+  if (waiting_.isEmpty()) {
+    stop();
+    return {};
+  }
+  progress_->case_id = waiting_.takeFirst();
+  progress_->iteration = 0;
+  Q_EMIT changed();
+  return progress_->case_id;
+}
+
+void Batch::run(const sessions::Session& session, const QString& id) {
+  runner_.run(taskKey(), [this, session, id](const std::stop_token& stop,
+                                             const TaskRunner::Report& report) {
+    try {
+      const auto loaded = sessions::loadCase(sessions::knownCase(session, id.toStdString()));
+      sessions::requireRunnable(*loaded);
+      sessions::Runner run(loaded->problem(),
+                           sessions::RunPlan{sessions::caseOptions(session, loaded->source, "session")},
+                           {.level = sessions::RecordLevel::kFull});
+      while (!run.finished() && !stop.stop_requested()) {
+        run.advance(sessions::StepUntil::kIteration, stop);
+        const auto iterations = static_cast<int>(run.trace().iterations.size());
+        report([this, iterations] { count(iterations); });
+      }
+      if (!run.finished()) return;
+      auto trace = std::make_shared<const sessions::LocalizationTrace>(run.trace());
+      report([this, id, trace] {
+        caseDone();
+        Q_EMIT caseEnded(id, trace);
+      });
+    } catch (const std::exception& error) {
+      report([this, id, message = QString::fromUtf8(error.what())] {
+        caseDone();
+        Q_EMIT caseFailed(id, message);
+      });
+    }
+  });
+}
+
+void Batch::stop() {
+  waiting_.clear();
+  runner_.cancel(taskKey());
+  if (std::exchange(progress_, std::nullopt)) Q_EMIT changed();
+}
+
+void Batch::count(int iteration) {
+  if (!progress_) return;
+  progress_->iteration = iteration;
+  Q_EMIT changed();
+}
+
+/// Cases take about the same time each.
+void Batch::caseDone() {
+  if (!progress_) return;
+  ++progress_->done;
+  progress_->case_id.clear();
+  const double each_s = 1e-3 * static_cast<double>(watch_.elapsed()) / progress_->done;
+  progress_->seconds_left = each_s * (progress_->of - progress_->done);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QString>
+#include <QStringList>
+
+#include "sessions/session/case_run.h"
+#include "ui/run/task_runner.h"
+
+namespace boresight::ui {
+
+/// Several cases that are run one after another.
+struct BatchProgress {
+  int done = 0;
+  int of = 0;
+  QString case_id;    ///< at work, or empty between two cases
+  int iteration = 0;  ///< of that case, from 1; 0: before the first
+  std::optional<double> seconds_left;  ///< from the second case on
+};
+
+/// Runs cases in the background, whatever case the views show: inputs are read, run and recorded
+/// on a thread of its own. One case at a time, so that its owner stores it before the next begins;
+/// a stop holds at any time, also in between.
+class Batch : public QObject {
+  Q_OBJECT
+
+ public:
+  using TracePtr = std::shared_ptr<const sessions::LocalizationTrace>;
+
+  explicit Batch(QObject* parent = nullptr);
+
+  bool isActive() const { return progress_.has_value(); }
+  const std::optional<BatchProgress>& progress() const { return progress_; }
+
+  void start(const QStringList& ids);
+  /// The next case of those that wait; empty when there is none, and the batch has ended.
+  QString takeNext();
+  /// `caseEnded` or `caseFailed` follows, unless the batch is stopped.
+  void run(const sessions::Session& session, const QString& id);
+  void stop();
+
+ Q_SIGNALS:
+  void changed();
+  void caseEnded(const QString& id, const boresight::ui::Batch::TracePtr& trace);
+  void caseFailed(const QString& id, const QString& message);
+
+ private:
+  void count(int iteration);
+  void caseDone();
+
+  TaskRunner runner_;
+  QStringList waiting_;
+  std::optional<BatchProgress> progress_;
+  QElapsedTimer watch_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/window_frame.h"
+
+#include <QtWidgets>
+
+#include "ui/panels/cases_panel.h"
+#include "ui/panels/widgets.h"
+#include "ui/review/onboard_controller.h"
+#include "ui/state/document.h"
+#include "ui/style/icons.h"
+#include "ui/style/theme.h"
+#include "ui/views/image_panel.h"
+#include "ui/window/case_controller.h"
+#include "ui/window/session_files.h"
+#include "ui/window/window_docks.h"
+#include "ui/workspaces/canvas_frame.h"
+#include "ui/workspaces/case_strip.h"
+#include "ui/workspaces/drawer_bar.h"
+#include "ui/workspaces/job_strip.h"
+#include "ui/workspaces/run_bar.h"
+#include "ui/workspaces/start_page.h"
+#include "ui/workspaces/top_bar.h"
+#include "ui/workspaces/verdict_bar.h"
+#include "ui/workspaces/workspaces.h"
+
+namespace boresight::ui {
+namespace {
+
+QToolButton* toolOf(Icon icon, const char* name, const QString& tip) {
+  auto* button = named(new QToolButton, name, tip);
+  button->setIcon(iconOf(icon));
+  button->setAccessibleName(tip);
+  button->setAutoRaise(true);
+  button->setFixedSize(kButtonHeight, kButtonHeight);
+  return button;
+}
+
+}  // namespace
+
+WindowFrame::WindowFrame(QMainWindow& window, QMainWindow& body, const WindowParts& parts,
+                         const WindowDocks& docks, Workspaces& workspaces, SessionFiles& files)
+    : QObject(&window),
+      window_(window),
+      body_(body),
+      parts_(parts),
+      docks_(docks),
+      workspaces_(workspaces),
+      files_(files) {
+  build();
+  connectAll();
+}
+
+void WindowFrame::build() {
+  cases_ = new CaseStrip(docks_.cases.model());
+  verdict_ = new VerdictBar;
+  start_ = new StartPage(files_, parts_.document);
+  run_bar_ = new RunBar(parts_.state);
+  drawers_ = new DrawerBar(workspaces_);
+  jobs_ = new JobStrip;
+  canvas_column_ = new QWidget;
+  auto* canvas = new QVBoxLayout(canvas_column_);
+  canvas->setContentsMargins(0, 0, 0, 0);
+  canvas->setSpacing(0);
+  canvas->addWidget(&docks_.findings);
+  canvas->addWidget(&docks_.canvas, 1);
+  canvas->addWidget(run_bar_);
+  canvas->addWidget(drawers_);
+  stack_ = new QStackedWidget;
+  stack_->addWidget(start_);
+  stack_->addWidget(canvas_column_);
+  body_.setCentralWidget(stack_);
+  auto* centre = new QWidget;
+  auto* grid = new QGridLayout(centre);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(0);
+  grid->addWidget(cases_, 0, 0, 2, 1);
+  grid->addWidget(verdict_, 0, 1);
+  grid->addWidget(&body_, 1, 1);
+  grid->addWidget(jobs_, 2, 0, 1, 2);
+  grid->setRowStretch(1, 1);
+  grid->setColumnStretch(1, 1);
+  window_.setCentralWidget(centre);
+  window_.statusBar()->hide();  // its messages are the job strip's notes
+}
+
+void WindowFrame::connectAll() {
+  connect(window_.statusBar(), &QStatusBar::messageChanged, jobs_, &JobStrip::setNote);
+  connect(&docks_.image, &ImagePanel::placeText, jobs_, &JobStrip::setPlace);
+  connect(cases_, &CaseStrip::caseRequested, &parts_.cases, &CaseController::chooseCase);
+  connect(cases_, &CaseStrip::listRequested, this, [this] {
+    QDockWidget* list = workspaces_.dock(QStringLiteral("cases"));
+    list->setVisible(!list->isVisible());
+  });
+  connect(cases_, &CaseStrip::addRequested, &files_, &SessionFiles::askForFiles);
+  connect(&parts_.cases, &CaseController::caseChosen, cases_, &CaseStrip::setCurrent);
+  connect(&workspaces_, &Workspaces::changed, this, &WindowFrame::arrange);
+  connect(&parts_.onboard, &OnboardController::changed, this, &WindowFrame::arrange);
+  parts_.state.onChange(ViewChange::kSnapshot | ViewChange::kCase, this, &WindowFrame::arrange);
+}
+
+void WindowFrame::takeMenus() {
+  top_bar_ = new TopBar(*window_.menuBar());
+  window_.setMenuWidget(top_bar_);
+  auto* pane = toolOf(Icon::kSidePane, "toggleSide", tr("Side pane on and off (Alt+0)"));
+  auto* theme = toolOf(Icon::kTheme, "switchTheme", tr("Light or dark colours"));
+  auto* help = toolOf(Icon::kHelp, "showKeys", tr("Keys and manual (F1)"));
+  for (QToolButton* each : {pane, theme, help}) top_bar_->addTool(each);
+  connect(pane, &QToolButton::clicked, this,
+          [this] { workspaces_.toggleArea(Qt::RightDockWidgetArea); });
+  connect(theme, &QToolButton::clicked, this, &WindowFrame::switchTheme);
+  connect(help, &QToolButton::clicked, this, [this] {
+    if (auto* keys = window_.findChild<QAction*>(QStringLiteral("keys"))) keys->trigger();
+  });
+  connect(top_bar_, &TopBar::workspaceRequested, &workspaces_, &Workspaces::show);
+  arrange();
+}
+
+void WindowFrame::switchTheme() {
+  const ThemeName next =
+      themeName() == ThemeName::kDark ? ThemeName::kLight : ThemeName::kDark;
+  applyTheme(*qApp, next);
+  rememberTheme(next);
+}
+
+void WindowFrame::arrange() {
+  const Workspace workspace = workspaces_.current();
+  const bool narrow = workspaces_.isNarrow();
+  const bool start = workspace == Workspace::kStart;
+  top_bar_->setCurrent(workspace);
+  stack_->setCurrentWidget(start ? static_cast<QWidget*>(start_) : canvas_column_);
+  files_.setMakesNewSession(start);
+  if (start) start_->refresh();
+  cases_->setNarrow(narrow);
+  cases_->setVisible(narrow || workspace != Workspace::kReview);  // the queue takes its place
+  run_bar_->setVisible(workspace == Workspace::kRun);
+  run_bar_->setNarrow(narrow);
+  const bool compares = workspace == Workspace::kOnboard && parts_.onboard.review();
+  docks_.canvas.setSource(parts_.onboard.showsOnboard() ? CanvasSource::kOnboard
+                          : compares                    ? CanvasSource::kGround
+                                                        : CanvasSource::kOnly);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/drawer_bar.h"
+
+#include <QtWidgets>
+
+#include "ui/style/tokens.h"
+#include "ui/workspaces/workspaces.h"
+
+namespace boresight::ui {
+
+DrawerBar::DrawerBar(Workspaces& workspaces, QWidget* parent)
+    : QFrame(parent), workspaces_(workspaces), row_(new QHBoxLayout(this)) {
+  setObjectName(QStringLiteral("drawerBar"));
+  setFixedHeight(kDrawerHandleHeight);
+  row_->setContentsMargins(0, 0, 0, 0);
+  row_->setSpacing(0);
+  connect(&workspaces_, &Workspaces::changed, this, &DrawerBar::showWorkspace);
+  showWorkspace();
+}
+
+void DrawerBar::showWorkspace() {
+  while (QLayoutItem* item = row_->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+  const WorkspaceInfo& info = workspaceInfo(workspaces_.current());
+  // Run and Review give all the height to the image; their drawers open by the View menu and keys.
+  const bool useful = workspaces_.isNarrow() && info.drawers.size() > 2;
+  setVisible(useful);
+  if (!useful) return;
+  for (const char* name : info.drawers) {
+    QDockWidget* dock = workspaces_.dock(QLatin1String(name));
+    if (!dock) continue;
+    auto* button = new QToolButton;
+    button->setDefaultAction(dock->toggleViewAction());
+    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    button->setFixedHeight(kDrawerHandleHeight);
+    row_->addWidget(button);
+  }
+  row_->addStretch(1);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/job_controller.h"
+
+#include "sessions/review/checks.h"
+#include "ui/models/text.h"
+#include "ui/review/review_controller.h"
+#include "ui/run/run_controller.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+#include "ui/window/case_controller.h"
+
+namespace boresight::ui {
+
+JobController::JobController(const WindowParts& parts, ReviewController& review, JobStrip& strip,
+                             QObject* parent)
+    : QObject(parent), parts_(parts), review_(review), strip_(strip) {
+  connect(&strip_, &JobStrip::stopRequested, this, &JobController::stop);
+  connect(&parts_.run, &RunController::stateChanged, this, &JobController::update);
+  connect(&parts_.run, &RunController::snapshotChanged, this, &JobController::update);
+  connect(&parts_.cases, &CaseController::batchChanged, this, &JobController::update);
+  connect(&parts_.cases, &CaseController::caseChosen, this, &JobController::update);
+  connect(&parts_.tasks, &TaskRunner::busyChanged, this, &JobController::update);
+  connect(&parts_.document, &Document::opened, this, &JobController::update);
+  connect(&parts_.document, &Document::changed, this, &JobController::update);
+  connect(&review_, &ReviewController::convergenceChanged, this, &JobController::update);
+  connect(&review_, &ReviewController::checksChanged, this, &JobController::update);
+  update();
+}
+
+Job JobController::runJob() const {
+  Job job;
+  job.runs = parts_.run.state() == RunState::kWorking;
+  const auto& trace = parts_.run.snapshot();
+  const QString id = parts_.cases.caseId();
+  if (job.runs) {
+    job.name = tr("Running");
+    const auto iteration = trace ? trace->complete() + 1 : 1;
+    job.detail = tr("%1, iteration %2").arg(id).arg(iteration);
+  } else if (parts_.run.state() == RunState::kHalted) {
+    const auto complete = trace ? trace->complete() : 0;
+    job.name = complete > 0 ? tr("Paused after iteration %1").arg(complete) : tr("Paused");
+  } else if (parts_.run.state() == RunState::kFinished && trace) {
+    job.name = tr("Finished");
+    job.detail = tr("%1: %2 iterations, %3 s")
+                     .arg(id)
+                     .arg(trace->iterations.size())
+                     .arg(numberText(trace->seconds.total(), 2));
+  } else {
+    job.name = tr("Ready");
+  }
+  return job;
+}
+
+Job JobController::job() const {
+  if (const auto& batch = parts_.cases.batch()) {
+    Job job{tr("Running all cases"), {}, batch->done, batch->of, batch->seconds_left, true};
+    if (!batch->case_id.isEmpty())
+      job.detail = batch->iteration > 0
+                       ? tr("%1, iteration %2").arg(batch->case_id).arg(batch->iteration)
+                       : batch->case_id;
+    return job;
+  }
+  const Job run = runJob();
+  if (run.runs || !review_.isConvergenceTestRunning()) return run;
+  Job test{tr("Convergence test"), {}, review_.convergenceSoFar().seeds, sessions::kConvergenceSeeds,
+           std::nullopt, true};
+  return test;
+}
+
+void JobController::update() {
+  const Job next = job();
+  if (!(next == strip_.job())) strip_.setJob(next);
+  const Document& document = parts_.document;
+  strip_.setSaved(!document.isOpen()             ? QString()
+                  : document.isUntitled()        ? tr("Not saved yet")
+                  : document.isModified()        ? tr("Changes not saved")
+                  : !document.isEditable()       ? tr("Read only")
+                                                 : tr("Saved"));
+}
+
+void JobController::stop() {
+  parts_.cases.stop();
+  review_.stopConvergenceTest();
+}
+
+}  // namespace boresight::ui

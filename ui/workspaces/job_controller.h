@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+
+#include "ui/window/window_parts.h"
+#include "ui/workspaces/job_strip.h"
+
+namespace boresight::ui {
+
+class ReviewController;
+
+/// Keeps the job strip in step with what runs, and stops it.
+class JobController : public QObject {
+  Q_OBJECT
+
+ public:
+  JobController(const WindowParts& parts, ReviewController& review, JobStrip& strip,
+                QObject* parent);
+
+  Job job() const;
+  void update();
+  /// All that runs: a run, a batch also between two cases, a convergence test.
+  void stop();
+
+ private:
+  Job runJob() const;
+
+  WindowParts parts_;
+  ReviewController& review_;
+  JobStrip& strip_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/remedies_panel.h"
+
+#include <QtWidgets>
+
+#include "ui/panels/widgets.h"
+#include "ui/state/view_state.h"
+#include "ui/style/tokens.h"
+
+namespace boresight::ui {
+
+RemediesPanel::RemediesPanel(ViewState& state, QWidget* parent)
+    : QWidget(parent),
+      state_(state),
+      status_(named(new Banner, "runStatus")),
+      rows_(new QVBoxLayout) {
+  auto* content = new QWidget;
+  content->setObjectName(QStringLiteral("remedies"));
+  rows_->setContentsMargins(12, 8, 12, 8);
+  rows_->setSpacing(8);
+  content->setLayout(rows_);
+  auto* scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(content);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(status_);
+  column->addWidget(scroll, 1);
+  state_.onChange(ViewChange::kSnapshot | ViewChange::kCase, this, &RemediesPanel::showRun);
+  showRun();
+}
+
+QWidget* RemediesPanel::rowOf(const Remedy& remedy) {
+  auto* row = new QWidget;
+  auto* line = new QHBoxLayout(row);
+  line->setContentsMargins(0, 0, 0, 0);
+  line->setSpacing(8);
+  const StepInfo& info = stepInfo(remedy.step);
+  auto* cause = new QLabel(QCoreApplication::translate("Remedies", remedy.cause));
+  cause->setWordWrap(true);
+  cause->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  auto* button = new QPushButton(iconOf(info.icon), QCoreApplication::translate("Step", info.text));
+  button->setToolTip(QCoreApplication::translate("Step", info.help));
+  button->setProperty("step", static_cast<int>(remedy.step));
+  button->setMinimumWidth(kButtonHeight * 5);
+  // Queued: the step may replace this very row.
+  connect(button, &QPushButton::clicked, this,
+          [this, step = remedy.step] { Q_EMIT stepRequested(step); }, Qt::QueuedConnection);
+  line->addWidget(cause, 1);
+  line->addWidget(button);
+  return row;
+}
+
+void RemediesPanel::showRun() {
+  while (QLayoutItem* item = rows_->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+  const auto run = state_.snapshot();
+  status_->showRun(run.get());
+  shown_ = run ? remediesFor(*run) : std::vector<Remedy>();
+  if (shown_.empty()) {
+    auto* label = new QLabel(run && run->converged() ? tr("The run converged: nothing to mend.")
+                                                     : tr("Remedies stand here after a run failed."));
+    label->setProperty("caption", true);
+    label->setWordWrap(true);
+    rows_->addWidget(label);
+  }
+  for (const Remedy& remedy : shown_) rows_->addWidget(rowOf(remedy));
+  rows_->addStretch(1);
+}
+
+}  // namespace boresight::ui

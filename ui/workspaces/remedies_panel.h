@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <QWidget>
+
+#include "ui/workspaces/remedies.h"
+
+class QVBoxLayout;
+
+namespace boresight::ui {
+
+class Banner;
+class ViewState;
+
+/// What may help the shown run, the most likely first: the cause as it is seen, and a button that
+/// does it.
+class RemediesPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit RemediesPanel(ViewState& state, QWidget* parent = nullptr);
+
+  const std::vector<Remedy>& remedies() const { return shown_; }
+
+ Q_SIGNALS:
+  void stepRequested(boresight::ui::Step step);
+
+ private:
+  void showRun();
+  QWidget* rowOf(const Remedy& remedy);
+
+  ViewState& state_;
+  std::vector<Remedy> shown_;
+  Banner* status_ = nullptr;  ///< what was measured and needed, in full
+  QVBoxLayout* rows_ = nullptr;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include <QScrollArea>
+
+class QFrame;
+class QLabel;
+class QPushButton;
+class QVBoxLayout;
+
+namespace boresight::ui {
+
+class Document;
+class SessionFiles;
+
+/// One of the files that make a case: what it is for, whether it is there, and a way to choose it.
+struct FileSlot {
+  QFrame* card = nullptr;
+  QLabel* state = nullptr;
+  QLabel* name = nullptr;
+  QLabel* detail = nullptr;
+  QPushButton* choose = nullptr;
+};
+
+/// Where the work begins: the four files of a new case, examples, recent sessions, and work that a
+/// killed program has left.
+class StartPage : public QScrollArea {
+  Q_OBJECT
+
+ public:
+  enum Slot { kImage, kCamera, kMesh, kSeed };
+  static constexpr int kSlotCount = 4;
+
+  StartPage(SessionFiles& files, Document& document, QWidget* parent = nullptr);
+
+  /// Files, recent sessions and left work as they are now.
+  void refresh();
+
+ private:
+  QWidget* buildSlots();
+  void buildSlot(int index);
+  QWidget* buildExamples();
+  QWidget* exampleRow(const QString& title, const QString& text,
+                      const std::filesystem::path& session, const std::filesystem::path& image);
+  QWidget* buildGoOn();
+  void showSlots();
+  void showSlot(int index, bool added, const QString& name, const QString& detail);
+  void showUnits();
+  void showRecent();
+  void showLeft();
+
+  SessionFiles& files_;
+  Document& document_;
+  std::array<FileSlot, kSlotCount> slots_;
+  QVBoxLayout* units_ = nullptr;
+  QString shown_units_;
+  QPushButton* seedless_ = nullptr;
+  QFrame* left_ = nullptr;
+  QLabel* left_text_ = nullptr;
+  std::filesystem::path left_file_;
+  QVBoxLayout* recent_ = nullptr;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QString>
+
+#include "ui/style/icons.h"
+
+namespace boresight::ui {
+
+/// What can be done next, as a button of the verdict bar or of the remedies.
+enum class Step {
+  kNone,
+  kChooseFiles,
+  kFixFiles,
+  kRun,
+  kStop,
+  kGoOn,
+  kRunAgain,
+  kReview,
+  kWiderSearch,
+  kNudgeSeed,
+  kMask,
+  kUncertainty,
+  kAnnotate,
+  kInspect,
+  kCompetingPoses,
+  kInputs,
+  kSeedFromAnnotation,
+  kDisablePair,
+  kConvergenceTest,
+  kStopTest,
+  kNextCase,
+  kFirstDifference,
+  kLoadRecord,
+};
+
+struct StepInfo {
+  const char* text;  ///< of the button
+  const char* help;
+  Icon icon;
+};
+const StepInfo& stepInfo(Step step);
+
+}  // namespace boresight::ui

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include <QDialog>
+
+#include "sessions/io/pose_file.h"
+
+class QDoubleSpinBox;
+
+namespace boresight::ui {
+
+/// How far the seed may be off: along and about each axis of the camera.
+class UncertaintyDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  UncertaintyDialog(const sessions::DeclaredUncertainty& uncertainty, QWidget* parent);
+
+  sessions::DeclaredUncertainty uncertainty() const;
+
+ private:
+  sessions::DeclaredUncertainty stated_;
+  std::array<QDoubleSpinBox*, 3> translation_mm_{};
+  std::array<QDoubleSpinBox*, 3> rotation_deg_{};
+};
+
+}  // namespace boresight::ui

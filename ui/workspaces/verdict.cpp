@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/verdict.h"
+
+#include <algorithm>
+
+#include <QCoreApplication>
+
+#include "sessions/record/onboard_review.h"
+#include "sessions/run/run_headline.h"
+#include "ui/models/text.h"
+#include "ui/workspaces/remedies.h"
+
+namespace boresight::ui {
+namespace {
+
+using sessions::ReviewState;
+
+QString tr(const char* text) { return QCoreApplication::translate("Verdict", text); }
+
+QString stageName(Stage stage) {
+  const char* name = stage == Stage::kRender      ? "rendering"
+                     : stage == Stage::kTemplates ? "templates"
+                     : stage == Stage::kMatch     ? "matching"
+                     : stage == Stage::kPose      ? "pose"
+                     : stage == Stage::kRefine    ? "refinement"
+                     : stage == Stage::kEdges     ? "edges of the image"
+                                                  : "search";
+  return tr(name);
+}
+
+/// "Iteration 2: rendering done; next, templates."
+QString progressText(const sessions::LocalizationTrace* trace) {
+  if (!trace || trace->iterations.empty()) return tr("The edges of the image are found first.");
+  const auto number = trace->iterations.size();
+  if (!trace->last_under_way) return tr("Iteration %1 is complete.").arg(number);
+  const Stage reached = trace->iterations.back()->reached;
+  const bool refines = trace->iterations.back()->kind == IterationKind::kRefine;
+  const Stage next = reached == Stage::kRender
+                         ? (refines ? Stage::kRefine : Stage::kTemplates)
+                         : static_cast<Stage>(static_cast<int>(reached) + 1);
+  return tr("Iteration %1: %2 done; next, %3.").arg(number).arg(stageName(reached), stageName(next));
+}
+
+Verdict ofFiles(const FilesSituation& files) {
+  Verdict verdict;
+  verdict.step = Step::kChooseFiles;
+  if (files.added == 0) {
+    verdict.head = tr("No case is open.");
+    verdict.sentence = tr("Add an image, a camera, a mesh and a seed, or open a session.");
+    return verdict;
+  }
+  verdict.head = tr("%1 of 4 files added").arg(files.added);
+  verdict.sentence = files.missing;
+  return verdict;
+}
+
+Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
+  Verdict verdict;
+  verdict.icon = Icon::kPencil;
+  const QString pairs = annotation.pairs == 1 ? tr("1 pair") : tr("%1 pairs").arg(annotation.pairs);
+  verdict.head = annotation.rms_px ? tr("%1, rms %2 px").arg(pairs, numberText(*annotation.rms_px, 2))
+                                   : pairs;
+  if (!annotation.bad_pair.isEmpty()) {
+    verdict.tone = VerdictTone::kCaution;
+    verdict.icon = Icon::kWarning;
+    verdict.sentence = tr("%1 stands out by %2 sigma.")
+                           .arg(annotation.bad_pair, numberText(annotation.bad_sigmas, 1));
+    verdict.step = Step::kDisablePair;
+    verdict.step_text = tr("Switch off %1").arg(annotation.bad_pair);
+  } else if (annotation.has_pose) {
+    verdict.tone = VerdictTone::kGood;
+    verdict.icon = Icon::kCheck;
+    verdict.sentence = has_seed ? tr("The annotations give a pose.")
+                                : tr("The annotations give a pose; the case has no seed yet.");
+    verdict.step = Step::kSeedFromAnnotation;
+  } else {
+    verdict.sentence =
+        tr("Click a point in the image and the same point on the station; four pairs give a pose.");
+  }
+  return verdict;
+}
+
+Verdict ofOnboard(const Situation& situation) {
+  Verdict verdict;
+  if (!situation.comparison) {
+    verdict.head = tr("Not compared.");
+    verdict.sentence = situation.not_compared;
+    verdict.step = Step::kLoadRecord;
+    return verdict;
+  }
+  const sessions::RecordComparison& comparison = *situation.comparison;
+  const bool good = comparison.verdict != sessions::RunVerdict::kDifferent;
+  verdict.tone = good ? VerdictTone::kGood : VerdictTone::kBad;
+  verdict.icon = good ? Icon::kCheck : Icon::kCross;
+  verdict.head = comparison.verdict == sessions::RunVerdict::kEqual          ? tr("Agrees bit for bit.")
+                 : comparison.verdict == sessions::RunVerdict::kWithinLimits ? tr("Agrees within limits.")
+                                                                             : tr("Differs.");
+  if (comparison.verdict != sessions::RunVerdict::kEqual)
+    verdict.sentence = fromText(sessions::verdictText(comparison));
+  verdict.step = comparison.first ? Step::kFirstDifference : Step::kNextCase;
+  return verdict;
+}
+
+std::optional<Verdict> ofReview(const Situation& situation) {
+  const ReviewSituation& review = situation.review;
+  Verdict verdict;
+  if (!review.decision.isEmpty()) {
+    const bool good = review.state == ReviewState::kValidated;
+    verdict.tone = good ? VerdictTone::kGood : VerdictTone::kBad;
+    verdict.icon = good ? Icon::kShield : Icon::kCross;
+    verdict.head = good ? tr("Validated") : tr("Rejected");
+    verdict.sentence = review.decision;
+    verdict.step = Step::kNextCase;
+    return verdict;
+  }
+  if (review.testing) {
+    verdict.icon = Icon::kRing;
+    verdict.head = tr("Convergence test running");
+    verdict.sentence = tr("%1 seeds done; %2 end at this pose.")
+                           .arg(review.seeds_done)
+                           .arg(review.seeds_returned == review.seeds_done
+                                    ? tr("all")
+                                    : QString::number(review.seeds_returned));
+    verdict.step = Step::kStopTest;
+    verdict.plain = true;
+    return verdict;
+  }
+  if (!review.current) return std::nullopt;
+  QStringList open;
+  if (review.failed > 0)
+    open << (review.failed == 1 ? tr("1 check failed") : tr("%1 checks failed").arg(review.failed));
+  if (!review.tested) open << tr("the convergence test has not run: a competing pose is not excluded");
+  verdict.tone = VerdictTone::kCaution;
+  verdict.icon = Icon::kWarning;
+  verdict.head = tr("Converged; not yet validated");
+  verdict.sentence = open.isEmpty() ? tr("All checks passed.") : open.join(tr("; ")) + QLatin1Char('.');
+  verdict.sentence[0] = verdict.sentence[0].toUpper();
+  verdict.step = review.tested ? Step::kNone : Step::kConvergenceTest;
+  return verdict;
+}
+
+Verdict ofRun(const Situation& situation) {
+  const sessions::LocalizationTrace& trace = *situation.trace;
+  const sessions::RunHeadline headline = sessions::runHeadline(trace);
+  Verdict verdict;
+  verdict.head = fromText(headline.head);
+  verdict.sentence = fromText(headline.sentence);
+  if (trace.converged()) {
+    verdict.tone = VerdictTone::kGood;
+    verdict.icon = Icon::kCheck;
+    const bool validated = situation.review.state == ReviewState::kValidated;
+    verdict.sentence += validated ? tr(" Validated.") : tr(" Not yet validated.");
+    verdict.step = Step::kReview;
+    return verdict;
+  }
+  verdict.tone = VerdictTone::kBad;
+  verdict.icon = Icon::kCross;
+  const std::vector<Remedy>& remedies = remediesFor(trace);
+  if (!remedies.empty()) verdict.step = remedies.front().step;
+  for (std::size_t i = 1; i < std::min<std::size_t>(remedies.size(), 5); ++i)
+    verdict.others.push_back(remedies[i].step);
+  return verdict;
+}
+
+/// Under way, halted, ready, or of a case that cannot be run.
+std::optional<Verdict> ofProgress(const Situation& situation) {
+  Verdict verdict;
+  if (situation.run == RunState::kWorking || situation.in_batch) {
+    verdict.icon = Icon::kRing;
+    verdict.head = tr("Running.");
+    verdict.sentence = progressText(situation.run == RunState::kWorking ? situation.trace.get() : nullptr);
+    verdict.step = Step::kStop;
+    verdict.plain = true;
+    return verdict;
+  }
+  if (situation.run == RunState::kHalted && situation.trace && !situation.trace->finished) {
+    const auto complete = situation.trace->complete();
+    verdict.head = complete > 0 ? tr("Paused after iteration %1.").arg(complete) : tr("Paused.");
+    if (situation.trace->last_under_way) verdict.sentence = progressText(situation.trace.get());
+    verdict.icon = Icon::kClock;
+    verdict.step = Step::kGoOn;
+    return verdict;
+  }
+  if (!situation.has_seed) {
+    verdict.head = tr("No seed yet.");
+    verdict.sentence = tr("Annotate four or more points: their pose becomes the seed.");
+    verdict.step = situation.annotation.has_pose ? Step::kSeedFromAnnotation : Step::kAnnotate;
+    return verdict;
+  }
+  if (!situation.trace) {
+    verdict.head = tr("Ready to run.");
+    verdict.step = Step::kRun;
+    return verdict;
+  }
+  if (!situation.stale.isEmpty()) {
+    verdict.tone = VerdictTone::kCaution;
+    verdict.icon = Icon::kWarning;
+    verdict.head = situation.trace->converged() ? tr("Converged; settings changed since.")
+                                                : tr("Failed; settings changed since.");
+    verdict.sentence = situation.stale;
+    verdict.step = Step::kRunAgain;
+    return verdict;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Verdict verdictOf(const Situation& situation) {
+  if (!situation.has_case && situation.load_problem.isEmpty() && situation.file_problem.isEmpty())
+    return ofFiles(situation.files);
+  if (situation.workspace == Workspace::kStart && situation.files.added > 0)
+    return ofFiles(situation.files);
+  if (!situation.has_case) {
+    Verdict verdict;
+    verdict.tone = VerdictTone::kBad;
+    verdict.icon = Icon::kCross;
+    verdict.head = tr("The case cannot be read.");
+    verdict.sentence =
+        situation.file_problem.isEmpty() ? situation.load_problem : situation.file_problem;
+    verdict.step = situation.file_problem.isEmpty() ? Step::kInputs : Step::kFixFiles;
+    return verdict;
+  }
+  if (situation.workspace == Workspace::kAnnotate)
+    return ofAnnotation(situation.annotation, situation.has_seed);
+  if (situation.workspace == Workspace::kOnboard) return ofOnboard(situation);
+  if (situation.workspace == Workspace::kReview)
+    if (auto verdict = ofReview(situation)) return *verdict;
+  if (auto verdict = ofProgress(situation)) return *verdict;
+  return ofRun(situation);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <QString>
+
+#include "sessions/record/compare_records.h"
+#include "sessions/review/review_status.h"
+#include "sessions/run/trace.h"
+#include "ui/run/run_controller.h"
+#include "ui/workspaces/step.h"
+#include "ui/workspaces/workspace.h"
+
+namespace boresight::ui {
+
+/// The ground that a verdict stands on.
+enum class VerdictTone { kPlain, kGood, kBad, kCaution };
+
+/// Where the shown case stands: a state, a sentence, and what to do next.
+struct Verdict {
+  VerdictTone tone = VerdictTone::kPlain;
+  Icon icon = Icon::kInfo;
+  QString head;
+  QString sentence;
+  Step step = Step::kNone;
+  std::vector<Step> others;  ///< the first of them has a button also in a narrow window
+  QString step_text;         ///< instead of the step's own, or empty
+  bool plain = false;        ///< the step only stops
+};
+
+/// Files on their way to a case.
+struct FilesSituation {
+  int added = 0;  ///< of four
+  QString missing;
+};
+
+/// The annotations of the case.
+struct AnnotationSituation {
+  int pairs = 0;
+  std::optional<double> rms_px;
+  QString bad_pair;  ///< the annotation that stands out, or empty
+  double bad_sigmas = 0.0;
+  bool has_pose = false;
+};
+
+struct ReviewSituation {
+  bool current = false;  ///< the checks are of what is shown
+  int failed = 0;
+  bool testing = false;
+  int seeds_done = 0;
+  int seeds_returned = 0;
+  bool tested = false;
+  sessions::ReviewState state = sessions::ReviewState::kNew;
+  QString decision;  ///< "by A. Operator, 09:02"; empty: none holds
+  QString problem;   ///< why there is nothing to check, or empty
+};
+
+/// All that a verdict is made of.
+struct Situation {
+  Workspace workspace = Workspace::kRun;
+  FilesSituation files;
+  bool has_case = false;
+  bool has_seed = true;
+  QString load_problem;
+  QString file_problem;  ///< a missing or changed input file, or empty
+  RunState run = RunState::kEmpty;
+  bool in_batch = false;  ///< the batch is at the shown case
+  std::shared_ptr<const sessions::LocalizationTrace> trace;
+  QString stale;  ///< what has changed since the run, or empty
+  AnnotationSituation annotation;
+  ReviewSituation review;
+  std::shared_ptr<const sessions::RecordComparison> comparison;
+  QString not_compared;  ///< why there is no comparison
+};
+
+Verdict verdictOf(const Situation& situation);
+
+}  // namespace boresight::ui

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/verdict_bar.h"
+
+#include <QtWidgets>
+
+#include "ui/panels/widgets.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kOthersWide = 2;    // buttons next to the action
+constexpr int kOthersNarrow = 1;  // the rest is behind "..."
+
+const char* toneName(VerdictTone tone) {
+  return tone == VerdictTone::kGood  ? "good"
+         : tone == VerdictTone::kBad ? "bad"
+         : tone == VerdictTone::kCaution ? "caution"
+                                         : "plain";
+}
+
+QRgb Theme::*colorOf(VerdictTone tone) {
+  return tone == VerdictTone::kGood  ? &Theme::success_text
+         : tone == VerdictTone::kBad ? &Theme::failure_text
+         : tone == VerdictTone::kCaution ? &Theme::warning_text
+                                         : &Theme::accent;
+}
+
+QString textOf(Step step) { return QCoreApplication::translate("Step", stepInfo(step).text); }
+QString helpOf(Step step) { return QCoreApplication::translate("Step", stepInfo(step).help); }
+
+}  // namespace
+
+VerdictBar::VerdictBar(QWidget* parent)
+    : QFrame(parent),
+      icon_(new QLabel),
+      head_(named(new QLabel, "verdictHeadline")),
+      sentence_(named(new QLabel, "verdictSentence")),
+      badge_(named(new QPushButton, "warningBadge")),
+      others_(new QHBoxLayout),
+      more_(named(new QToolButton, "verdictMore", tr("What else may help"))),
+      more_menu_(new QMenu(this)),
+      action_(named(new QPushButton, "verdictAction")) {
+  setObjectName(QStringLiteral("verdictBar"));
+  setFixedHeight(kVerdictHeight);
+  sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  sentence_->setTextFormat(Qt::PlainText);
+  head_->setTextFormat(Qt::PlainText);
+  badge_->setIcon(iconOf(Icon::kWarning, &Theme::warning_text));
+  more_->setText(QStringLiteral("…"));
+  more_->setPopupMode(QToolButton::InstantPopup);
+  more_->setMenu(more_menu_);
+  more_->setAccessibleName(tr("More actions"));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(12, 4, 8, 4);
+  row->setSpacing(8);
+  for (QWidget* each : {static_cast<QWidget*>(icon_), static_cast<QWidget*>(head_)})
+    row->addWidget(each);
+  row->addWidget(sentence_, 1);
+  row->addWidget(badge_);
+  row->addLayout(others_);
+  row->addWidget(more_);
+  row->addWidget(action_);
+  for (QWidget* each : std::initializer_list<QWidget*>{badge_, more_, action_})
+    each->setFixedHeight(kButtonHeight);
+  connect(badge_, &QPushButton::clicked, this, &VerdictBar::warningsRequested);
+  connect(action_, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(verdict_.step); });
+  setWarnings({});
+  setVerdict({});
+}
+
+void VerdictBar::setVerdict(const Verdict& verdict) {
+  verdict_ = verdict;
+  setProperty("tone", QLatin1String(toneName(verdict.tone)));
+  icon_->setPixmap(iconOf(verdict.icon, colorOf(verdict.tone)).pixmap(kToolIcon, kToolIcon));
+  head_->setText(verdict.head);
+  action_->setVisible(verdict.step != Step::kNone);
+  action_->setText(verdict.step_text.isEmpty() ? textOf(verdict.step) : verdict.step_text);
+  action_->setToolTip(tr("%1 (Ctrl+Enter)").arg(helpOf(verdict.step)));
+  action_->setProperty("primary", !verdict.plain);
+  action_->setIcon(iconOf(stepInfo(verdict.step).icon,
+                          verdict.plain ? &Theme::text : &Theme::on_accent));
+  setAccessibleName(text());
+  showOthers();
+  for (QWidget* each : std::initializer_list<QWidget*>{this, head_, action_}) {
+    each->style()->unpolish(each);
+    each->style()->polish(each);
+  }
+  elide();
+}
+
+QString VerdictBar::text() const {
+  return verdict_.sentence.isEmpty() ? verdict_.head : verdict_.head + QLatin1Char(' ') + verdict_.sentence;
+}
+
+void VerdictBar::showOthers() {
+  while (QLayoutItem* item = others_->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+  more_menu_->clear();
+  const int shown = width() < kWideWindow ? kOthersNarrow : kOthersWide;
+  for (std::size_t i = 0; i < verdict_.others.size(); ++i) {
+    const Step step = verdict_.others[i];
+    const auto ask = [this, step] { Q_EMIT stepRequested(step); };
+    if (static_cast<int>(i) < shown) {
+      auto* button = new QPushButton(iconOf(stepInfo(step).icon), textOf(step));
+      button->setToolTip(helpOf(step));
+      button->setFixedHeight(kButtonHeight);
+      connect(button, &QPushButton::clicked, this, ask, Qt::QueuedConnection);
+      others_->addWidget(button);
+    } else {
+      QAction* each = more_menu_->addAction(iconOf(stepInfo(step).icon), textOf(step));
+      each->setToolTip(helpOf(step));
+      connect(each, &QAction::triggered, this, ask, Qt::QueuedConnection);
+    }
+  }
+  more_->setVisible(!more_menu_->isEmpty());
+}
+
+void VerdictBar::setWarnings(const QStringList& sentences) {
+  warning_count_ = static_cast<int>(sentences.size());
+  badge_->setVisible(warning_count_ > 0);
+  badge_->setText(warning_count_ == 1 ? tr("1 warning") : tr("%1 warnings").arg(warning_count_));
+  badge_->setToolTip(sentences.join(QLatin1Char('\n')));
+  elide();
+}
+
+/// The whole sentence is in the tool tip.
+void VerdictBar::elide() {
+  layout()->activate();
+  const QString shown =
+      sentence_->fontMetrics().elidedText(verdict_.sentence, Qt::ElideRight, sentence_->width());
+  sentence_->setText(shown);
+  sentence_->setToolTip(shown == verdict_.sentence ? QString() : verdict_.sentence);
+}
+
+void VerdictBar::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  const bool narrow = event->size().width() < kWideWindow;
+  const bool was_narrow = event->oldSize().width() < kWideWindow;
+  if (narrow != was_narrow) showOthers();
+  elide();
+}
+
+}  // namespace boresight::ui

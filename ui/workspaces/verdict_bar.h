@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QFrame>
+#include <QStringList>
+
+#include "ui/workspaces/verdict.h"
+
+class QHBoxLayout;
+class QLabel;
+class QMenu;
+class QPushButton;
+class QToolButton;
+
+namespace boresight::ui {
+
+/// Above every workspace: where the shown case stands, in a sentence, and what to do next. Warnings
+/// of the inputs are a badge of it.
+class VerdictBar : public QFrame {
+  Q_OBJECT
+
+ public:
+  explicit VerdictBar(QWidget* parent = nullptr);
+
+  void setVerdict(const Verdict& verdict);
+  const Verdict& verdict() const { return verdict_; }
+  /// Sentences; empty hides the badge.
+  void setWarnings(const QStringList& sentences);
+  /// As a screen reader says it: head and sentence.
+  QString text() const;
+  /// The action's button; hidden without one.
+  QPushButton& action() { return *action_; }
+
+ Q_SIGNALS:
+  void stepRequested(boresight::ui::Step step);
+  void warningsRequested();
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void showOthers();
+  void elide();
+
+  Verdict verdict_;
+  int warning_count_ = 0;
+  QLabel* icon_ = nullptr;
+  QLabel* head_ = nullptr;
+  QLabel* sentence_ = nullptr;
+  QPushButton* badge_ = nullptr;
+  QHBoxLayout* others_ = nullptr;
+  QToolButton* more_ = nullptr;
+  QMenu* more_menu_ = nullptr;
+  QPushButton* action_ = nullptr;
+};
+
+}  // namespace boresight::ui

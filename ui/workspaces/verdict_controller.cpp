@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/verdict_controller.h"
+
+#include <algorithm>
+
+#include <QtWidgets>
+
+#include "sessions/review/checks.h"
+#include "sessions/session/case_annotations.h"
+#include "ui/models/text.h"
+#include "ui/panels/pose_panel.h"
+#include "ui/review/onboard_panel.h"
+#include "ui/review/review_panel.h"
+#include "ui/state/document.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/views/mask_editor.h"
+#include "ui/window/case_controller.h"
+#include "ui/window/input_findings.h"
+#include "ui/window/session_files.h"
+#include "ui/window/window_docks.h"
+#include "ui/workspaces/uncertainty_dialog.h"
+#include "ui/workspaces/verdict_bar.h"
+#include "ui/workspaces/workspaces.h"
+
+namespace boresight::ui {
+namespace {
+
+QString decisionText(const sessions::ReviewStatus& status) {
+  if (!status.holds()) return {};
+  const sessions::Decision& decision = *status.decision;
+  const QString time = fromText(decision.time).mid(11, 5);
+  QString text = VerdictController::tr("by %1, %2 UTC.").arg(fromText(decision.by), time);
+  if (status.awaits_approval) text += VerdictController::tr(" A second person must approve.");
+  if (status.state == sessions::ReviewState::kRejected && !decision.comment.empty())
+    text = VerdictController::tr("by %1: %2").arg(fromText(decision.by), fromText(decision.comment));
+  return text;
+}
+
+}  // namespace
+
+VerdictController::VerdictController(const Links& links, VerdictBar& bar, QWidget& window)
+    : QObject(&window),
+      parts_(links.parts),
+      docks_(links.docks),
+      workspaces_(links.workspaces),
+      files_(links.files),
+      findings_(links.findings),
+      bar_(bar),
+      window_(window) {
+  soon_.setSingleShot(true);
+  soon_.setInterval(0);
+  connect(&soon_, &QTimer::timeout, this, &VerdictController::update);
+  connect(&bar_, &VerdictBar::stepRequested, this, &VerdictController::perform);
+  connect(&bar_, &VerdictBar::warningsRequested, this, [this] { perform(Step::kInputs); });
+  follow();
+  update();
+}
+
+void VerdictController::follow() {
+  const auto soon = [this] { soon_.start(); };
+  parts_.state.onChange(ViewChange::kAll, this, soon);
+  connect(&parts_.document, &Document::opened, this, soon);
+  connect(&parts_.document, &Document::changed, this, soon);
+  connect(&parts_.run, &RunController::stateChanged, this, soon);
+  connect(&parts_.cases, &CaseController::batchChanged, this, soon);
+  connect(&parts_.cases, &CaseController::stalenessChanged, this, soon);
+  connect(&parts_.cases, &CaseController::caseChosen, this, soon);
+  connect(&parts_.cases, &CaseController::failed, this, soon);
+  connect(&parts_.annotation, &AnnotationController::solutionChanged, this, soon);
+  connect(&parts_.annotation, &AnnotationController::annotationsChanged, this, soon);
+  connect(&parts_.onboard, &OnboardController::changed, this, soon);
+  ReviewController& review = docks_.review.controller();
+  connect(&review, &ReviewController::checksChanged, this, soon);
+  connect(&review, &ReviewController::reviewStatusChanged, this, soon);
+  connect(&review, &ReviewController::convergenceChanged, this, soon);
+  connect(&workspaces_, &Workspaces::changed, this, soon);
+  connect(&files_, &SessionFiles::collectedChanged, this, soon);
+  connect(&findings_, &InputFindings::changed, this, soon);
+}
+
+AnnotationSituation VerdictController::annotationSituation() const {
+  const AnnotationController& annotation = parts_.annotation;
+  AnnotationSituation situation;
+  const auto count = [](const auto& pairs) {
+    return static_cast<int>(std::ranges::count_if(pairs, [](const auto& pair) { return pair.used(); }));
+  };
+  situation.pairs = count(annotation.annotations().points) + count(annotation.annotations().lines);
+  situation.has_pose = annotation.solvedPose().has_value();
+  const auto& solution = annotation.solution();
+  if (!solution || !solution->result.solution) return situation;
+  situation.rms_px = solution->result.solution->rms_px;
+  for (const auto& [id, sigmas] : solution->outlierAnnotations())
+    if (std::abs(sigmas) > situation.bad_sigmas) {
+      situation.bad_pair = fromText(id);
+      situation.bad_sigmas = std::abs(sigmas);
+    }
+  return situation;
+}
+
+ReviewSituation VerdictController::reviewSituation() const {
+  const ReviewController& review = docks_.review.controller();
+  ReviewSituation situation;
+  situation.current = review.isCurrent();
+  situation.failed = sessions::countOf(review.checks(), sessions::CheckState::kFailed);
+  situation.testing = review.isConvergenceTestRunning();
+  situation.seeds_done = review.convergenceSoFar().seeds;
+  situation.seeds_returned = review.convergenceSoFar().returned;
+  situation.tested = review.isCurrent() && !review.awaitsConvergenceTest() && !situation.testing;
+  if (review.caseId().empty()) return situation;
+  const sessions::ReviewStatus status = review.reviewStatus();
+  situation.state = status.state;
+  situation.decision = decisionText(status);
+  situation.problem = review.problem();
+  return situation;
+}
+
+Situation VerdictController::situation() const {
+  Situation situation;
+  const QString id = parts_.cases.caseId();
+  situation.workspace = workspaces_.current();
+  situation.files = files_.situation();
+  situation.has_case = parts_.state.currentCase() != nullptr;
+  if (const auto* shown = shownCase(parts_.document, parts_.state))
+    situation.has_seed = shown->has_seed;
+  situation.load_problem = parts_.cases.loadProblem();
+  if (!id.isEmpty()) situation.file_problem = findings_.adviceFor(id).section(QLatin1Char('\n'), 0, 0);
+  situation.run = parts_.run.state();
+  situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
+  situation.trace = parts_.state.snapshot();
+  situation.stale = parts_.cases.staleness();
+  situation.annotation = annotationSituation();
+  situation.review = reviewSituation();
+  situation.comparison = parts_.onboard.comparison();
+  situation.not_compared = parts_.onboard.whyNotCompared();
+  return situation;
+}
+
+void VerdictController::update() { bar_.setVerdict(verdictOf(situation())); }
+
+void VerdictController::perform(Step step) {
+  CaseController& cases = parts_.cases;
+  switch (step) {
+    case Step::kNone:
+      return;
+    case Step::kChooseFiles:
+      return files_.askForFiles();
+    case Step::kFixFiles:
+      return findings_.repair();
+    case Step::kRun:
+    case Step::kGoOn:
+      return cases.advance(sessions::StepUntil::kEnd);
+    case Step::kRunAgain:
+      cases.reset();
+      return cases.advance(sessions::StepUntil::kEnd);
+    case Step::kStop:
+      return cases.stop();
+    case Step::kReview:
+      return workspaces_.reveal(QStringLiteral("review"));
+    case Step::kWiderSearch:
+      return cases.runWithWiderSearch();
+    case Step::kNudgeSeed:
+      return nudgeSeed();
+    case Step::kMask:
+      workspaces_.reveal(QStringLiteral("mask"));
+      return docks_.mask_editor.setTool(MaskTool::kBrush);
+    case Step::kUncertainty:
+      return askForUncertainty();
+    case Step::kAnnotate:
+      workspaces_.show(Workspace::kAnnotate);
+      return parts_.annotation.setMode(PlaceMode::kPoint);
+    case Step::kInspect:
+      return workspaces_.show(Workspace::kDiagnose);
+    case Step::kCompetingPoses:
+      workspaces_.show(Workspace::kDiagnose);
+      return workspaces_.reveal(QStringLiteral("hypotheses"));
+    case Step::kInputs:
+      return workspaces_.reveal(QStringLiteral("inputs"));
+    case Step::kSeedFromAnnotation:
+      if (const auto pose = parts_.annotation.solvedPose()) cases.useAsSeed(*pose);
+      return workspaces_.show(Workspace::kRun);
+    case Step::kDisablePair:
+      return disablePair();
+    case Step::kConvergenceTest:
+      return docks_.review.controller().startConvergenceTest(sessions::kConvergenceSeeds);
+    case Step::kStopTest:
+      return docks_.review.controller().stopConvergenceTest();
+    case Step::kNextCase:
+      return showNextCase();
+    case Step::kFirstDifference:
+      return parts_.onboard.goToFirstDifference();
+    case Step::kLoadRecord:
+      return askForOnboardRecord(parts_.onboard, &window_);
+  }
+}
+
+/// The seed is shown, nothing else moves, and the keys move it.
+void VerdictController::nudgeSeed() {
+  if (!parts_.state.currentCase()) return;
+  if (workspaces_.current() != Workspace::kDiagnose) workspaces_.show(Workspace::kRun);
+  parts_.state.setCursor({-1, Stage::kFinished});
+  if (auto* gizmo = window_.findChild<QAction*>(QStringLiteral("nudgeSeed"))) {
+    if (!gizmo->isChecked()) gizmo->trigger();
+    return;
+  }
+  workspaces_.reveal(QStringLiteral("pose"));
+  if (auto* pad = window_.findChild<QWidget*>(QStringLiteral("nudgePad"))) pad->setFocus();
+}
+
+void VerdictController::disablePair() {
+  const std::string id = annotationSituation().bad_pair.toStdString();
+  const sessions::Annotations& annotations = parts_.annotation.annotations();
+  const auto found = [&id](const auto& pairs) {
+    return std::ranges::find_if(pairs, [&id](const auto& pair) { return pair.id == id; });
+  };
+  const QString text = tr("Switch off %1").arg(fromText(id));
+  if (const auto point = found(annotations.points); point != annotations.points.end()) {
+    sessions::PointPair off = *point;
+    off.enabled = false;
+    parts_.annotation.replacePoint(id, off, text);
+  } else if (const auto line = found(annotations.lines); line != annotations.lines.end()) {
+    sessions::LinePair off = *line;
+    off.enabled = false;
+    parts_.annotation.replaceLine(id, off, text);
+  }
+}
+
+void VerdictController::askForUncertainty() {
+  const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
+  if (!session_case) return;
+  UncertaintyDialog dialog(session_case->uncertainty, &window_);
+  if (dialog.exec() == QDialog::Accepted) parts_.cases.runWithUncertainty(dialog.uncertainty());
+}
+
+/// In the session's order, from the shown one on, round its end.
+void VerdictController::showNextCase() {
+  const sessions::Session& session = parts_.document.session();
+  const std::string shown = parts_.cases.caseId().toStdString();
+  const auto count = session.cases.size();
+  std::size_t at = 0;
+  while (at < count && session.cases[at]->id != shown) ++at;
+  for (std::size_t i = 1; i < count; ++i) {
+    const std::string& id = session.cases[(at + i) % count]->id;
+    if (sessions::reviewStatusOf(session, id).holds()) continue;
+    return parts_.cases.chooseCase(fromText(id));
+  }
+}
+
+}  // namespace boresight::ui

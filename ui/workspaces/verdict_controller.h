@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+
+#include "ui/window/window_parts.h"
+#include "ui/workspaces/verdict.h"
+
+class QWidget;
+
+namespace boresight::ui {
+
+class InputFindings;
+class SessionFiles;
+class VerdictBar;
+class WindowDocks;
+class Workspaces;
+
+/// Keeps the verdict bar in step with all that it tells of, and does what its buttons, and those
+/// of the remedies, ask for.
+class VerdictController : public QObject {
+  Q_OBJECT
+
+ public:
+  struct Links {
+    const WindowParts& parts;
+    const WindowDocks& docks;
+    Workspaces& workspaces;
+    SessionFiles& files;
+    InputFindings& findings;
+  };
+
+  VerdictController(const Links& links, VerdictBar& bar, QWidget& window);
+
+  Situation situation() const;
+  /// The bar as things are now; changes of them come here by themselves, once per event loop.
+  void update();
+
+ public Q_SLOTS:
+  void perform(boresight::ui::Step step);
+
+ private:
+  void follow();
+  AnnotationSituation annotationSituation() const;
+  ReviewSituation reviewSituation() const;
+  void nudgeSeed();
+  void disablePair();
+  void askForUncertainty();
+  void showNextCase();
+
+  WindowParts parts_;
+  const WindowDocks& docks_;
+  Workspaces& workspaces_;
+  SessionFiles& files_;
+  InputFindings& findings_;
+  VerdictBar& bar_;
+  QWidget& window_;
+  QTimer soon_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/workspace.h"
+
+#include <array>
+
+#include <QCoreApplication>
+
+#include "ui/style/tokens.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr Qt::DockWidgetArea kLeft = Qt::LeftDockWidgetArea;
+constexpr Qt::DockWidgetArea kRight = Qt::RightDockWidgetArea;
+constexpr Qt::DockWidgetArea kBottom = Qt::BottomDockWidgetArea;
+constexpr int kTableDrawer = 160;    // height
+constexpr int kIterationsTable = 150;
+constexpr int kAnnotationTable = 220;
+
+std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
+  return {{
+      {QT_TRANSLATE_NOOP("Workspace", "Start"),
+       QT_TRANSLATE_NOOP("Workspace", "Make a case from files, open a session or an example"),
+       false,
+       {},
+       {},
+       {}},
+      {QT_TRANSLATE_NOOP("Workspace", "Run"),
+       QT_TRANSLATE_NOOP("Workspace", "Run the case and watch how the pose is found"),
+       true,
+       {{"scene", kRight, kWide.run_side, nullptr, 3}, {"result", kRight, kWide.run_side, nullptr, 2}},
+       {},
+       {"scene", "result"}},
+      {QT_TRANSLATE_NOOP("Workspace", "Diagnose"),
+       QT_TRANSLATE_NOOP("Workspace", "Find out why a run failed, and what helps"),
+       true,
+       {{"inspector", kRight, kWide.diagnose_side, nullptr, 5},
+        {"remedies", kRight, kWide.diagnose_side, nullptr, 2},
+        {"hypotheses", kRight, kWide.diagnose_side, "remedies"},
+        {"configuration", kRight, kWide.diagnose_side, "remedies"},
+        {"iterations", kBottom, kIterationsTable}},
+       {{"inspector", kRight, kNarrow.diagnose_side}},
+       {"inspector", "remedies", "iterations", "hypotheses", "configuration"}},
+      {QT_TRANSLATE_NOOP("Workspace", "Annotate"),
+       QT_TRANSLATE_NOOP("Workspace", "Mark points and lines in the image and on the station"),
+       true,
+       {{"scene", kRight, 760}, {"annotation", kBottom, kAnnotationTable}},
+       {{"scene", kRight, 520}, {"annotation", kBottom, kTableDrawer}},
+       {"scene", "annotation", "mask", "levels"}},
+      {QT_TRANSLATE_NOOP("Workspace", "Review"),
+       QT_TRANSLATE_NOOP("Workspace", "Check the pose, then validate or reject it"),
+       true,
+       {{"queue", kLeft, kWide.queue_width}, {"review", kRight, kWide.review_side}},
+       {{"review", kRight, kNarrow.review_side}},
+       {"review", "queue"}},
+      {QT_TRANSLATE_NOOP("Workspace", "Onboard"),
+       QT_TRANSLATE_NOOP("Workspace", "Compare what the spacecraft computed with a ground run"),
+       true,
+       {{"onboard", kBottom, 260}},
+       {{"onboard", kBottom, 200}},
+       {"onboard"}},
+  }};
+}
+
+const std::array<WorkspaceInfo, kWorkspaceCount>& infos() {
+  static const std::array<WorkspaceInfo, kWorkspaceCount> kInfos = makeInfos();
+  return kInfos;
+}
+
+}  // namespace
+
+const WorkspaceInfo& workspaceInfo(Workspace workspace) {
+  return infos()[static_cast<std::size_t>(workspace)];
+}
+
+std::optional<Workspace> workspaceNamed(const QString& name) {
+  for (int i = 0; i < kWorkspaceCount; ++i) {
+    const auto workspace = static_cast<Workspace>(i);
+    if (name.compare(QLatin1String(workspaceInfo(workspace).name), Qt::CaseInsensitive) == 0)
+      return workspace;
+  }
+  return std::nullopt;
+}
+
+std::optional<Workspace> homeOf(const QString& dock) {
+  struct Home {
+    const char* dock;
+    Workspace workspace;
+  };
+  static constexpr Home kHomes[] = {
+      {"annotation", Workspace::kAnnotate},
+      {"review", Workspace::kReview},
+      {"queue", Workspace::kReview},
+      {"onboard", Workspace::kOnboard},
+  };
+  for (const Home& home : kHomes)
+    if (dock == QLatin1String(home.dock)) return home.workspace;
+  return std::nullopt;
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <QByteArray>
+#include <QObject>
+
+#include "ui/workspaces/workspace.h"
+
+class QDockWidget;
+class QMainWindow;
+class QSettings;
+
+namespace boresight::ui {
+
+/// Which workspace is in front, and how its panels lie: at first as `workspaceInfo` says, then as
+/// the operator left them. Panels that a workspace does not place can be added to it.
+class Workspaces : public QObject {
+  Q_OBJECT
+
+ public:
+  /// `body` holds the docks.
+  Workspaces(QMainWindow& body, std::vector<QDockWidget*> docks, QObject* parent = nullptr);
+
+  Workspace current() const { return current_; }
+  void show(Workspace workspace);
+  /// Brings a panel to the front, in the workspace of its task.
+  void reveal(const QString& dock);
+  /// The panels of the current workspace as they are at first.
+  void arrange();
+  /// The window has another size: wide and narrow windows have arrangements of their own.
+  void windowResized();
+  bool isNarrow() const { return narrow_; }
+  /// The panels at the right or at the bottom, all or none.
+  void toggleArea(Qt::DockWidgetArea area);
+  QDockWidget* dock(const QString& name) const;
+
+  void save(QSettings& settings);
+  void restore(const QSettings& settings);
+
+ Q_SIGNALS:
+  void changed(boresight::ui::Workspace workspace);
+
+ private:
+  void place(const std::vector<PlacedDock>& places);
+  void giveSizes(const std::vector<PlacedDock>& places);
+  void keepOneDrawer(QDockWidget* opened);
+  void bringUp();
+  QByteArray& stateOf(Workspace workspace, bool narrow) {
+    return states_[narrow ? 1 : 0][static_cast<std::size_t>(workspace)];
+  }
+  QByteArray& state() { return stateOf(current_, narrow_); }
+
+  QMainWindow& body_;
+  std::vector<QDockWidget*> docks_;
+  Workspace current_ = Workspace::kStart;
+  bool narrow_ = true;
+  std::array<std::array<QByteArray, kWorkspaceCount>, 2> states_;  ///< empty: as at first
+  bool placing_ = false;
+  bool shown_ = false;
+};
+
+}  // namespace boresight::ui
