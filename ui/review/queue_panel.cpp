@@ -221,8 +221,30 @@ namespace {
 
 constexpr QSize kQueueThumbnail_px{76, 57};  // of a screen without scaling
 constexpr int kUsualQueueName = 18;          // letters
+constexpr int kAllColumns_px = 560;          // width from which all columns fit
 constexpr int kTroubleTab = 0;
 constexpr int kDifferencesTab = 1;
+
+}  // namespace
+
+namespace {
+
+/// In a narrow list a case has its state and its trouble below its name.
+class CaseWithTrouble final : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    option->textElideMode = Qt::ElideRight;
+    const auto* view = qobject_cast<const QTableView*>(option->widget);
+    if (!view || !view->isColumnHidden(QueueModel::kTrouble)) return;
+    const QChar line(QChar::LineSeparator);
+    option->text += line + index.siblingAtColumn(QueueModel::kStatus).data().toString() + line +
+                    index.siblingAtColumn(QueueModel::kTrouble).data().toString();
+  }
+};
 
 }  // namespace
 
@@ -238,6 +260,7 @@ QueuePanel::QueuePanel(Document& document, QWidget* parent)
       kDifferencesTab, tr("Last run of each case against the previous run (D in the list)"));
   buildTables();
   buildForm();
+  ui_.queueMessage->setMinimumHeight(2 * fontMetrics().lineSpacing());
   connect(ui_.queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
   connect(ui_.queueFilter, &QLineEdit::textChanged, this, [this](const QString& text) {
     filter_.setText(text);
@@ -255,6 +278,7 @@ void QueuePanel::buildTables() {
       std::max(kQueueThumbnail_px.height(), 3 * fontMetrics().lineSpacing()) + 4);
   ui_.queue->setWordWrap(true);
   ui_.queue->sortByColumn(QueueModel::kTrouble, Qt::AscendingOrder);
+  ui_.queue->setItemDelegateForColumn(QueueModel::kCase, new CaseWithTrouble(ui_.queue));
   queue_hint_ = new EmptyHint(*ui_.queue);
   differences_filter_.setSourceModel(&differences_);
   differences_filter_.setSortRole(kSortRole);
@@ -291,9 +315,15 @@ QString QueuePanel::chosenCase() const {
 
 QString QueuePanel::message() const { return ui_.queueMessage->text(); }
 
+/// In a place of its own, so that no button moves.
 void QueuePanel::tell(const QString& text) {
   ui_.queueMessage->setText(text);
-  ui_.queueMessage->setVisible(!text.isEmpty());
+  ui_.queueMessage->setToolTip(text);
+}
+
+void QueuePanel::setCurrent(const QString& id) {
+  current_ = id;
+  choose(id);
 }
 
 void QueuePanel::focusList() {
@@ -338,6 +368,7 @@ void QueuePanel::showEntries() {
           ? tr("No matching cases.")
           : tr("No case has two runs: change an option and run again (Ctrl+F5)."));
   if (chosenCase() != chosen) choose(chosen);
+  if (!table()->currentIndex().isValid()) choose(current_);
   if (!table()->currentIndex().isValid()) step(0);
   fitColumns();
   showProgress();
@@ -359,6 +390,23 @@ void QueuePanel::fitColumns() {
       QueueModel::kCase,
       kQueueThumbnail_px.width() + 16 + kUsualQueueName * fontMetrics().averageCharWidth());
   ui_.differences->resizeColumnsToContents();
+}
+
+void QueuePanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  showColumns();
+}
+
+void QueuePanel::showColumns() {
+  const bool narrow = width() < kAllColumns_px;
+  for (const int column : {QueueModel::kStatus, QueueModel::kTrouble, QueueModel::kMargin,
+                           QueueModel::kFromSeed, QueueModel::kInliers})
+    ui_.queue->setColumnHidden(column, narrow);
+  ui_.queue->horizontalHeader()->setSectionResizeMode(
+      QueueModel::kCase, narrow ? QHeaderView::Stretch : QHeaderView::Interactive);
+  for (const int column : {DifferencesModel::kChecks, DifferencesModel::kInliers,
+                           DifferencesModel::kApart, DifferencesModel::kWhy})
+    ui_.differences->setColumnHidden(column, narrow);
 }
 
 void QueuePanel::showProgress() {
@@ -423,10 +471,10 @@ bool QueuePanel::asksForSignature(Act act, const QString& id) {
   pending_case_ = id;
   missing->setFocus();
   const bool accepts = act == Act::kAccept;
-  const QString question = missing == ui_.queueName ? (accepts ? tr("Your name, to accept %1")
+  const QString question = missing == ui_.queueName ? (accepts ? tr("Your name, to validate %1")
                                                                : tr("Your name, to reject %1"))
-                           : accepts                ? tr("Reason to accept %1")
-                                                    : tr("Reason to reject %1");
+                           : accepts                ? tr("Why do you validate %1?")
+                                                    : tr("Why do you reject %1?");
   tell(question.arg(id) + tr(": type, then Enter; Escape cancels."));
   return true;
 }

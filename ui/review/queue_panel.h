@@ -75,6 +75,8 @@ class QueuePanel : public QWidget {
   /// Whether the operator can see it: Qt also calls a panel behind another one's tab visible.
   /// Nothing is checked out of sight.
   void setInSight(bool in_sight);
+  /// The case that the window shows becomes the chosen row.
+  void setCurrent(const QString& id);
   /// Of the chosen row of the list that is shown, or empty.
   QString chosenCase() const;
   /// What was said last: why something cannot be done, what is asked for, what was done.
@@ -97,6 +99,7 @@ class QueuePanel : public QWidget {
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   using Act = QueueController::Act;
@@ -117,7 +120,9 @@ class QueuePanel : public QWidget {
   void showProgress();
   void tell(const QString& text);
   void fitColumns();
+  void showColumns();
 
+  QString current_;  ///< the case that the window shows
   QueueController controller_;
   QueueModel model_;
   QueueFilter filter_;

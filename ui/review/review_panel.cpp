@@ -85,10 +85,21 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
   for (QLineEdit* each : {ui_.decisionName, ui_.decisionComment})
     connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
   ui_.reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  connect(ui_.waiver, &QLineEdit::editingFinished, this, [this] {
+    if (!failed_check_.empty()) controller_.setReason(failed_check_, ui_.waiver->text().trimmed());
+  });
   connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
   connect(&controller_, &ReviewController::reviewStatusChanged, this,
           &DecisionForm::showWhatIsPossible);
   showWhatIsPossible();
+}
+
+void DecisionForm::setFailedCheck(const std::string& id, const QString& title,
+                                  const QString& reason) {
+  failed_check_ = id;
+  ui_.waiver->setVisible(!id.empty());
+  ui_.waiver->setPlaceholderText(tr("Why does '%1' not matter?").arg(title));
+  if (!ui_.waiver->hasFocus()) ui_.waiver->setText(reason);
 }
 
 void DecisionForm::setNote(const QString& html) {
@@ -198,6 +209,7 @@ void LimitsDialog::showSettings() {
 namespace {
 
 constexpr int kShownDigits = 8;  // of a digest
+constexpr int kReasonColumn_px = 560;  // width of the panel from which it fits
 
 int rank(CheckState state) {
   return state == CheckState::kFailed ? 0 : state == CheckState::kPassed ? 1 : 2;
@@ -310,7 +322,7 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   decision_ = new DecisionForm(controller_);
   ui_.splitter->addWidget(decision_);
   ui_.splitter->setStretchFactor(0, 1);
-  ui_.splitter->setSizes({640, 280});
+  ui_.splitter->setSizes({600, 200});
   ui_.convergenceSeeds->setValue(sessions::kConvergenceSeeds);
   buildTable();
   connect(ui_.judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
@@ -340,6 +352,7 @@ void ReviewPanel::buildTable() {
   header.setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
     header.setSectionResizeMode(column, QHeaderView::Stretch);
+  header.setMinimumSectionSize(24);
   hint_ = new EmptyHint(*ui_.checks);
   connect(ui_.checks->selectionModel(), &QItemSelectionModel::currentChanged, this,
           &ReviewPanel::showChosen);
@@ -394,14 +407,33 @@ void ReviewPanel::showChecks() {
                                                  : controller_.problem());
   model_.setRows(std::move(rows), controller_.isCurrent());
   if (!had_rows && model_.rowCount() > 0) ui_.checks->setCurrentIndex(model_.index(0, 0));
-  // Failed ones come first; without any there is nothing to give a reason for.
-  ui_.checks->setColumnHidden(ChecksModel::kReason, model_.rowCount() > 0 && !model_.isFailed(0));
+  showReasons();
   showChosen();
   showConvergence();
 }
 
+/// Failed checks come first; without any there is nothing to give a reason for. In a side pane the
+/// reason is typed below the table.
+void ReviewPanel::showReasons() {
+  const bool none = model_.rowCount() > 0 && !model_.isFailed(0);
+  ui_.checks->setColumnHidden(ChecksModel::kReason, none || width() < kReasonColumn_px);
+}
+
+void ReviewPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  showReasons();
+}
+
 void ReviewPanel::showChosen() {
   const QModelIndex index = ui_.checks->currentIndex();
+  const bool failed = controller_.isCurrent() && index.isValid() &&
+                      index.row() < model_.rowCount() && model_.isFailed(index.row());
+  if (failed) {
+    const CheckRow& row = model_.at(index.row());
+    decision_->setFailedCheck(row.check.id, fromText(row.check.title), row.reason);
+  } else {
+    decision_->setFailedCheck({}, {}, {});
+  }
   QString html;
   if (!controller_.isCurrent() && model_.rowCount() > 0) {
     html = controller_.problem().isEmpty()

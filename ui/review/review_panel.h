@@ -34,6 +34,8 @@ class DecisionForm : public QWidget {
   const QString& obstacle() const { return obstacle_; }
   /// Something to read while deciding, above the former decisions.
   void setNote(const QString& html);
+  /// The failed check whose waiver can be typed here; "": none.
+  void setFailedCheck(const std::string& id, const QString& title, const QString& reason);
 
  private:
   using Act = ReviewController::Act;
@@ -50,6 +52,7 @@ class DecisionForm : public QWidget {
   QString obstacle_;
   QString note_;
   QString read_;
+  std::string failed_check_;
   Ui::DecisionForm ui_;
 };
 
@@ -124,6 +127,7 @@ class ReviewPanel : public QWidget {
  protected:
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void buildTable();
@@ -131,6 +135,7 @@ class ReviewPanel : public QWidget {
   void showSources();
   void showChecks();
   void showChosen();
+  void showReasons();
   void showConvergence();
   void askForConvergenceTest();
   void openLimits();

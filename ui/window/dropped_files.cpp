@@ -131,7 +131,7 @@ std::string DroppedFiles::missing() const {
     names.emplace_back("a camera (json)" +
                        (label_camera_remark ? ": " + *label_camera_remark : ""));
   if (one.parts.empty()) names.emplace_back("a mesh");
-  if (one.seed.empty()) names.emplace_back("a seed (pose, json), a first guess of where the camera is");
+  if (one.seed.empty()) names.emplace_back("a seed pose (json)");
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) text += i + 1 == names.size() ? " and " : ", ";

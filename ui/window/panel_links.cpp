@@ -87,6 +87,7 @@ void PanelLinks::linkCases() {
   connect(&cases, &CaseController::caseChosen, this, [this](const QString& id) {
     showCases();
     docks_.cases.setCurrent(id);
+    docks_.queue.setCurrent(id);
   });
   const auto document_shown = [this] {
     details_->setSession(parts_.document.session());

@@ -57,7 +57,7 @@ constexpr std::array<Fixed, 32> kFixed = {{
     {QT_TR_NOOP("Nudging: with Ctrl"), QT_TR_NOOP("Turn instead of moving")},
     {QT_TR_NOOP("Nudging: with Shift, Alt"), QT_TR_NOOP("Ten times, a tenth of the step")},
     {QT_TR_NOOP("Queue: Enter"), QT_TR_NOOP("Show the case at the iteration that failed")},
-    {QT_TR_NOOP("Queue: A, R"), QT_TR_NOOP("Accept or reject the result; next case")},
+    {QT_TR_NOOP("Queue: A, R"), QT_TR_NOOP("Validate or reject the result; next case")},
     {QT_TR_NOOP("Queue: J, K, arrows"), QT_TR_NOOP("Next case, previous case")},
     {QT_TR_NOOP("Queue: D"), QT_TR_NOOP("Compare each case's last two runs")},
     {QT_TR_NOOP("Inputs: Ctrl+C"), QT_TR_NOOP("Copy the selected lines")},
@@ -99,7 +99,9 @@ ShortcutSheet::ShortcutSheet(QWidget& window) : QDialog(&window) {
     accept();
     Q_EMIT manualRequested();
   });
-  resize(900, 620);
+  // As wide as its text, so that nothing is cut off.
+  const int bar = style()->pixelMetric(QStyle::PM_ScrollBarExtent);
+  resize(ui_.sheet->sizeHint().width() + bar + 40, 620);
 }
 
 }  // namespace boresight::ui

@@ -6,24 +6,22 @@
 namespace boresight::ui {
 namespace {
 
-#define CAUSE(text) QT_TRANSLATE_NOOP("Remedies", text)
-
 constexpr Remedy kWider = {
-    Step::kWiderSearch, CAUSE("The seed's edges look turned: slots and clamps are elsewhere")};
+    Step::kWiderSearch, QT_TR_NOOP("The seed's edges look turned: slots and clamps are elsewhere")};
 constexpr Remedy kNudge = {Step::kNudgeSeed,
-                           CAUSE("The seed's edges look like the image, but displaced")};
+                           QT_TR_NOOP("The seed's edges look like the image, but displaced")};
 constexpr Remedy kFarther = {
     Step::kUncertainty,
-    CAUSE("Arrows agree but end at window borders: the seed is farther off than stated")};
+    QT_TR_NOOP("Arrows agree but end at window borders: the seed is farther off than stated")};
 constexpr Remedy kMasked = {
-    Step::kMask, CAUSE("Part of the station is hidden, or edges are everywhere: print, shadows")};
+    Step::kMask, QT_TR_NOOP("Part of the station is hidden, or edges are everywhere: print, shadows")};
 constexpr Remedy kMarks = {Step::kAnnotate,
-                           CAUSE("Nothing is known of the pose: four points give a seed")};
+                           QT_TR_NOOP("Nothing is known of the pose: four points give a seed")};
 constexpr Remedy kSheet = {Step::kInputs,
-                           CAUSE("Wrong mesh, unit, camera or calibration: see the warnings")};
+                           QT_TR_NOOP("Wrong mesh, unit, camera or calibration: see the warnings")};
 constexpr Remedy kOthers = {
     Step::kCompetingPoses,
-    CAUSE("Repetition or symmetry: another pose explains the image as well")};
+    QT_TR_NOOP("Repetition or symmetry: another pose explains the image as well")};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
+#include "sessions/run/run_headline.h"
 #include "sessions/text/text_table.h"
 #include "tests/support/example_run.h"
 
@@ -51,6 +52,22 @@ TEST(PoseText, SaysWhereItsSigmasAre) {
       HasSubstr("1 sigma at the camera, along and about its x y z: 1.0000 1.0000 1.0000 mm"));
   EXPECT_THAT(poseText(Pose(), covariance, "rig_from_station"),
               HasSubstr("1 sigma at the rig's origin"));
+}
+
+TEST(RunHeadline, SaysInALineWhatWasMeasuredAndNeeded) {
+  LocalizationTrace trace = *test::exampleRun();
+  const RunHeadline converged = runHeadline(trace);
+  EXPECT_EQ(converged.head, "Converged");
+  EXPECT_THAT(converged.sentence, AllOf(HasSubstr("iterations"), HasSubstr("needed)."),
+                                        HasSubstr("(1 sigma at the camera).")));
+  trace.status = LocalizationStatus::kNotSupported;
+  EXPECT_EQ(runHeadline(trace).head, "Rejected");
+  EXPECT_THAT(runHeadline(trace).sentence, HasSubstr("needed. The seed may be turned"));
+  EXPECT_TRUE(isRejected(trace));
+  trace.status = LocalizationStatus::kLeftUncertainty;
+  EXPECT_EQ(runHeadline(trace).head, "No pose found");
+  EXPECT_THAT(runHeadline(trace).sentence, HasSubstr("The pose left the seed's uncertainty"));
+  EXPECT_FALSE(isRejected(trace));
 }
 
 TEST(Explanation, IsEmptyForAConvergedRun) {

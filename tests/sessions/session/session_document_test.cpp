@@ -55,6 +55,22 @@ void leaveUnsaved(const std::filesystem::path& file, int edits) {
   ASSERT_EQ(said, "the child did not end by itself");
 }
 
+TEST(SessionDocument, DiscardedChanges_AreNotRecovered) {
+  const TemporaryFolder folder;
+  const Session first = sessionOf("discard");
+  {
+    SessionDocument document = SessionDocument::create(folder / "s.boresight.json", first);
+    document.apply(edited(first, 1), "Edit 1");
+    document.discardChanges();
+    EXPECT_FALSE(document.modified());
+    document.apply(edited(first, 2), "Edit 2");
+    document.discardChanges();
+  }
+  const SessionDocument again = SessionDocument::open(folder / "s.boresight.json");
+  EXPECT_FALSE(again.recovery().has_value());
+  EXPECT_NE(again.session().view.iteration, 1);
+}
+
 TEST(SessionDocument, Save_WritesTheEditsAndRemovesTheJournal) {
   const TemporaryFolder folder;
   const Session first = sessionOf("first");

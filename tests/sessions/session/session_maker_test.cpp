@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/pose_file.h"
+#include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
+#include "sessions/session/input_sheet.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"
@@ -155,6 +157,26 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.uncertainty.pivot = sessions::UncertaintyPivot::kStation; }));
   EXPECT_TRUE(changed([](auto& c) { c.ignore = sessions::InputFile{"/m", std::string(64, 'a')}; }));
   EXPECT_TRUE(changed([](auto& c) { c.ignore_strokes.emplace_back(); }));
+  EXPECT_TRUE(changed([](auto& c) { c.has_seed = false; }));
+}
+
+TEST(SessionMaker, CaseWithoutSeed_IsReadBackAndNotRun) {
+  const TemporaryFolder folder;
+  sessions::CaseFiles files = filesOf(exampleFolder() / "os");
+  files.seed.clear();
+  const sessions::MadeCase made = sessions::makeCase(files);
+  EXPECT_FALSE(made.made.has_seed);
+  EXPECT_THAT(made.notes, IsEmpty()) << "nothing is said of an uncertainty of nothing";
+  const Session session = withCase({}, made.made);
+  sessions::writeSessionFile(folder / "s.json", session);
+  EXPECT_EQ(folder.read("s.json").find("\"seed\""), std::string::npos);
+  EXPECT_TRUE(sessions::readSessionFile(folder / "s.json").session == session);
+  const auto loaded = sessions::loadCase(made.made);
+  EXPECT_THAT(folder.message([&] { sessions::requireRunnable(*loaded); }),
+              HasSubstr("annotate the case"));
+  const sessions::InputSheet sheet = sessions::inputSheet(*loaded);
+  for (const sessions::RedFlag& flag : sheet.flags)
+    EXPECT_EQ(flag.text.find("seed"), std::string::npos) << flag.text;
 }
 
 }  // namespace

@@ -18,16 +18,10 @@
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
 #include "ui/window/session_files.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
-
-QAction* menuAction(MainWindow& window, const QString& text) {
-  for (const QAction* menu : window.menuBar()->actions())
-    for (QAction* action : menu->menu()->actions())
-      if (action->text().remove(QLatin1Char('&')) == text) return action;
-  return nullptr;
-}
 
 class LayoutTest : public ::testing::Test {
  protected:
@@ -39,24 +33,36 @@ TEST_F(LayoutTest, FitsASmallScreen) {
   MainWindow window;
   window.resize(1280, 720);
   window.show();
-  QApplication::processEvents();
-  EXPECT_EQ(window.width(), 1280) << "panels need less than this";
-  EXPECT_EQ(window.height(), 720);
+  for (int i = 0; i < kWorkspaceCount; ++i) {
+    window.workspaces().show(static_cast<Workspace>(i));
+    QApplication::processEvents();
+    const char* name = workspaceInfo(static_cast<Workspace>(i)).name;
+    EXPECT_EQ(window.width(), 1280) << name << ": panels need more than this";
+    EXPECT_EQ(window.height(), 720) << name;
+  }
 }
 
-TEST_F(LayoutTest, IsRememberedByTheNextWindow) {
+TEST_F(LayoutTest, EachWorkspaceIsRememberedByTheNextWindow) {
   {
     MainWindow window;
     window.rememberLayout();
+    window.resize(1700, 900);
     window.show();
+    QApplication::processEvents();
+    window.workspaces().show(Workspace::kRun);
     window.dock(QStringLiteral("scene"))->hide();
+    window.dock(QStringLiteral("pose"))->show();
+    window.workspaces().show(Workspace::kAnnotate);
+    EXPECT_FALSE(window.dock(QStringLiteral("scene"))->isHidden()) << "that was of another one";
     window.close();
   }
   MainWindow next;
   next.rememberLayout();
   next.show();
+  next.workspaces().show(Workspace::kRun);
   EXPECT_TRUE(next.dock(QStringLiteral("scene"))->isHidden());
-  EXPECT_FALSE(next.dock(QStringLiteral("cases"))->isHidden());
+  EXPECT_FALSE(next.dock(QStringLiteral("pose"))->isHidden()) << "an added panel";
+  EXPECT_FALSE(next.dock(QStringLiteral("result"))->isHidden());
 }
 
 TEST_F(LayoutTest, PicturesAndTests_NeitherReadNorStoreALayout) {
@@ -69,22 +75,32 @@ TEST_F(LayoutTest, PicturesAndTests_NeitherReadNorStoreALayout) {
   EXPECT_TRUE(QSettings().allKeys().isEmpty());
 }
 
-TEST_F(LayoutTest, ArrangePanels_RestoresEveryPanel) {
+TEST_F(LayoutTest, ArrangePanels_RestoresTheWorkspace) {
   MainWindow window;
-  window.resize(1600, 1000);
+  window.resize(1700, 1000);
   window.show();
   QApplication::processEvents();
+  window.workspaces().show(Workspace::kRun);
   window.dock(QStringLiteral("scene"))->hide();
-  window.dock(QStringLiteral("pose"))->setFloating(true);
-  QAction* arrange = menuAction(window, QStringLiteral("Arrange the panels again"));
+  window.dock(QStringLiteral("result"))->setFloating(true);
+  auto* arrange = window.findChild<QAction*>(QStringLiteral("arrange"));
   ASSERT_NE(arrange, nullptr);
   arrange->trigger();
   QApplication::processEvents();
   EXPECT_FALSE(window.dock(QStringLiteral("scene"))->isHidden());
-  EXPECT_FALSE(window.dock(QStringLiteral("pose"))->isFloating());
-  const auto tabs = window.tabifiedDockWidgets(window.dock(QStringLiteral("layers")));
-  EXPECT_TRUE(tabs.contains(window.dock(QStringLiteral("pose"))));
-  EXPECT_GT(window.image().width(), 400) << "the image has the most room";
+  EXPECT_FALSE(window.dock(QStringLiteral("result"))->isFloating());
+  EXPECT_GT(window.image().width(), 800) << "the image has the most room";
+}
+
+/// As many panels as the first window had opened at once did not fit.
+TEST_F(LayoutTest, FirstStart_FitsTheScreen) {
+  MainWindow window;
+  window.rememberLayout();
+  window.show();
+  QApplication::processEvents();
+  const QSize screen = QGuiApplication::primaryScreen()->availableSize();
+  EXPECT_LE(window.width(), screen.width());
+  EXPECT_LE(window.height(), screen.height());
 }
 
 TEST_F(LayoutTest, RecentFilesAreTheNewestFirstWithoutThoseThatAreGone) {

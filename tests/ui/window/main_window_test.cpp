@@ -83,16 +83,30 @@ TEST_F(MainWindowTest, NextEdit_HidesTheUndoneState) {
   ASSERT_TRUE(wait([&] { return resting(); }));
 }
 
-TEST_F(MainWindowTest, AllCasesAreRunAndCounted) {
+TEST_F(MainWindowTest, AllCasesAreRunAndCountedWhileTheShownCaseStays) {
   openExample();
+  const QString shown = window_.cases().caseId();
   QStringList said;
-  QObject::connect(&window_.cases(), &CaseController::batchChanged, &window_,
-                   [&] { said << runState(); });
+  QStringList chosen;
+  QObject::connect(&window_.cases(), &CaseController::caseChosen, &window_,
+                   [&](const QString& id) { chosen << id; });
+  QObject::connect(&window_.cases(), &CaseController::batchChanged, &window_, [&] {
+    const QString text = runState() + QLatin1Char(' ') + find<QLabel>("jobCount").text();
+    if (said.isEmpty() || said.back() != text) said << text;
+    if (!window_.cases().batch()) return;
+    EXPECT_TRUE(find<QPushButton>("jobStop").isVisible()) << "between two cases, too";
+    EXPECT_NE(runState(), QStringLiteral("Finished"));
+  });
   key("Ctrl+F5")->trigger();
   ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
   EXPECT_EQ(window_.document().session().runs.size(), 2u);
-  EXPECT_EQ(said, (QStringList{QStringLiteral("Running 1 of 2..."),
-                               QStringLiteral("Running 2 of 2..."), QStringLiteral("Finished")}));
+  EXPECT_TRUE(said.contains(QStringLiteral("Running all cases 0 of 2 done")));
+  EXPECT_TRUE(said.contains(QStringLiteral("Running all cases 1 of 2 done")));
+  EXPECT_EQ(window_.cases().caseId(), shown);
+  EXPECT_TRUE(chosen.isEmpty()) << chosen.join(QLatin1Char(' ')).toStdString();
+  ASSERT_NE(window_.state().snapshot(), nullptr) << "the shown case has its run";
+  EXPECT_EQ(window_.state().snapshot()->digest,
+            window_.document().session().lastRunOf(shown.toStdString())->digest);
 }
 
 TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
@@ -110,14 +124,11 @@ TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
 TEST_F(MainWindowTest, StopEndsRunAllBetweenTwoCases) {
   openExample();
   QObject::connect(
-      &window_.cases(), &CaseController::caseChosen, &window_,
+      &window_.document(), &Document::changed, &window_,
       [&] {
-        EXPECT_NE(window_.run().state(), RunState::kWorking);
-        EXPECT_EQ(runState(), QStringLiteral("Running 2 of 2..."));
         EXPECT_FALSE(key("Ctrl+F5")->isEnabled()) << "all are being run already";
-        key("F8")->trigger();
-      },
-      Qt::QueuedConnection);
+        find<QPushButton>("jobStop").click();
+      });
   key("Ctrl+F5")->trigger();
   ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
   QTest::qWait(100);
@@ -126,24 +137,43 @@ TEST_F(MainWindowTest, StopEndsRunAllBetweenTwoCases) {
   EXPECT_TRUE(key("Ctrl+F5")->isEnabled());
 }
 
-TEST_F(MainWindowTest, StopEndsRunAllWhileARunIsStored) {
+TEST_F(MainWindowTest, StopEndsRunAllDuringACase) {
   openExample();
-  QObject::connect(&window_.run(), &RunController::finished, &window_,
-                   [&] { key("F8")->trigger(); });
+  QObject::connect(&window_.cases(), &CaseController::batchChanged, &window_, [&] {
+    const auto& batch = window_.cases().batch();
+    if (batch && batch->iteration == 1) key("F8")->trigger();
+  });
   key("Ctrl+F5")->trigger();
   ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
-  EXPECT_EQ(window_.document().session().runs.size(), 1u) << "the first run is kept";
+  QTest::qWait(100);
+  EXPECT_TRUE(window_.document().session().runs.empty());
 }
 
-TEST_F(MainWindowTest, ACaseThatIsChosenEndsRunAll) {
+TEST_F(MainWindowTest, AnotherCaseCanBeLookedAtDuringRunAll) {
   openExample();
   const QString second = QString::fromStdString(window_.document().session().cases.back()->id);
   key("Ctrl+F5")->trigger();
   ASSERT_TRUE(window_.cases().batch());
   window_.cases().chooseCase(second);
-  EXPECT_FALSE(window_.cases().batch());
-  ASSERT_TRUE(wait([&] { return resting() && window_.state().currentCase() != nullptr; }));
-  EXPECT_TRUE(window_.document().session().runs.empty());
+  EXPECT_TRUE(window_.cases().batch());
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  EXPECT_EQ(window_.document().session().runs.size(), 2u);
+  EXPECT_EQ(window_.cases().caseId(), second);
+}
+
+/// A case that is edited while it is run has a run of what it was, which is stale.
+TEST_F(MainWindowTest, EditDuringRunAll_MakesThatRunStale) {
+  openExample();
+  bool edited = false;
+  QObject::connect(&window_.cases(), &CaseController::batchChanged, &window_, [&] {
+    const auto& batch = window_.cases().batch();
+    if (!batch || batch->iteration != 1 || std::exchange(edited, true)) return;
+    moveSeed(0.01);
+  });
+  key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  ASSERT_EQ(window_.document().session().runs.size(), 2u);
+  EXPECT_FALSE(window_.cases().staleness().isEmpty());
 }
 
 TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {

@@ -200,7 +200,7 @@ TEST_F(TroubleTest, EditsOfAKilledProgram_AreOfferedAndRecovered) {
   Answers answers(QStringLiteral("Recover"), {});
   ASSERT_TRUE(window_.openSession(file_));
   EXPECT_TRUE(test::has(answers.text(), "one.boresight.json"));
-  EXPECT_TRUE(test::has(answers.text(), "unsaved change"));
+  EXPECT_TRUE(test::has(answers.text(), "unsaved work"));
   EXPECT_TRUE(test::has(answers.text(), "Move the seed")) << "which they were";
   EXPECT_FALSE(window_.document().recovery());
   ASSERT_TRUE(wait([this] { return !window_.tasks().isBusy(); }));

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/image_share.h"
+
+#include <cstdio>
+
+#include "tests/ui/window_test.h"
+#include "ui/style/theme.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/workspaces/workspaces.h"
+
+namespace boresight::ui {
+namespace {
+
+struct Goal {
+  QSize size;
+  double share;
+};
+
+/// In the look of the program, whose fonts and rows take more room than those of plain tests.
+class ImageShareTest : public test::WindowTest {
+ protected:
+  void SetUp() override { applyTheme(*qApp, ThemeName::kLight); }
+  void TearDown() override { qApp->setStyleSheet({}); }
+
+  double shareOf(Workspace workspace, const QSize& size) {
+    window_.resize(size);
+    QApplication::processEvents();
+    window_.workspaces().show(workspace);
+    QApplication::processEvents();
+    window_.image().view().fit();
+    QApplication::processEvents();
+    EXPECT_EQ(window_.size(), size) << workspaceInfo(workspace).name << ": panels need more room";
+    return imageShare(window_);
+  }
+};
+
+TEST_F(ImageShareTest, ImageTakesItsPartOfTheScreen) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  for (const Goal& goal : {Goal{{1920, 1080}, 0.30}, Goal{{1280, 800}, 0.40}})
+    for (const Workspace workspace : {Workspace::kRun, Workspace::kDiagnose, Workspace::kReview}) {
+      const double share = shareOf(workspace, goal.size);
+      std::printf("%-9s %4d x %4d: %.1f %%\n", workspaceInfo(workspace).name, goal.size.width(),
+                  goal.size.height(), 100.0 * share);
+      EXPECT_GE(share, goal.share) << workspaceInfo(workspace).name << " at " << goal.size.width();
+    }
+}
+
+/// Nothing is cut off: a scroll bar below a table or page says that something is.
+TEST_F(ImageShareTest, NothingScrollsSideways) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  for (const QSize& size : {QSize(1920, 1080), QSize(1280, 800)})
+    for (int i = 0; i < kWorkspaceCount; ++i) {
+      const auto workspace = static_cast<Workspace>(i);
+      shareOf(workspace, size);
+      for (const auto* area : window_.findChildren<QAbstractScrollArea*>())
+        if (area->isVisible() && area->horizontalScrollBar()->isVisible())
+          ADD_FAILURE() << workspaceInfo(workspace).name << " at " << size.width() << ": "
+                        << area->objectName().toStdString() << " of "
+                        << area->parentWidget()->metaObject()->className() << " scrolls sideways";
+    }
+}
+
+}  // namespace
+}  // namespace boresight::ui

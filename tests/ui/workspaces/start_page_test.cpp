@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/start_page.h"
+
+#include "tests/ui/window_test.h"
+#include "ui/window/session_files.h"
+#include "ui/window/window_frame.h"
+#include "ui/workspaces/verdict_bar.h"
+#include "ui/workspaces/workspaces.h"
+
+namespace boresight::ui {
+namespace {
+
+class StartPageTest : public test::WindowTest {
+ protected:
+  StartPage& page() { return window_.frame().start(); }
+  QStringList texts() {
+    QStringList all;
+    for (const QLabel* label : page().findChildren<QLabel*>())
+      if (label->isVisibleTo(&page())) all << label->text();
+    return all;
+  }
+};
+
+TEST_F(StartPageTest, SlotsTellWhatIsMissing) {
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  EXPECT_EQ(texts().count(QStringLiteral("+ still needed")), 4);
+  window_.takeFiles({os / "image.png", os / "camera.json"});
+  EXPECT_EQ(texts().count(QStringLiteral("+ still needed")), 2);
+  EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 2);
+  EXPECT_TRUE(texts().contains(QStringLiteral("image.png")));
+  EXPECT_TRUE(wait([&] {
+    return window_.frame().verdict().verdict().head == QStringLiteral("2 of 4 files added");
+  }));
+}
+
+TEST_F(StartPageTest, MeshIsMeasuredInEachUnit) {
+  window_.takeFiles({test::exampleFolder() / "bc" / "model.ply"});
+  ASSERT_TRUE(wait([&] { return !page().findChildren<QRadioButton*>().isEmpty(); }));
+  const auto choices = page().findChildren<QRadioButton*>();
+  ASSERT_EQ(choices.size(), 5);
+  EXPECT_TRUE(test::has(choices[0]->text(), "m: "));
+  EXPECT_TRUE(test::has(choices[0]->text(), "mm across"));
+  choices[1]->click();
+  EXPECT_EQ(window_.findChild<SessionFiles*>()->collected().one.parts.front().mesh_unit, "mm");
+}
+
+TEST_F(StartPageTest, OneClickOpensAnExampleAndRunsIt) {
+  auto* open = page().findChild<QPushButton*>(QStringLiteral("openExample"));
+  ASSERT_NE(open, nullptr);
+  open->click();
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }))
+      << window_.lastMessage().toStdString();
+  EXPECT_TRUE(window_.state().snapshot()->converged());
+  EXPECT_TRUE(window_.document().isUntitled()) << "the shipped file stays as it is";
+  EXPECT_EQ(window_.workspaces().current(), Workspace::kRun);
+  window_.document().discardUntitled();
+}
+
+TEST_F(StartPageTest, FilesMakeANewSession_NotAPartOfTheOpenOne) {
+  openExample();
+  window_.workspaces().show(Workspace::kStart);
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  auto* files = window_.findChild<SessionFiles*>();
+  window_.takeFiles({os / "image.png", os / "camera.json", os / "model.ply"});
+  files->setMeshUnit("m");
+  window_.takeFiles({os / "seed.json"});
+  ASSERT_TRUE(wait([&] { return window_.document().isUntitled() && resting(); }));
+  EXPECT_EQ(window_.document().session().cases.size(), 1u);
+  window_.document().discardUntitled();
+}
+
+/// With a folder of its own for sessions without a name.
+class LeftWorkTest : public ::testing::Test {
+ protected:
+  LeftWorkTest() {
+    QStandardPaths::setTestModeEnabled(false);
+    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(data_.path().string()));
+  }
+  ~LeftWorkTest() override {
+    qunsetenv("XDG_DATA_HOME");
+    QStandardPaths::setTestModeEnabled(true);
+  }
+
+  test::TemporaryFolder data_;
+};
+
+TEST_F(LeftWorkTest, IsOfferedAndRecoveredOrDiscarded) {
+  for (const char* button : {"recoverLeft", "discardLeft"}) {
+    {
+      Document left;
+      ASSERT_TRUE(left.createUntitled(sessions::makeSession(test::exampleFolder() / "dataset.json")));
+    }
+    MainWindow window;
+    window.setQuiet(true);
+    window.show();
+    auto* card = window.findChild<QFrame*>(QStringLiteral("leftWork"));
+    ASSERT_TRUE(card->isVisibleTo(&window));
+    window.findChild<QPushButton*>(QLatin1String(button))->click();
+    const bool recovers = std::string(button) == "recoverLeft";
+    EXPECT_EQ(window.document().isUntitled(), recovers);
+    EXPECT_EQ(window.document().session().cases.size(), recovers ? 2u : 0u);
+    if (recovers) window.document().discardUntitled();
+    EXPECT_FALSE(Document::leftUntitled().has_value());
+  }
+}
+
+}  // namespace
+}  // namespace boresight::ui

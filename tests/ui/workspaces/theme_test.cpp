@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/style/theme.h"
+
+#include "tests/ui/window_test.h"
+
+namespace boresight::ui {
+namespace {
+
+double luminance(const QColor& color) {
+  const auto linear = [](double value) {
+    return value <= 0.03928 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+         0.0722 * linear(color.blueF());
+}
+
+double contrast(QRgb a, QRgb b) {
+  const double first = luminance(QColor(a)) + 0.05;
+  const double second = luminance(QColor(b)) + 0.05;
+  return std::max(first, second) / std::min(first, second);
+}
+
+TEST(Theme, TextsAreReadableOnTheirGround) {
+  for (const Theme& theme : {kLightTheme, kDarkTheme}) {
+    EXPECT_GE(contrast(theme.text, theme.panel), 7.0);
+    EXPECT_GE(contrast(theme.text2, theme.panel), 4.5);
+    EXPECT_GE(contrast(theme.success_text, theme.success_tint), 4.5);
+    EXPECT_GE(contrast(theme.failure_text, theme.failure_tint), 4.5);
+    EXPECT_GE(contrast(theme.warning_text, theme.warning_tint), 4.5);
+    EXPECT_GE(contrast(theme.accent, theme.accent_tint), 4.0) << "the chosen tab";
+    EXPECT_GE(contrast(theme.on_accent, theme.accent), 4.5);
+  }
+}
+
+TEST(Theme, StyleSheetKnowsEveryName) {
+  for (const ThemeName name : {ThemeName::kLight, ThemeName::kDark}) {
+    applyTheme(*qApp, name);
+    EXPECT_FALSE(qApp->styleSheet().isEmpty());
+    EXPECT_FALSE(qApp->styleSheet().contains(QLatin1Char('@')));
+  }
+  qApp->setStyleSheet({});
+}
+
+class ThemeSwitchTest : public test::WindowTest {};
+
+TEST_F(ThemeSwitchTest, ButtonSwitchesAndTheNextStartHasIt) {
+  applyTheme(*qApp, ThemeName::kLight);
+  find<QToolButton>("switchTheme").click();
+  EXPECT_EQ(themeName(), ThemeName::kDark);
+  EXPECT_EQ(rememberedTheme(), ThemeName::kDark);
+  find<QToolButton>("switchTheme").click();
+  EXPECT_EQ(rememberedTheme(), ThemeName::kLight);
+  qApp->setStyleSheet({});
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/example_run.h"
+#include "tests/ui/window_test.h"
+#include "ui/workspaces/remedies.h"
+
+namespace boresight::ui {
+namespace {
+
+Situation ready() {
+  Situation situation;
+  situation.has_case = true;
+  situation.run = RunState::kReady;
+  return situation;
+}
+
+std::shared_ptr<sessions::LocalizationTrace> ended(LocalizationStatus status) {
+  auto trace = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
+  trace->status = status;
+  return trace;
+}
+
+TEST(Verdict, FilesMissing_NamesThem) {
+  Situation situation;
+  situation.files = {2, QStringLiteral("Still needed: a camera (json) and a seed pose (json).")};
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("2 of 4 files added"));
+  EXPECT_TRUE(test::has(verdict.sentence, "Still needed: a camera"));
+  EXPECT_EQ(verdict.step, Step::kChooseFiles);
+}
+
+TEST(Verdict, ReadyCase_OffersRun) {
+  const Verdict verdict = verdictOf(ready());
+  EXPECT_EQ(verdict.head, QStringLiteral("Ready to run."));
+  EXPECT_EQ(verdict.step, Step::kRun);
+  EXPECT_EQ(verdict.tone, VerdictTone::kPlain);
+}
+
+TEST(Verdict, CaseWithoutSeed_LeadsToAnnotation) {
+  Situation situation = ready();
+  situation.has_seed = false;
+  EXPECT_EQ(verdictOf(situation).step, Step::kAnnotate);
+  situation.annotation.has_pose = true;
+  EXPECT_EQ(verdictOf(situation).step, Step::kSeedFromAnnotation);
+}
+
+TEST(Verdict, RunUnderWay_TellsTheStageAndStops) {
+  Situation situation = ready();
+  situation.run = RunState::kWorking;
+  auto trace = ended(LocalizationStatus::kRunning);
+  trace->finished = false;
+  trace->last_under_way = true;
+  trace->iterations.resize(1);
+  auto iteration = std::make_shared<sessions::IterationTrace>(*trace->iterations.front());
+  iteration->reached = Stage::kRender;
+  iteration->kind = IterationKind::kMatch;
+  trace->iterations.front() = iteration;
+  situation.trace = trace;
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.sentence, QStringLiteral("Iteration 1: rendering done; next, templates."));
+  EXPECT_EQ(verdict.step, Step::kStop);
+  EXPECT_TRUE(verdict.plain);
+}
+
+TEST(Verdict, HaltedRun_GoesOn) {
+  Situation situation = ready();
+  situation.run = RunState::kHalted;
+  auto trace = ended(LocalizationStatus::kRunning);
+  trace->finished = false;
+  trace->iterations.resize(1);
+  situation.trace = trace;
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("Paused after iteration 1."));
+  EXPECT_EQ(verdict.step, Step::kGoOn);
+}
+
+TEST(Verdict, ConvergedRun_IsGoodAndNotYetValidated) {
+  Situation situation = ready();
+  situation.trace = ended(LocalizationStatus::kConverged);
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.tone, VerdictTone::kGood);
+  EXPECT_EQ(verdict.head, QStringLiteral("Converged"));
+  EXPECT_TRUE(test::has(verdict.sentence, "1 sigma at the camera"));
+  EXPECT_TRUE(test::has(verdict.sentence, "Not yet validated."));
+  EXPECT_EQ(verdict.step, Step::kReview);
+}
+
+TEST(Verdict, StaleRun_IsRunAgain) {
+  Situation situation = ready();
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.stale = QStringLiteral("The shown run was made with other options.");
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("Converged; settings changed since."));
+  EXPECT_EQ(verdict.step, Step::kRunAgain);
+  EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
+}
+
+/// A failed run was taken for a success: the state was only in small print.
+TEST(Verdict, EveryFailure_IsBadAndLeadsOn) {
+  for (int i = 0; i <= static_cast<int>(LocalizationStatus::kFault); ++i) {
+    const auto status = static_cast<LocalizationStatus>(i);
+    if (status == LocalizationStatus::kConverged || status == LocalizationStatus::kRunning) continue;
+    Situation situation = ready();
+    situation.run = RunState::kFinished;
+    situation.trace = ended(status);
+    const Verdict verdict = verdictOf(situation);
+    const std::string name = localizationStatusText(status);
+    EXPECT_EQ(verdict.tone, VerdictTone::kBad) << name;
+    EXPECT_FALSE(verdict.sentence.isEmpty()) << name;
+    EXPECT_NE(verdict.step, Step::kNone) << name;
+    EXPECT_FALSE(verdict.others.empty()) << name;
+    EXPECT_EQ(remediesFor(*situation.trace).front().step, verdict.step) << name;
+  }
+}
+
+TEST(Verdict, NotSupportedPose_IsRejectedAndOffersAWiderSearch) {
+  Situation situation = ready();
+  situation.trace = ended(LocalizationStatus::kNotSupported);
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("Rejected"));
+  EXPECT_TRUE(test::has(verdict.sentence, "needed"));
+  EXPECT_TRUE(test::has(verdict.sentence, "seed may be turned"));
+  EXPECT_EQ(verdict.step, Step::kWiderSearch);
+  EXPECT_EQ(verdict.others.front(), Step::kNudgeSeed);
+}
+
+TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kReview;
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.review.current = true;
+  situation.review.failed = 1;
+  Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("Converged; not yet validated"));
+  EXPECT_TRUE(test::has(verdict.sentence, "1 check failed"));
+  EXPECT_EQ(verdict.step, Step::kConvergenceTest);
+  situation.review.testing = true;
+  situation.review.seeds_done = situation.review.seeds_returned = 3;
+  verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.sentence, QStringLiteral("3 seeds done; all end at this pose."));
+  EXPECT_EQ(verdict.step, Step::kStopTest);
+  situation.review.testing = false;
+  situation.review.state = sessions::ReviewState::kValidated;
+  situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
+  verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.tone, VerdictTone::kGood);
+  EXPECT_EQ(verdict.step, Step::kNextCase);
+}
+
+TEST(Verdict, BadAnnotation_IsSwitchedOff) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kAnnotate;
+  situation.annotation = {8, 1.72, QStringLiteral("p6"), 12.0, true};
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("8 pairs, rms 1.72 px"));
+  EXPECT_TRUE(test::has(verdict.sentence, "p6 stands out"));
+  EXPECT_EQ(verdict.step, Step::kDisablePair);
+  EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
+}
+
+TEST(Verdict, Onboard_TellsWhetherTheRunsAgree) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kOnboard;
+  situation.not_compared = QStringLiteral("No record is attached.");
+  EXPECT_EQ(verdictOf(situation).step, Step::kLoadRecord);
+  auto comparison = std::make_shared<sessions::RecordComparison>();
+  comparison->verdict = sessions::RunVerdict::kEqual;
+  situation.comparison = comparison;
+  EXPECT_EQ(verdictOf(situation).head, QStringLiteral("Agrees bit for bit."));
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
+  comparison->verdict = sessions::RunVerdict::kDifferent;
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kBad);
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workspaces/workspaces.h"
+
+#include "tests/ui/window_test.h"
+#include "ui/window/window_frame.h"
+#include "ui/workspaces/case_strip.h"
+#include "ui/workspaces/job_strip.h"
+#include "ui/workspaces/top_bar.h"
+#include "ui/workspaces/verdict_bar.h"
+
+namespace boresight::ui {
+namespace {
+
+class WorkspacesTest : public test::WindowTest {
+ protected:
+  Workspaces& workspaces() { return window_.workspaces(); }
+  bool shows(const char* dock) { return window_.dock(QLatin1String(dock))->isVisible(); }
+  void resize(int width, int height) {
+    window_.resize(width, height);
+    QApplication::processEvents();
+  }
+};
+
+TEST_F(WorkspacesTest, EmptyWindow_BeginsAtStartAndASessionInRun) {
+  EXPECT_EQ(workspaces().current(), Workspace::kStart);
+  openExample();
+  EXPECT_EQ(workspaces().current(), Workspace::kRun);
+  window_.document().close();
+  EXPECT_EQ(workspaces().current(), Workspace::kStart);
+}
+
+TEST_F(WorkspacesTest, KeysAndTabsChooseAWorkspace) {
+  openExample();
+  auto& tabs = find<QTabBar>("workspaceTabs");
+  for (int i = 0; i < kWorkspaceCount; ++i) {
+    QTest::keyClick(&window_, static_cast<Qt::Key>(Qt::Key_1 + i), Qt::ControlModifier);
+    EXPECT_EQ(workspaces().current(), static_cast<Workspace>(i));
+    EXPECT_EQ(tabs.currentIndex(), i);
+  }
+  tabs.setCurrentIndex(static_cast<int>(Workspace::kDiagnose));
+  EXPECT_EQ(workspaces().current(), Workspace::kDiagnose);
+}
+
+TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
+  openExample();
+  resize(1920, 1080);
+  struct Expected {
+    Workspace workspace;
+    std::vector<const char*> shown;
+    std::vector<const char*> hidden;
+  };
+  const Expected all[] = {
+      {Workspace::kRun, {"scene", "result"}, {"queue", "inspector", "annotation"}},
+      {Workspace::kDiagnose, {"inspector", "iterations", "remedies"}, {"queue", "review", "scene"}},
+      {Workspace::kAnnotate, {"scene", "annotation"}, {"queue", "review", "inspector"}},
+      {Workspace::kReview, {"queue", "review"}, {"configuration", "annotation", "scene"}},
+      {Workspace::kOnboard, {"onboard"}, {"annotation", "queue"}},
+  };
+  for (const Expected& each : all) {
+    workspaces().show(each.workspace);
+    QApplication::processEvents();
+    for (const char* dock : each.shown)
+      EXPECT_TRUE(shows(dock)) << workspaceInfo(each.workspace).name << ": " << dock;
+    for (const char* dock : each.hidden)
+      EXPECT_FALSE(shows(dock)) << workspaceInfo(each.workspace).name << ": " << dock;
+  }
+}
+
+TEST_F(WorkspacesTest, NarrowDiagnose_OpensOneDrawerAtATime) {
+  openExample();
+  resize(1280, 800);
+  workspaces().show(Workspace::kDiagnose);
+  QApplication::processEvents();
+  EXPECT_TRUE(shows("inspector"));
+  EXPECT_FALSE(shows("iterations"));
+  window_.dock(QStringLiteral("iterations"))->toggleViewAction()->trigger();
+  QApplication::processEvents();
+  EXPECT_TRUE(shows("iterations"));
+  EXPECT_FALSE(shows("inspector"));
+}
+
+TEST_F(WorkspacesTest, BarsAreThereInEveryWorkspace) {
+  openExample();
+  for (int i = 0; i < kWorkspaceCount; ++i) {
+    workspaces().show(static_cast<Workspace>(i));
+    QApplication::processEvents();
+    EXPECT_TRUE(window_.frame().verdict().isVisible());
+    EXPECT_TRUE(window_.frame().jobs().isVisible());
+    EXPECT_TRUE(window_.frame().cases().isVisible());
+  }
+  resize(1920, 1080);
+  workspaces().show(Workspace::kReview);
+  EXPECT_FALSE(window_.frame().cases().isVisible()) << "the queue is the list of cases there";
+}
+
+TEST_F(WorkspacesTest, StripShowsAndChoosesCases) {
+  openExample();
+  auto& list = window_.frame().cases().list();
+  EXPECT_EQ(list.model()->rowCount(), 2);
+  EXPECT_EQ(list.currentIndex().row(), 0);
+  list.setCurrentIndex(list.model()->index(1, 0));
+  EXPECT_EQ(window_.cases().caseId(),
+            QString::fromStdString(window_.document().session().cases.back()->id));
+  ASSERT_TRUE(rests());
+}
+
+TEST_F(WorkspacesTest, VerdictRunsTheCaseAndLeadsToReview) {
+  openExample();
+  VerdictBar& bar = window_.frame().verdict();
+  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kRun; })) << bar.text().toStdString();
+  QTest::mouseClick(&bar.action(), Qt::LeftButton);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kReview; })) << bar.text().toStdString();
+  EXPECT_TRUE(test::has(bar.text(), "Converged in"));
+  QTest::keyClick(&window_, Qt::Key_Return, Qt::ControlModifier);
+  EXPECT_EQ(workspaces().current(), Workspace::kReview);
+}
+
+TEST_F(WorkspacesTest, AddedPanelStaysWithItsWorkspace) {
+  openExample();
+  resize(1920, 1080);
+  workspaces().show(Workspace::kRun);
+  window_.dock(QStringLiteral("levels"))->show();
+  workspaces().show(Workspace::kDiagnose);
+  EXPECT_FALSE(shows("levels"));
+  workspaces().show(Workspace::kRun);
+  QApplication::processEvents();
+  EXPECT_TRUE(shows("levels"));
+}
+
+}  // namespace
+}  // namespace boresight::ui
