@@ -351,7 +351,8 @@ bool SessionFiles::mayLeave() {
                : tr("Discarding drops them for good."));
   const int answer = box.exec();
   if (answer == QMessageBox::Save) return save();
-  if (answer == QMessageBox::Discard) untitled ? document.discardUntitled() : document.discardChanges();
+  if (answer == QMessageBox::Discard && untitled) document.discardUntitled();
+  if (answer == QMessageBox::Discard && !untitled) document.discardChanges();
   return answer == QMessageBox::Discard;
 }
 

@@ -210,18 +210,18 @@ void WindowMenus::updateTogether(bool idle) {
 
 /// The steps of the scrubber: its buttons name and enable them, the menu gives them their keys.
 void WindowMenus::fillGoMenu() {
-  using Step = RunScrubber::Step;
+  using Scrub = RunScrubber::Step;
   struct Key {
-    Step step;
+    Scrub step;
     const char* keys;
   };
   static constexpr Key kKeys[] = {
-      {Step::kPrevious, "Ctrl+Left"},
-      {Step::kNext, "Ctrl+Right"},
-      {Step::kPreviousStage, "Ctrl+Shift+Left"},
-      {Step::kNextStage, "Ctrl+Shift+Right"},
-      {Step::kFirst, "Ctrl+Home"},
-      {Step::kLast, "Ctrl+End"},
+      {Scrub::kPrevious, "Ctrl+Left"},
+      {Scrub::kNext, "Ctrl+Right"},
+      {Scrub::kPreviousStage, "Ctrl+Shift+Left"},
+      {Scrub::kNextStage, "Ctrl+Shift+Right"},
+      {Scrub::kFirst, "Ctrl+Home"},
+      {Scrub::kLast, "Ctrl+End"},
   };
   const RunScrubber* scrubber = &run_bar_.scrubber();
   for (const Key& each : kKeys) {

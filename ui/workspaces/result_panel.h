@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+class QHBoxLayout;
 class QLabel;
 class QTableWidget;
 
@@ -46,7 +47,7 @@ class ResultPanel : public QWidget {
     QLabel* needed = nullptr;
   };
 
-  Figure addFigure(class QHBoxLayout& row);
+  Figure addFigure(QHBoxLayout& row);
   void showRun();
   void showAgreement();
   void showSigma();

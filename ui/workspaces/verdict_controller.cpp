@@ -7,6 +7,7 @@
 
 #include "sessions/review/checks.h"
 #include "sessions/session/case_annotations.h"
+#include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/review/onboard_panel.h"
