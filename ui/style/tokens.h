@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// The look of the program as constants: colours, lines on the image, sizes. The style sheet
+// (resources/style/boresight.qss) names the colours as @name@ and gets them from here.
+#pragma once
+
+#include <array>
+
+#include <QRgb>
+
+namespace boresight::ui {
+
+/// Colours of one theme, 0xRRGGBB.
+struct Theme {
+  QRgb window;       ///< ground of the window
+  QRgb panel;        ///< ground of panels and bars
+  QRgb alt;          ///< ground of panel heads and table heads
+  QRgb line;         ///< separators
+  QRgb line_strong;  ///< borders of fields and buttons
+  QRgb text;
+  QRgb text2;   ///< captions, units
+  QRgb text3;   ///< key hints, disabled
+  QRgb accent;  ///< primary action, chosen tab and row
+  QRgb accent_tint;
+  QRgb on_accent;  ///< text on the accent
+  QRgb success;
+  QRgb success_tint;
+  QRgb success_text;
+  QRgb failure;
+  QRgb failure_tint;
+  QRgb failure_text;
+  QRgb warning;
+  QRgb warning_tint;
+  QRgb warning_text;
+  QRgb canvas;        ///< round the image
+  QRgb overlay;       ///< tool strip, legend, chips
+  QRgb overlay_line;  ///< their borders
+};
+
+inline constexpr Theme kLightTheme = {
+    .window = 0xF1F2F4,
+    .panel = 0xFFFFFF,
+    .alt = 0xF7F8F9,
+    .line = 0xD7DBE0,
+    .line_strong = 0xB9C0C8,
+    .text = 0x1B1F24,
+    .text2 = 0x555E68,
+    .text3 = 0x7A838D,
+    .accent = 0x0B62C4,
+    .accent_tint = 0xE5EFFA,
+    .on_accent = 0xFFFFFF,
+    .success = 0x009E73,
+    .success_tint = 0xE3F4EE,
+    .success_text = 0x00684C,
+    .failure = 0xD55E00,
+    .failure_tint = 0xFCEBDD,
+    .failure_text = 0xA64900,
+    .warning = 0xE69F00,
+    .warning_tint = 0xFDF3DC,
+    .warning_text = 0x7A5200,
+    .canvas = 0x292B2E,
+    .overlay = 0x1C1D20,
+    .overlay_line = 0x45494F,
+};
+
+inline constexpr Theme kDarkTheme = {
+    .window = 0x1E2023,
+    .panel = 0x26282C,
+    .alt = 0x2C2F33,
+    .line = 0x3A3E44,
+    .line_strong = 0x535960,
+    .text = 0xE8EAED,
+    .text2 = 0xAEB5BD,
+    .text3 = 0x8B939C,
+    .accent = 0x4A9EF2,
+    .accent_tint = 0x1F3650,
+    .on_accent = 0x0E1620,
+    .success = 0x1FBF92,
+    .success_tint = 0x17362D,
+    .success_text = 0x5FD9B4,
+    .failure = 0xF0813A,
+    .failure_tint = 0x412A1A,
+    .failure_text = 0xFFB380,
+    .warning = 0xE69F00,
+    .warning_tint = 0x3D3116,
+    .warning_text = 0xF5CC70,
+    .canvas = 0x141517,
+    .overlay = 0x1C1D20,
+    .overlay_line = 0x45494F,
+};
+
+/// Badges of a case's state, each with an icon of its own. The same in both themes.
+inline constexpr QRgb kBadgeNew = 0x8A929B;
+inline constexpr QRgb kBadgeRunning = 0x0B62C4;
+inline constexpr QRgb kBadgeConverged = 0x0072B2;
+inline constexpr QRgb kBadgeFailed = 0xD55E00;
+inline constexpr QRgb kBadgeAnnotated = 0x7B5EA7;
+inline constexpr QRgb kBadgeValidated = 0x009E73;
+
+/// Text on the overlay's ground, which is dark in both themes.
+inline constexpr QRgb kOverlayText = 0xE8EAED;
+
+/// A line on the image: of constant width on the screen at any zoom, above a dark halo of the same
+/// pattern. Lengths in screen pixels at 100 %.
+struct LineToken {
+  QRgb color;
+  double width_px;
+  double dash_px;  ///< 0: solid. Of dots: 0 with a gap.
+  double gap_px;   ///< from the end of a dash to the next; between centres of dots
+  bool round_cap;
+  QRgb halo = 0x000000;
+  double halo_px = 1.8;  ///< wider than the line, both sides together
+  double halo_opacity = 0.55;
+};
+
+inline constexpr LineToken kSeedLine = {0xE69F00, 1.6, 9, 5, false};
+inline constexpr LineToken kPoseLine = {0x56B4E9, 1.7, 0, 0, true};
+inline constexpr LineToken kRejectedLine = {0xFF5CC8, 2.2, 0, 5, true};
+inline constexpr LineToken kTruthLine = {0xFFFFFF, 1.0, 0, 0, true};
+inline constexpr LineToken kInlierLine = {0x56E0C8, 1.7, 0, 0, true, 0x000000, 1.9};
+inline constexpr LineToken kOutlierLine = {0xFFB37A, 1.7, 5, 3, true, 0x000000, 1.9};
+inline constexpr LineToken kTemplateLine = {0xFFFFFF, 2.0, 0, 0, false, 0x000000, 2.0};
+inline constexpr LineToken kWindowLine = {0xFFFFFF, 1.2, 3, 3, false, 0x000000, 2.0};
+inline constexpr LineToken kMarkLine = {0x0072B2, 2.4, 0, 0, false, 0xFFFFFF, 2.6, 1.0};
+inline constexpr LineToken kBadMarkLine = {0xD55E00, 2.4, 4, 3, false, 0xFFFFFF, 2.6, 1.0};
+inline constexpr LineToken kUnfinishedMarkLine = {0xE69F00, 2.4, 0, 0, false, 0xFFFFFF, 2.6, 1.0};
+inline constexpr double kMarkRadius_px = 9;
+
+/// Where pose and truth coincide, the truth would hide the pose.
+inline constexpr double kPoseUnderTruthFactor = 1.5;
+
+/// Of poses in the 3D scene, whose ground is light.
+inline constexpr QRgb kSceneSeed = 0xB87900;
+inline constexpr QRgb kScenePose = 0x0072B2;
+inline constexpr QRgb kSceneRejected = 0xC21E8E;
+
+/// The frame of what the spacecraft computed, and of what was run on the ground.
+inline constexpr QRgb kOnboardFrame = 0xE69F00;
+inline constexpr QRgb kGroundFrame = 0x8A929B;
+inline constexpr int kOnboardFrame_px = 6;
+inline constexpr int kGroundFrame_px = 4;
+
+// Sizes in device-independent pixels.
+inline constexpr int kGrid = 4;  ///< spacings are 4, 8 or 16
+inline constexpr int kTopBarHeight = 40;
+inline constexpr int kVerdictHeight = 48;
+inline constexpr int kPanelHeadHeight = 32;
+inline constexpr int kTableRowHeight = 28;
+inline constexpr int kMarkRowHeight = 20;
+inline constexpr int kCheckRowHeight = 26;
+inline constexpr int kJobStripHeight = 28;
+inline constexpr int kScrubberHeight = 72;
+inline constexpr int kDrawerHandleHeight = 32;
+inline constexpr int kButtonHeight = 32;
+inline constexpr int kSmallButtonHeight = 28;
+inline constexpr int kFieldHeight = 28;
+inline constexpr int kIcon = 16;
+inline constexpr int kToolIcon = 18;
+inline constexpr double kIconStroke = 1.4;
+inline constexpr int kRadius = 4;
+inline constexpr int kBadge = 20;
+
+/// What depends on the width of the window.
+struct Measures {
+  int strip_width;
+  int strip_thumbnail;
+  int run_side;       ///< side pane of each workspace; 0: closed at first
+  int diagnose_side;
+  int review_side;
+  int queue_width;
+};
+inline constexpr int kWideWindow = 1600;  ///< from this width on the wide measures hold
+inline constexpr Measures kWide = {96, 64, 416, 616, 464, 304};
+inline constexpr Measures kNarrow = {64, 48, 360, 360, 392, 64};
+constexpr const Measures& measuresFor(int window_width) {
+  return window_width >= kWideWindow ? kWide : kNarrow;
+}
+
+/// Type, in points.
+inline constexpr std::array<const char*, 3> kFontFamilies = {"Inter", "Noto Sans", "DejaVu Sans"};
+inline constexpr double kTextSize = 10;
+inline constexpr double kCaptionSize = 9;
+inline constexpr double kHeadlineSize = 13.5;
+
+}  // namespace boresight::ui
