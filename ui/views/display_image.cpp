@@ -214,7 +214,7 @@ BitPixmaps::BitPixmaps(const BitImage& bits, const QColor& color) {
 
 /// Set pixels all have the same colour: OR keeps it.
 const QImage& BitPixmaps::at(double bits_per_pixel, int& step) {
-  return pictureFor(bits_per_pixel, pictures_, step, [](const QImage& fine) {
+  return pictureFor(2.0 * bits_per_pixel - 1e-9, pictures_, step, [](const QImage& fine) {
     return halved<QRgb>(fine, [](QRgb a, QRgb b, QRgb c, QRgb d) { return a | b | c | d; });
   });
 }

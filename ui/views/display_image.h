@@ -92,8 +92,9 @@ class BitPixmaps {
  public:
   BitPixmaps(const BitImage& bits, const QColor& color);
 
-  /// The picture whose pixels cover 2^step pixels of the bits, with step as large as it can be
-  /// while one of its pixels covers at most `bits_per_pixel` of theirs; the step comes back.
+  /// The picture whose pixels cover 2^step pixels of the bits, with step as small as it can be
+  /// while one of its pixels covers at least `bits_per_pixel` of theirs, so that drawing it drops
+  /// none; the step comes back.
   const QImage& at(double bits_per_pixel, int& step);
 
  private:
