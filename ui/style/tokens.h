@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The look of the program as constants: colours, lines on the image, sizes. The style sheet
-// (resources/style/boresight.qss) names the colours as @name@ and gets them from here.
+// (ui/style/boresight.qss) names the colours as @name@ and gets them from here.
 #pragma once
 
 #include <array>

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QIcon>
+
+#include "ui/style/theme.h"
+
+namespace boresight::ui {
+
+/// Monochrome icons on a grid of 16 x 16, drawn as lines.
+enum class Icon {
+  kNone,
+  kCheck,
+  kCross,
+  kWarning,
+  kInfo,
+  kClock,
+  kRing,
+  kDot,
+  kRun,
+  kStop,
+  kStepStage,
+  kStepIteration,
+  kReset,
+  kSearch,
+  kMove,
+  kMask,
+  kPencil,
+  kShield,
+  kPlus,
+  kFilter,
+  kFolder,
+  kTrash,
+  kImage,
+  kCamera,
+  kCube,
+  kTarget,
+  kTheme,
+  kHelp,
+  kFlag,
+  kNext,
+};
+
+/// In a colour of the theme that is in use when the icon is drawn; disabled: that of hints.
+QIcon iconOf(Icon icon, QRgb Theme::*color = &Theme::text);
+
+/// Draws it in a square, in one colour.
+void paintIcon(QPainter& painter, const QRectF& place, Icon icon, const QColor& color);
+
+}  // namespace boresight::ui
