@@ -42,7 +42,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
       tool_(new AnnotationTool(image.view(), controller, state, snapper, this)),
       loupe_(new Loupe(image.view())),
       edges_(new PoseRenderer(this)) {
-  image_.view().setOverlay([this](QPainter& painter) { paint(painter); });
+  image_.view().setOverlay(this, [this](QPainter& painter) { paint(painter); });
   connect(tool_, &AnnotationTool::aimChanged, this, &ImageAnnotation::lookThroughLoupe);
   connect(&image_.display(), &DisplayImage::pictureChanged, this, &ImageAnnotation::showSamples);
   connect(&image_.display(), &DisplayImage::levelsChanged, this, &ImageAnnotation::showSamples);
@@ -61,9 +61,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
   connect(&snapper_, &StationSnapper::meshChanged, this, &ImageAnnotation::askForBand);
   connect(edges_, &PoseRenderer::rendered, this,
           [this](const std::shared_ptr<const sessions::RenderTrace>& render, int level) {
-            std::vector<LayerBits> bits = bitsOf(render, false);
-            for (LayerBits& entry : bits) entry.level = level;
-            image_.setBits(LayerId::kAnnotationEdges, std::move(bits));
+            image_.setLines(LayerId::kAnnotationEdges, linesOf(*render, level));
             loupe_->update();
           });
   showSamples();
@@ -71,7 +69,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
 }
 
 ImageAnnotation::~ImageAnnotation() {
-  if (view_) view_->setOverlay({});
+  if (view_) view_->setOverlay(this, {});
 }
 
 void ImageAnnotation::setMagnification(double magnification) {
@@ -128,7 +126,7 @@ void ImageAnnotation::showSolution() {
     rendered_case_ = state_.currentCase();
     rendered_pose_.reset();
     edges_->setCase(rendered_case_);
-    image_.setBits(LayerId::kAnnotationEdges, {});
+    image_.setLines(LayerId::kAnnotationEdges, nullptr);
   }
   const bool shown = image_.style(LayerId::kAnnotationEdges).visible;
   const std::optional<Pose> solved = shown ? controller_.solvedPose() : std::nullopt;
@@ -138,7 +136,7 @@ void ImageAnnotation::showSolution() {
       edges_->setPose(*solved);
     } else {
       edges_->clear();
-      image_.setBits(LayerId::kAnnotationEdges, {});
+      image_.setLines(LayerId::kAnnotationEdges, nullptr);
     }
   }
   askForBand();

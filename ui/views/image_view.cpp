@@ -19,6 +19,7 @@ constexpr double kZoomStep = 1.25;
 constexpr double kPickRadius = 8.0;
 constexpr double kClickSlack = 3.0;
 constexpr double kSwipeReach = 6.0;
+constexpr double kFaded = 0.25;
 constexpr double kCursorSize = 12.0;
 constexpr int kToolMargin = 56;  ///< of texts beside the tool strip
 const QColor kSwipeColor(255, 255, 255);
@@ -246,7 +247,7 @@ void ImageView::paintImage(QPainter& painter) const {
 void ImageView::paintLayer(QPainter& painter, std::size_t index) {
   const Layer& layer = layers_[index];
   if (!layer.style.visible || layer.style.opacity <= 0.0) return;
-  painter.setOpacity(layer.style.opacity);
+  painter.setOpacity(layer.faded ? kFaded * layer.style.opacity : layer.style.opacity);
   paintBits(painter, layer, drawn_[index]);
   painter.setRenderHint(QPainter::Antialiasing, true);
   if (layer.lines)

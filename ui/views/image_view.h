@@ -38,6 +38,7 @@ class ImageView : public QWidget {
   const Layer& layer(LayerId id) const { return layers_[static_cast<std::size_t>(id)]; }
   void setStyle(LayerId id, const LayerStyle& style);
 
+  QSize imageSize() const { return image_.size(); }
   const ViewTransform& transform() const { return transform_; }
   void setTransform(const ViewTransform& transform);
   void fit();
@@ -79,6 +80,7 @@ class ImageView : public QWidget {
   void contextMenuRequested(const QPointF& pixel, const QPoint& global);
   /// While a tool is set, the left button is the tool's (the middle one pans); a double click is
   /// two presses.
+  void toolClaimed(const QObject* owner);
   void toolPressed(const QPointF& pixel);
   void toolMoved(const QPointF& pixel);
   void toolReleased(const QPointF& pixel);
@@ -87,6 +89,8 @@ class ImageView : public QWidget {
   /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
+  /// One tool works at a time: what else is in use is told to end.
+  void claimTool(const QObject* owner) { Q_EMIT toolClaimed(owner); }
   void setToolPreviews(std::vector<ToolPreview> previews);
   /// What is painted over everything else, in the widget's coordinates; one for each owner. Empty:
   /// nothing.

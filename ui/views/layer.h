@@ -67,6 +67,11 @@ struct LayerInfo {
 };
 const LayerInfo& layerInfo(LayerId id);
 
+/// The run ended without a pose to trust; its pose never looks like a result.
+inline bool isRejected(const sessions::LocalizationTrace& run) {
+  return run.status != LocalizationStatus::kRunning && !run.converged();
+}
+
 /// Lines that a layer draws, shared with who made them.
 using LinesPtr = std::shared_ptr<const sessions::EdgeLines>;
 LinesPtr linesOf(const sessions::RenderTrace& render, int level);
@@ -120,6 +125,7 @@ struct Layer {
   LinesPtr lines;
   std::optional<LineToken> line;  ///< how the lines look now, instead of the layer's own
   QString name;                   ///< what it shows now, instead of the layer's name
+  bool faded = false;             ///< stands back while other layers are compared
 
   bool empty() const { return bits.empty() && marks.empty() && (!lines || lines->empty()); }
   /// With the colour of the style, unless the look is another for now.
