@@ -70,12 +70,15 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
       state_(state),
       tasks_(tasks),
       view_(new ImageView),
+      canvases_(new QSplitter),
       display_(new DisplayImage(state, tasks, this)),
       chips_(new CanvasChips(*view_)) {
   view_->setObjectName(QStringLiteral("imageView"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(view_);
+  column->addWidget(canvases_);
+  canvases_->addWidget(view_);
+  canvases_->setChildrenCollapsible(false);
   measure_ = new MeasureTool(*view_, state, this);
   legend_ = new LayerLegend(*this);
   chips_->setLegend(legend_);
@@ -128,6 +131,11 @@ void ImagePanel::buildTools() {
                tr("Blink the layers every half second (B); hold H to hide them"), true);
   swipe_ = add(Icon::kSwipe, tr("Swipe"),
                tr("Show the layers only left of a line (V); drag the line"), true);
+  side_by_side_ = add(Icon::kSideBySide, tr("Side by side"),
+                      tr("A second canvas with linked zoom and pointer: the seed, the truth, "
+                         "another run, another camera"),
+                      true);
+  side_by_side_->setVisible(false);  // until there is one
   core_view_ = add(Icon::kAlgorithm, tr("Algorithm's view"),
                    tr("Show the 8-bit image of the algorithm instead of a stretched image (C). "
                       "Stretching does not change runs."),
@@ -147,6 +155,20 @@ void ImagePanel::buildTools() {
     view_->setSwipe(on ? std::optional<double>(0.5) : std::nullopt);
   });
 }
+
+void ImagePanel::setBeside(QWidget* canvas) {
+  beside_ = canvas;
+  canvases_->addWidget(canvas);
+  canvas->hide();
+  for (int i = 0; i < canvases_->count(); ++i) canvases_->setStretchFactor(i, 1);
+  side_by_side_->setVisible(true);
+  connect(side_by_side_, &QAction::toggled, this, [this](bool on) {
+    beside_->setVisible(on);
+    if (on) canvases_->setSizes({width() / 2, width() / 2});
+  });
+}
+
+void ImagePanel::showBeside(bool shown) { side_by_side_->setChecked(shown); }
 
 void ImagePanel::toggleBlink() { blink_->toggle(); }
 void ImagePanel::toggleSwipe() { swipe_->toggle(); }

@@ -14,6 +14,7 @@
 #include "ui/views/layer.h"
 
 class QAction;
+class QSplitter;
 class QToolBar;
 
 namespace boresight::ui {
@@ -40,6 +41,10 @@ class ImagePanel : public QWidget {
   MeasureTool& measure() { return *measure_; }
   /// The strip of tools on the image; owners of further tools add theirs.
   QToolBar& tools();
+  /// A second canvas at the right of the image, hidden until it is asked for; its owner is this
+  /// panel from now on.
+  void setBeside(QWidget* canvas);
+  void showBeside(bool shown);
   void setStyle(LayerId id, const LayerStyle& style);
   const LayerStyle& style(LayerId id) const;
   /// Edges of the pose being nudged; nullptr takes them away.
@@ -98,10 +103,13 @@ class ImagePanel : public QWidget {
   ViewState& state_;
   TaskRunner& tasks_;
   ImageView* view_;
+  QSplitter* canvases_;
   DisplayImage* display_;
   CanvasChips* chips_;
   LayerLegend* legend_ = nullptr;
   MeasureTool* measure_ = nullptr;
+  QWidget* beside_ = nullptr;
+  QAction* side_by_side_ = nullptr;
   QAction* blink_ = nullptr;
   QAction* swipe_ = nullptr;
   QAction* core_view_ = nullptr;

@@ -7,6 +7,7 @@
 
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/panels/input_guard.h"
 #include "ui/panels/widgets.h"
 #include "ui/scene/scene_view.h"
 #include "ui/views/image_panel.h"
@@ -71,6 +72,7 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectAll() {
   const auto note = [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); };
+  new InputGuard(this);
   auto* links = new PanelLinks(parts_, *docks_, this);
   new QueueLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels, this);

@@ -9,22 +9,28 @@
 #include "ui/annotation/station_snapper.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
+#include "ui/panels/history_panel.h"
 #include "ui/panels/hypotheses_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/iterations_panel.h"
 #include "ui/panels/levels_panel.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
+#include "ui/panels/nudge_gizmo.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/panels/runs_panel.h"
 #include "ui/panels/widgets.h"
+#include "ui/review/onboard_controller.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_view.h"
+#include "ui/views/compare_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
 #include "ui/views/mask_editor.h"
+#include "ui/window/case_controller.h"
 
 namespace boresight::ui {
 namespace {
@@ -53,6 +59,9 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
       snapper(*new StationSnapper(parts.state, &window)),
       scene(*new SceneView(parts.state)),
       image_annotation(*new ImageAnnotation(image, parts.annotation, parts.state, snapper, &image)),
+      layers(*new LayersPanel(image)),
+      compare(*new CompareView(image, parts.document, parts.state, parts.tasks)),
+      gizmo(*new NudgeGizmo(image.view(), poses.nudgeController(), parts.state, &image)),
       warnings(*new Banner),
       findings(*new Banner),
       window_(window) {
@@ -65,9 +74,10 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
                    &NudgeController::setPose);
   annotation.addBeside(ambiguity);
   scene.setAnnotation(parts.annotation, snapper);
+  linkViews(parts);
   buildCentre();
   add(QStringLiteral("cases"), windowText("Cases"), &cases);
-  add(QStringLiteral("layers"), windowText("Layers"), new LayersPanel(image));
+  add(QStringLiteral("layers"), windowText("Layers"), &layers);
   add(QStringLiteral("mask"), windowText("Mask"), &mask);
   add(QStringLiteral("levels"), windowText("Levels"), &levels);
   add(QStringLiteral("pose"), windowText("Pose"), &poses);
@@ -81,9 +91,32 @@ WindowDocks::WindowDocks(QMainWindow& window, const WindowParts& parts)
   add(QStringLiteral("review"), windowText("Review"), &review);
   add(QStringLiteral("queue"), windowText("Queue"), &queue);
   add(QStringLiteral("inputs"), windowText("Inputs"), &inputs);
+  add(QStringLiteral("history"), windowText("History"), new HistoryPanel(parts.document));
+  auto* runs = new RunsPanel(parts.document, parts.state);
+  add(QStringLiteral("runs"), windowText("Runs"), runs);
+  QObject::connect(runs, &RunsPanel::openRequested, &parts.cases, &CaseController::showRun);
+  QObject::connect(runs, &RunsPanel::compareRequested, &compare, &CompareView::showRun);
   add(QStringLiteral("onboard"), windowText("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));
   place();
+}
+
+/// What is pointed at in one view is marked in the other.
+void WindowDocks::linkViews(const WindowParts& parts) {
+  QObject::connect(&image, &ImagePanel::stationPlaceHovered, &scene, &SceneView::showStationPlace);
+  QObject::connect(&scene, &SceneView::stationPlaceHovered, &image, &ImagePanel::showStationPlace);
+  QObject::connect(&image, &ImagePanel::templateClicked, &image,
+                   [this] { raise(QStringLiteral("inspector")); });
+  QObject::connect(&image, &ImagePanel::allLayersRequested, &image, [this] {
+    layers.showAll();
+    raise(QStringLiteral("layers"));
+  });
+  image.tools().addAction(&gizmo.action());
+  image.setBeside(&compare);
+  QObject::connect(&parts.onboard, &OnboardController::changed, &compare,
+                   [this, &onboard = parts.onboard] {
+                     compare.setOnboardRun(onboard.review() ? onboard.review()->replay : nullptr);
+                   });
 }
 
 void WindowDocks::buildCentre() {
@@ -130,7 +163,8 @@ void WindowDocks::place() const {
     window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
   for (const char* name :
-       {"hypotheses", "inspector", "annotation", "review", "queue", "onboard", "inputs"})
+       {"hypotheses", "inspector", "annotation", "review", "queue", "onboard", "inputs",
+                           "history", "runs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers->raise();

@@ -15,13 +15,16 @@ namespace boresight::ui {
 class AnnotationPanel;
 class Banner;
 class CasesPanel;
+class CompareView;
 class ConfigurationPanel;
 class ImageAnnotation;
 class ImagePanel;
 class InputSheetPanel;
+class LayersPanel;
 class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
+class NudgeGizmo;
 class PosePanel;
 class QueuePanel;
 class ReviewPanel;
@@ -49,6 +52,9 @@ class WindowDocks {
   StationSnapper& snapper;  ///< for every view
   SceneView& scene;
   ImageAnnotation& image_annotation;
+  LayersPanel& layers;
+  CompareView& compare;
+  NudgeGizmo& gizmo;
   Banner& warnings;  ///< above the image: what looks wrong with the case's inputs
   Banner& findings;  ///< above the image: files that are missing or have changed
 
@@ -63,6 +69,7 @@ class WindowDocks {
 
  private:
   void buildCentre();
+  void linkViews(const WindowParts& parts);
   void place() const;
   QDockWidget* dock(const QString& name) const;
   void add(const QString& name, const QString& title, QWidget* widget);
