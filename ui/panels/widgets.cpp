@@ -63,13 +63,21 @@ EmptyHint::EmptyHint(QAbstractItemView& view, int least_rows)
   showOrHide();
 }
 
+/// Below the rows that are always there.
+void EmptyHint::place() {
+  QRect area = view_.viewport()->rect();
+  const int rows = view_.model()->rowCount();
+  if (rows > 0) area.setTop(view_.visualRect(view_.model()->index(rows - 1, 0)).bottom() + 1);
+  setGeometry(area);
+}
+
 void EmptyHint::showOrHide() {
-  setGeometry(view_.viewport()->rect());
+  place();
   setVisible(view_.model()->rowCount() <= least_rows_);
 }
 
 bool EmptyHint::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize) setGeometry(view_.viewport()->rect());
+  if (event->type() == QEvent::Resize) place();
   return QLabel::eventFilter(watched, event);
 }
 
