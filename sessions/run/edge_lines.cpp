@@ -19,6 +19,7 @@ constexpr double kFarthest_px = 2.3;    ///< between neighbours
 constexpr double kLeastAlong_px = 0.15;
 constexpr double kCorner_px = 1.8;      ///< between ends that meet
 constexpr double kLeastCosine = 0.6;    ///< between the normals of neighbours
+constexpr double kStraightCosine = 0.985;  ///< above it there is no corner
 constexpr int kNone = -1;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -171,20 +172,25 @@ class Joiner {
     node(best).next[static_cast<std::size_t>(best_side)] = index;
   }
 
-  /// Appends the place of `to`, and before it the corner where both directions meet.
+  /// Appends the place of `to`. Where the direction changes both lines end at the corner, also where
+  /// a place lies beyond it.
   void append(std::vector<Eigen::Vector2d>& line, int from, int to) {
     const Node& a = node(from);
     const Node& b = node(to);
-    if (std::abs(a.normal.dot(b.normal)) < kLeastCosine) {
-      const Eigen::Vector2d along_a = a.tangent(0);
-      const Eigen::Vector2d along_b = b.tangent(0);
-      const double turn = cross(along_a, along_b);
-      const Eigen::Vector2d corner =
-          a.place_px + cross(b.place_px - a.place_px, along_b) / turn * along_a;
-      if ((corner - a.place_px).norm() < kCorner_px && (corner - b.place_px).norm() < kCorner_px)
-        line.push_back(corner);
+    if (std::abs(a.normal.dot(b.normal)) >= kStraightCosine) {
+      line.push_back(b.place_px);
+      return;
     }
-    line.push_back(b.place_px);
+    const Eigen::Vector2d way = b.place_px - a.place_px;
+    const Eigen::Vector2d along_a = way.dot(a.tangent(0)) < 0.0 ? a.tangent(1) : a.tangent(0);
+    const Eigen::Vector2d along_b = way.dot(b.tangent(0)) < 0.0 ? b.tangent(1) : b.tangent(0);
+    const Eigen::Vector2d corner =
+        a.place_px + cross(way, along_b) / cross(along_a, along_b) * along_a;
+    const bool near = (corner - a.place_px).norm() < kCorner_px &&
+                      (corner - b.place_px).norm() < kCorner_px;
+    if (near && (corner - a.place_px).dot(along_a) < 0.0) line.pop_back();
+    if (near) line.push_back(corner);
+    if (!near || (b.place_px - corner).dot(along_b) > 0.0) line.push_back(b.place_px);
   }
 
   /// From a node on along one side until the line ends, or is back.
@@ -203,16 +209,17 @@ class Joiner {
 
   std::vector<Eigen::Vector2d> trace(int index) {
     visited_[static_cast<std::size_t>(index)] = true;
-    std::vector<Eigen::Vector2d> backward;
-    std::vector<Eigen::Vector2d> line = {node(index).place_px};
+    const Eigen::Vector2d start = node(index).place_px;
+    std::vector<Eigen::Vector2d> line = {start};
     follow(index, 0, line);
-    const bool closed = line.size() > 2 && line.back() == line.front();
+    const bool closed = line.size() > 2 && line.back() == start;
+    std::vector<Eigen::Vector2d> backward = {start};
     if (!closed) follow(index, 1, backward);
     std::reverse(backward.begin(), backward.end());
-    backward.insert(backward.end(), line.begin(), line.end());
+    backward.insert(backward.end(), line.begin() + 1, line.end());
     if (backward.size() > 1) return backward;
     const Eigen::Vector2d half = 0.5 * node(index).tangent(0);  // a pixel on its own
-    return {node(index).place_px - half, node(index).place_px + half};
+    return {start - half, start + half};
   }
 
   int width_;

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kShortestScale = 50.0;  ///< on the screen
 constexpr int kNoteMargin = 8;
+constexpr int kBesideTools = 56;  ///< clear of the strip of tools
 
 std::optional<QPointF> placeOf(const AnnotationController& controller) {
   const sessions::PointPair* point = controller.selectedPoint();
@@ -196,12 +197,11 @@ QString ImageAnnotation::nextStep() const {
 
 void ImageAnnotation::paint(QPainter& painter) const {
   if (!state_.currentCase()) return;
-  const QRect area = image_.view().rect();
   const int line = painter.fontMetrics().height() + 6;
-  QPointF at(area.left() + kNoteMargin, area.bottom() - kNoteMargin - line);
+  QPointF at(kBesideTools, kNoteMargin);
   if (controller_.mode() != PlaceMode::kOff) {
     paintBox(painter, at, nextStep());
-    at.ry() -= line + 2;
+    at.ry() += line + 2;
   }
   const Layer& residuals = image_.view().layer(LayerId::kAnnotationResiduals);
   if (residuals.style.visible && !residuals.marks.empty()) paintResidualScale(painter, at);

@@ -26,7 +26,7 @@ constexpr LayerId kOnDemand[] = {LayerId::kHypothesisEdges, LayerId::kChosenEdge
 /// A button that draws itself: the look of a line is its own icon.
 class LayerLegend::Row : public QAbstractButton {
  public:
-  Row(const LayerInfo& info, ImagePanel& image) : info_(info), image_(image) {
+  explicit Row(const LayerInfo& info) : info_(info) {
     setCheckable(true);
     setFocusPolicy(Qt::NoFocus);  // keys stay the image's
     setObjectName(QStringLiteral("legend%1").arg(static_cast<int>(info.id)));
@@ -34,7 +34,7 @@ class LayerLegend::Row : public QAbstractButton {
     setCursor(Qt::PointingHandCursor);
   }
 
-  void show(const Layer& layer) {
+  void setLayer(const Layer& layer) {
     layer_line_ = layer.shownLine();
     empty_ = layer.empty();
     setText(layer.name.isEmpty() ? ImagePanel::tr(info_.name) : layer.name);
@@ -80,7 +80,6 @@ class LayerLegend::Row : public QAbstractButton {
   }
 
   const LayerInfo& info_;
-  ImagePanel& image_;
   LineToken layer_line_ = kPoseLine;
   bool empty_ = true;
 };
@@ -93,7 +92,7 @@ LayerLegend::LayerLegend(ImagePanel& image) : QFrame(&image.view()), image_(imag
   column->setSpacing(2);
   for (int i = 0; i < kLayerCount; ++i) {
     const LayerInfo& info = layerInfo(static_cast<LayerId>(i));
-    auto* row = new Row(info, image);
+    auto* row = new Row(info);
     rows_.push_back(row);
     connect(row, &QAbstractButton::clicked, this, [this, id = info.id](bool on) {
       LayerStyle style = image_.style(id);
@@ -140,7 +139,7 @@ void LayerLegend::update() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const auto id = static_cast<LayerId>(i);
     const bool shows = std::find(listed.begin(), listed.end(), id) != listed.end();
-    rows_[i]->show(image_.view().layer(id));
+    rows_[i]->setLayer(image_.view().layer(id));
     rows_[i]->setVisible(shows);
   }
   adjustSize();

@@ -115,14 +115,20 @@ void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& m
   }
 }
 
-void paintLabel(QPainter& painter, const QPointF& at, const Mark& mark) {
+/// Of an annotation a chip in its colour.
+void paintLabel(QPainter& painter, const QPointF& at, const Mark& mark, const QColor& color) {
   if (mark.label.isEmpty()) return;
+  const bool chip = mark.line && mark.cased;
   if (mark.cased) {
     const QFontMetricsF metrics(painter.font());
-    painter.fillRect(QRectF(at.x() - 2.0, at.y() - metrics.ascent(),
-                            metrics.horizontalAdvance(mark.label) + 4.0, metrics.height()),
-                     kLabelGround);
+    const QRectF ground(at.x() - 3.0, at.y() - metrics.ascent() - 1.0,
+                        metrics.horizontalAdvance(mark.label) + 6.0, metrics.height() + 2.0);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(chip ? color : kLabelGround);
+    painter.drawRoundedRect(ground, 2.0, 2.0);
+    painter.setBrush(Qt::NoBrush);
   }
+  painter.setPen(chip && color.lightnessF() > 0.7 ? Qt::black : chip ? Qt::white : color);
   painter.drawText(at, mark.label);
 }
 
@@ -154,7 +160,7 @@ void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& ma
   QPen pen(color, mark.width);
   if (mark.line) {
     LineToken line = *mark.line;
-    if (mark.color.isValid()) line.color = mark.color.rgb();
+    line.color = color.rgb();
     painter.setPen(haloPen(line));
     paintShape(painter, transform, mark);
     pen = linePen(line);
@@ -169,7 +175,7 @@ void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& ma
   paintShape(painter, transform, mark);
   painter.setBrush(Qt::NoBrush);
   const double half = 0.5 * mark.size_px;
-  paintLabel(painter, transform.toWidget(mark.at) + QPointF(half + 3.0, -half), mark);
+  paintLabel(painter, transform.toWidget(mark.at) + QPointF(half + 3.0, -half), mark, color);
 }
 
 double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget) {

@@ -153,21 +153,21 @@ void WindowDocks::arrange() const {
 
 void WindowDocks::place() const {
   for (QDockWidget* each : docks_) each->setFloating(false);
-  QDockWidget* layers = dock(QStringLiteral("layers"));
+  QDockWidget* layers_dock = dock(QStringLiteral("layers"));
   QDockWidget* iterations = dock(QStringLiteral("iterations"));
   window_.addDockWidget(Qt::LeftDockWidgetArea, dock(QStringLiteral("cases")));
   window_.addDockWidget(Qt::RightDockWidgetArea, dock(QStringLiteral("scene")));
-  window_.addDockWidget(Qt::RightDockWidgetArea, layers);
+  window_.addDockWidget(Qt::RightDockWidgetArea, layers_dock);
   // As many as can be named at 1280 pixels.
   for (const char* name : {"mask", "levels", "pose", "configuration"})
-    window_.tabifyDockWidget(layers, dock(QLatin1String(name)));
+    window_.tabifyDockWidget(layers_dock, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
   for (const char* name :
        {"hypotheses", "inspector", "annotation", "review", "queue", "onboard", "inputs",
                            "history", "runs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
-  layers->raise();
+  layers_dock->raise();
   iterations->raise();
 }
 
