@@ -43,7 +43,7 @@ TEST(SceneContent, CameraOfARejectedRunLooksRejected) {
   ViewState state;
   test::showRun(state);
   auto run = std::make_shared<sessions::LocalizationTrace>(*state.snapshot());
-  run->status = LocalizationStatus::kNotConverged;
+  run->status = LocalizationStatus::kPnpFailed;
   state.setSnapshot(run);
   for (const Frustum& frustum : sceneContent(state).frusta) {
     const bool estimate = frustum.role == PoseRole::kEstimate;

@@ -88,9 +88,7 @@ TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
 TEST_F(SceneViewTest, Readout_OfAnotherCaseIsNotKept) {
   click(onCanvas(view_.content().bounds.centre()));
   const QString picked = readout();
-  auto other = std::make_shared<sessions::LoadedCase>(*state_.currentCase());
-  other->source.id = "another";
-  state_.setCase(other);
+  state_.setCase(test::loadedExample("bc"));
   view_.refresh();
   EXPECT_NE(readout(), picked);
 }

@@ -170,7 +170,7 @@ TEST_F(ImagePanelTest, PoseOfARejectedRunHasAColourAndAPatternOfItsOwn) {
   state_.setSnapshot(run);
   const Layer found = panel_.view().layer(LayerId::kIterationEdges);
   run = std::make_shared<sessions::LocalizationTrace>(*run);
-  run->status = LocalizationStatus::kNotConverged;
+  run->status = LocalizationStatus::kPnpFailed;
   state_.setSnapshot(run);
   const Layer rejected = panel_.view().layer(LayerId::kIterationEdges);
   EXPECT_NE(rejected.shownLine().color, found.shownLine().color);
@@ -210,11 +210,11 @@ TEST_F(ImagePanelTest, OnlyTheChosenTemplateHasItsSearchWindowDrawn) {
 
 TEST_F(ImagePanelTest, ANewCaseIsShownWhole) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return !panel_.view().imageSize().isEmpty(); }, kPatienceMs));
-  const ViewTransform whole = panel_.view().transform();
   panel_.view().centreOn({10.0, 10.0}, 7.0);
-  auto other = std::make_shared<sessions::LoadedCase>(*state_.currentCase());
-  other->source.id = "another";
-  state_.setCase(other);
+  state_.setCase(test::loadedExample("bc"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !tasks_.isBusy(); }, kPatienceMs));
+  ViewTransform whole;
+  whole.fit(panel_.view().imageSize(), panel_.view().size());
   EXPECT_EQ(panel_.view().transform(), whole);
 }
 
