@@ -72,7 +72,7 @@ void NudgeGizmo::setActive(bool active) {
 
 Pose NudgeGizmo::pose() const {
   if (state_.nudgedPose()) return *state_.nudgedPose();
-  return poseOf(state_, PoseRole::kSeed).value_or(Pose());
+  return state_.currentCase() ? state_.currentCase()->source.camera_from_station_seed : Pose();
 }
 
 std::optional<QPointF> NudgeGizmo::centre() const {

@@ -362,8 +362,7 @@ void ImagePanel::showTemplates() {
 void ImagePanel::askForRenders() {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   if (!loaded_case) return;
-  if (const auto seed = poseOf(state_, PoseRole::kSeed))
-    askForRender(LayerId::kSeedEdges, "seed edges", *seed);
+  askForRender(LayerId::kSeedEdges, "seed edges", loaded_case->source.camera_from_station_seed);
   if (const auto truth = poseOf(state_, PoseRole::kTruth))
     askForRender(LayerId::kTruthEdges, "truth edges", *truth);
   if (const auto& other = state_.alternative()) {
