@@ -64,8 +64,8 @@ int exportFrom(const ExchangeArguments& arguments) {
     sessions::exportAnnotations(session, arguments.onlyCase(), arguments.points);
     tell(arguments.cases, {});
   } else if (!arguments.landmarks.empty()) {
-    sessions::exportLandmarks(session, arguments.onlyCase(), arguments.landmarks);
-    tell(arguments.cases, {});
+    tell(arguments.cases,
+         sessions::exportLandmarks(session, arguments.onlyCase(), arguments.landmarks));
   } else if (!arguments.pose.empty()) {
     exportPose(session, arguments);
   } else {

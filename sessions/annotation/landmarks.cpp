@@ -80,6 +80,13 @@ std::vector<Landmark> withAnnotations(std::vector<Landmark> landmarks,
   return landmarks;
 }
 
+std::string leftOutOfLandmarks(const Annotations& annotations) {
+  const std::size_t lines = annotations.lines.size();
+  if (lines == 0) return "";
+  return std::to_string(lines) + (lines == 1 ? " line is" : " lines are") +
+         " left out: landmarks are points.";
+}
+
 std::vector<Proposal> proposeAnnotations(const std::vector<Landmark>& landmarks,
                                          const Annotations& annotations, const MeshView& mesh,
                                          const Camera& camera, const Pose& camera_from_station,

@@ -40,6 +40,9 @@ void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmar
 std::vector<Landmark> withAnnotations(std::vector<Landmark> landmarks,
                                       const Annotations& annotations);
 
+/// "2 lines are left out: landmarks are points."; "" when nothing is.
+std::string leftOutOfLandmarks(const Annotations& annotations);
+
 /// A landmark that has no annotation in an image yet, and where it should be.
 struct Proposal {
   Landmark landmark;

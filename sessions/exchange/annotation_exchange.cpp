@@ -291,7 +291,8 @@ void exportAnnotations(const Session& session, const std::string& case_id, const
   writeAnnotations(file, requireMarks(session, case_id));
 }
 
-void exportLandmarks(const Session& session, const std::string& case_id, const fs::path& file) {
+std::vector<std::string> exportLandmarks(const Session& session, const std::string& case_id,
+                                         const fs::path& file) {
   const Annotations& annotations = requireMarks(session, case_id);
   std::error_code error;
   std::vector<Landmark> landmarks;
@@ -301,6 +302,8 @@ void exportLandmarks(const Session& session, const std::string& case_id, const f
     throw InputError("session", "annotations",
                      "case '" + case_id + "' has no point with station coordinates");
   writeLandmarks(file, landmarks);
+  const std::string left_out = leftOutOfLandmarks(annotations);
+  return left_out.empty() ? std::vector<std::string>() : std::vector<std::string>{left_out};
 }
 
 ImportReport importAnnotations(const Session& session, const std::string& case_id,

@@ -67,9 +67,10 @@ void exportAnnotations(const Session& session, const std::string& case_id,
                        const std::filesystem::path& file);
 
 /// Writes the points of a case as landmarks.json, added to those that the file has; one of the same
-/// name is replaced. InputError also for a file that is there and is none; OutputError.
-void exportLandmarks(const Session& session, const std::string& case_id,
-                     const std::filesystem::path& file);
+/// name is replaced. Returns what was left out, a sentence each. InputError also for a file that is
+/// there and is none; OutputError.
+std::vector<std::string> exportLandmarks(const Session& session, const std::string& case_id,
+                                         const std::filesystem::path& file);
 
 /// A session with what was imported, not yet saved.
 struct ImportReport {

@@ -144,4 +144,15 @@ std::optional<SurfacePoint> surfacePointAt(const Camera& camera, const MeshView&
   return nearest;
 }
 
+Measurement measureBetween(const Camera& camera, const MeshView& mesh,
+                           const Pose& camera_from_station, const Eigen::Vector2d& from_px,
+                           const Eigen::Vector2d& to_px) {
+  Measurement measured;
+  measured.image_px = (to_px - from_px).norm();
+  const auto from = surfacePointAt(camera, mesh, camera_from_station, from_px);
+  const auto to = surfacePointAt(camera, mesh, camera_from_station, to_px);
+  if (from && to) measured.surface_m = (to->in_station_m - from->in_station_m).norm();
+  return measured;
+}
+
 }  // namespace boresight::sessions

@@ -68,4 +68,13 @@ std::optional<SurfacePoint> surfacePointAt(const Camera& camera, const MeshView&
                                            const Pose& camera_from_station,
                                            const Eigen::Vector2d& pixel);
 
+/// A distance that an operator measures on an image.
+struct Measurement {
+  double image_px = 0.0;
+  std::optional<double> surface_m;  ///< straight, where both ends are on the station
+};
+Measurement measureBetween(const Camera& camera, const MeshView& mesh,
+                           const Pose& camera_from_station, const Eigen::Vector2d& from_px,
+                           const Eigen::Vector2d& to_px);
+
 }  // namespace boresight::sessions

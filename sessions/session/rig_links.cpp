@@ -55,6 +55,13 @@ std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionC
   return *other.camera_from_station_truth * session_case.camera_from_station_truth->inverse();
 }
 
+std::optional<Pose> linkOfLabels(const SessionCase& session_case, const SessionCase& other) {
+  const auto& from = session_case.camera_reference;
+  const auto& to = other.camera_reference;
+  if (!from || !to || from->frame.name.empty() || !(from->frame == to->frame)) return {};
+  return to->camera_from_reference * from->camera_from_reference.inverse();
+}
+
 Session withRigLink(const Session& session, const std::string& case_id, const std::string& other_id,
                     const Pose& other_from_case) {
   if (session.findCase(case_id) == nullptr || session.findCase(other_id) == nullptr ||

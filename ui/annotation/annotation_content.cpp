@@ -6,14 +6,15 @@
 #include <QCoreApplication>
 
 #include "sessions/annotation/annotations_on_image.h"
+#include "ui/style/tokens.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr double kSize = 15.0;  ///< on the screen
+constexpr double kSize = 2.0 * kMarkRadius_px;  ///< on the screen
 constexpr double kEndSize = 7.0;
-constexpr double kChosenSize = 27.0;
+constexpr double kChosenSize = 32.0;
 
 QString contentText(const char* text) { return QCoreApplication::translate("MarkContent", text); }
 
@@ -127,12 +128,34 @@ QString annotationLabel(const std::string& id, const AnnotationState& state) {
 QColor annotationColor(const AnnotationState& state) {
   if (state.outlier > 0.0) return kOutlierAnnotation;
   if (state.chosen) return kChosenAnnotation;
+  if (!state.complete) return QColor(kUnfinishedMarkLine.color);
   return state.enabled ? QColor() : kDisabledAnnotation;
 }
+
+namespace {
+
+/// A light halo round dark lines, a dark one round the chosen annotation's bright ones.
+LineToken markLine(const AnnotationState& state, bool dashed) {
+  LineToken line = state.outlier > 0.0 ? kBadMarkLine
+                   : !state.complete   ? kUnfinishedMarkLine
+                                       : kMarkLine;
+  if (dashed && line.gap_px == 0.0) {
+    line.dash_px = kBadMarkLine.dash_px;
+    line.gap_px = kBadMarkLine.gap_px;
+  }
+  if (state.chosen && state.outlier == 0.0) {
+    line.halo = 0x000000;
+    line.halo_opacity = 0.7;
+  }
+  return line;
+}
+
+}  // namespace
 
 std::vector<Mark> withState(Mark sign, const AnnotationState& state) {
   std::vector<Mark> signs;
   sign.color = annotationColor(state);
+  sign.line = markLine(state, sign.dashed);
   const auto add_round = [&](MarkShape shape, double size_px) {
     Mark& round = signs.emplace_back(sign);
     round.shape = shape;
@@ -141,7 +164,6 @@ std::vector<Mark> withState(Mark sign, const AnnotationState& state) {
   };
   if (state.outlier > 0.0) add_round(MarkShape::kTriangle, 2.0 * kSize);
   if (state.chosen) {
-    sign.width = 2.4;
     add_round(MarkShape::kCircle, kChosenSize);
   }
   signs.push_back(std::move(sign));

@@ -17,7 +17,7 @@ namespace boresight::ui {
 
 inline const QColor kChosenAnnotation(255, 255, 255);
 inline const QColor kDisabledAnnotation(175, 175, 175);
-inline const QColor kOutlierAnnotation(255, 130, 60);
+inline const QColor kOutlierAnnotation(kBadMarkLine.color);
 
 /// State that the marks of annotations show.
 struct AnnotationLook {

@@ -266,6 +266,10 @@ void RigMenu::addLinks(QMenu& menu, const sessions::SessionCase& shown,
   if (const auto other_from_shown = sessions::linkOfTruths(shown, other))
     menu.addAction(tr("As the true poses say"), this,
                    [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
+  if (const auto other_from_shown = sessions::linkOfLabels(shown, other))
+    menu.addAction(tr("As the labels say (%1)").arg(fromText(shown.camera_reference->frame.name)),
+                   this,
+                   [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
   menu.addAction(tr("By a pose from the clipboard ..."), this, [this, id] { askForPose(id); });
 }
 
@@ -445,9 +449,29 @@ void AnnotationPanel::askForName() {
   if (accepted) controller_.putAside(name);
 }
 
+/// Arrows move the chosen annotation as they do in the image, with Ctrl they go to other rows.
+bool AnnotationPanel::pressArrow(const QKeyEvent& key) {
+  const QPointF way((key.key() == Qt::Key_Right) - (key.key() == Qt::Key_Left),
+                    (key.key() == Qt::Key_Down) - (key.key() == Qt::Key_Up));
+  if (way.isNull() || controller_.selected().empty()) return false;
+  if ((key.modifiers() & Qt::ControlModifier) != 0) {
+    const QModelIndex current = ui_.annotations->currentIndex();
+    const QModelIndex next = current.sibling(current.row() + static_cast<int>(way.y()),
+                                             current.column() + static_cast<int>(way.x()));
+    if (next.isValid()) ui_.annotations->setCurrentIndex(next);
+    return true;
+  }
+  const double step_px = (key.modifiers() & Qt::ShiftModifier) != 0 ? 1.0 : 0.1;
+  controller_.nudge(step_px * Eigen::Vector2d(way.x(), way.y()));
+  return true;
+}
+
 /// Letters typed at the table look for a row; they do not switch layers. Enter goes on to the
 /// chosen annotation in the image.
 bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == ui_.annotations && event->type() == QEvent::KeyPress &&
+      pressArrow(*static_cast<QKeyEvent*>(event)))
+    return true;
   if (watched == ui_.annotations && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !controller_.selected().empty()) {

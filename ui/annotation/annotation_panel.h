@@ -114,6 +114,7 @@ class AnnotationPanel : public QWidget {
   void showSolution();
   void showRounds();
   void chooseRow(const QModelIndex& current);
+  bool pressArrow(const QKeyEvent& key);
   std::vector<ComparedPose> otherPoses() const;
 
   AnnotationController& controller_;

@@ -13,7 +13,8 @@
 namespace boresight::ui {
 namespace {
 
-constexpr double kReach = 8.0;         ///< how near one must point, on the screen
+/// How near one must point, on the screen: a mark's ring belongs to it.
+constexpr double kReach = kMarkRadius_px + 3.0;
 constexpr double kPressSlack = 3.0;    ///< on the screen
 constexpr double kShortestLine = 6.0;  ///< on the screen
 /// Those that change what a click does.
@@ -36,6 +37,9 @@ AnnotationTool::AnnotationTool(ImageView& view, AnnotationController& controller
                                StationSnapper& snapper, QObject* parent)
     : QObject(parent), view_(view), controller_(controller), state_(state), snapper_(snapper) {
   view_.installEventFilter(this);
+  connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
+    if (owner != this) controller_.setMode(PlaceMode::kOff);
+  });
   connect(&controller_, &AnnotationController::modeChanged, this, &AnnotationTool::showMode);
   connect(&controller_, &AnnotationController::annotationsChanged, this,
           [this] { view_.update(); });
@@ -66,6 +70,7 @@ void AnnotationTool::showMode() {
   line_start_.reset();
   turn_ = 0;
   if (active()) {
+    view_.claimTool(this);
     view_.setFocus();  // for the keys
     updateAim();
   } else {
@@ -186,6 +191,8 @@ bool AnnotationTool::eventFilter(QObject* watched, QEvent* event) {
     case QEvent::MouseButtonRelease:
     case QEvent::MouseMove:
       return mouseEvent(event->type(), *static_cast<QMouseEvent*>(event));
+    case QEvent::ContextMenu:  // the right button begins a proposal
+      return true;
     case QEvent::ShortcutOverride:
       if (!isOwnKey(*static_cast<QKeyEvent*>(event))) return false;
       event->accept();

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kShortestScale = 50.0;  ///< on the screen
 constexpr int kNoteMargin = 8;
+constexpr int kBesideTools = 56;  ///< clear of the strip of tools
 
 std::optional<QPointF> placeOf(const AnnotationController& controller) {
   const sessions::PointPair* point = controller.selectedPoint();
@@ -42,7 +43,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
       tool_(new AnnotationTool(image.view(), controller, state, snapper, this)),
       loupe_(new Loupe(image.view())),
       edges_(new PoseRenderer(this)) {
-  image_.view().setOverlay([this](QPainter& painter) { paint(painter); });
+  image_.view().setOverlay(this, [this](QPainter& painter) { paint(painter); });
   connect(tool_, &AnnotationTool::aimChanged, this, &ImageAnnotation::lookThroughLoupe);
   connect(&image_.display(), &DisplayImage::pictureChanged, this, &ImageAnnotation::showSamples);
   connect(&image_.display(), &DisplayImage::levelsChanged, this, &ImageAnnotation::showSamples);
@@ -61,9 +62,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
   connect(&snapper_, &StationSnapper::meshChanged, this, &ImageAnnotation::askForBand);
   connect(edges_, &PoseRenderer::rendered, this,
           [this](const std::shared_ptr<const sessions::RenderTrace>& render, int level) {
-            std::vector<LayerBits> bits = bitsOf(render, false);
-            for (LayerBits& entry : bits) entry.level = level;
-            image_.setBits(LayerId::kAnnotationEdges, std::move(bits));
+            image_.setLines(LayerId::kAnnotationEdges, linesOf(*render, level));
             loupe_->update();
           });
   showSamples();
@@ -71,7 +70,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
 }
 
 ImageAnnotation::~ImageAnnotation() {
-  if (view_) view_->setOverlay({});
+  if (view_) view_->setOverlay(this, {});
 }
 
 void ImageAnnotation::setMagnification(double magnification) {
@@ -128,7 +127,7 @@ void ImageAnnotation::showSolution() {
     rendered_case_ = state_.currentCase();
     rendered_pose_.reset();
     edges_->setCase(rendered_case_);
-    image_.setBits(LayerId::kAnnotationEdges, {});
+    image_.setLines(LayerId::kAnnotationEdges, nullptr);
   }
   const bool shown = image_.style(LayerId::kAnnotationEdges).visible;
   const std::optional<Pose> solved = shown ? controller_.solvedPose() : std::nullopt;
@@ -138,7 +137,7 @@ void ImageAnnotation::showSolution() {
       edges_->setPose(*solved);
     } else {
       edges_->clear();
-      image_.setBits(LayerId::kAnnotationEdges, {});
+      image_.setLines(LayerId::kAnnotationEdges, nullptr);
     }
   }
   askForBand();
@@ -198,12 +197,11 @@ QString ImageAnnotation::nextStep() const {
 
 void ImageAnnotation::paint(QPainter& painter) const {
   if (!state_.currentCase()) return;
-  const QRect area = image_.view().rect();
   const int line = painter.fontMetrics().height() + 6;
-  QPointF at(area.left() + kNoteMargin, area.bottom() - kNoteMargin - line);
+  QPointF at(kBesideTools, kNoteMargin);
   if (controller_.mode() != PlaceMode::kOff) {
     paintBox(painter, at, nextStep());
-    at.ry() -= line + 2;
+    at.ry() += line + 2;
   }
   const Layer& residuals = image_.view().layer(LayerId::kAnnotationResiduals);
   if (residuals.style.visible && !residuals.marks.empty()) paintResidualScale(painter, at);

@@ -10,6 +10,7 @@
 
 #include "ui/views/display_image.h"
 #include "ui/views/image_view.h"
+#include "ui/views/line_painter.h"
 #include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {
@@ -109,7 +110,7 @@ namespace {
 
 constexpr LoupeSize kLoupeSize = {0.5, 168.0, 320.0};
 constexpr int kSmallestText = 9;
-constexpr double kEdgeDot = 0.16;  ///< of an image pixel
+constexpr double kEdgeOpacity = 0.7;  ///< the image below stays to be seen
 const LayerId kEdgeLayers[] = {LayerId::kSeedEdges, LayerId::kTruthEdges, LayerId::kIterationEdges,
                                LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
 const LayerId kAnnotationLayers[] = {LayerId::kAnnotationBand, LayerId::kProposals,
@@ -208,30 +209,14 @@ void Loupe::paintEvent(QPaintEvent*) {
   paintText(painter);
 }
 
-/// Dots in the middle of edge pixels: what lies under them stays to be seen.
 void Loupe::paintEdges(QPainter& painter, const ViewTransform& transform) const {
-  const QPointF first = transform.toPixel(QPointF(0.0, 0.0));
-  const QPointF last = transform.toPixel(QPointF(width(), height()));
-  painter.setPen(Qt::NoPen);
   for (const LayerId id : kEdgeLayers) {
     const Layer& layer = view_.layer(id);
-    if (!layer.style.visible) continue;
-    QColor color = layer.style.color;
-    color.setAlphaF(0.6 * layer.style.opacity);
-    painter.setBrush(color);
-    for (const LayerBits& bits : layer.bits) {
-      const double step = static_cast<double>(1 << bits.level);
-      const double radius = std::max(1.2, kEdgeDot * step * transform.scale());
-      const auto from = [step](double pixel) { return static_cast<int>(std::floor(pixel / step)); };
-      for (int y = from(first.y()); y <= from(last.y()) + 1; ++y)
-        for (int x = from(first.x()); x <= from(last.x()) + 1; ++x)
-          if (bits.bits.contains(x, y) && bits.bits.get(x, y))
-            painter.drawEllipse(
-                transform.toWidget(QPointF((x + 0.5) * step, (y + 0.5) * step) - QPointF(0.5, 0.5)),
-                radius, radius);
-    }
+    if (!layer.style.visible || !layer.lines) continue;
+    painter.setOpacity(kEdgeOpacity * layer.style.opacity);
+    paintLines(painter, transform, *layer.lines, layer.shownLine(), QRectF(rect()));
   }
-  painter.setBrush(Qt::NoBrush);
+  painter.setOpacity(1.0);
 }
 
 void Loupe::paintMarks(QPainter& painter, const ViewTransform& transform) const {

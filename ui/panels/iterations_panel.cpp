@@ -406,10 +406,7 @@ void IterationsPanel::buildTable() {
   setUpTable(*ui_.iterations, model_);
   connect(ui_.iterations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &IterationsPanel::chooseRow);
-  auto* hint = new EmptyHint(*ui_.iterations);
-  hint->setText(
-      tr("Run the case to its end (F5), by an iteration (F6) or a stage (F7). Each iteration is a "
-         "row; every view shows the selected one."));
+  hint_ = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));
 }
 
 void IterationsPanel::buildPlots() {
@@ -444,6 +441,11 @@ void IterationsPanel::showSnapshot() {
   showing_ = true;
   model_.setSnapshot(view_.snapshot());
   showing_ = false;
+  hint_->setText(
+      view_.snapshot()
+          ? tr("The first iteration is listed here as soon as one of its stages is done.")
+          : tr("Run the case to its end (F5), by an iteration (F6) or a stage (F7). Each iteration "
+               "is a row; every view shows the selected one."));
   ui_.iterations->resizeColumnsToContents();
   ui_.plots->setVisible(model_.rowCount() > IterationsModel::rowOf(0));
   fillPlots();

@@ -23,6 +23,7 @@ class QButtonGroup;
 namespace boresight::ui {
 
 class DoublePlot;
+class EmptyHint;
 
 /// The stages of an iteration that can be looked at, as far as it came.
 std::vector<Stage> stagesOf(const sessions::IterationTrace& iteration);
@@ -137,6 +138,7 @@ class IterationsPanel : public QWidget {
 
   ViewState& view_;
   IterationsModel model_;
+  EmptyHint* hint_ = nullptr;
   DoublePlot* corrections_ = nullptr;
   DoublePlot* fit_ = nullptr;
   bool showing_ = false;  ///< the table follows the cursor, not a person

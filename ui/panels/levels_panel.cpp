@@ -3,6 +3,7 @@
 
 #include <QtWidgets>
 
+#include "ui/panels/levels_histogram.h"
 #include "ui/views/display_image.h"
 
 namespace boresight::ui {
@@ -16,6 +17,7 @@ enum Rule { kLinear, kLevels, kTable };
 LevelsPanel::LevelsPanel(DisplayImage& display, QWidget* parent)
     : QWidget(parent), display_(display) {
   ui_.setupUi(this);
+  ui_.layout2->insertRow(1, new LevelsHistogram(display));
   ui_.conversionWholeCamera->hide();  // until there are other cases
   connectDisplay();
   connectConversion();

@@ -295,9 +295,6 @@ bool NudgeBox::eventFilter(QObject* watched, QEvent* event) {
     // After the box itself: its last step still belongs to the gesture.
     QMetaObject::invokeMethod(
         this, [this] { controller_.finishGesture(); }, Qt::QueuedConnection);
-  } else if (type == QEvent::Wheel && !static_cast<QWidget*>(watched)->hasFocus()) {
-    event->ignore();  // scrolling past must not move the pose
-    return true;
   }
   return QWidget::eventFilter(watched, event);
 }

@@ -78,6 +78,8 @@ class NudgeController : public QObject {
   void setOffset(const Vector6d& offset);
   /// One value of the offset; the others stay.
   void setOffset(int axis, double value);
+  /// Part of the gesture under way.
+  void moveTo(const Pose& camera_from_station) { move(camera_from_station); }
   /// As a whole gesture: a pose that was pasted.
   void setPose(const Pose& camera_from_station);
   /// As a whole gesture: the nudged pose becomes what it was nudged from.

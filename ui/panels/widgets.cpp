@@ -10,6 +10,41 @@
 
 namespace boresight::ui {
 
+namespace {
+
+QString rowText(const QAbstractItemModel& model, int row) {
+  QStringList cells;
+  for (int column = 0; column < model.columnCount(); ++column)
+    cells << model.index(row, column).data().toString();
+  return cells.join(QLatin1Char('\t'));
+}
+
+/// Rows as text that a spreadsheet takes.
+QString tableText(const QAbstractItemModel& model) {
+  QStringList lines = {QString()};
+  for (int column = 0; column < model.columnCount(); ++column)
+    lines[0] += (column > 0 ? QStringLiteral("\t") : QString()) +
+                model.headerData(column, Qt::Horizontal).toString().replace(QLatin1Char('\n'),
+                                                                            QLatin1Char(' '));
+  for (int row = 0; row < model.rowCount(); ++row) lines << rowText(model, row);
+  return lines.join(QLatin1Char('\n'));
+}
+
+void showTableMenu(QTableView& table, const QPoint& at) {
+  const QModelIndex index = table.indexAt(at);
+  const auto copy = [](const QString& text) { QGuiApplication::clipboard()->setText(text); };
+  QMenu menu(&table);
+  if (index.isValid()) {
+    menu.addAction(EmptyHint::tr("Copy cell"), [=] { copy(index.data().toString()); });
+    menu.addAction(EmptyHint::tr("Copy row"), [=] { copy(rowText(*index.model(), index.row())); });
+  }
+  menu.addAction(EmptyHint::tr("Copy table"), [&] { copy(tableText(*table.model())); });
+  menu.addAction(EmptyHint::tr("Fit columns"), [&] { table.resizeColumnsToContents(); });
+  menu.exec(table.viewport()->mapToGlobal(at));
+}
+
+}  // namespace
+
 void styleTable(QTableView& table) {
   table.setSelectionBehavior(QAbstractItemView::SelectRows);
   table.setSelectionMode(QAbstractItemView::SingleSelection);
@@ -22,6 +57,10 @@ void styleTable(QTableView& table) {
   table.verticalHeader()->hide();
   table.verticalHeader()->setDefaultSectionSize(table.fontMetrics().height() + 6);
   table.horizontalHeader()->setHighlightSections(false);
+  if (table.contextMenuPolicy() != Qt::DefaultContextMenu) return;  // it has a menu of its own
+  table.setContextMenuPolicy(Qt::CustomContextMenu);
+  QObject::connect(&table, &QWidget::customContextMenuRequested, &table,
+                   [&table](const QPoint& at) { showTableMenu(table, at); });
 }
 
 void setUpTable(QTableView& table, QAbstractItemModel& model) {
@@ -63,13 +102,21 @@ EmptyHint::EmptyHint(QAbstractItemView& view, int least_rows)
   showOrHide();
 }
 
+/// Below the rows that are always there.
+void EmptyHint::place() {
+  QRect area = view_.viewport()->rect();
+  const int rows = view_.model()->rowCount();
+  if (rows > 0) area.setTop(view_.visualRect(view_.model()->index(rows - 1, 0)).bottom() + 1);
+  setGeometry(area);
+}
+
 void EmptyHint::showOrHide() {
-  setGeometry(view_.viewport()->rect());
+  place();
   setVisible(view_.model()->rowCount() <= least_rows_);
 }
 
 bool EmptyHint::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize) setGeometry(view_.viewport()->rect());
+  if (event->type() == QEvent::Resize) place();
   return QLabel::eventFilter(watched, event);
 }
 

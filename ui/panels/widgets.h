@@ -55,6 +55,7 @@ class EmptyHint : public QLabel {
 
  private:
   void showOrHide();
+  void place();
 
   QAbstractItemView& view_;
   int least_rows_;

@@ -25,9 +25,6 @@
 #include <qwt_text.h>
 
 namespace boresight::ui {
-namespace {
-
-constexpr double kSmallest = 1e-6;
 
 class NamedScale : public QwtScaleDraw {
  public:
@@ -35,10 +32,16 @@ class NamedScale : public QwtScaleDraw {
   QwtText label(double value) const override {
     return QwtText(name_of_(static_cast<int>(std::lround(value))));
   }
+  /// The names have changed; the scale keeps them by value.
+  void forgetNames() { invalidateCache(); }
 
  private:
   std::function<QString(int)> name_of_;
 };
+
+namespace {
+
+constexpr double kSmallest = 1e-6;
 
 QVector<QwtIntervalSample> samplesOf(double radius, const QVector<int>& counts) {
   QVector<QwtIntervalSample> samples;
@@ -109,7 +112,8 @@ void DoublePlot::addCurve(Curve& curve, const Series& series, int axis) {
 
 void DoublePlot::setNames(std::function<QString(int)> name_of) {
   name_of_ = name_of;
-  plot_->setAxisScaleDraw(QwtPlot::xBottom, new NamedScale(std::move(name_of)));
+  names_ = new NamedScale(std::move(name_of));
+  plot_->setAxisScaleDraw(QwtPlot::xBottom, names_);  // which owns it
 }
 
 void DoublePlot::setPoints(int place_count, const QVector<QPointF>& left,
@@ -123,6 +127,7 @@ void DoublePlot::setPoints(int place_count, const QVector<QPointF>& left,
 
 /// As many names as fit in a row.
 void DoublePlot::nameIterations() {
+  if (names_) names_->forgetNames();
   const int last = std::max(0, place_count_ - 1);
   const QString widest = (name_of_ ? name_of_(last) : QString::number(last)) + QLatin1Char(' ');
   const int name_px = fontMetrics().horizontalAdvance(widest);

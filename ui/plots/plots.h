@@ -18,6 +18,8 @@ class QwtPlotMarker;
 
 namespace boresight::ui {
 
+class NamedScale;
+
 /// What plots have in common: horizontal grid lines, a vertical line, and the palette's colours.
 class Plot : public QWidget {
   Q_OBJECT
@@ -84,6 +86,7 @@ class DoublePlot : public Plot {
   Curve right_;
   int place_count_ = 0;
   std::function<QString(int)> name_of_;
+  NamedScale* names_ = nullptr;
 };
 
 /// Counts over a symmetric interval: all of them as outlines, a part of them filled in front. Zero

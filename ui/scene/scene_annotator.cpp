@@ -145,7 +145,6 @@ void SceneAnnotator::setShot(const SceneShot& shot) {
 }
 
 void SceneAnnotator::showMode() {
-  canvas_.setMouseTracking(places());
   if (places() && canvas_.underMouse()) canvas_.setFocus(Qt::MouseFocusReason);  // for the keys
   turn_ = 0;
   updateAim();

@@ -9,6 +9,7 @@
 
 #include "core/base/math.h"
 #include "ui/models/text.h"
+#include "ui/style/theme.h"
 #include "ui/views/layer.h"
 
 namespace boresight::ui {
@@ -32,8 +33,8 @@ Eigen::Vector3d rayOf(const Camera& camera, double x, double y) {
   return {(x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0};
 }
 
-void addDashed(std::vector<SceneLine>& lines, const SceneLine& line, PoseRole role) {
-  for (const SceneLine& dash : dashed(line, poseRoleStyle(role).dashes)) lines.push_back(dash);
+void addDashed(std::vector<SceneLine>& lines, const SceneLine& line, const PoseRoleStyle& style) {
+  for (const SceneLine& dash : dashed(line, style.dashes)) lines.push_back(dash);
 }
 
 void addFrusta(const ViewState& state, SceneContent& content) {
@@ -42,12 +43,15 @@ void addFrusta(const ViewState& state, SceneContent& content) {
   const std::array<QString, kPoseRoles> labels = {
       sceneText("seed"), sceneText("iteration %1").arg(state.cursor().iteration + 1),
       sceneText("nudged"), sceneText("truth"), sceneText("annotated")};
+  const bool run_rejected = state.snapshot() && isRejected(*state.snapshot());
   for (int i = 0; i < kPoseRoles; ++i) {
     const auto role = static_cast<PoseRole>(i);
     const std::optional<Pose> pose = poseOf(state, role);
-    if (pose && pose->isFinite())
-      content.frusta.push_back(frustumOf(role, labels[static_cast<std::size_t>(i)],
-                                         loaded_case.source.camera, *pose, centre_m));
+    if (!pose || !pose->isFinite()) continue;
+    const bool rejected = run_rejected && role == PoseRole::kEstimate;
+    const QString& label = labels[static_cast<std::size_t>(i)];
+    content.frusta.push_back(frustumOf(role, rejected ? sceneText("rejected") : label,
+                                       loaded_case.source.camera, *pose, centre_m, rejected));
   }
 }
 
@@ -107,15 +111,29 @@ double residualLimit(const std::vector<ScenePoint>& points) {
 
 }  // namespace
 
-const PoseRoleStyle& poseRoleStyle(PoseRole role) {
-  static const std::array<PoseRoleStyle, kPoseRoles> styles = {{
-      {"seed", layerInfo(LayerId::kSeedEdges).style.color, {0.6, 0.4}, 2.0},
-      {"estimate", layerInfo(LayerId::kIterationEdges).style.color, {}, 3.0},
-      {"nudged", layerInfo(LayerId::kNudgedEdges).style.color, {0.5, 0.2, 0.1, 0.2}, 2.5},
-      {"truth", layerInfo(LayerId::kTruthEdges).style.color, {0.25, 0.25}, 2.0},
-      {"annotated", kAnnotatedColor, {0.7, 0.1, 0.1, 0.1}, 2.5},
-  }};
-  return styles[static_cast<std::size_t>(role)];
+namespace {
+
+constexpr int kRejected = kPoseRoles;  ///< after the roles
+using RoleStyles = std::array<PoseRoleStyle, kPoseRoles + 1>;
+
+RoleStyles roleStyles(QRgb seed, QRgb pose, QRgb rejected, QRgb truth) {
+  return {{{"seed", QColor(seed), {0.6, 0.4}, 2.0},
+           {"estimate", QColor(pose), {}, 3.0},
+           {"nudged", QColor(seed), {0.5, 0.2, 0.1, 0.2}, 2.5},
+           {"truth", QColor(truth), {0.25, 0.25}, 2.0},
+           {"annotated", kAnnotatedColor, {0.7, 0.1, 0.1, 0.1}, 2.5},
+           {"rejected", QColor(rejected), {0.12, 0.2}, 3.0}}};
+}
+
+}  // namespace
+
+const PoseRoleStyle& poseRoleStyle(PoseRole role, bool rejected) {
+  static const RoleStyles light =
+      roleStyles(kSceneSeed, kScenePose, kSceneRejected, kLightTheme.text);
+  static const RoleStyles dark =
+      roleStyles(kSeedLine.color, kPoseLine.color, kRejectedLine.color, kTruthLine.color);
+  const RoleStyles& styles = themeName() == ThemeName::kDark ? dark : light;
+  return styles[static_cast<std::size_t>(rejected ? kRejected : static_cast<int>(role))];
 }
 
 std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes) {
@@ -136,11 +154,14 @@ std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& 
 }
 
 Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
-                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m) {
+                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m,
+                  bool rejected) {
+  const PoseRoleStyle& style = poseRoleStyle(role, rejected);
   Frustum frustum;
   frustum.role = role;
+  frustum.rejected = rejected;
   frustum.label = label;
-  frustum.color = poseRoleStyle(role).color;
+  frustum.color = style.color;
   const Pose station_from_camera = camera_from_station.inverse();
   frustum.apex_m = station_from_camera.translation_m;
   const double depth_m = std::max(kFrustumShare * (centre_m - frustum.apex_m).norm(), 1e-6);
@@ -152,16 +173,16 @@ Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
     frustum.corner_m[i] =
         station_from_camera * (depth_m * rayOf(camera, corners[i].x(), corners[i].y()));
   for (std::size_t i = 0; i < 4; ++i) {
-    addDashed(frustum.lines, {frustum.apex_m, frustum.corner_m[i]}, role);
-    addDashed(frustum.lines, {frustum.corner_m[i], frustum.corner_m[(i + 1) % 4]}, role);
+    addDashed(frustum.lines, {frustum.apex_m, frustum.corner_m[i]}, style);
+    addDashed(frustum.lines, {frustum.corner_m[i], frustum.corner_m[(i + 1) % 4]}, style);
   }
   const Eigen::Vector3d& left_m = frustum.corner_m[0];
   const Eigen::Vector3d& right_m = frustum.corner_m[1];
   const Eigen::Vector3d roof_m =
       0.5 * (left_m + right_m) +
       0.15 * (0.5 * (left_m + right_m) - 0.5 * (frustum.corner_m[2] + frustum.corner_m[3]));
-  addDashed(frustum.lines, {left_m, roof_m}, role);
-  addDashed(frustum.lines, {roof_m, right_m}, role);
+  addDashed(frustum.lines, {left_m, roof_m}, style);
+  addDashed(frustum.lines, {roof_m, right_m}, style);
   // The frusta of a good run nearly coincide, so each role has its label in a place of its own.
   const std::array<Eigen::Vector3d, kPoseRoles> places = {
       left_m, frustum.apex_m, frustum.corner_m[3], right_m, frustum.corner_m[2]};

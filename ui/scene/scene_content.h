@@ -17,7 +17,7 @@
 
 namespace boresight::ui {
 
-/// How a pose's camera looks; the colours are those of the image's layers.
+/// How a pose's camera looks; the hues are those of the image's layers.
 struct PoseRoleStyle {
   const char* name = "";
   QColor color;
@@ -26,7 +26,8 @@ struct PoseRoleStyle {
   std::vector<double> dashes;
   double width_px = 2.0;
 };
-const PoseRoleStyle& poseRoleStyle(PoseRole role);
+/// `rejected`: of the estimate of a run that was rejected.
+const PoseRoleStyle& poseRoleStyle(PoseRole role, bool rejected = false);
 
 /// A straight line in the station frame, metres.
 using SceneLine = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
@@ -37,6 +38,7 @@ std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& 
 /// A camera as a pyramid: what its image's corners see.
 struct Frustum {
   PoseRole role = PoseRole::kSeed;
+  bool rejected = false;
   QString label;
   QColor color;
   Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
@@ -47,7 +49,8 @@ struct Frustum {
 
 /// `centre_m`: of the scene, towards which a share of the way is drawn.
 Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
-                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m);
+                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m,
+                  bool rejected = false);
 
 enum class ScenePointKind : std::uint8_t {
   kInlier,

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kZoomPerNotch = 1.2;
 constexpr double kKeyTurn_px = 24.0;
+constexpr double kKeyRoll_rad = 0.2617993877991494;  ///< 15 deg
+constexpr double kDragRoll_rad = 0.01;               ///< per pixel
 
 }  // namespace
 
@@ -81,6 +83,9 @@ void SceneNavigation::drag(const QPointF& moved, const QMouseEvent& event) {
       (event.buttons() & Qt::MiddleButton) != 0 || event.modifiers().testFlag(Qt::ShiftModifier);
   if (through_) {
     turn(moved);
+  } else if (event.modifiers().testFlag(Qt::ControlModifier)) {
+    roll(kDragRoll_rad * moved.x());
+    return;
   } else if ((event.buttons() & Qt::RightButton) != 0) {
     orbit_.dolly(std::pow(2.0, moved.y() / 100.0));
   } else if (pans) {
@@ -100,6 +105,12 @@ void SceneNavigation::turn(const QPointF& by) {
     framed_ = false;
     orbit_.orbit(by, canvas_.height());
   }
+}
+
+void SceneNavigation::roll(double angle_rad) {
+  if (through_) return;
+  orbit_.roll(angle_rad);
+  Q_EMIT changed();
 }
 
 void SceneNavigation::zoom(const QPointF& at, double notches) {
@@ -132,6 +143,9 @@ bool SceneNavigation::eventFilter(QObject* watched, QEvent* event) {
     case QEvent::MouseButtonRelease:
       release(*static_cast<QMouseEvent*>(event));
       return true;
+    case QEvent::Leave:
+      Q_EMIT left();
+      return false;
     case QEvent::MouseButtonDblClick:
       reset();
       return true;
@@ -161,6 +175,7 @@ void SceneNavigation::press(const QMouseEvent& event) {
 }
 
 void SceneNavigation::move(const QMouseEvent& event) {
+  if (event.buttons() == Qt::NoButton) Q_EMIT hovered(pointerPlace(event, canvas_));
   if (!pressed_ || event.buttons() == Qt::NoButton) return;
   const QPointF at = pointerPlace(event, canvas_);
   if (!dragging_ && (at - press_).manhattanLength() < QApplication::startDragDistance()) return;
@@ -197,6 +212,10 @@ std::function<void()> SceneNavigation::actOf(const QKeyEvent& event) {
       return zoomed(1.0);
     case Qt::Key_Minus:
       return zoomed(-1.0);
+    case Qt::Key_Comma:
+      return [this] { roll(-kKeyRoll_rad); };
+    case Qt::Key_Period:
+      return [this] { roll(kKeyRoll_rad); };
     case Qt::Key_Left:
       return turned(-1.0, 0.0);
     case Qt::Key_Right:

@@ -67,6 +67,9 @@ class SceneNavigation : public QObject {
   void changed();
   void throughCameraChanged();
   void clicked(const QPointF& at, Qt::KeyboardModifiers modifiers);
+  /// The pointer moves without a button.
+  void hovered(const QPointF& at);
+  void left();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -79,6 +82,7 @@ class SceneNavigation : public QObject {
   std::function<void()> actOf(const QKeyEvent& event);
   void drag(const QPointF& moved, const QMouseEvent& event);
   void turn(const QPointF& by);
+  void roll(double angle_rad);
   void zoom(const QPointF& at, double notches);
   void frame();
 

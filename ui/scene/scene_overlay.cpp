@@ -23,7 +23,7 @@ bool isDark(const QColor& color) { return color.lightnessF() < 0.5; }
 /// One line of the legend: a sign and what it means.
 struct Entry {
   enum Sign { kLine, kInlier, kOutlier, kUnmatched, kMatched, kOccluding } sign = kLine;
-  PoseRole role = PoseRole::kSeed;
+  const PoseRoleStyle* style = nullptr;  ///< of a line
   QString meaning;
 };
 
@@ -31,15 +31,15 @@ std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, b
   std::vector<Entry> result;
   if (look.shown.frusta && with_cameras)
     for (const Frustum& frustum : content.frusta)
-      result.push_back({Entry::kLine, frustum.role, frustum.label});
+      result.push_back({Entry::kLine, &poseRoleStyle(frustum.role, frustum.rejected), frustum.label});
   const auto has_part = [&](bool match) {
     const MeshView mesh = content.mesh();
     return std::any_of(mesh.parts.begin(), mesh.parts.end(),
                        [match](const ScenePart& part) { return part.match == match; });
   };
   if (look.shown.mesh && has_part(false)) {
-    result.push_back({Entry::kMatched, PoseRole::kSeed, overlayText("matched part")});
-    result.push_back({Entry::kOccluding, PoseRole::kSeed, overlayText("occluding part")});
+    result.push_back({Entry::kMatched, nullptr, overlayText("matched part")});
+    result.push_back({Entry::kOccluding, nullptr, overlayText("occluding part")});
   }
   if (!look.shown.points) return result;
   const auto has = [&](ScenePointKind kind) {
@@ -47,11 +47,11 @@ std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, b
                        [kind](const ScenePoint& point) { return point.kind == kind; });
   };
   if (has(ScenePointKind::kInlier))
-    result.push_back({Entry::kInlier, PoseRole::kSeed, overlayText("inlier")});
+    result.push_back({Entry::kInlier, nullptr, overlayText("inlier")});
   if (has(ScenePointKind::kOutlier))
-    result.push_back({Entry::kOutlier, PoseRole::kSeed, overlayText("outlier")});
+    result.push_back({Entry::kOutlier, nullptr, overlayText("outlier")});
   if (has(ScenePointKind::kUnmatched))
-    result.push_back({Entry::kUnmatched, PoseRole::kSeed, overlayText("not used")});
+    result.push_back({Entry::kUnmatched, nullptr, overlayText("not used")});
   return result;
 }
 
@@ -60,7 +60,7 @@ void paintSign(QPainter& painter, const Entry& entry, const QRectF& box) {
   painter.setBrush(Qt::NoBrush);
   switch (entry.sign) {
     case Entry::kLine: {
-      const PoseRoleStyle& style = poseRoleStyle(entry.role);
+      const PoseRoleStyle& style = *entry.style;
       painter.setPen(QPen(style.color, 2.0));
       // The same dashes as in the scene, three times along the sign.
       double period = 0.0;
@@ -148,6 +148,12 @@ void SceneOverlay::setAnnotation(const std::optional<Eigen::Vector3d>& at_m) {
   update();
 }
 
+void SceneOverlay::setHovered(const std::optional<Eigen::Vector3d>& at_m) {
+  if (at_m == hovered_) return;
+  hovered_ = at_m;
+  update();
+}
+
 void SceneOverlay::setOver(std::function<void(QPainter&)> over) {
   over_ = std::move(over);
   update();
@@ -197,6 +203,11 @@ void SceneOverlay::paintNames(QPainter& painter) const {
 }
 
 void SceneOverlay::paintMark(QPainter& painter) const {
+  if (const auto hovered = hovered_ ? view_.toCanvas(*hovered_) : std::nullopt)
+    for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.5), QPen(QColor(255, 255, 255), 1.5)}) {
+      painter.setPen(pen);
+      paintTicks(painter, *hovered + QPointF(0.5, 0.5), 4.0, 12.0);
+    }
   const auto pixel = annotation_ ? view_.toCanvas(*annotation_) : std::nullopt;
   if (!pixel) return;
   const QPointF at = *pixel + QPointF(0.5, 0.5);

@@ -78,6 +78,8 @@ class SceneOverlay : public QWidget {
   /// A line at the top, e.g. that the view is undistorted.
   void setNote(const QString& note);
   /// The place that was pointed at last; none after another case.
+  /// A place that another view points at.
+  void setHovered(const std::optional<Eigen::Vector3d>& at_m);
   void setAnnotation(const std::optional<Eigen::Vector3d>& at_m);
   /// Drawn over the scene's names, below notes.
   void setOver(std::function<void(QPainter&)> over);
@@ -97,6 +99,7 @@ class SceneOverlay : public QWidget {
   Viewpoint view_;
   QString note_;
   std::optional<Eigen::Vector3d> annotation_;
+  std::optional<Eigen::Vector3d> hovered_;
   std::function<void(QPainter&)> over_;
 };
 

@@ -54,7 +54,7 @@ void SceneView::build() {
   drawn->setObjectName(QStringLiteral("sceneCanvas"));
   drawn->setAccessibleName(tr("Scene"));
   drawn->setFocusPolicy(Qt::StrongFocus);
-  drawn->setMouseTracking(false);
+  drawn->setMouseTracking(true);  // what is under the pointer is shown in the image
   drawn->setMinimumSize(160, 120);
   ui_.column->insertWidget(1, drawn, 1);
   overlay_ = new SceneOverlay(drawn);
@@ -62,6 +62,9 @@ void SceneView::build() {
   connect(navigation_, &SceneNavigation::changed, this, &SceneView::updateView);
   connect(navigation_, &SceneNavigation::throughCameraChanged, this, &SceneView::showThroughCamera);
   connect(navigation_, &SceneNavigation::clicked, this, &SceneView::pick);
+  connect(navigation_, &SceneNavigation::hovered, this, &SceneView::hover);
+  connect(navigation_, &SceneNavigation::left, this,
+          [this] { Q_EMIT stationPlaceHovered(std::nullopt); });
   buildBar();
 }
 
@@ -149,6 +152,8 @@ void SceneView::refresh() {
   content_ = std::make_shared<const SceneContent>(std::move(after));
   if (content_->one != before->one) {
     overlay_->setAnnotation(std::nullopt);
+    overlay_->setHovered(std::nullopt);
+    ui_.sceneReadout->setText(tr("Click a template, an annotation or a point of the mesh."));
     backdrop_ = QImage();
     backdrop_of_.reset();
   }
@@ -260,7 +265,9 @@ void SceneView::showEvent(QShowEvent* event) {
 
 void SceneView::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateLook();
+  if (event->type() != QEvent::PaletteChange) return;
+  updateLook();
+  refreshSoon();  // the colours of poses are those of the ground
 }
 
 void SceneView::pick(const QPointF& at, Qt::KeyboardModifiers modifiers) {
@@ -289,6 +296,20 @@ void SceneView::pickInScene(const QPointF& pixel) {
   overlay_->setAnnotation(aim ? std::optional(aim->point_in_station_m) : std::nullopt);
   ui_.sceneReadout->setText(aim ? stationPlaceText(aim->point_in_station_m, aim->text)
                                 : tr("No object there: click a template or a point of the mesh."));
+}
+
+void SceneView::hover(const QPointF& at) {
+  overlay_->setHovered(std::nullopt);  // of another view
+  if (content_->empty()) return;
+  const Viewpoint view = viewpoint();
+  const auto surface =
+      sessions::surfacePointAt(view.camera, content_->mesh(), view.view_from_station,
+                               {at.x() - 0.5, at.y() - 0.5});
+  Q_EMIT stationPlaceHovered(surface ? std::optional(surface->in_station_m) : std::nullopt);
+}
+
+void SceneView::showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m) {
+  overlay_->setHovered(point_in_station_m);
 }
 
 }  // namespace boresight::ui

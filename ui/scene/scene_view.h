@@ -55,6 +55,12 @@ class SceneView : public QWidget {
   void setMeshOpacity(double opacity);
   /// The view state as it is now, without waiting for the event loop.
   void refresh();
+  /// Shows where a place of the station is in the scene; nothing: nowhere.
+  void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
+
+ Q_SIGNALS:
+  /// The place of the station under the pointer, or nothing.
+  void stationPlaceHovered(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -73,6 +79,7 @@ class SceneView : public QWidget {
   Pose throughPose() const;
   void pick(const QPointF& at, Qt::KeyboardModifiers modifiers);
   void pickInScene(const QPointF& pixel);
+  void hover(const QPointF& at);
 
   ViewState& state_;
   SceneBackend backend_;

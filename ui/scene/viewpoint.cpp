@@ -62,12 +62,20 @@ void OrbitCamera::lookFrom(StandardView view) {
   const auto& [azimuth_rad, elevation_rad] = kDirections[static_cast<std::size_t>(view)];
   azimuth_rad_ = azimuth_rad;
   elevation_rad_ = elevation_rad;
+  roll_rad_ = 0.0;
 }
 
 void OrbitCamera::orbit(const QPointF& pixels, double canvas_height) {
   const double rad_per_px = kPi / std::max(canvas_height, 1.0);
-  azimuth_rad_ = std::remainder(azimuth_rad_ - rad_per_px * pixels.x(), 2.0 * kPi);
-  elevation_rad_ = std::clamp(elevation_rad_ + rad_per_px * pixels.y(), -0.5 * kPi, 0.5 * kPi);
+  // What is dragged follows the pointer also in a rolled picture.
+  const double right = std::cos(roll_rad_) * pixels.x() + std::sin(roll_rad_) * pixels.y();
+  const double down = std::cos(roll_rad_) * pixels.y() - std::sin(roll_rad_) * pixels.x();
+  azimuth_rad_ = std::remainder(azimuth_rad_ - rad_per_px * right, 2.0 * kPi);
+  elevation_rad_ = std::clamp(elevation_rad_ + rad_per_px * down, -0.5 * kPi, 0.5 * kPi);
+}
+
+void OrbitCamera::roll(double angle_rad) {
+  roll_rad_ = std::remainder(roll_rad_ + angle_rad, 2.0 * kPi);
 }
 
 void OrbitCamera::pan(const QPointF& pixels, double canvas_height) {
@@ -93,7 +101,7 @@ Eigen::Matrix3d OrbitCamera::viewFromStation() const {
   rows.row(0) = Eigen::Vector3d(-sa, ca, 0.0);
   rows.row(1) = Eigen::Vector3d(se * ca, se * sa, -ce);
   rows.row(2) = Eigen::Vector3d(-ce * ca, -ce * sa, -se);
-  return rows;
+  return Eigen::AngleAxisd(roll_rad_, Eigen::Vector3d::UnitZ()).toRotationMatrix() * rows;
 }
 
 Viewpoint OrbitCamera::viewpoint(const QSizeF& canvas) const {

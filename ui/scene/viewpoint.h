@@ -33,7 +33,8 @@ double distance_px(const QPointF& a, const QPointF& b);
 /// The fixed directions to look from. "Front" looks along the station's +y.
 enum class StandardView { kTop, kBottom, kFront, kBack, kLeft, kRight, kOblique };
 
-/// Looking at a place from around it, with the station's z axis always upright on the screen.
+/// Looking at a place from around it, with the station's z axis upright on the screen until it is
+/// rolled.
 class OrbitCamera {
  public:
   static constexpr double kFieldOfView_rad = 0.6;
@@ -45,6 +46,8 @@ class OrbitCamera {
   /// Dragging by this many pixels of a canvas of this height.
   void orbit(const QPointF& pixels, double canvas_height);
   void pan(const QPointF& pixels, double canvas_height);
+  /// Turns the picture clockwise.
+  void roll(double angle_rad);
   /// Factor below 1 comes nearer.
   void dolly(double factor);
 
@@ -52,6 +55,7 @@ class OrbitCamera {
   double distance_m() const { return distance_m_; }
   double elevation_rad() const { return elevation_rad_; }
   double azimuth_rad() const { return azimuth_rad_; }
+  double roll_rad() const { return roll_rad_; }
   const Eigen::Vector3d& target_m() const { return target_m_; }
 
  private:
@@ -63,6 +67,7 @@ class OrbitCamera {
   double distance_m_ = 3.0;
   double azimuth_rad_ = -0.9;   ///< of the eye, seen from the target, from +x towards +y
   double elevation_rad_ = 0.6;  ///< of the eye above the xy plane
+  double roll_rad_ = 0.0;       ///< of the picture, clockwise
 };
 
 /// The view through a case's camera, undistorted: `image` is where its image lies on the canvas.

@@ -175,6 +175,21 @@ QString Document::redoText() const {
   return history_ ? QString::fromStdString(history_->redoText()) : QString();
 }
 
+QStringList Document::editTexts() const {
+  QStringList texts;
+  if (!history_) return texts;
+  for (const sessions::SessionCommand& command : history_->commands())
+    texts << QString::fromStdString(command.text);
+  return texts;
+}
+
+bool Document::goToEdit(std::size_t done) {
+  return history_ && done != history_->done() && attempt(&Document::changed, [&] {
+    while (history_->done() > done) history_->undo();
+    while (history_->done() < done && history_->canRedo()) history_->redo();
+  });
+}
+
 std::filesystem::path Document::untitledFolder() {
   const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   return std::filesystem::path(data.toStdString()) / "untitled";

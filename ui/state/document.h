@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 
 #include "sessions/session/session_document.h"
 
@@ -60,6 +61,11 @@ class Document : public QObject {
   bool canRedo() const { return history_ && history_->canRedo(); }
   QString undoText() const;
   QString redoText() const;
+  /// All edits, those that are undone last; the first `editsDone` are in effect.
+  QStringList editTexts() const;
+  std::size_t editsDone() const { return history_ ? history_->done() : 0; }
+  /// Undoes or redoes until this number of edits is in effect.
+  bool goToEdit(std::size_t done);
 
   /// Where sessions without a name are kept.
   static std::filesystem::path untitledFolder();

@@ -47,8 +47,21 @@ constexpr const char* kPaths[] = {
     "M 4 14 L 4 2.5 L 12.5 2.5 L 10.5 5.5 L 12.5 8.5 L 4 8.5",
     "M 6 3.5 L 10.5 8 L 6 12.5",
     "M 2 3 L 14 3 L 14 13 L 2 13 Z M 9.5 3 L 9.5 13",
+    "M 4 2.5 L 4 12.5 L 6.8 9.8 L 9 14 L 10.6 13.2 L 8.6 9.2 L 12.3 9.2 Z",
+    "M 2.5 5.5 L 2.5 2.5 L 5.5 2.5 M 10.5 2.5 L 13.5 2.5 L 13.5 5.5 M 13.5 10.5 L 13.5 13.5 "
+    "L 10.5 13.5 M 5.5 13.5 L 2.5 13.5 L 2.5 10.5 M 5.5 5.5 L 10.5 5.5 L 10.5 10.5 L 5.5 10.5 Z",
+    "M 3 5 L 4.5 4 L 4.5 12 M 8 6 L 8 6.4 M 8 10 L 8 10.4 M 11 5 L 12.5 4 L 12.5 12",
+    "M 2.5 10.5 L 10.5 2.5 L 13.5 5.5 L 5.5 13.5 Z M 5 8 L 6.5 9.5 M 7 6 L 8 7 M 9 4 L 10.5 5.5",
+    "M 1.5 8 L 4 5 L 8 3.5 L 12 5 L 14.5 8 L 12 11 L 8 12.5 L 4 11 Z O 8 8 2",
+    "M 2.5 3 L 13.5 3 L 13.5 13 L 2.5 13 Z M 8 1.5 L 8 14.5 M 10.5 6 L 12 8 L 10.5 10 M 5.5 6 L 4 8 "
+    "L 5.5 10",
+    "M 8 2.5 L 14 5.5 L 8 8.5 L 2 5.5 Z M 2 8.2 L 8 11.2 L 14 8.2 M 2 10.8 L 8 13.8 L 14 10.8",
+    "M 2 3 L 7 3 L 7 13 L 2 13 Z M 9 3 L 14 3 L 14 13 L 9 13 Z",
+    "M 4.5 4.5 L 11.5 4.5 L 11.5 11.5 L 4.5 11.5 Z M 6.5 2 L 6.5 4.5 M 9.5 2 L 9.5 4.5 M 6.5 11.5 "
+    "L 6.5 14 M 9.5 11.5 L 9.5 14 M 2 6.5 L 4.5 6.5 M 2 9.5 L 4.5 9.5 M 11.5 6.5 L 14 6.5 "
+    "M 11.5 9.5 L 14 9.5",
 };
-static_assert(std::size(kPaths) == static_cast<std::size_t>(Icon::kSidePane) + 1);
+static_assert(std::size(kPaths) == static_cast<std::size_t>(Icon::kAlgorithm) + 1);
 
 QPainterPath pathOf(const char* text) {
   QPainterPath path;
@@ -84,11 +97,12 @@ QPainterPath pathOf(const char* text) {
 /// Drawn when it is shown, so that it is sharp on every screen and follows the theme.
 class LineIcon final : public QIconEngine {
  public:
+  /// Without a member of the theme: as on the overlay.
   LineIcon(Icon icon, QRgb Theme::*color) : icon_(icon), color_(color) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
-    paintIcon(*painter, rect, icon_,
-              QColor(mode == QIcon::Disabled ? theme().text3 : theme().*color_));
+    const QRgb enabled = color_ ? theme().*color_ : kOverlayText;
+    paintIcon(*painter, rect, icon_, QColor(mode == QIcon::Disabled ? theme().text3 : enabled));
   }
   QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
     QPixmap pixmap(size);
@@ -109,6 +123,8 @@ class LineIcon final : public QIconEngine {
 QIcon iconOf(Icon icon, QRgb Theme::*color) {
   return icon == Icon::kNone ? QIcon() : QIcon(new LineIcon(icon, color));
 }
+
+QIcon overlayIcon(Icon icon) { return QIcon(new LineIcon(icon, nullptr)); }
 
 void paintIcon(QPainter& painter, const QRectF& place, Icon icon, const QColor& color) {
   painter.save();

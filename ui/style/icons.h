@@ -40,10 +40,21 @@ enum class Icon {
   kFlag,
   kNext,
   kSidePane,
+  kSelect,
+  kFit,
+  kOneToOne,
+  kRuler,
+  kEye,
+  kSwipe,
+  kLayers,
+  kSideBySide,
+  kAlgorithm,
 };
 
 /// In a colour of the theme that is in use when the icon is drawn; disabled: that of hints.
 QIcon iconOf(Icon icon, QRgb Theme::*color = &Theme::text);
+/// For the overlay on the image, which is dark in every theme.
+QIcon overlayIcon(Icon icon);
 
 /// Draws it in a square, in one colour.
 void paintIcon(QPainter& painter, const QRectF& place, Icon icon, const QColor& color);

@@ -43,6 +43,15 @@ GrayLevels automaticLevels(const ImageSamples& samples) {
   return levels;
 }
 
+std::vector<int> histogramOf(const ImageSamples& samples) {
+  constexpr int kBins = 256;
+  std::vector<int> counts(kBins, 0);
+  const int all = fullLevels(samples).white + 1;
+  for (const std::uint16_t value : samples.values)
+    ++counts[static_cast<std::size_t>(std::min(value * kBins / all, kBins - 1))];
+  return counts;
+}
+
 QString sampleText(const ImageSamples& samples, int x, int y) {
   const std::uint16_t value =
       samples.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.width) +
@@ -67,6 +76,7 @@ namespace {
 struct ReadSamples {
   DisplayImage::SamplesPtr samples;
   sessions::GrayLevels automatic;
+  std::vector<int> histogram;
 };
 
 ReadSamples readFor(const sessions::ImageInput& input) {
@@ -77,7 +87,8 @@ ReadSamples readFor(const sessions::ImageInput& input) {
         input.source.file,
         "the file has changed since the session was opened; stretching is not possible");
   const sessions::GrayLevels automatic = automaticLevels(*samples);
-  return {std::move(samples), automatic};
+  std::vector<int> histogram = histogramOf(*samples);
+  return {std::move(samples), automatic, std::move(histogram)};
 }
 
 }  // namespace
@@ -98,6 +109,7 @@ void DisplayImage::showCase() {
     return;
   }
   samples_.reset();
+  histogram_.clear();
   setPicture(core_);
   Q_EMIT levelsChanged();
   if (!case_) return;
@@ -107,13 +119,16 @@ void DisplayImage::showCase() {
       [this, source = case_->source.image.source](ReadSamples read) {
         if (!case_ || !(case_->source.image.source == source)) return;
         automatic_ = read.automatic;
+        histogram_ = std::move(read.histogram);
         takeSamples(std::move(read.samples));
       });
 }
 
 void DisplayImage::takeSamples(SamplesPtr samples) {
   samples_ = std::move(samples);
-  levels_ = samples_->sample_bits > 8 ? automatic_ : fullLevels(*samples_);
+  const sessions::GrayLevels full = fullLevels(*samples_);
+  const bool flat = 2 * (automatic_.white - automatic_.black) < full.white;
+  levels_ = samples_->sample_bits > 8 || flat ? automatic_ : full;
   Q_EMIT levelsChanged();
   makePicture();
 }
@@ -214,7 +229,7 @@ BitPixmaps::BitPixmaps(const BitImage& bits, const QColor& color) {
 
 /// Set pixels all have the same colour: OR keeps it.
 const QImage& BitPixmaps::at(double bits_per_pixel, int& step) {
-  return pictureFor(bits_per_pixel, pictures_, step, [](const QImage& fine) {
+  return pictureFor(2.0 * bits_per_pixel - 1e-9, pictures_, step, [](const QImage& fine) {
     return halved<QRgb>(fine, [](QRgb a, QRgb b, QRgb c, QRgb d) { return a | b | c | d; });
   });
 }

@@ -27,6 +27,9 @@ inline constexpr double kClippedShare = 0.005;
 /// that can be told apart.
 sessions::GrayLevels automaticLevels(const sessions::ImageSamples& samples);
 
+/// Number of samples in each of 256 even ranges of all that the samples' bits can say.
+std::vector<int> histogramOf(const sessions::ImageSamples& samples);
+
 /// All that the samples' bits can say.
 sessions::GrayLevels fullLevels(const sessions::ImageSamples& samples);
 
@@ -38,7 +41,7 @@ QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLeve
 
 /// The current case's image as the operator sees it: the 8-bit pixels that the core sees, or the
 /// file's samples stretched between two levels. At first images of more than 8 bits are stretched
-/// automatically and others are not. Reading and stretching happen in the task runner; until a
+/// automatically, and those of 8 bits that use less than half of their range. Reading and stretching happen in the task runner; until a
 /// picture is made the one before, or the core's, is shown.
 class DisplayImage : public QObject {
   Q_OBJECT
@@ -55,6 +58,8 @@ class DisplayImage : public QObject {
   /// nullptr until they are read.
   const SamplesPtr& samples() const { return samples_; }
   const sessions::GrayLevels& levels() const { return levels_; }
+  /// Of the samples; empty until they are read.
+  const std::vector<int>& histogram() const { return histogram_; }
   bool showsCore() const { return shows_core_; }
 
   void setShowsCore(bool shows_core);
@@ -82,6 +87,7 @@ class DisplayImage : public QObject {
   SamplesPtr samples_;
   sessions::GrayLevels automatic_;
   sessions::GrayLevels levels_;
+  std::vector<int> histogram_;
   bool shows_core_ = false;
 };
 
@@ -92,8 +98,9 @@ class BitPixmaps {
  public:
   BitPixmaps(const BitImage& bits, const QColor& color);
 
-  /// The picture whose pixels cover 2^step pixels of the bits, with step as large as it can be
-  /// while one of its pixels covers at most `bits_per_pixel` of theirs; the step comes back.
+  /// The picture whose pixels cover 2^step pixels of the bits, with step as small as it can be
+  /// while one of its pixels covers at least `bits_per_pixel` of theirs, so that drawing it drops
+  /// none; the step comes back.
   const QImage& at(double bits_per_pixel, int& step);
 
  private:

@@ -9,29 +9,58 @@
 #include "sessions/run/scene_render.h"
 #include "sessions/run/surface_point.h"
 #include "ui/run/task_runner.h"
+#include "ui/style/icons.h"
+#include "ui/views/canvas_chips.h"
 #include "ui/views/display_image.h"
-#include "ui/views/layer.h"
+#include "ui/views/image_view.h"
+#include "ui/views/layer_legend.h"
+#include "ui/views/measure_tool.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr int kBlinkMs = 500;
-constexpr int kFaded = 50;  // opacity of 255 of what is drawn behind a hypothesis
 using RenderPtr = std::shared_ptr<const sessions::RenderTrace>;
 using MapsPtr = std::shared_ptr<const sessions::AgreementMaps>;
 
-/// While two poses are compared, the edges of others stand back.
-void fadeOthers(ImageView& view, bool fade) {
-  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges}) {
-    Layer layer = view.layer(id);
-    QColor color;  // the layer's own
-    if (fade) {
-      color = layer.style.color;
-      color.setAlpha(kFaded);
-    }
-    for (LayerBits& bits : layer.bits) bits.color = color;
-    view.setLayer(std::move(layer));
+LinesPtr linesOfPose(const sessions::LoadedCase& loaded_case, const Pose& camera_from_station) {
+  sessions::RenderTrace render;
+  const Status status = sessions::renderScene(loaded_case.source.camera, loaded_case.scene.view(),
+                                              camera_from_station, render);
+  return status == Status::kOk ? linesOf(render, 0) : nullptr;
+}
+
+/// From the stage Pose on the corrected pose is shown.
+bool isCorrected(const sessions::IterationTrace& iteration, Stage stage) {
+  return stage >= Stage::kPose &&
+         !(iteration.camera_from_station == iteration.camera_from_station_before);
+}
+
+QString stageName(Stage stage) {
+  switch (stage) {
+    case Stage::kRender:
+      return ImagePanel::tr(", render");
+    case Stage::kTemplates:
+      return ImagePanel::tr(", templates");
+    case Stage::kMatch:
+      return ImagePanel::tr(", match");
+    default:
+      return {};
   }
+}
+
+/// "Iteration 2.3, match".
+QString shownText(const ViewState& state) {
+  const auto iteration = state.iteration();
+  if (!iteration) return state.snapshot() ? ImagePanel::tr("Seed") : QString();
+  const auto& all = state.snapshot()->iterations;
+  int number = 0;
+  for (int i = 0; i <= state.cursor().iteration; ++i)
+    if (all[static_cast<std::size_t>(i)]->attempt == iteration->attempt) ++number;
+  return ImagePanel::tr("Iteration %1.%2%3")
+      .arg(iteration->attempt + 1)
+      .arg(number)
+      .arg(stageName(state.cursor().stage));
 }
 
 }  // namespace
@@ -40,19 +69,30 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
     : QWidget(parent),
       state_(state),
       tasks_(tasks),
-      display_(new DisplayImage(state, tasks, this)) {
-  ui_.setupUi(this);
+      view_(new ImageView),
+      canvases_(new QSplitter),
+      display_(new DisplayImage(state, tasks, this)),
+      chips_(new CanvasChips(*view_)) {
+  view_->setObjectName(QStringLiteral("imageView"));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(canvases_);
+  canvases_->addWidget(view_);
+  canvases_->setChildrenCollapsible(false);
+  measure_ = new MeasureTool(*view_, state, this);
+  legend_ = new LayerLegend(*this);
+  chips_->setLegend(legend_);
+  connect(legend_, &LayerLegend::allLayersRequested, this, &ImagePanel::allLayersRequested);
   setHint({});
-  connectBar();
-  connect(ui_.imageView, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
-  connect(ui_.imageView, &ImageView::cursorLeft, this, [this] { Q_EMIT placeText(QString()); });
-  connect(ui_.imageView, &ImageView::transformChanged, this, [this] {
-    const double percent =
-        100.0 * ui_.imageView->transform().scale() * ui_.imageView->devicePixelRatioF();
-    ui_.zoom->setText(tr("%1 %").arg(percent, 0, 'f', percent < 10.0 ? 1 : 0));
-  });
-  connect(ui_.imageView, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
-    if (layer != LayerId::kPoints) state_.selectTemplate(item);
+  buildTools();
+  connect(display_, &DisplayImage::pictureChanged, this, &ImagePanel::showImage);
+  connect(view_, &ImageView::cursorMoved, this, &ImagePanel::showPlace);
+  connect(view_, &ImageView::cursorLeft, this, &ImagePanel::leavePlace);
+  connect(view_, &ImageView::contextMenuRequested, this, &ImagePanel::showContextMenu);
+  connect(view_, &ImageView::itemClicked, this, [this](LayerId layer, int item) {
+    if (layer == LayerId::kPoints) return;
+    state_.selectTemplate(item);
+    Q_EMIT templateClicked();
   });
   state_.onChange(ViewChange::kCase, this, &ImagePanel::showCase);
   state_.onChange(ViewChange::kCursor, this, &ImagePanel::showIteration);
@@ -60,10 +100,10 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
   state_.onChange(ViewChange::kAlternative, this, &ImagePanel::showAlternative);
 }
 
-ImageView& ImagePanel::view() { return *ui_.imageView; }
+QToolBar& ImagePanel::tools() { return chips_->tools(); }
 
 void ImagePanel::setHint(const QString& hint) {
-  ui_.imageView->setHint(
+  view_->setHint(
       !hint.isEmpty()
           ? hint
           : tr("Drop an image, a mesh, a camera (unless the image's label has one) and a seed "
@@ -71,74 +111,120 @@ void ImagePanel::setHint(const QString& hint) {
                "session"));
 }
 
-void ImagePanel::connectBar() {
-  connect(ui_.fit, &QToolButton::clicked, ui_.imageView, &ImageView::fit);
-  connect(ui_.oneToOne, &QToolButton::clicked, ui_.imageView, &ImageView::showOneToOne);
-  connect(ui_.coreView, &QToolButton::toggled, display_, &DisplayImage::setShowsCore);
+void ImagePanel::buildTools() {
+  QToolBar& strip = tools();
+  const auto add = [&](Icon icon, const QString& text, const QString& tip, bool checkable) {
+    QAction* action = strip.addAction(overlayIcon(icon), text);
+    action->setToolTip(tip);
+    action->setCheckable(checkable);
+    return action;
+  };
+  connect(add(Icon::kFit, tr("Fit"), tr("Show the whole image (0, or a double click)"), false),
+          &QAction::triggered, view_, &ImageView::fit);
+  connect(add(Icon::kOneToOne, tr("1:1"), tr("One image pixel on one screen pixel (1)"), false),
+          &QAction::triggered, view_, &ImageView::showOneToOne);
+  QAction* measure = add(Icon::kRuler, tr("Measure"), measure_->help(), true);
+  connect(measure, &QAction::toggled, measure_, &MeasureTool::setActive);
+  connect(measure_, &MeasureTool::activeChanged, measure, &QAction::setChecked);
+  strip.addSeparator();
+  blink_ = add(Icon::kEye, tr("Blink"),
+               tr("Blink the layers every half second (B); hold H to hide them"), true);
+  swipe_ = add(Icon::kSwipe, tr("Swipe"),
+               tr("Show the layers only left of a line (V); drag the line"), true);
+  side_by_side_ = add(Icon::kSideBySide, tr("Side by side"),
+                      tr("A second canvas with linked zoom and pointer: the seed, the truth, "
+                         "another run, another camera"),
+                      true);
+  side_by_side_->setVisible(false);  // until there is one
+  core_view_ = add(Icon::kAlgorithm, tr("Algorithm's view"),
+                   tr("Show the 8-bit image of the algorithm instead of a stretched image (C). "
+                      "Stretching does not change runs."),
+                   true);
+  strip.addSeparator();
+  connect(core_view_, &QAction::toggled, display_, &DisplayImage::setShowsCore);
   connect(display_, &DisplayImage::levelsChanged, this,
-          [this] { ui_.coreView->setChecked(display_->showsCore()); });
-  connect(display_, &DisplayImage::pictureChanged, this, &ImagePanel::showImage);
+          [this] { core_view_->setChecked(display_->showsCore()); });
   blink_timer_.setInterval(kBlinkMs);
   connect(&blink_timer_, &QTimer::timeout, this,
-          [this] { ui_.imageView->setLayersHidden(!ui_.imageView->layersHidden()); });
-  connect(ui_.blink, &QToolButton::toggled, this, [this](bool on) {
-    ui_.imageView->setLayersHidden(false);
+          [this] { view_->setLayersHidden(!view_->layersHidden()); });
+  connect(blink_, &QAction::toggled, this, [this](bool on) {
+    view_->setLayersHidden(false);
     on ? blink_timer_.start() : blink_timer_.stop();
   });
-  const auto swipe = [this] {
-    const bool on = ui_.swipe->isChecked();
-    const double place = ui_.swipePlace->value() / 1000.0;
-    ui_.swipePlace->setEnabled(on);
-    ui_.imageView->setSwipe(on ? std::optional<double>(place) : std::nullopt);
-  };
-  connect(ui_.swipe, &QToolButton::toggled, this, swipe);
-  connect(ui_.swipePlace, &QSlider::valueChanged, this, swipe);
+  connect(swipe_, &QAction::toggled, this, [this](bool on) {
+    view_->setSwipe(on ? std::optional<double>(0.5) : std::nullopt);
+  });
 }
 
-void ImagePanel::toggleBlink() { ui_.blink->toggle(); }
-void ImagePanel::toggleSwipe() { ui_.swipe->toggle(); }
-void ImagePanel::toggleCoreView() { ui_.coreView->toggle(); }
+void ImagePanel::setBeside(QWidget* canvas) {
+  beside_ = canvas;
+  canvases_->addWidget(canvas);
+  canvas->hide();
+  for (int i = 0; i < canvases_->count(); ++i) canvases_->setStretchFactor(i, 1);
+  side_by_side_->setVisible(true);
+  connect(side_by_side_, &QAction::toggled, this, [this](bool on) {
+    beside_->setVisible(on);
+    if (on) canvases_->setSizes({width() / 2, width() / 2});
+  });
+}
 
-const LayerStyle& ImagePanel::style(LayerId id) const { return ui_.imageView->layer(id).style; }
+void ImagePanel::showBeside(bool shown) { side_by_side_->setChecked(shown); }
+
+void ImagePanel::toggleBlink() { blink_->toggle(); }
+void ImagePanel::toggleSwipe() { swipe_->toggle(); }
+void ImagePanel::toggleCoreView() { core_view_->toggle(); }
+
+const LayerStyle& ImagePanel::style(LayerId id) const { return view_->layer(id).style; }
 
 void ImagePanel::setStyle(LayerId id, const LayerStyle& style) {
-  if (style == ui_.imageView->layer(id).style) return;
-  ui_.imageView->setStyle(id, style);
+  if (style == view_->layer(id).style) return;
+  if (stage_layer_ == id) stage_layer_.reset();  // the operator has decided
+  view_->setStyle(id, style);
   askForRenders();
   Q_EMIT stylesChanged();
 }
 
 void ImagePanel::setBits(LayerId id, std::vector<LayerBits> bits) {
-  Layer layer = ui_.imageView->layer(id);
+  Layer layer = view_->layer(id);
   layer.bits = std::move(bits);
-  ui_.imageView->setLayer(std::move(layer));
+  view_->setLayer(std::move(layer));
 }
 
 void ImagePanel::setMarks(LayerId id, std::vector<Mark> marks) {
-  Layer layer = ui_.imageView->layer(id);
+  Layer layer = view_->layer(id);
   layer.marks = std::move(marks);
-  ui_.imageView->setLayer(std::move(layer));
+  view_->setLayer(std::move(layer));
+}
+
+void ImagePanel::setLines(LayerId id, LinesPtr lines) {
+  Layer layer = view_->layer(id);
+  layer.lines = std::move(lines);
+  view_->setLayer(std::move(layer));
 }
 
 void ImagePanel::setNudgedRender(RenderPtr render, int level) {
-  std::vector<LayerBits> bits = bitsOf(render, false);
-  for (LayerBits& item : bits) item.level = level;
-  setBits(LayerId::kNudgedEdges, std::move(bits));
+  setLines(LayerId::kNudgedEdges, render ? linesOf(*render, level) : nullptr);
 }
 
 void ImagePanel::showCase() {
   const ViewState::CasePtr before = std::exchange(shown_case_, state_.currentCase());
   const ViewState::CasePtr& after = shown_case_;
+  const bool same_case = before && after && before->source.id == after->source.id;
+  if (!same_case) view_->fit();
   // An edit of the mask leaves the image and the renders as they are.
-  const bool same_scene = before && after && before->source.id == after->source.id &&
-                          before->source.camera == after->source.camera &&
+  const bool same_scene = same_case && before->source.camera == after->source.camera &&
                           before->source.parts == after->source.parts;
   if (!same_scene ||
       !(before->source.camera_from_station_seed == after->source.camera_from_station_seed))
     forget(LayerId::kSeedEdges);
+  if (!same_scene || !(before->source.camera_from_station_truth ==
+                       after->source.camera_from_station_truth))
+    forget(LayerId::kTruthEdges);
   if (!same_scene) {
     agreement_of_.reset();
-    for (const LayerId id : {LayerId::kTruthEdges, LayerId::kAgreement, LayerId::kNudgedEdges,
+    pose_lines_ = {};
+    setBits(LayerId::kAgreement, {});
+    for (const LayerId id : {LayerId::kIterationEdges, LayerId::kNudgedEdges,
                              LayerId::kChosenEdges, LayerId::kHypothesisEdges})
       forget(id);
   }
@@ -148,37 +234,46 @@ void ImagePanel::showCase() {
 
 void ImagePanel::forget(LayerId id) {
   asked_[static_cast<std::size_t>(id)] = false;
-  setBits(id, {});
+  setLines(id, nullptr);
 }
 
 /// A hypothesis and the pose that the run went on with.
 void ImagePanel::showAlternative() {
   forget(LayerId::kChosenEdges);
   forget(LayerId::kHypothesisEdges);
-  std::vector<LegendLine> names;
-  if (const auto& other = state_.alternative()) {
-    names = {{LayerId::kHypothesisEdges, alternativeTitle(*other)},
-             {LayerId::kChosenEdges, chosenTitle(*other)},
-             {LayerId::kIterationEdges, tr("Render of the shown iteration")},
-             {LayerId::kSeedEdges, tr("Seed")},
-             {LayerId::kTruthEdges, tr("Truth")}};
+  const auto& other = state_.alternative();
+  for (const auto& [id, name] :
+       {std::pair(LayerId::kHypothesisEdges, other ? alternativeTitle(*other) : QString()),
+        {LayerId::kChosenEdges, other ? chosenTitle(*other) : QString()}}) {
+    Layer layer = view_->layer(id);
+    layer.name = name;
+    view_->setLayer(std::move(layer));
   }
-  ui_.imageView->setLegend(std::move(names));
   showTemplates();
-  fadeOthers(*ui_.imageView, state_.alternative().has_value());
+  fadeOthers();
   askForRenders();
 }
 
+/// While two poses are compared, the edges of others stand back.
+void ImagePanel::fadeOthers() {
+  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges}) {
+    Layer layer = view_->layer(id);
+    layer.faded = state_.alternative().has_value();
+    view_->setLayer(std::move(layer));
+  }
+}
+
 void ImagePanel::showImage() {
-  ui_.imageView->setImage(display_->picture());
-  if (!display_->picture().isNull()) ui_.imageView->setValues(display_->corePicture());
+  view_->setImage(display_->picture());
+  if (!display_->picture().isNull()) view_->setValues(display_->corePicture());
 }
 
 void ImagePanel::showIteration() {
   const auto iteration = state_.iteration();
-  setBits(LayerId::kIterationEdges, iterationBits(iteration, false));
-  fadeOthers(*ui_.imageView, state_.alternative().has_value());
-  setBits(LayerId::kMask, iterationBits(iteration, true));
+  chips_->setShown(shownText(state_));
+  showPoseLook();
+  askForPoseLines();
+  setBits(LayerId::kMask, maskBits(iteration));
   const bool has_edges = state_.snapshot() && state_.snapshot()->edges;
   setBits(LayerId::kTestEdges,
           has_edges ? testEdgeBits(state_.snapshot()->edges, iteration ? iteration->level : 0)
@@ -191,8 +286,63 @@ void ImagePanel::showIteration() {
     agreement_of_.reset();
     setBits(LayerId::kAgreement, {});
   }
+  bringLayerOfStage();
   showTemplates();
   askForRenders();
+}
+
+void ImagePanel::showPoseLook() {
+  Layer layer = view_->layer(LayerId::kIterationEdges);
+  const auto& run = state_.snapshot();
+  const bool rejected = run && isRejected(*run);
+  layer.line = rejected ? std::optional<LineToken>(kRejectedLine) : std::nullopt;
+  layer.name = rejected                  ? tr("Rejected pose")
+               : run && run->converged() ? tr("Pose found")
+                                         : QString();
+  view_->setLayer(std::move(layer));
+}
+
+/// The edges before stay until these are there: stepping does not flicker.
+void ImagePanel::askForPoseLines() {
+  const auto iteration = state_.iteration();
+  const PoseLines wanted = {iteration, iteration && isCorrected(*iteration, state_.cursor().stage)};
+  if (wanted == pose_lines_) return;
+  pose_lines_ = wanted;
+  const QString key = QStringLiteral("pose lines");
+  if (!iteration) {
+    tasks_.cancel(key);
+    setLines(LayerId::kIterationEdges, nullptr);
+    return;
+  }
+  tasks_.start(
+      key,
+      [wanted, loaded_case = state_.currentCase()](const std::stop_token&) {
+        return wanted.corrected
+                   ? linesOfPose(*loaded_case, wanted.iteration->camera_from_station)
+                   : linesOf(wanted.iteration->render, wanted.iteration->level);
+      },
+      [this, wanted](const LinesPtr& lines) {
+        if (wanted == pose_lines_) setLines(LayerId::kIterationEdges, lines);
+      });
+}
+
+/// What a stage made is shown while the operator looks at it.
+void ImagePanel::bringLayerOfStage() {
+  const Stage stage = state_.cursor().stage;
+  std::optional<LayerId> wanted;
+  if (state_.iteration() && stage == Stage::kTemplates) wanted = LayerId::kTemplates;
+  if (state_.iteration() && stage == Stage::kMatch) wanted = LayerId::kMatches;
+  if (wanted && stage_layer_ == wanted) return;
+  if (const auto former = std::exchange(stage_layer_, std::nullopt)) {
+    LayerStyle hidden = style(*former);
+    hidden.visible = false;
+    setStyle(*former, hidden);
+  }
+  if (!wanted || style(*wanted).visible) return;
+  LayerStyle shown = style(*wanted);
+  shown.visible = true;
+  setStyle(*wanted, shown);
+  stage_layer_ = wanted;
 }
 
 void ImagePanel::showTemplates() {
@@ -202,7 +352,8 @@ void ImagePanel::showTemplates() {
   const bool placed = iteration && stage >= Stage::kTemplates;
   const bool matched = iteration && stage >= Stage::kMatch;
   setMarks(LayerId::kTemplates, placed ? templateMarks(*iteration, selected) : std::vector<Mark>());
-  setMarks(LayerId::kWindows, matched ? windowMarks(*iteration, selected) : std::vector<Mark>());
+  setMarks(LayerId::kWindows,
+           placed ? chosenMarks(*iteration, selected, matched) : std::vector<Mark>());
   // Arrows of the pose that was chosen do not hold for another hypothesis.
   const bool arrows = matched && !state_.alternative();
   setMarks(LayerId::kMatches, arrows ? matchMarks(*iteration, selected) : std::vector<Mark>());
@@ -213,9 +364,8 @@ void ImagePanel::askForRenders() {
   if (!loaded_case) return;
   if (loaded_case->source.has_seed)
     askForRender(LayerId::kSeedEdges, "seed edges", loaded_case->source.camera_from_station_seed);
-  if (loaded_case->source.camera_from_station_truth)
-    askForRender(LayerId::kTruthEdges, "truth edges",
-                 *loaded_case->source.camera_from_station_truth);
+  if (const auto truth = poseOf(state_, PoseRole::kTruth))
+    askForRender(LayerId::kTruthEdges, "truth edges", *truth);
   if (const auto& other = state_.alternative()) {
     if (other->has_pose)
       askForRender(LayerId::kHypothesisEdges, "hypothesis' edges", other->camera_from_station);
@@ -232,18 +382,14 @@ void ImagePanel::askForRender(LayerId id, const char* key, const Pose& camera_fr
   const ViewState::CasePtr loaded_case = state_.currentCase();
   tasks_.start(
       QString::fromLatin1(key),
-      [loaded_case, camera_from_station](const std::stop_token&) -> RenderPtr {
-        auto render = std::make_shared<sessions::RenderTrace>();
-        const Status status = sessions::renderScene(
-            loaded_case->source.camera, loaded_case->scene.view(), camera_from_station, *render);
-        return status == Status::kOk ? render : nullptr;
+      [loaded_case, camera_from_station](const std::stop_token&) {
+        return linesOfPose(*loaded_case, camera_from_station);
       },
-      [this, loaded_case, id](const RenderPtr& render) {
+      [this, loaded_case, id](const LinesPtr& lines) {
         const ViewState::CasePtr& current = state_.currentCase();
         if (current && asked_[static_cast<std::size_t>(id)] &&
             loaded_case->source.id == current->source.id)
-          setBits(id, bitsOf(render, false));
-        fadeOthers(*ui_.imageView, state_.alternative().has_value());
+          setLines(id, lines);
       });
 }
 
@@ -265,11 +411,13 @@ void ImagePanel::askForAgreement() {
 }
 
 void ImagePanel::showPlace(const QPointF& pixel) {
+  view_->setLinkedCursor(std::nullopt);  // of another view
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   if (!loaded_case) return;
   QString text = tr("x %1  y %2").arg(pixel.x(), 0, 'f', 1).arg(pixel.y(), 0, 'f', 1);
   const int x = static_cast<int>(std::floor(pixel.x() + 0.5));
   const int y = static_cast<int>(std::floor(pixel.y() + 0.5));
+  std::optional<Eigen::Vector3d> place;
   if (x >= 0 && y >= 0 && x < loaded_case->image.width && y < loaded_case->image.height) {
     text += tr("  gray %1").arg(loaded_case->image.view().at(x, y));
     if (const auto& samples = display_->samples(); samples && samples->sample_bits > 8)
@@ -278,6 +426,7 @@ void ImagePanel::showPlace(const QPointF& pixel) {
         sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(),
                                  state_.shownPose(), {pixel.x(), pixel.y()});
     if (point) {
+      place = point->in_station_m;
       text += tr("  station %1  %2  %3 mm, %4 m away")
                   .arg(1e3 * point->in_station_m.x(), 0, 'f', 2)
                   .arg(1e3 * point->in_station_m.y(), 0, 'f', 2)
@@ -286,6 +435,44 @@ void ImagePanel::showPlace(const QPointF& pixel) {
     }
   }
   Q_EMIT placeText(text);
+  Q_EMIT stationPlaceHovered(place);
+}
+
+void ImagePanel::leavePlace() {
+  Q_EMIT placeText(QString());
+  Q_EMIT stationPlaceHovered(std::nullopt);
+}
+
+void ImagePanel::showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m) {
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  Eigen::Vector2d pixel;
+  const bool seen =
+      loaded_case && point_in_station_m &&
+      project(loaded_case->source.camera, state_.shownPose() * *point_in_station_m, pixel);
+  view_->setLinkedCursor(seen ? std::optional(pointOf(pixel)) : std::nullopt);
+}
+
+void ImagePanel::showContextMenu(const QPointF& pixel, const QPoint& global) {
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  if (!loaded_case) return;
+  QMenu menu(this);
+  menu.addActions(tools().actions());
+  menu.addSeparator();
+  const auto copy = [&](const QString& name, const QString& text) {
+    menu.addAction(tr("Copy %1:  %2").arg(name, text),
+                   [text] { QGuiApplication::clipboard()->setText(text); });
+  };
+  copy(tr("pixel"),
+       QStringLiteral("%1 %2").arg(pixel.x(), 0, 'f', 2).arg(pixel.y(), 0, 'f', 2));
+  const auto point =
+      sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(),
+                               state_.shownPose(), {pixel.x(), pixel.y()});
+  if (point)
+    copy(tr("station point, m"), QStringLiteral("%1 %2 %3")
+                                     .arg(point->in_station_m.x(), 0, 'f', 6)
+                                     .arg(point->in_station_m.y(), 0, 'f', 6)
+                                     .arg(point->in_station_m.z(), 0, 'f', 6));
+  menu.exec(global);
 }
 
 }  // namespace boresight::ui

@@ -3,33 +3,48 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
+#include <Eigen/Core>
 #include <QTimer>
 #include <QWidget>
-
-#include "ui_image_panel.h"
 
 #include "sessions/run/picture_data.h"
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 
+class QAction;
+class QSplitter;
+class QToolBar;
+
 namespace boresight::ui {
 
+class CanvasChips;
 class DisplayImage;
 class ImageView;
+class LayerLegend;
+class MeasureTool;
 class TaskRunner;
 
-/// The image of the current case with the layers of the current iteration, and the bar above it:
-/// fit, 1:1, what the core sees, blink, swipe. Follows the view state; renders of seed and truth
-/// and the agreement are made by the task runner when their layer is shown first.
+/// The image of the current case with the layers of the current iteration; over it the tools, the
+/// legend and what is shown. Follows the view state; lines of poses and the agreement are made by
+/// the task runner when their layer is shown first.
 class ImagePanel : public QWidget {
   Q_OBJECT
 
  public:
   ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent = nullptr);
 
-  ImageView& view();
+  ImageView& view() { return *view_; }
   DisplayImage& display() { return *display_; }
+  LayerLegend& legend() { return *legend_; }
+  MeasureTool& measure() { return *measure_; }
+  /// The strip of tools on the image; owners of further tools add theirs.
+  QToolBar& tools();
+  /// A second canvas at the right of the image, hidden until it is asked for; its owner is this
+  /// panel from now on.
+  void setBeside(QWidget* canvas);
+  void showBeside(bool shown);
   void setStyle(LayerId id, const LayerStyle& style);
   const LayerStyle& style(LayerId id) const;
   /// Edges of the pose being nudged; nullptr takes them away.
@@ -38,7 +53,9 @@ class ImagePanel : public QWidget {
   void setHint(const QString& hint);
   /// Marks of a layer that no run fills.
   void setMarks(LayerId id, std::vector<Mark> marks);
-  void setBits(LayerId id, std::vector<LayerBits> bits);
+  void setLines(LayerId id, LinesPtr lines);
+  /// Shows where a place of the station is in the image; nothing: nowhere.
+  void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  public Q_SLOTS:
   void toggleBlink();
@@ -49,28 +66,59 @@ class ImagePanel : public QWidget {
   void stylesChanged();
   /// For the status bar: pixel, gray value, and the station point where the shown pose covers it.
   void placeText(const QString& text);
+  /// The place of the station under the pointer, or nothing.
+  void stationPlaceHovered(const std::optional<Eigen::Vector3d>& point_in_station_m);
+  void allLayersRequested();
+  /// A template was clicked.
+  void templateClicked();
 
  private:
-  void connectBar();
+  void buildTools();
+  void setBits(LayerId id, std::vector<LayerBits> bits);
   void showCase();
   void showIteration();
+  void askForPoseLines();
+  void showPoseLook();
   void showTemplates();
+  void bringLayerOfStage();
   void showPlace(const QPointF& pixel);
+  void leavePlace();
+  void showContextMenu(const QPointF& pixel, const QPoint& global);
   void askForRenders();
   void askForRender(LayerId id, const char* key, const Pose& camera_from_station);
   void forget(LayerId id);
   void showAlternative();
+  void fadeOthers();
   void askForAgreement();
   void showImage();
 
+  /// What the pose's lines are of.
+  struct PoseLines {
+    std::shared_ptr<const sessions::IterationTrace> iteration;
+    bool corrected = false;  ///< the pose after the iteration
+
+    bool operator==(const PoseLines&) const = default;
+  };
+
   ViewState& state_;
   TaskRunner& tasks_;
-  DisplayImage* display_ = nullptr;
+  ImageView* view_;
+  QSplitter* canvases_;
+  DisplayImage* display_;
+  CanvasChips* chips_;
+  LayerLegend* legend_ = nullptr;
+  MeasureTool* measure_ = nullptr;
+  QWidget* beside_ = nullptr;
+  QAction* side_by_side_ = nullptr;
+  QAction* blink_ = nullptr;
+  QAction* swipe_ = nullptr;
+  QAction* core_view_ = nullptr;
   QTimer blink_timer_;
   ViewState::CasePtr shown_case_;
-  std::array<bool, kLayerCount> asked_{};  ///< renders of this case that were asked for
+  std::array<bool, kLayerCount> asked_{};  ///< lines of this case that were asked for
+  PoseLines pose_lines_;
+  std::optional<LayerId> stage_layer_;  ///< shown for the stage, hidden before
   std::shared_ptr<const sessions::IterationTrace> agreement_of_;
-  Ui::ImagePanel ui_;
 };
 
 }  // namespace boresight::ui

@@ -7,6 +7,8 @@
 
 #include <QtWidgets>
 
+#include "ui/style/tokens.h"
+#include "ui/views/line_painter.h"
 #include "ui/views/overlay_painters.h"
 #include "ui/views/view_transform.h"
 
@@ -16,6 +18,11 @@ namespace {
 constexpr double kZoomStep = 1.25;
 constexpr double kPickRadius = 8.0;
 constexpr double kClickSlack = 3.0;
+constexpr double kSwipeReach = 6.0;
+constexpr double kFaded = 0.25;
+constexpr double kCursorSize = 12.0;
+constexpr int kToolMargin = 56;  ///< of texts beside the tool strip
+const QColor kSwipeColor(255, 255, 255);
 
 }  // namespace
 
@@ -45,6 +52,7 @@ void ImageView::setLayer(Layer layer) {
   layers_[index] = std::move(layer);
   drawn_[index].pixmaps.clear();
   update();
+  Q_EMIT layersChanged();
 }
 
 void ImageView::setStyle(LayerId id, const LayerStyle& style) {
@@ -52,6 +60,7 @@ void ImageView::setStyle(LayerId id, const LayerStyle& style) {
   if (layers_[index].style.color != style.color) drawn_[index].pixmaps.clear();
   layers_[index].style = style;
   update();
+  Q_EMIT layersChanged();
 }
 
 void ImageView::setTransform(const ViewTransform& transform) {
@@ -108,13 +117,17 @@ void ImageView::setToolPreviews(std::vector<ToolPreview> previews) {
   update();
 }
 
-void ImageView::setOverlay(Overlay overlay) {
-  overlay_ = std::move(overlay);
+void ImageView::setOverlay(const QObject* owner, Overlay overlay) {
+  if (overlay)
+    overlays_[owner] = std::move(overlay);
+  else
+    overlays_.erase(owner);
   update();
 }
 
-void ImageView::setLegend(std::vector<LegendLine> lines) {
-  legend_ = std::move(lines);
+void ImageView::setLinkedCursor(const std::optional<QPointF>& pixel) {
+  if (pixel == linked_cursor_) return;
+  linked_cursor_ = pixel;
   update();
 }
 
@@ -151,10 +164,12 @@ QRect ImageView::visiblePixels() const {
 
 void ImageView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), palette().color(QPalette::Dark));
+  const bool dark = palette().color(QPalette::Window).lightnessF() < 0.5;
+  painter.fillRect(rect(), QColor((dark ? kDarkTheme : kLightTheme).canvas));
   if (image_.isNull()) {
-    painter.setPen(palette().color(QPalette::BrightText));
-    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, hint_);
+    painter.setPen(QColor(kOverlayText));
+    painter.drawText(rect().adjusted(kToolMargin, 0, -kToolMargin, 0),
+                     Qt::AlignCenter | Qt::TextWordWrap, hint_);
     return;
   }
   paintImage(painter);
@@ -164,16 +179,46 @@ void ImageView::paintEvent(QPaintEvent*) {
     for (std::size_t i = 0; i < layers_.size(); ++i) paintLayer(painter, i);
     painter.restore();
   }
-  if (swipe_) {
-    painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
-    const double x = *swipe_ * width();
-    painter.drawLine(QPointF(x, 0.0), QPointF(x, height()));
-  }
+  if (swipe_) paintSwipe(painter);
   if (transform_.scale() >= kGridScale) paintGrid(painter);
   if (transform_.scale() >= kValueScale) paintValues(painter);
   paintTool(painter);
-  if (!layers_hidden_) paintNames(painter);
-  if (overlay_) overlay_(painter);
+  if (linked_cursor_) paintLinkedCursor(painter);
+  for (const auto& [owner, overlay] : overlays_) overlay(painter);
+}
+
+void ImageView::paintSwipe(QPainter& painter) const {
+  const double x = *swipe_ * width();
+  const QPointF handle(x, 0.5 * height());
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 4.0), QPen(kSwipeColor, 2.0)}) {
+    painter.setPen(pen);
+    painter.drawLine(QPointF(x, 0.0), QPointF(x, height()));
+    painter.setBrush(QColor(kDarkTheme.overlay));
+    painter.drawRoundedRect(QRectF(handle - QPointF(6.0, 16.0), handle + QPointF(6.0, 16.0)),
+                            kRadius, kRadius);
+  }
+  painter.setBrush(Qt::NoBrush);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+void ImageView::paintLinkedCursor(QPainter& painter) const {
+  const QPointF at = transform_.toWidget(*linked_cursor_);
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  for (const QPen& pen : {QPen(QColor(0, 0, 0, 160), 3.5), QPen(QColor(255, 255, 255), 1.5)}) {
+    painter.setPen(pen);
+    paintTicks(painter, at, 0.3 * kCursorSize, kCursorSize);
+  }
+  painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+/// Truth would hide a pose that coincides with it.
+LineToken ImageView::lineOf(const Layer& layer) const {
+  LineToken line = layer.shownLine();
+  const Layer& truth = this->layer(LayerId::kTruthEdges);
+  if (layer.id == LayerId::kIterationEdges && truth.style.visible && !truth.empty())
+    line.width_px *= kPoseUnderTruthFactor;
+  return line;
 }
 
 void ImageView::paintTool(QPainter& painter) const {
@@ -186,17 +231,6 @@ void ImageView::paintTool(QPainter& painter) const {
     painter.drawEllipse(last_, radius, radius);
   }
   painter.setRenderHint(QPainter::Antialiasing, false);
-}
-
-/// Of the layers that show something.
-void ImageView::paintNames(QPainter& painter) const {
-  std::vector<LegendEntry> entries;
-  for (const LegendLine& line : legend_) {
-    const Layer& value = layer(line.layer);
-    const bool empty = value.bits.empty() && value.marks.empty();
-    if (value.style.visible && !empty) entries.push_back({value.style.color, line.name});
-  }
-  paintLegend(painter, entries);
 }
 
 void ImageView::paintImage(QPainter& painter) const {
@@ -213,8 +247,18 @@ void ImageView::paintImage(QPainter& painter) const {
 void ImageView::paintLayer(QPainter& painter, std::size_t index) {
   const Layer& layer = layers_[index];
   if (!layer.style.visible || layer.style.opacity <= 0.0) return;
-  DrawnLayer& drawn = drawn_[index];
-  painter.setOpacity(layer.style.opacity);
+  painter.setOpacity(layer.faded ? kFaded * layer.style.opacity : layer.style.opacity);
+  paintBits(painter, layer, drawn_[index]);
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  if (layer.lines)
+    paintLines(painter, transform_, *layer.lines, lineOf(layer), painter.hasClipping()
+                   ? painter.clipBoundingRect() : QRectF(rect()));
+  for (const Mark& mark : layer.marks) paintMark(painter, transform_, mark, layer.style.color);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setOpacity(1.0);
+}
+
+void ImageView::paintBits(QPainter& painter, const Layer& layer, DrawnLayer& drawn) const {
   painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
   for (std::size_t i = 0; i < layer.bits.size(); ++i) {
     const LayerBits& bits = layer.bits[i];
@@ -228,10 +272,6 @@ void ImageView::paintLayer(QPainter& painter, std::size_t index) {
     const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
     painter.drawImage(transform_.toWidget(covered), picture);
   }
-  painter.setRenderHint(QPainter::Antialiasing, true);
-  for (const Mark& mark : layer.marks) paintMark(painter, transform_, mark, layer.style.color);
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  painter.setOpacity(1.0);
 }
 
 void ImageView::paintGrid(QPainter& painter) const {
@@ -290,6 +330,8 @@ void ImageView::wheelEvent(QWheelEvent* event) {
 void ImageView::mousePressEvent(QMouseEvent* event) {
   press_ = last_ = pointerPlace(*event, *this);
   dragging_ = false;
+  swiping_ = event->button() == Qt::LeftButton && isOnSwipe(press_);
+  if (swiping_) return;
   if (tool_active_ && event->button() == Qt::LeftButton && !image_.isNull()) {
     tool_pressed_ = true;
     Q_EMIT toolPressed(transform_.toPixel(last_));
@@ -300,6 +342,11 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF place = pointerPlace(*event, *this);
   const QPointF delta = place - last_;
   last_ = place;
+  if (swiping_) {
+    setSwipe(std::clamp(place.x() / width(), 0.0, 1.0));
+    Q_EMIT swipeMoved(*swipe_);
+    return;
+  }
   if (tool_pressed_) {
     Q_EMIT toolMoved(transform_.toPixel(place));
   } else if ((event->buttons() & (Qt::LeftButton | Qt::MiddleButton)) != 0) {
@@ -312,6 +359,7 @@ void ImageView::mouseMoveEvent(QMouseEvent* event) {
 
 void ImageView::mouseReleaseEvent(QMouseEvent* event) {
   const QPointF place = pointerPlace(*event, *this);
+  if (std::exchange(swiping_, false)) return;
   if (tool_pressed_) {
     tool_pressed_ = false;
     Q_EMIT toolReleased(transform_.toPixel(place));
@@ -328,8 +376,12 @@ void ImageView::mouseReleaseEvent(QMouseEvent* event) {
   Q_EMIT clicked(transform_.toPixel(place), event->button(), event->modifiers());
 }
 
+bool ImageView::isOnSwipe(const QPointF& place) const {
+  return swipe_ && !image_.isNull() && std::abs(place.x() - *swipe_ * width()) <= kSwipeReach;
+}
+
 void ImageView::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (tool_active_) {
+  if (tool_active_ || isOnSwipe(pointerPlace(*event, *this))) {
     mousePressEvent(event);
   } else if (event->button() == Qt::LeftButton) {
     fit();
@@ -340,6 +392,8 @@ void ImageView::keyPressEvent(QKeyEvent* event) {
   const double step = 0.1 * std::min(width(), height());
   const QPointF middle(0.5 * width(), 0.5 * height());
   switch (event->key()) {
+    case Qt::Key_H:
+      return setLayersHidden(true);
     case Qt::Key_1:
       return showOneToOne();
     case Qt::Key_0:
@@ -360,6 +414,21 @@ void ImageView::keyPressEvent(QKeyEvent* event) {
     default:
       QWidget::keyPressEvent(event);
   }
+}
+
+void ImageView::keyReleaseEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_H && !event->isAutoRepeat()) return setLayersHidden(false);
+  QWidget::keyReleaseEvent(event);
+}
+
+void ImageView::focusOutEvent(QFocusEvent* event) {
+  setLayersHidden(false);  // the release of a held key goes elsewhere
+  QWidget::focusOutEvent(event);
+}
+
+void ImageView::contextMenuEvent(QContextMenuEvent* event) {
+  if (image_.isNull()) return event->ignore();
+  Q_EMIT contextMenuRequested(transform_.toPixel(event->pos()), event->globalPos());
 }
 
 void ImageView::leaveEvent(QEvent*) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -16,8 +17,9 @@
 namespace boresight::ui {
 
 /// The image with layers over it, in plain Qt: exact, and the same on every platform. The wheel
-/// zooms at the cursor, dragging pans, a double click fits; from 8x the pixel grid and the gray
-/// values show. It knows nothing of runs; who owns it hands it pictures and marks.
+/// zooms at the cursor, dragging pans, a double click fits, H held hides the layers; from 8x the
+/// pixel grid and the gray values show. It knows nothing of runs; its owner hands it pictures,
+/// lines and marks.
 class ImageView : public QWidget {
   Q_OBJECT
 
@@ -36,6 +38,7 @@ class ImageView : public QWidget {
   const Layer& layer(LayerId id) const { return layers_[static_cast<std::size_t>(id)]; }
   void setStyle(LayerId id, const LayerStyle& style);
 
+  QSize imageSize() const { return image_.size(); }
   const ViewTransform& transform() const { return transform_; }
   void setTransform(const ViewTransform& transform);
   void fit();
@@ -45,6 +48,9 @@ class ImageView : public QWidget {
   /// Layers are drawn only left of this share of the width; none: everywhere.
   void setSwipe(std::optional<double> share);
   const std::optional<double>& swipe() const { return swipe_; }
+  /// Where another view's pointer is; drawn as a cross. Nothing: nowhere.
+  void setLinkedCursor(const std::optional<QPointF>& pixel);
+  const std::optional<QPointF>& linkedCursor() const { return linked_cursor_; }
   /// Hides all layers for the moment (blinking).
   void setLayersHidden(bool hidden);
   bool layersHidden() const { return layers_hidden_; }
@@ -69,8 +75,12 @@ class ImageView : public QWidget {
   void clicked(const QPointF& pixel, Qt::MouseButton button, Qt::KeyboardModifiers modifiers);
   void itemClicked(boresight::ui::LayerId layer, int item);
   void transformChanged();
+  void layersChanged();  ///< contents or styles
+  void swipeMoved(double share);
+  void contextMenuRequested(const QPointF& pixel, const QPoint& global);
   /// While a tool is set, the left button is the tool's (the middle one pans); a double click is
   /// two presses.
+  void toolClaimed(const QObject* owner);
   void toolPressed(const QPointF& pixel);
   void toolMoved(const QPointF& pixel);
   void toolReleased(const QPointF& pixel);
@@ -79,14 +89,13 @@ class ImageView : public QWidget {
   /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
+  /// One tool works at a time: what else is in use is told to end.
+  void claimTool(const QObject* owner) { Q_EMIT toolClaimed(owner); }
   void setToolPreviews(std::vector<ToolPreview> previews);
-  /// Names of layers that are told apart in a corner of the picture while they show something;
-  /// empty: none.
-  void setLegend(std::vector<LegendLine> lines);
-  const std::vector<LegendLine>& legend() const { return legend_; }
-  /// What is painted over everything else, in the widget's coordinates; empty: nothing.
+  /// What is painted over everything else, in the widget's coordinates; one for each owner. Empty:
+  /// nothing.
   using Overlay = std::function<void(QPainter&)>;
-  void setOverlay(Overlay overlay);
+  void setOverlay(const QObject* owner, Overlay overlay);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -97,6 +106,9 @@ class ImageView : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   void leaveEvent(QEvent* event) override;
 
  private:
@@ -109,7 +121,11 @@ class ImageView : public QWidget {
   void paintGrid(QPainter& painter) const;
   void paintValues(QPainter& painter) const;
   void paintTool(QPainter& painter) const;
-  void paintNames(QPainter& painter) const;
+  void paintSwipe(QPainter& painter) const;
+  void paintLinkedCursor(QPainter& painter) const;
+  LineToken lineOf(const Layer& layer) const;
+  bool isOnSwipe(const QPointF& place) const;
+  void paintBits(QPainter& painter, const Layer& layer, DrawnLayer& drawn) const;
   QRect visiblePixels() const;
   void changed();
   void zoomBy(const QPointF& widget, double factor);
@@ -131,8 +147,9 @@ class ImageView : public QWidget {
   bool tool_pressed_ = false;
   double tool_radius_px_ = 0.0;
   std::vector<ToolPreview> tool_previews_;
-  Overlay overlay_;
-  std::vector<LegendLine> legend_;
+  std::map<const QObject*, Overlay> overlays_;
+  std::optional<QPointF> linked_cursor_;
+  bool swiping_ = false;
 };
 
 }  // namespace boresight::ui

@@ -14,45 +14,53 @@ namespace {
 LayerStyle shown(const QColor& color, double opacity) { return {true, color, opacity}; }
 LayerStyle hidden(const QColor& color, double opacity) { return {false, color, opacity}; }
 
-/// Colours that differ in lightness too, as red and green must not be the only difference.
+QColor colorOf(const LineToken& line) { return QColor(line.color); }
+
+constexpr LineToken kNudgedLine = {0xE69F00, 2.2, 0, 0, true};
+constexpr LineToken kHypothesisLine = {0xF0E442, 1.7, 4, 3, false};
+constexpr LineToken kAnnotatedLine = {0xB278FF, 1.5, 0, 0, true};
+
+/// Poses differ in pattern too: colour must not be the only difference.
 const std::array<LayerInfo, kLayerCount>& infos() {
   static const std::array<LayerInfo, kLayerCount> layer_infos = {{
       {LayerId::kIgnoreMask, "Ignore mask", "G", "Ignored pixels",
        shown(QColor(200, 60, 200), 0.35)},
-      {LayerId::kTestEdges, "Test edges", "E", "Canny edges of the image, as used by the algorithm",
-       hidden(QColor(255, 255, 255), 0.8)},
+      {LayerId::kTestEdges, "Image edges", "E",
+       "Canny edges of the image, as used by the algorithm", hidden(QColor(255, 255, 255), 0.8)},
       {LayerId::kMask, "Rendered mask", "K", "Pixels of the rendered station",
        hidden(QColor(90, 200, 255), 0.25)},
-      {LayerId::kSeedEdges, "Seed edges", "S", "Salient edges rendered from the seed",
-       shown(QColor(255, 70, 60), 0.9)},
-      {LayerId::kTruthEdges, "Truth edges", "T", "Salient edges rendered from the true pose",
-       hidden(QColor(70, 140, 255), 0.9)},
-      {LayerId::kIterationEdges, "Iteration edges", "I",
-       "Salient edges rendered by the shown iteration", shown(QColor(80, 235, 90), 0.9)},
       {LayerId::kAgreement, "Agreement", "A",
        "Edges in both, only in the render, only in the image", hidden(QColor(255, 220, 60), 0.9)},
-      {LayerId::kNudgedEdges, "Nudged edges", "N", "Salient edges of the pose being nudged",
-       shown(QColor(255, 160, 30), 1.0)},
+      {LayerId::kSeedEdges, "Seed", "S", "Salient edges rendered from the seed",
+       shown(colorOf(kSeedLine), 1.0), kSeedLine},
+      {LayerId::kIterationEdges, "Pose", "I",
+       "Salient edges of the shown iteration: before its correction, from the stage Pose on after "
+       "it",
+       shown(colorOf(kPoseLine), 1.0), kPoseLine},
+      {LayerId::kTruthEdges, "Truth", "T", "Salient edges rendered from the true pose",
+       hidden(colorOf(kTruthLine), 1.0), kTruthLine},
+      {LayerId::kNudgedEdges, "Nudged pose", "Shift+N", "Salient edges of the pose being nudged",
+       shown(colorOf(kNudgedLine), 1.0), kNudgedLine},
       {LayerId::kAnnotationBand, "Annotation's band", "U",
        "Region of the salient edges for 95 % of the poses within the annotations' covariance",
        hidden(kAnnotatedColor, 0.6)},
-      {LayerId::kAnnotationEdges, "Annotation's edges", "O",
+      {LayerId::kAnnotationEdges, "Annotated pose", "O",
        "Salient edges rendered from the annotated pose; while shown, Ctrl+click picks the station "
        "on them",
-       shown(kAnnotatedColor, 0.6)},
-      {LayerId::kChosenEdges, "Chosen pose's edges", "F",
+       shown(kAnnotatedColor, 0.8), kAnnotatedLine},
+      {LayerId::kChosenEdges, "Chosen pose", "F",
        "Salient edges of the chosen pose, while another hypothesis is shown",
-       shown(QColor(255, 250, 170), 0.9)},
-      {LayerId::kHypothesisEdges, "Hypothesis' edges", "H",
+       shown(colorOf(kPoseLine), 1.0), kPoseLine},
+      {LayerId::kHypothesisEdges, "Hypothesis", "J",
        "Salient edges of the hypothesis selected under Hypotheses",
-       shown(QColor(255, 60, 230), 0.9)},
-      {LayerId::kWindows, "Search windows", "W", "Search window of each template",
-       hidden(QColor(180, 180, 255), 0.6)},
+       shown(colorOf(kHypothesisLine), 1.0), kHypothesisLine},
+      {LayerId::kWindows, "Chosen template", "W", "The chosen template and its search window",
+       shown(colorOf(kTemplateLine), 1.0), kTemplateLine},
       {LayerId::kTemplates, "Templates", "P", "Positions of the templates in the render",
        hidden(QColor(255, 235, 120), 0.9)},
       {LayerId::kMatches, "Matches", "M",
        "From predicted to found position of a template; outliers are dashed",
-       shown(QColor(120, 255, 240), 0.9)},
+       shown(colorOf(kInlierLine), 1.0), kInlierLine},
       {LayerId::kResiduals, "Residuals", "R",
        "Residual of each match in the solved pose, magnified", hidden(QColor(255, 120, 200), 0.9)},
       {LayerId::kAnnotationResiduals, "Annotations' residuals", "X",
@@ -61,7 +69,7 @@ const std::array<LayerInfo, kLayerCount>& infos() {
       {LayerId::kProposals, "Proposed annotations", "Y", "Projected landmarks; a click accepts one",
        shown(QColor(140, 230, 255), 0.9)},
       {LayerId::kPoints, "Annotations", "D", "Points and lines annotated by hand",
-       shown(QColor(255, 210, 0), 1.0)},
+       shown(colorOf(kMarkLine), 1.0), kMarkLine},
   }};
   return layer_infos;
 }
@@ -70,10 +78,18 @@ const std::array<LayerInfo, kLayerCount>& infos() {
 
 const LayerInfo& layerInfo(LayerId id) { return infos()[static_cast<std::size_t>(id)]; }
 
-namespace {
+LinesPtr linesOf(const sessions::RenderTrace& render, int level) {
+  return std::make_shared<const sessions::EdgeLines>(sessions::edgeLines(render, level));
+}
 
-const QColor kSelected(255, 255, 255);
-const QColor kOutlier(255, 150, 60);
+LineToken Layer::shownLine() const {
+  if (line) return *line;
+  LineToken own = layerInfo(id).line;
+  own.color = style.color.rgb();
+  return own;
+}
+
+namespace {
 
 LayerBits layerBits(std::shared_ptr<const void> owner, const BitImage& bits, int level) {
   LayerBits result;
@@ -91,12 +107,26 @@ QRectF windowArea(const SearchWindow& window, int level) {
   return {pointOf(first), pointOf(last)};
 }
 
-Mark rectangle(const QRectF& area, std::size_t index, int selected_template) {
+QRectF templateArea(const sessions::IterationTrace& iteration, std::size_t index) {
+  // A template of even side spans centre - side/2 ... centre + side/2 - 1.
+  const double half = 0.5 * iteration.template_side_px;
+  const double x = iteration.templates[index].center_x - 0.5;
+  const double y = iteration.templates[index].center_y - 0.5;
+  return {pointOf(sessions::fullImagePixel(x - half, y - half, iteration.level)),
+          pointOf(sessions::fullImagePixel(x + half, y + half, iteration.level))};
+}
+
+Mark rectangle(const QRectF& area, int item) {
   Mark mark;
   mark.shape = MarkShape::kRectangle;
   mark.area = area;
-  mark.item = static_cast<int>(index);
-  if (mark.item == selected_template) mark.color = kSelected;
+  mark.item = item;
+  return mark;
+}
+
+Mark rectangle(const QRectF& area, const LineToken& line) {
+  Mark mark = rectangle(area, -1);
+  mark.line = line;
   return mark;
 }
 
@@ -106,18 +136,13 @@ Mark arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int item, boo
   mark.at = pointOf(from);
   mark.to = pointOf(to);
   mark.item = item;
+  mark.line = inlier ? kInlierLine : kOutlierLine;
   mark.dashed = !inlier;
-  if (!inlier) mark.color = kOutlier;
+  if (!inlier) mark.color = colorOf(kOutlierLine);
   return mark;
 }
 
 }  // namespace
-
-std::vector<LayerBits> bitsOf(const std::shared_ptr<const sessions::RenderTrace>& render,
-                              bool mask) {
-  if (!render) return {};
-  return {layerBits(render, mask ? render->mask.view() : render->edges.view(), 0)};
-}
 
 std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,
                                     int level) {
@@ -132,12 +157,9 @@ std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCa
   return {layerBits(loaded_case, loaded_case->ignore_bits, 0)};
 }
 
-std::vector<LayerBits> iterationBits(
-    const std::shared_ptr<const sessions::IterationTrace>& iteration, bool mask) {
-  if (!iteration || iteration->render.edges.words.empty()) return {};
-  return {layerBits(iteration,
-                    mask ? iteration->render.mask.view() : iteration->render.edges.view(),
-                    iteration->level)};
+std::vector<LayerBits> maskBits(const std::shared_ptr<const sessions::IterationTrace>& iteration) {
+  if (!iteration || iteration->render.mask.words.empty()) return {};
+  return {layerBits(iteration, iteration->render.mask.view(), iteration->level)};
 }
 
 std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::AgreementMaps>& maps,
@@ -151,26 +173,22 @@ std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::Agree
   return bits;
 }
 
-std::vector<Mark> windowMarks(const sessions::IterationTrace& iteration, int selected_template) {
-  std::vector<Mark> marks;
-  for (std::size_t i = 0; i < iteration.matches.size(); ++i) {
-    const SearchWindow& window = iteration.matches[i].window;
-    if (!window.empty())
-      marks.push_back(rectangle(windowArea(window, iteration.level), i, selected_template));
-  }
+std::vector<Mark> chosenMarks(const sessions::IterationTrace& iteration, int selected_template,
+                              bool searched) {
+  const auto index = static_cast<std::size_t>(selected_template);
+  if (selected_template < 0 || index >= iteration.templates.size()) return {};
+  std::vector<Mark> marks = {rectangle(templateArea(iteration, index), kTemplateLine)};
+  if (!searched || index >= iteration.matches.size()) return marks;
+  const SearchWindow& window = iteration.matches[index].window;
+  if (!window.empty()) marks.push_back(rectangle(windowArea(window, iteration.level), kWindowLine));
   return marks;
 }
 
 std::vector<Mark> templateMarks(const sessions::IterationTrace& iteration, int selected_template) {
   std::vector<Mark> marks;
-  const double half = 0.5 * iteration.template_side_px;
   for (std::size_t i = 0; i < iteration.templates.size(); ++i) {
-    // A template of even side spans centre - side/2 ... centre + side/2 - 1.
-    const double x = iteration.templates[i].center_x - 0.5;
-    const double y = iteration.templates[i].center_y - 0.5;
-    const QRectF area(pointOf(sessions::fullImagePixel(x - half, y - half, iteration.level)),
-                      pointOf(sessions::fullImagePixel(x + half, y + half, iteration.level)));
-    marks.push_back(rectangle(area, i, selected_template));
+    Mark& mark = marks.emplace_back(rectangle(templateArea(iteration, i), static_cast<int>(i)));
+    if (mark.item == selected_template) mark.color = colorOf(kTemplateLine);
   }
   return marks;
 }
@@ -181,9 +199,7 @@ std::vector<Mark> matchMarks(const sessions::IterationTrace& iteration, int sele
     if (!match.searched) continue;
     Mark& mark =
         marks.emplace_back(arrow(match.predicted_px, match.found_px, match.index, match.inlier));
-    if (mark.item != selected_template) continue;
-    mark.color = kSelected;
-    mark.label = QString::number(mark.item);
+    if (mark.item == selected_template) mark.label = QString::number(mark.item);
   }
   return marks;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <QColor>
@@ -12,9 +13,11 @@
 #include <QString>
 
 #include "core/base/image.h"
+#include "sessions/run/edge_lines.h"
 #include "sessions/run/picture_data.h"
 #include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
+#include "ui/style/tokens.h"
 
 namespace boresight::ui {
 
@@ -23,10 +26,10 @@ enum class LayerId : std::uint8_t {
   kIgnoreMask,
   kTestEdges,
   kMask,
-  kSeedEdges,
-  kTruthEdges,
-  kIterationEdges,
   kAgreement,
+  kSeedEdges,
+  kIterationEdges,
+  kTruthEdges,  ///< thin, above the pose
   kNudgedEdges,
   kAnnotationBand,
   kAnnotationEdges,
@@ -60,8 +63,18 @@ struct LayerInfo {
   const char* key = "";  ///< key sequence that shows and hides it
   const char* help = "";
   LayerStyle style;
+  LineToken line = kPoseLine;  ///< of its edges; the style has the colour
 };
 const LayerInfo& layerInfo(LayerId id);
+
+/// The run ended without a pose to trust; its pose never looks like a result.
+inline bool isRejected(const sessions::LocalizationTrace& run) {
+  return run.status != LocalizationStatus::kRunning && !run.converged();
+}
+
+/// Lines that a layer draws, shared with who made them.
+using LinesPtr = std::shared_ptr<const sessions::EdgeLines>;
+LinesPtr linesOf(const sessions::RenderTrace& render, int level);
 
 /// A packed binary image of a pyramid level; `owner` keeps its words alive.
 struct LayerBits {
@@ -98,6 +111,7 @@ struct Mark {
   bool dashed = false;   ///< a second difference in addition to the colour
   bool cased = false;    ///< with a dark rim, to be seen on any image
   double width = 1.5;    ///< of its lines, on the screen
+  std::optional<LineToken> line;  ///< width, pattern and halo instead of these three
   int item = -1;         ///< what it belongs to (a template, a point), or -1: cannot be picked
   QString label;
 };
@@ -108,24 +122,31 @@ struct Layer {
   LayerStyle style;
   std::vector<LayerBits> bits;
   std::vector<Mark> marks;
+  LinesPtr lines;
+  std::optional<LineToken> line;  ///< how the lines look now, instead of the layer's own
+  QString name;                   ///< what it shows now, instead of the layer's name
+  bool faded = false;             ///< stands back while other layers are compared
+
+  bool empty() const { return bits.empty() && marks.empty() && (!lines || lines->empty()); }
+  /// With the colour of the style, unless the look is another for now.
+  LineToken shownLine() const;
 };
 
 /// How much residual vectors are magnified on the image.
 inline constexpr double kResidualMagnification = 40.0;
 
-std::vector<LayerBits> bitsOf(const std::shared_ptr<const sessions::RenderTrace>& render,
-                              bool mask);
 std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,
                                     int level);
 std::vector<LayerBits> ignoreBits(const std::shared_ptr<const sessions::LoadedCase>& loaded_case);
-/// Edges or mask of an iteration's render.
-std::vector<LayerBits> iterationBits(
-    const std::shared_ptr<const sessions::IterationTrace>& iteration, bool mask);
+/// Mask of an iteration's render.
+std::vector<LayerBits> maskBits(const std::shared_ptr<const sessions::IterationTrace>& iteration);
 /// Three colours: both, only rendered, only image.
 std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::AgreementMaps>& maps,
                                      int level);
 
-std::vector<Mark> windowMarks(const sessions::IterationTrace& iteration, int selected_template);
+/// The chosen template, and from the search on its window; nothing when none is chosen.
+std::vector<Mark> chosenMarks(const sessions::IterationTrace& iteration, int selected_template,
+                              bool searched);
 std::vector<Mark> templateMarks(const sessions::IterationTrace& iteration, int selected_template);
 std::vector<Mark> matchMarks(const sessions::IterationTrace& iteration, int selected_template);
 std::vector<Mark> residualMarks(const sessions::IterationTrace& iteration, const Camera& camera);

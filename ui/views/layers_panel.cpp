@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/views/layers_panel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <QtWidgets>
 
 #include "ui/views/image_panel.h"
+#include "ui/views/layer_legend.h"
 
 namespace boresight::ui {
 namespace {
@@ -33,12 +35,22 @@ LayersPanel::LayersPanel(ImagePanel& image, QWidget* parent) : QWidget(parent), 
   grid->setContentsMargins(6, 6, 6, 6);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(2);
+  grid_ = grid;
   rows_.resize(kLayerCount);
   for (int i = 0; i < kLayerCount; ++i) buildRow(*grid, static_cast<LayerId>(i));
+  all_ = new QToolButton;
+  all_->setObjectName(QStringLiteral("allLayersOpen"));
+  all_->setText(tr("All layers"));
+  all_->setToolTip(tr("List the other layers too"));
+  all_->setCheckable(true);
+  all_->setAutoRaise(true);
+  all_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  connect(all_, &QToolButton::toggled, this, &LayersPanel::arrange);
   grid->setColumnStretch(3, 100);  // as wide as a slider may be; the rest stays empty
   grid->setColumnStretch(4, 1);
-  grid->setRowStretch(kLayerCount, 1);
+  grid->setRowStretch(kLayerCount + 1, 1);
   scroll->setWidget(list);
+  arrange();
   connect(&image_, &ImagePanel::stylesChanged, this, &LayersPanel::showStyles);
   showStyles();
 }
@@ -50,7 +62,7 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   row.shown = new QCheckBox(tr(info.name));
   row.shown->setObjectName(QStringLiteral("layer%1").arg(index));
   row.shown->setToolTip(tr(info.help));
-  auto* key = new QLabel(QString::fromLatin1(info.key));
+  auto* key = row.key = new QLabel(QString::fromLatin1(info.key));
   key->setFrameShape(QFrame::StyledPanel);  // as a key cap
   key->setAlignment(Qt::AlignCenter);
   key->setToolTip(tr("Key that toggles this layer"));
@@ -63,12 +75,9 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   row.opacity->setMaximumWidth(kWidestSlider_px);
   row.opacity->setToolTip(tr("Opacity, percent"));
   row.opacity->setAccessibleName(tr("Opacity of %1").arg(tr(info.name).toLower()));
-  // The uppermost layer stands first, as it lies over the others.
-  const int line = kLayerCount - 1 - index;
-  grid.addWidget(row.shown, line, 0);
-  grid.addWidget(key, line, 1);
-  grid.addWidget(row.color, line, 2);
-  grid.addWidget(row.opacity, line, 3);
+  int column = 0;
+  for (QWidget* each : std::initializer_list<QWidget*>{row.shown, key, row.color, row.opacity})
+    grid.addWidget(each, index, column++);
   connect(row.shown, &QCheckBox::toggled, this, [this, id](bool on) {
     LayerStyle style = image_.style(id);
     style.visible = on;
@@ -81,6 +90,38 @@ void LayersPanel::buildRow(QGridLayout& grid, LayerId id) {
   });
   connect(row.color, &QToolButton::clicked, this, [this, id] { chooseColor(id); });
 }
+
+/// The short list in its order, then the others, the uppermost first as it lies over the others.
+void LayersPanel::arrange() {
+  std::vector<LayerId> order = short_list_;
+  const auto listed = [&](LayerId id) {
+    return std::find(short_list_.begin(), short_list_.end(), id) != short_list_.end();
+  };
+  for (int i = kLayerCount - 1; i >= 0; --i)
+    if (!listed(static_cast<LayerId>(i))) order.push_back(static_cast<LayerId>(i));
+  const auto fewer = static_cast<int>(short_list_.size());
+  for (int i = 0; i < kLayerCount; ++i) {
+    const Row& row = rows_[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
+    const bool shows = i < fewer || fewer == 0 || all_->isChecked();
+    int column = 0;
+    for (QWidget* each : std::initializer_list<QWidget*>{row.shown, row.key, row.color,
+                                                         row.opacity}) {
+      grid_->addWidget(each, i < fewer ? i : i + 1, column++);
+      each->setVisible(shows);
+    }
+  }
+  grid_->addWidget(all_, fewer, 0, 1, 4);
+  all_->setVisible(fewer > 0);
+  all_->setArrowType(all_->isChecked() ? Qt::DownArrow : Qt::RightArrow);
+}
+
+void LayersPanel::setShortList(const std::vector<LayerId>& layers) {
+  short_list_ = layers;
+  if (!layers.empty()) image_.legend().setLayers(layers);
+  arrange();
+}
+
+void LayersPanel::showAll() { all_->setChecked(true); }
 
 void LayersPanel::chooseColor(LayerId id) {
   LayerStyle style = image_.style(id);

@@ -44,6 +44,9 @@ double distance(const QPointF& a, const QPointF& b) {
 
 MaskEditor::MaskEditor(ImageView& view, QObject* parent) : QObject(parent), view_(view) {
   view_.installEventFilter(this);
+  connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
+    if (owner != this) setTool(MaskTool::kNone);
+  });
   connect(&view_, &ImageView::toolPressed, this, &MaskEditor::press);
   connect(&view_, &ImageView::toolMoved, this, &MaskEditor::move);
   connect(&view_, &ImageView::toolReleased, this, &MaskEditor::release);
@@ -58,6 +61,7 @@ void MaskEditor::setTool(MaskTool tool) {
   if (tool == tool_) return;
   tool_ = tool;
   points_.clear();
+  if (tool != MaskTool::kNone) view_.claimTool(this);
   view_.setToolActive(tool != MaskTool::kNone, tool == MaskTool::kBrush ? radius_px_ : 0.0);
   if (tool != MaskTool::kNone) view_.setFocus();  // for the keys
   showPreview();

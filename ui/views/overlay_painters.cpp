@@ -6,42 +6,9 @@
 
 #include <QtWidgets>
 
+#include "ui/views/line_painter.h"
+
 namespace boresight::ui {
-namespace {
-
-constexpr int kMargin_px = 8;
-constexpr int kSample_px = 22;  // of a line in the layer's colour
-
-}  // namespace
-
-void paintLegend(QPainter& painter, const std::vector<LegendEntry>& entries) {
-  if (entries.empty()) return;
-  const QFontMetrics metrics = painter.fontMetrics();
-  const int line = metrics.height() + 2;
-  int widest = 0;
-  for (const LegendEntry& entry : entries)
-    widest = std::max(widest, metrics.horizontalAdvance(entry.name));
-  const QRect ground(kMargin_px, kMargin_px, widest + kSample_px + 3 * kMargin_px,
-                     static_cast<int>(entries.size()) * line + kMargin_px);
-  painter.save();
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(QColor(0, 0, 0, 190));
-  painter.setRenderHint(QPainter::Antialiasing, true);
-  painter.drawRoundedRect(ground, 4.0, 4.0);
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  int top = ground.top() + kMargin_px / 2;
-  for (const LegendEntry& entry : entries) {
-    const int left = ground.left() + kMargin_px;
-    painter.setPen(QPen(entry.color, 3.0));
-    painter.drawLine(left, top + line / 2, left + kSample_px, top + line / 2);
-    painter.setPen(QColor(240, 240, 240));
-    painter.drawText(QRect(left + kSample_px + kMargin_px, top, widest + 1, line),
-                     Qt::AlignLeft | Qt::AlignVCenter, entry.name);
-    top += line;
-  }
-  painter.restore();
-}
-
 namespace {
 
 constexpr double kGap = 9.0;
@@ -148,14 +115,20 @@ void paintShape(QPainter& painter, const ViewTransform& transform, const Mark& m
   }
 }
 
-void paintLabel(QPainter& painter, const QPointF& at, const Mark& mark) {
+/// Of an annotation a chip in its colour.
+void paintLabel(QPainter& painter, const QPointF& at, const Mark& mark, const QColor& color) {
   if (mark.label.isEmpty()) return;
+  const bool chip = mark.line && mark.cased;
   if (mark.cased) {
     const QFontMetricsF metrics(painter.font());
-    painter.fillRect(QRectF(at.x() - 2.0, at.y() - metrics.ascent(),
-                            metrics.horizontalAdvance(mark.label) + 4.0, metrics.height()),
-                     kLabelGround);
+    const QRectF ground(at.x() - 3.0, at.y() - metrics.ascent() - 1.0,
+                        metrics.horizontalAdvance(mark.label) + 6.0, metrics.height() + 2.0);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(chip ? color : kLabelGround);
+    painter.drawRoundedRect(ground, 2.0, 2.0);
+    painter.setBrush(Qt::NoBrush);
   }
+  painter.setPen(chip && color.lightnessF() > 0.7 ? Qt::black : chip ? Qt::white : color);
   painter.drawText(at, mark.label);
 }
 
@@ -184,19 +157,25 @@ void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& ma
                const QColor& layer_color) {
   const QColor color = mark.color.isValid() ? mark.color : layer_color;
   painter.setBrush(Qt::NoBrush);
-  if (mark.cased) {
-    painter.setPen(QPen(kCasing, mark.width + 2.0));
+  QPen pen(color, mark.width);
+  if (mark.line) {
+    LineToken line = *mark.line;
+    line.color = color.rgb();
+    painter.setPen(haloPen(line));
     paintShape(painter, transform, mark);
+    pen = linePen(line);
+  } else {
+    if (mark.cased) {
+      painter.setPen(QPen(kCasing, mark.width + 2.0));
+      paintShape(painter, transform, mark);
+    }
+    if (mark.dashed) pen.setDashPattern({3.0, 3.0});
   }
-  QPen pen(color);
-  pen.setWidthF(mark.width);
-  pen.setCosmetic(true);
-  if (mark.dashed) pen.setDashPattern({3.0, 3.0});
   painter.setPen(pen);
   paintShape(painter, transform, mark);
   painter.setBrush(Qt::NoBrush);
   const double half = 0.5 * mark.size_px;
-  paintLabel(painter, transform.toWidget(mark.at) + QPointF(half + 3.0, -half), mark);
+  paintLabel(painter, transform.toWidget(mark.at) + QPointF(half + 3.0, -half), mark, color);
 }
 
 double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget) {

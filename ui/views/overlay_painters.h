@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of what is drawn, in a corner of the picture.
+// Signs drawn over the image.
 #pragma once
 
 #include <vector>
@@ -16,22 +16,6 @@
 class QPainter;
 
 namespace boresight::ui {
-
-/// What a layer is called while it shows something.
-struct LegendLine {
-  LayerId layer = LayerId::kTestEdges;
-  QString name;
-
-  bool operator==(const LegendLine&) const = default;
-};
-
-struct LegendEntry {
-  QColor color;
-  QString name;
-};
-
-/// In the upper left corner, on a dark ground of its own; without entries nothing.
-void paintLegend(QPainter& painter, const std::vector<LegendEntry>& entries);
 
 inline constexpr QColor kLoupeCrossColor(255, 255, 255, 210);
 

@@ -146,7 +146,8 @@ void AnnotationFiles::saveLandmarks() {
     sessions::writeLandmarks(
         file, sessions::withAnnotations(annotation.landmarks(), annotation.annotations()));
     annotation.setLandmarksFile(file);
-    Q_EMIT noted(tr("Landmarks written to %1.").arg(fileNameOf(file)));
+    const QString left_out = fromText(sessions::leftOutOfLandmarks(annotation.annotations()));
+    Q_EMIT noted(tr("Landmarks written to %1. %2").arg(fileNameOf(file), left_out).trimmed());
   });
 }
 

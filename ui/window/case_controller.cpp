@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/case_controller.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -460,6 +461,25 @@ void CaseController::keepNudgedPose() {
 void CaseController::setOptions(const QString& profile, const LocalizerOptions& options) {
   document_.edit(sessions::withOptions(document_.session(), profile.toStdString(), options),
                  tr("Change the configuration"));
+}
+
+void CaseController::showRun(const std::string& digest) {
+  const auto& runs = document_.session().runs;
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const sessions::RunRecord& run) {
+    return run.digest == digest && run.case_id == case_id_.toStdString();
+  });
+  if (found == runs.end() || run_.state() == RunState::kWorking) return;
+  tasks_.start(
+      QStringLiteral("load run"),
+      [run = *found](const std::stop_token&) {
+        return std::make_shared<const sessions::LocalizationTrace>(sessions::loadSnapshot(run));
+      },
+      [this, id = case_id_](std::shared_ptr<const sessions::LocalizationTrace> snapshot) {
+        if (id != case_id_) return;
+        state_.setSnapshot(std::move(snapshot));
+        state_.setCursor({static_cast<int>(state_.snapshot()->iterations.size()) - 1,
+                          Stage::kFinished});
+      });
 }
 
 }  // namespace boresight::ui

@@ -78,6 +78,8 @@ class CaseController : public QObject {
   void runWithWiderSearch();
   /// A gesture has ended: where the pose is nudged to becomes an edit of the document.
   void keepNudgedPose();
+  /// Shows an earlier run of the case in place of the latest.
+  void showRun(const std::string& digest);
   void setOptions(const QString& profile, const boresight::LocalizerOptions& options);
 
  Q_SIGNALS:

@@ -7,6 +7,7 @@
 
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/panels/input_guard.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_view.h"
@@ -75,6 +76,7 @@ void MainWindow::resizeToScreen() {
 
 void MainWindow::connectAll() {
   const auto note = [this](const QString& message) { statusBar()->showMessage(message, kNote_ms); };
+  new InputGuard(this);
   auto* links = new PanelLinks(parts_, *docks_, this);
   connect(links, &PanelLinks::warningsChanged, &frame_->verdict(), &VerdictBar::setWarnings);
   auto* verdicts = new VerdictController(

@@ -14,6 +14,7 @@
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/input_sheet_panel.h"
+#include "ui/panels/nudge_gizmo.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/queue_panel.h"
@@ -113,6 +114,8 @@ void PanelLinks::linkConfiguration() {
 
 void PanelLinks::linkPoses() {
   connect(&docks_.poses, &PosePanel::useAsSeedRequested, &parts_.cases, &CaseController::useAsSeed);
+  connect(&docks_.gizmo, &NudgeGizmo::useAsSeedRequested, &parts_.cases,
+          &CaseController::useAsSeed);
   connect(&docks_.annotation, &AnnotationPanel::openCaseRequested, &parts_.cases,
           &CaseController::chooseCase);
   connect(&docks_.annotation, &AnnotationPanel::useAsSeedRequested, &parts_.cases,

@@ -9,22 +9,28 @@
 #include "ui/annotation/station_snapper.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
+#include "ui/panels/history_panel.h"
 #include "ui/panels/hypotheses_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/iterations_panel.h"
 #include "ui/panels/levels_panel.h"
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
+#include "ui/panels/nudge_gizmo.h"
 #include "ui/panels/pose_panel.h"
+#include "ui/panels/runs_panel.h"
 #include "ui/panels/widgets.h"
+#include "ui/review/onboard_controller.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_view.h"
+#include "ui/views/compare_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
 #include "ui/views/mask_editor.h"
+#include "ui/window/case_controller.h"
 #include "ui/workspaces/canvas_frame.h"
 #include "ui/workspaces/remedies_panel.h"
 #include "ui/workspaces/result_panel.h"
@@ -51,6 +57,9 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
       snapper(*new StationSnapper(parts.state, &window)),
       scene(*new SceneView(parts.state)),
       image_annotation(*new ImageAnnotation(image, parts.annotation, parts.state, snapper, &image)),
+      layers(*new LayersPanel(image)),
+      compare(*new CompareView(image, parts.document, parts.state, parts.tasks)),
+      gizmo(*new NudgeGizmo(image.view(), poses.nudgeController(), parts.state, &image)),
       findings(*new Banner),
       remedies(*new RemediesPanel(parts.state)),
       canvas(*new CanvasFrame(image)),
@@ -61,12 +70,13 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
                    &NudgeController::setPose);
   annotation.addBeside(ambiguity);
   scene.setAnnotation(parts.annotation, snapper);
+  linkViews(parts);
   findings.setAction(
       windowText("Fix ..."),
       windowText("Search missing files below the session's folder, or accept changed files"));
   findings.showWarnings({});
   add(QStringLiteral("cases"), windowText("Cases"), &cases);
-  add(QStringLiteral("layers"), windowText("Layers"), new LayersPanel(image));
+  add(QStringLiteral("layers"), windowText("Layers"), &layers);
   add(QStringLiteral("mask"), windowText("Mask"), &mask);
   add(QStringLiteral("levels"), windowText("Levels"), &levels);
   add(QStringLiteral("pose"), windowText("Pose"), &poses);
@@ -84,6 +94,23 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
   add(QStringLiteral("remedies"), windowText("What may help"), &remedies);
   add(QStringLiteral("onboard"), windowText("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));
+  add(QStringLiteral("history"), windowText("History"), new HistoryPanel(parts.document));
+  auto* runs = new RunsPanel(parts.document, parts.state);
+  add(QStringLiteral("runs"), windowText("Runs"), runs);
+  QObject::connect(runs, &RunsPanel::openRequested, &parts.cases, &CaseController::showRun);
+  QObject::connect(runs, &RunsPanel::compareRequested, &compare, &CompareView::showRun);
+}
+
+/// What is pointed at in one view is marked in the other.
+void WindowDocks::linkViews(const WindowParts& parts) {
+  QObject::connect(&image, &ImagePanel::stationPlaceHovered, &scene, &SceneView::showStationPlace);
+  QObject::connect(&scene, &SceneView::stationPlaceHovered, &image, &ImagePanel::showStationPlace);
+  image.tools().addAction(&gizmo.action());
+  image.setBeside(&compare);
+  QObject::connect(&parts.onboard, &OnboardController::changed, &compare,
+                   [this, &onboard = parts.onboard] {
+                     compare.setOnboardRun(onboard.review() ? onboard.review()->replay : nullptr);
+                   });
 }
 
 void WindowDocks::add(const QString& name, const QString& title, QWidget* widget) {

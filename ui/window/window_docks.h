@@ -17,13 +17,16 @@ class AnnotationPanel;
 class Banner;
 class CanvasFrame;
 class CasesPanel;
+class CompareView;
 class ConfigurationPanel;
 class ImageAnnotation;
 class ImagePanel;
 class InputSheetPanel;
+class LayersPanel;
 class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
+class NudgeGizmo;
 class PosePanel;
 class QueuePanel;
 class RemediesPanel;
@@ -53,6 +56,9 @@ class WindowDocks {
   StationSnapper& snapper;  ///< for every view
   SceneView& scene;
   ImageAnnotation& image_annotation;
+  LayersPanel& layers;
+  CompareView& compare;
+  NudgeGizmo& gizmo;
   Banner& findings;  ///< above the image: files that are missing or have changed
   RemediesPanel& remedies;
   CanvasFrame& canvas;  ///< round the image
@@ -61,6 +67,7 @@ class WindowDocks {
   const std::vector<QDockWidget*>& all() const { return docks_; }
 
  private:
+  void linkViews(const WindowParts& parts);
   void add(const QString& name, const QString& title, QWidget* widget);
 
   QMainWindow& body_;

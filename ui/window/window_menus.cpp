@@ -11,8 +11,10 @@
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/loupe.h"
 #include "ui/manual/manual_window.h"
+#include "ui/panels/command_palette.h"
 #include "ui/panels/iterations_panel.h"
 #include "ui/panels/mask_panel.h"
+#include "ui/panels/nudge_gizmo.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/onboard_panel.h"
@@ -96,6 +98,11 @@ void WindowMenus::connectEdit() {
   on(ui_.undo, this, &WindowMenus::undo);
   on(ui_.redo, this, &WindowMenus::redo);
   ui_.redo->setShortcut(QKeySequence::Redo);  // desktops differ
+  ui_.editMenu->addAction(&docks_.gizmo.action());
+  on(ui_.findCommand, this, [this] {
+    CommandPalette palette(*ui_.menuBar, &window_);
+    palette.exec();
+  });
   connect(&parts_.document, &Document::changed, this, [this] {
     // An undo is no longer the last change.
     if (window_.statusBar()->currentMessage() == shown_change_) window_.statusBar()->clearMessage();
@@ -116,7 +123,6 @@ void WindowMenus::connectEdit() {
 void WindowMenus::connectMode(QAction* action, PlaceMode mode) {
   AnnotationController& annotation = parts_.annotation;
   on(action, this, [this, mode](bool checked) {
-    docks_.mask_editor.setTool(MaskTool::kNone);  // one tool at a time
     parts_.annotation.setMode(checked ? mode : PlaceMode::kOff);
     if (checked) workspaces_.reveal(QStringLiteral("annotation"));
   });
@@ -134,9 +140,6 @@ void WindowMenus::connectAnnotate() {
      [annotation] { annotation->remove(annotation->selected()); });
   on(ui_.useAsTruth, annotation, &AnnotationController::useAsTruth);
   on(ui_.putAside, &docks_.annotation, &AnnotationPanel::askForName);
-  connect(&docks_.mask_editor, &MaskEditor::changed, this, [this] {
-    if (docks_.mask_editor.tool() != MaskTool::kNone) parts_.annotation.setMode(PlaceMode::kOff);
-  });
 }
 
 /// Snapping, the loupe and its magnification, the magnification of residuals.

@@ -155,5 +155,12 @@ TEST(ProposalFeature, OnlyCornersAndEllipses_AreMeasurements) {
   EXPECT_LT((*centre - Eigen::Vector2d(50.0, 48.0)).norm(), 0.3);
 }
 
+TEST(Landmarks, LinesAreSaidToBeLeftOut) {
+  Annotations annotations;
+  EXPECT_EQ(leftOutOfLandmarks(annotations), "");
+  annotations.lines.resize(2);
+  EXPECT_EQ(leftOutOfLandmarks(annotations), "2 lines are left out: landmarks are points.");
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -119,7 +119,19 @@ TEST_F(AnnotationPanelTest, TheTableChoosesTurnsOffAndRemoves) {
   EXPECT_EQ(controller_.annotations().points[1].comment, "rim");
 }
 
-/// Arrows move through the table until then.
+TEST_F(AnnotationPanelTest, ArrowsOnARowMoveItsAnnotationAndCtrlGoesToOtherRows) {
+  const auto ids = markCorners(5);
+  clickCell(2, AnnotationsModel::kName);
+  const Eigen::Vector2d before = *controller_.annotations().points[2].pixel;
+  QTest::keyClick(&panel_->table(), Qt::Key_Right);
+  QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ShiftModifier);
+  EXPECT_EQ(controller_.selected(), ids[2]);
+  EXPECT_LT((*controller_.annotations().points[2].pixel - before - Eigen::Vector2d(0.1, 1.0)).norm(),
+            1e-9);
+  QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ControlModifier);
+  EXPECT_EQ(controller_.selected(), ids[3]);
+}
+
 TEST_F(AnnotationPanelTest, EnterOnARowGoesToItsAnnotationInTheImage) {
   const auto ids = markCorners(5);
   controller_.setMode(PlaceMode::kOff);

@@ -366,13 +366,13 @@ class ImageAnnotationLayersTest : public ImageAnnotationTest {
 };
 
 TEST_F(ImageAnnotationLayersTest, TheSolvedPosesEdgesShowAndGoWithTheirLayer) {
-  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).bits.empty());
+  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).empty());
   annotateAndSolve();
-  ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).bits.empty(); }));
+  ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).empty(); }));
   show(LayerId::kAnnotationEdges, false);
-  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).bits.empty());
+  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).empty());
   show(LayerId::kAnnotationEdges, true);
-  EXPECT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).bits.empty(); }));
+  EXPECT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).empty(); }));
 }
 
 TEST_F(ImageAnnotationLayersTest, TheStationIsPickedOnTheEdgesThatShow) {

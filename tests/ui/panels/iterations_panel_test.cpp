@@ -50,6 +50,20 @@ TEST_F(IterationsPanelTest, FollowsTheRunToItsEnd) {
   EXPECT_EQ(child<QSlider>("iterations")->value(), last_);
 }
 
+/// Of a run that has just begun there is only the seed's row.
+TEST_F(IterationsPanelTest, Hint_DuringTheFirstStageDoesNotAskToRun) {
+  auto begun = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
+  begun->iterations.clear();
+  begun->status = LocalizationStatus::kRunning;
+  begun->finished = false;
+  view_.setSnapshot(begun);
+  auto* hint = child<EmptyHint>("emptyHint");
+  EXPECT_TRUE(hint->isVisible());
+  EXPECT_FALSE(hint->text().contains(QStringLiteral("F5"))) << hint->text().toStdString();
+  const auto* table = child<QTableView>("iterations");
+  EXPECT_GT(hint->y(), table->visualRect(table->model()->index(0, 0)).center().y());
+}
+
 TEST_F(IterationsPanelTest, AClickOnARowMovesTheCursor) {
   clickRow(2);
   EXPECT_EQ(view_.cursor(), (RunCursor{1, Stage::kFinished}));

@@ -39,6 +39,21 @@ TEST(SceneContent, HoldsTheCamerasOfTheRunAtTheCursor) {
   EXPECT_EQ(sceneContent(state).frusta.size(), 4u);
 }
 
+TEST(SceneContent, CameraOfARejectedRunLooksRejected) {
+  ViewState state;
+  test::showRun(state);
+  auto run = std::make_shared<sessions::LocalizationTrace>(*state.snapshot());
+  run->status = LocalizationStatus::kPnpFailed;
+  state.setSnapshot(run);
+  for (const Frustum& frustum : sceneContent(state).frusta) {
+    const bool estimate = frustum.role == PoseRole::kEstimate;
+    EXPECT_EQ(frustum.rejected, estimate);
+    if (!estimate) continue;
+    EXPECT_NE(frustum.color, poseRoleStyle(PoseRole::kEstimate).color);
+    EXPECT_GT(frustum.lines.size(), 20u) << "dots";
+  }
+}
+
 TEST(SceneContent, TellsInliersFromOutliersAsThePoseDid) {
   ViewState state;
   test::showRun(state);

@@ -85,6 +85,26 @@ TEST_F(SceneViewTest, AClickOnTheMeshTellsItsPlaceInTheStation) {
   EXPECT_TRUE(readout().startsWith(QStringLiteral("No object")));
 }
 
+TEST_F(SceneViewTest, Readout_OfAnotherCaseIsNotKept) {
+  click(onCanvas(view_.content().bounds.centre()));
+  const QString picked = readout();
+  state_.setCase(test::loadedExample("bc"));
+  view_.refresh();
+  EXPECT_NE(readout(), picked);
+}
+
+TEST_F(SceneViewTest, HoveringTellsThePlaceOfTheStation) {
+  std::optional<Eigen::Vector3d> hovered;
+  QObject::connect(&view_, &SceneView::stationPlaceHovered, &view_,
+                   [&](const std::optional<Eigen::Vector3d>& place) { hovered = place; });
+  const QPoint at = onCanvas(view_.content().bounds.centre());
+  QMouseEvent move(QEvent::MouseMove, at, view_.canvas()->mapToGlobal(at), Qt::NoButton,
+                   Qt::NoButton, Qt::NoModifier);
+  QApplication::sendEvent(view_.canvas(), &move);
+  ASSERT_TRUE(hovered);
+  EXPECT_LT((view_.viewpoint().toCanvas(*hovered).value() - QPointF(at)).manhattanLength(), 1.5);
+}
+
 TEST_F(SceneViewTest, ADoubleClickShowsTheWholeScene) {
   view_.setShown({.points = false});
   wheel({300, 240}, 2);

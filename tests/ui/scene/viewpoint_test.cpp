@@ -36,6 +36,22 @@ TEST(OrbitCamera, KeepsTheStationUprightHoweverItIsTurned) {
   }
 }
 
+TEST(OrbitCamera, RollTurnsThePictureAboutItsMiddle) {
+  OrbitCamera orbit;
+  orbit.frame(someBox());
+  const QPointF middle = place(orbit.viewpoint(kCanvas), orbit.target_m());
+  const QPointF above =
+      place(orbit.viewpoint(kCanvas), orbit.target_m() + Eigen::Vector3d(0, 0, 0.05)) - middle;
+  orbit.roll(1.5707963267948966);
+  const Viewpoint view = orbit.viewpoint(kCanvas);
+  EXPECT_LT((place(view, orbit.target_m()) - middle).manhattanLength(), 1e-6);
+  const QPointF turned = place(view, orbit.target_m() + Eigen::Vector3d(0, 0, 0.05)) - middle;
+  EXPECT_NEAR(turned.x(), -above.y(), 1e-6) << "clockwise";
+  EXPECT_NEAR(turned.y(), above.x(), 1e-6);
+  orbit.lookFrom(StandardView::kFront);
+  EXPECT_EQ(orbit.roll_rad(), 0.0);
+}
+
 TEST(OrbitCamera, FramesTheWholeBoxFromEverywhere) {
   Random random = test::randomFor("FramesTheWholeBox");
   for (const QSizeF canvas : {QSizeF(640, 480), QSizeF(200, 600)}) {

@@ -13,7 +13,9 @@
 #include "tests/support/loaded_example.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/image_view.h"
+#include "ui/views/layer_legend.h"
 #include "ui/views/layers_panel.h"
+#include "ui/views/measure_tool.h"
 
 namespace boresight::ui {
 namespace {
@@ -101,64 +103,147 @@ TEST_F(ImagePanelTest, PointerOffTheStation_ShowsOnlyThePixel) {
   EXPECT_TRUE(text_.isEmpty());
 }
 
+/// Lines of a pose as the core renders it.
+bool areLinesOf(const LinesPtr& lines, const sessions::LoadedCase& value, const Pose& pose) {
+  sessions::RenderTrace render;
+  if (!lines || sessions::renderScene(value.source.camera, value.scene.view(), pose, render) !=
+                    Status::kOk)
+    return false;
+  const sessions::EdgeLines expected = sessions::edgeLines(render, 0);
+  return std::equal(lines->begin(), lines->end(), expected.begin(), expected.end(),
+                    [](const auto& a, const auto& b) { return a.places_px == b.places_px; });
+}
+
 /// A competing pose and the result, each where the core renders it.
 TEST_F(ImagePanelTest, AHypothesisIsDrawnWithTheChosenPose) {
   const auto run = test::runWithHypotheses();
   state_.setSnapshot(run);
   const sessions::Alternative competing = sessions::alternativesOf(*run).front();
-  const auto bitsOfLayer = [this](LayerId id) -> const std::vector<LayerBits>& {
-    return panel_.view().layer(id).bits;
-  };
-  EXPECT_TRUE(bitsOfLayer(LayerId::kHypothesisEdges).empty());
-  EXPECT_TRUE(panel_.view().legend().empty());
+  const auto layer = [this](LayerId id) -> const Layer& { return panel_.view().layer(id); };
+  EXPECT_TRUE(layer(LayerId::kHypothesisEdges).empty());
   state_.setAlternative(competing);
   ASSERT_TRUE(QTest::qWaitFor(
       [&] {
-        return !bitsOfLayer(LayerId::kHypothesisEdges).empty() &&
-               !bitsOfLayer(LayerId::kChosenEdges).empty();
+        return !layer(LayerId::kHypothesisEdges).empty() && !layer(LayerId::kChosenEdges).empty();
       },
       kPatienceMs));
   const auto& value = *state_.currentCase();
-  const auto isRenderOf = [&](LayerId id, const Pose& pose) {
-    sessions::RenderTrace expected;
-    if (sessions::renderScene(value.source.camera, value.scene.view(), pose, expected) !=
-        Status::kOk)
-      return false;
-    const auto words = bitsOfLayer(id).front().bits.words;
-    return std::equal(words.begin(), words.end(), expected.edges.words.begin(),
-                      expected.edges.words.end());
-  };
-  EXPECT_TRUE(isRenderOf(LayerId::kHypothesisEdges, competing.camera_from_station));
-  EXPECT_TRUE(isRenderOf(LayerId::kChosenEdges, run->camera_from_station));
-  EXPECT_EQ(panel_.view().legend().front(),
-            (LegendLine{LayerId::kHypothesisEdges, QStringLiteral("Competing pose 1")}));
+  EXPECT_TRUE(areLinesOf(layer(LayerId::kHypothesisEdges).lines, value,
+                         competing.camera_from_station));
+  EXPECT_TRUE(areLinesOf(layer(LayerId::kChosenEdges).lines, value, run->camera_from_station));
+  EXPECT_EQ(layer(LayerId::kHypothesisEdges).name, QStringLiteral("Competing pose 1"));
+  EXPECT_TRUE(layer(LayerId::kSeedEdges).faded);
   state_.setAlternative(std::nullopt);
-  EXPECT_TRUE(bitsOfLayer(LayerId::kHypothesisEdges).empty());
-  EXPECT_TRUE(bitsOfLayer(LayerId::kChosenEdges).empty());
-  EXPECT_TRUE(panel_.view().legend().empty());
+  EXPECT_TRUE(layer(LayerId::kHypothesisEdges).empty());
+  EXPECT_TRUE(layer(LayerId::kChosenEdges).empty());
+  EXPECT_FALSE(layer(LayerId::kSeedEdges).faded);
 }
 
-TEST_F(ImagePanelTest, TheLegendNamesWhatShows) {
+TEST_F(ImagePanelTest, LegendListsAHypothesisOnlyWhileItIsShown) {
   const auto run = test::runWithHypotheses();
   state_.setSnapshot(run);
-  const auto corner = [this] {
-    const QImage shown = panel_.view().grab().toImage();
-    return shown.copy(0, 0, 160, 40);
+  const auto lists = [this](LayerId id) {
+    const std::vector<LayerId> shown = panel_.legend().shown();
+    return std::find(shown.begin(), shown.end(), id) != shown.end();
   };
-  LayerStyle hidden = panel_.style(LayerId::kSeedEdges);
-  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kMatches})
-    panel_.setStyle(id, {false, hidden.color, 1.0});
-  const QImage before = corner();
+  EXPECT_TRUE(lists(LayerId::kSeedEdges));
+  EXPECT_FALSE(lists(LayerId::kHypothesisEdges));
   state_.setAlternative(sessions::alternativesOf(*run).front());
-  ASSERT_TRUE(QTest::qWaitFor(
-      [&] {
-        return !panel_.view().layer(LayerId::kHypothesisEdges).bits.empty() && !tasks_.isBusy();
-      },
-      kPatienceMs));
-  EXPECT_NE(corner(), before);
-  for (const LayerId id : {LayerId::kHypothesisEdges, LayerId::kChosenEdges})
-    panel_.setStyle(id, {false, hidden.color, 1.0});
-  EXPECT_EQ(corner(), before) << "what is hidden is not named";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return lists(LayerId::kHypothesisEdges); }, kPatienceMs));
+  state_.setAlternative(std::nullopt);
+  EXPECT_FALSE(lists(LayerId::kHypothesisEdges));
+}
+
+TEST_F(ImagePanelTest, ALegendRowTogglesItsLayer) {
+  auto* row = panel_.legend().findChild<QAbstractButton*>(
+      QStringLiteral("legend%1").arg(static_cast<int>(LayerId::kTruthEdges)));
+  ASSERT_TRUE(row);
+  const bool before = panel_.style(LayerId::kTruthEdges).visible;
+  EXPECT_EQ(row->isChecked(), before);
+  QTest::mouseClick(row, Qt::LeftButton);
+  EXPECT_EQ(panel_.style(LayerId::kTruthEdges).visible, !before);
+}
+
+/// A failed run never looks like a result.
+TEST_F(ImagePanelTest, PoseOfARejectedRunHasAColourAndAPatternOfItsOwn) {
+  auto run = std::make_shared<sessions::LocalizationTrace>(*test::runWithHypotheses());
+  state_.setSnapshot(run);
+  const Layer found = panel_.view().layer(LayerId::kIterationEdges);
+  run = std::make_shared<sessions::LocalizationTrace>(*run);
+  run->status = LocalizationStatus::kPnpFailed;
+  state_.setSnapshot(run);
+  const Layer rejected = panel_.view().layer(LayerId::kIterationEdges);
+  EXPECT_NE(rejected.shownLine().color, found.shownLine().color);
+  EXPECT_NE(rejected.shownLine().gap_px, found.shownLine().gap_px);
+  EXPECT_EQ(rejected.name, QStringLiteral("Rejected pose"));
+}
+
+TEST_F(ImagePanelTest, StagePoseShowsTheCorrectedEdges) {
+  const auto run = test::runWithHypotheses();
+  state_.setSnapshot(run);
+  const auto lines = [this] { return panel_.view().layer(LayerId::kIterationEdges).lines; };
+  state_.setCursor({0, Stage::kMatch});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return lines() && !tasks_.isBusy(); }, kPatienceMs));
+  const LinesPtr before = lines();
+  state_.setCursor({0, Stage::kPose});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return lines() != before; }, kPatienceMs));
+  EXPECT_TRUE(areLinesOf(lines(), *state_.currentCase(), run->iterations[0]->camera_from_station));
+}
+
+TEST_F(ImagePanelTest, AStageBringsItsLayerAndTakesItAway) {
+  state_.setSnapshot(test::runWithHypotheses());
+  EXPECT_FALSE(panel_.style(LayerId::kTemplates).visible);
+  state_.setCursor({0, Stage::kTemplates});
+  EXPECT_TRUE(panel_.style(LayerId::kTemplates).visible);
+  EXPECT_FALSE(panel_.view().layer(LayerId::kTemplates).marks.empty());
+  state_.setCursor({0, Stage::kPose});
+  EXPECT_FALSE(panel_.style(LayerId::kTemplates).visible);
+}
+
+TEST_F(ImagePanelTest, OnlyTheChosenTemplateHasItsSearchWindowDrawn) {
+  state_.setSnapshot(test::runWithHypotheses());
+  state_.setCursor({0, Stage::kMatch});
+  EXPECT_TRUE(panel_.view().layer(LayerId::kWindows).marks.empty());
+  state_.selectTemplate(3);
+  EXPECT_EQ(panel_.view().layer(LayerId::kWindows).marks.size(), 2u);
+}
+
+TEST_F(ImagePanelTest, ANewCaseIsShownWhole) {
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !panel_.view().imageSize().isEmpty(); }, kPatienceMs));
+  panel_.view().centreOn({10.0, 10.0}, 7.0);
+  state_.setCase(test::loadedExample("bc"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !tasks_.isBusy(); }, kPatienceMs));
+  ViewTransform whole;
+  whole.fit(panel_.view().imageSize(), panel_.view().size());
+  EXPECT_EQ(panel_.view().transform(), whole);
+}
+
+TEST_F(ImagePanelTest, MeasuringTellsPixelsAndMillimetresOnTheSurface) {
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !panel_.view().imageSize().isEmpty(); }, kPatienceMs));
+  MeasureTool& tool = panel_.measure();
+  tool.setActive(true);
+  const auto drag = [this](const QPointF& from, const QPointF& to) {
+    Q_EMIT panel_.view().toolPressed(from);
+    Q_EMIT panel_.view().toolMoved(to);
+  };
+  const auto& value = *state_.currentCase();
+  const QPointF centre(0.5 * value.image.width, 0.5 * value.image.height);
+  drag(centre, centre + QPointF(30.0, 40.0));
+  EXPECT_TRUE(tool.text().startsWith(QStringLiteral("50.0 px, "))) << tool.text().toStdString();
+  EXPECT_TRUE(tool.text().endsWith(QStringLiteral(" mm")));
+  drag({1.0, 1.0}, {4.0, 5.0});
+  EXPECT_EQ(tool.text(), QStringLiteral("5.0 px"));
+}
+
+TEST_F(ImagePanelTest, APlaceOfTheSceneIsMarkedWhereItProjects) {
+  const auto& value = *state_.currentCase();
+  const Eigen::Vector3d place = matchedBounds(value.scene.view()).centre();
+  panel_.showStationPlace(place);
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(project(value.source.camera, state_.shownPose() * place, pixel));
+  EXPECT_EQ(panel_.view().linkedCursor(), QPointF(pixel.x(), pixel.y()));
+  panel_.showStationPlace(std::nullopt);
+  EXPECT_FALSE(panel_.view().linkedCursor());
 }
 
 class LayersPanelTest : public ::testing::Test {
@@ -213,6 +298,17 @@ TEST_F(LayersPanelTest, ASliderSetsTheOpacityOfOneLayer) {
     EXPECT_EQ(found, 1);
     slider->setValue(99);
   }
+}
+
+TEST_F(LayersPanelTest, AShortListHidesTheOthersUntilAllAreAskedFor) {
+  panel_.setShortList({LayerId::kMatches, LayerId::kSeedEdges});
+  EXPECT_TRUE(box(LayerId::kSeedEdges)->isVisible());
+  EXPECT_FALSE(box(LayerId::kTruthEdges)->isVisible());
+  EXPECT_LT(box(LayerId::kMatches)->y(), box(LayerId::kSeedEdges)->y());
+  EXPECT_EQ(image_.legend().layers(),
+            (std::vector<LayerId>{LayerId::kMatches, LayerId::kSeedEdges}));
+  panel_.showAll();
+  EXPECT_TRUE(box(LayerId::kTruthEdges)->isVisible());
 }
 
 TEST_F(LayersPanelTest, EveryControlSaysWhatItDoes) {

@@ -113,6 +113,125 @@ TEST_F(ImageViewTest, ABitOfALevelCoversItsFourPixels) {
   EXPECT_EQ(at({10.0, 14.0}), QColor(40, 40, 40));
 }
 
+/// A line of one pixel is whole at any reduction.
+TEST_F(ImageViewTest, ReducedBitsDropNoPixel) {
+  OneBit line(0, 30, 0);
+  for (int x = 0; x < kSide; ++x) line.bits.bits.set(x, 30);
+  view_.setLayer(layerOf(LayerId::kTestEdges, {line.bits}));
+  for (const double scale : {0.35, 0.6, 0.9}) {
+    ViewTransform transform = view_.transform();
+    transform.zoomAt(transform.toWidget(QPointF(32.0, 30.0)), scale);
+    view_.setTransform(transform);
+    const QImage picture = view_.grab().toImage();
+    const QPointF from = transform.toWidget(QPointF(0.0, 30.0));
+    for (int x = static_cast<int>(from.x()) + 1; x < from.x() + 63 * scale - 1; ++x) {
+      bool drawn = false;
+      for (int y = static_cast<int>(from.y()) - 2; y <= from.y() + 2; ++y)
+        drawn = drawn || picture.pixelColor(x, y).red() > 200;
+      EXPECT_TRUE(drawn) << scale << ", column " << x;
+    }
+  }
+}
+
+/// A straight line from (x, y) to (x, y), px.
+LinesPtr lineOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  sessions::EdgeLine line;
+  line.places_px = {from, to};
+  line.box_px.extend(from);
+  line.box_px.extend(to);
+  return std::make_shared<const sessions::EdgeLines>(sessions::EdgeLines{line});
+}
+
+class EdgeLinesOnImage : public ImageViewTest {
+ protected:
+  /// A layer with a line of its own look.
+  void show(LayerId id, const LinesPtr& lines) {
+    Layer layer;
+    layer.id = id;
+    layer.style = layerInfo(id).style;
+    layer.style.visible = true;
+    layer.lines = lines;
+    view_.setLayer(std::move(layer));
+  }
+  QImage pictureAt(double scale, const QPointF& centre) {
+    ViewTransform transform = view_.transform();
+    transform.zoomAt({}, scale);
+    transform.centreOn(centre, view_.size());
+    view_.setTransform(transform);
+    return view_.grab().toImage();
+  }
+};
+
+/// At ten times, where the line's own colour is strongest across it.
+TEST_F(EdgeLinesOnImage, AtTenTimesTheyLieWithinATenthOfAPixel) {
+  for (const double y : {20.0, 20.13, 20.5, 20.77}) {
+    show(LayerId::kIterationEdges, lineOf({10.0, y}, {40.0, y}));
+    const QImage picture = pictureAt(10.0, {25.0, 20.0});
+    const double column = view_.transform().toWidget(QPointF(25.0, y)).x();
+    double weight = 0.0;
+    double sum = 0.0;
+    for (int row = 0; row < picture.height(); ++row) {
+      const QColor color = picture.pixelColor(static_cast<int>(column), row);
+      const double blue = std::max(0, color.blue() - color.red() - 40);
+      weight += blue;
+      sum += blue * (row + 0.5);
+    }
+    ASSERT_GT(weight, 0.0);
+    const double seen = view_.transform().toPixel(QPointF(column, sum / weight)).y();
+    EXPECT_NEAR(seen, y, 0.1);
+  }
+}
+
+TEST_F(EdgeLinesOnImage, AtAThirdNoneOfALineIsLost) {
+  show(LayerId::kIterationEdges, lineOf({2.3, 3.1}, {60.2, 47.9}));
+  const QImage picture = pictureAt(0.35, {32.0, 32.0});
+  for (double share = 0.02; share < 0.98; share += 0.01) {
+    const QPointF place =
+        view_.transform().toWidget(QPointF(2.3 + share * 57.9, 3.1 + share * 44.8));
+    int bluest = 0;
+    for (int v = -1; v <= 1; ++v)
+      for (int u = -1; u <= 1; ++u) {
+        const QColor color = picture.pixelColor(static_cast<int>(place.x()) + u,
+                                                static_cast<int>(place.y()) + v);
+        bluest = std::max(bluest, color.blue() - color.red());
+      }
+    EXPECT_GT(bluest, 60) << share;
+  }
+}
+
+TEST_F(EdgeLinesOnImage, WidthIsTheSameAtEveryZoom) {
+  show(LayerId::kIterationEdges, lineOf({-1000.0, 20.0}, {1000.0, 20.0}));
+  std::vector<int> colored;
+  for (const double scale : {0.3, 1.0, 10.0, 60.0}) {
+    const QImage picture = pictureAt(scale, {20.0, 20.0});
+    int count = 0;
+    for (int row = 0; row < picture.height(); ++row) {
+      const QColor color = picture.pixelColor(320, row);
+      if (color.blue() > color.red() + 40) ++count;
+    }
+    colored.push_back(count);
+  }
+  for (const int count : colored) EXPECT_NEAR(count, colored.front(), 1);
+}
+
+/// With eyes that see no colour.
+TEST_F(EdgeLinesOnImage, PosesDifferInTheirPattern) {
+  const auto gapsOf = [this](LayerId id) {
+    show(id, lineOf({0.0, 20.0}, {63.0, 20.0}));
+    const QImage picture = pictureAt(10.0, {32.0, 20.0});
+    view_.setStyle(id, {false, Qt::red, 1.0});
+    const int row = static_cast<int>(view_.transform().toWidget(QPointF(32.0, 20.0)).y());
+    int gaps = 0;
+    for (int x = 21; x < 620; ++x) {
+      const bool was = picture.pixelColor(x - 1, row).value() > 100;
+      if (was && picture.pixelColor(x, row).value() <= 100) ++gaps;
+    }
+    return gaps;
+  };
+  EXPECT_EQ(gapsOf(LayerId::kIterationEdges), 0);
+  EXPECT_NEAR(gapsOf(LayerId::kSeedEdges), 600.0 / 14.0, 2.0);
+}
+
 TEST_F(ImageViewTest, BlinkHidesAndSwipeCutsTheLayers) {
   const OneBit left(10, 10, 0);
   view_.setLayer(layerOf(LayerId::kTestEdges, {left.bits}));
@@ -124,6 +243,27 @@ TEST_F(ImageViewTest, BlinkHidesAndSwipeCutsTheLayers) {
   view_.setSwipe(0.5);
   EXPECT_EQ(at({10.0, 10.0}), QColor(255, 0, 0));
   EXPECT_EQ(at({50.0, 10.0}), QColor(40, 40, 40));
+}
+
+TEST_F(ImageViewTest, ADragOfTheSwipeLineMovesItAndNotTheImage) {
+  view_.setSwipe(0.5);
+  const ViewTransform before = view_.transform();
+  QSignalSpy moved(&view_, &ImageView::swipeMoved);
+  QTest::mousePress(&view_, Qt::LeftButton, Qt::NoModifier, {321, 100});
+  QMouseEvent move(QEvent::MouseMove, QPointF(160.0, 120.0), view_.mapToGlobal(QPoint(160, 120)),
+                   Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&view_, &move);
+  QTest::mouseRelease(&view_, Qt::LeftButton, Qt::NoModifier, {160, 120});
+  EXPECT_NEAR(*view_.swipe(), 0.25, 0.01);
+  EXPECT_EQ(view_.transform(), before);
+  EXPECT_EQ(moved.size(), 1);
+}
+
+TEST_F(ImageViewTest, HHeldHidesTheLayers) {
+  QTest::keyPress(&view_, Qt::Key_H);
+  EXPECT_TRUE(view_.layersHidden());
+  QTest::keyRelease(&view_, Qt::Key_H);
+  EXPECT_FALSE(view_.layersHidden());
 }
 
 TEST_F(ImageViewTest, TheWheelZoomsAtTheCursor) {

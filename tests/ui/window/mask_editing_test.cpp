@@ -114,7 +114,7 @@ TEST_F(MaskEditingTest, Edit_KeepsTheShownIteration) {
   ASSERT_TRUE(settled());
   EXPECT_EQ(window_.state().cursor(), (RunCursor{0, Stage::kMatch}));
   EXPECT_EQ(window_.state().selectedTemplate(), 2);
-  EXPECT_FALSE(view().layer(LayerId::kSeedEdges).bits.empty());
+  EXPECT_FALSE(view().layer(LayerId::kSeedEdges).empty());
   EXPECT_FALSE(window_.cases().staleness().isEmpty());
 }
 

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the operator does on the canvas and with lists of commands, edits and runs: one window, real
+// events.
+#include "tests/ui/window_test.h"
+
+#include <cmath>
+
+#include "ui/panels/command_palette.h"
+#include "ui/panels/levels_histogram.h"
+#include "ui/panels/nudge_gizmo.h"
+#include "ui/views/compare_view.h"
+#include "ui/views/display_image.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/views/measure_tool.h"
+
+namespace boresight::ui {
+namespace {
+
+class CanvasToolsTest : public test::WindowTest {
+ protected:
+  ImageView& view() { return window_.image().view(); }
+  QAction& action(const char* name) { return find<QAction>(name); }
+  const sessions::SessionCase& edited() {
+    return *window_.document().session().findCase(window_.state().currentCase()->source.id);
+  }
+  Eigen::Vector3d middle() {
+    return matchedBounds(window_.state().currentCase()->scene.view()).centre();
+  }
+  /// Of the station's middle in a pose, px.
+  QPointF middleAt(const Pose& pose) {
+    Eigen::Vector2d pixel;
+    EXPECT_TRUE(project(window_.state().currentCase()->source.camera, pose * middle(), pixel));
+    return {pixel.x(), pixel.y()};
+  }
+  /// On the widget, with the left button.
+  void drag(const QPointF& from, const QPointF& to) {
+    const auto send = [this](QEvent::Type type, const QPointF& at, Qt::MouseButton button,
+                             Qt::MouseButtons buttons) {
+      QMouseEvent event(type, at, view().mapToGlobal(at.toPoint()), button, buttons,
+                        Qt::NoModifier);
+      QCoreApplication::sendEvent(&view(), &event);
+    };
+    send(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton);
+    send(QEvent::MouseMove, 0.5 * (from + to), Qt::NoButton, Qt::LeftButton);
+    send(QEvent::MouseMove, to, Qt::NoButton, Qt::LeftButton);
+    send(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::NoButton);
+  }
+};
+
+/// The wheel over a field that slid under the pointer.
+TEST_F(CanvasToolsTest, WheelOverASpinBoxWithoutFocusEditsNothing) {
+  openExample();
+  window_.dock(QStringLiteral("pose"))->raise();
+  view().setFocus();
+  auto& box = find<QDoubleSpinBox>("moveY");
+  QWheelEvent event({5.0, 5.0}, box.mapToGlobal(QPoint(5, 5)), {}, {0, -120}, Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(&box, &event);
+  EXPECT_EQ(box.value(), 0.0);
+  EXPECT_FALSE(window_.state().nudgedPose());
+  for (QSpinBox* each : window_.findChildren<QSpinBox*>()) {
+    const int before = each->value();
+    QCoreApplication::sendEvent(each, &event);
+    EXPECT_EQ(each->value(), before) << each->objectName().toStdString();
+  }
+}
+
+TEST_F(CanvasToolsTest, CtrlZInASpinBoxIsTheSessionsUndo) {
+  openExample();
+  window_.activateWindow();
+  moveSeed(0.01);
+  ASSERT_TRUE(rests());
+  window_.dock(QStringLiteral("pose"))->raise();
+  auto& box = find<QDoubleSpinBox>("moveStep");
+  box.setFocus();
+  QTest::keyClicks(&box, QStringLiteral("3"));
+  ASSERT_TRUE(window_.document().canUndo());
+  QTest::keyClick(&box, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_FALSE(window_.document().canUndo());
+}
+
+TEST_F(CanvasToolsTest, GizmoDragMovesTheSeedWithThePointerAsOneEdit) {
+  openExample();
+  const Pose seed = edited().camera_from_station_seed;
+  QTest::keyClick(&window_, Qt::Key_N);
+  ASSERT_TRUE(action("nudgeSeed").isChecked());
+  const QPointF from = view().transform().toWidget(middleAt(seed));
+  const QPointF to = from + QPointF(37.0, -21.0);
+  drag(from, to);
+  ASSERT_TRUE(window_.state().nudgedPose());
+  const QPointF moved = view().transform().toWidget(middleAt(*window_.state().nudgedPose()));
+  EXPECT_NEAR(moved.x(), to.x(), 0.6);
+  EXPECT_NEAR(moved.y(), to.y(), 0.6);
+  EXPECT_EQ(edited().camera_from_station_working, window_.state().nudgedPose());
+  ASSERT_TRUE(window_.document().undo());
+  EXPECT_FALSE(window_.state().nudgedPose());
+  EXPECT_FALSE(window_.document().canUndo());
+}
+
+TEST_F(CanvasToolsTest, GizmoRingRollsAndWheelChangesTheDistance) {
+  openExample();
+  const Pose seed = edited().camera_from_station_seed;
+  QTest::keyClick(&window_, Qt::Key_N);
+  const QPointF centre = view().transform().toWidget(middleAt(seed));
+  const double angle = 0.3;
+  drag(centre + NudgeGizmo::kRing * QPointF(1.0, 0.0),
+       centre + NudgeGizmo::kRing * QPointF(std::cos(angle), std::sin(angle)));
+  const Pose rolled = window_.state().nudgedPose().value();
+  EXPECT_NEAR(rolled.rotation.angularDistance(seed.rotation), angle, 1e-6);
+  EXPECT_LT((rolled * middle() - seed * middle()).norm(), 1e-9);
+  QWheelEvent event(centre, view().mapToGlobal(centre.toPoint()), {}, {0, 120}, Qt::NoButton,
+                    Qt::NoModifier, Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(&view(), &event);
+  const Pose nearer = window_.state().nudgedPose().value();
+  EXPECT_LT((nearer * middle()).norm(), (rolled * middle()).norm());
+  EXPECT_NEAR((middleAt(nearer) - middleAt(rolled)).manhattanLength(), 0.0, 1e-6);
+}
+
+TEST_F(CanvasToolsTest, GizmoEnterUsesThePoseAsSeedAndEscapeEndsTheTool) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_N);
+  QTest::keyClick(&view(), Qt::Key_Right);
+  const Pose nudged = window_.state().nudgedPose().value();
+  QTest::keyClick(&view(), Qt::Key_Return);
+  EXPECT_EQ(edited().camera_from_station_seed, nudged);
+  EXPECT_FALSE(action("nudgeSeed").isChecked());
+  QTest::keyClick(&window_, Qt::Key_N);
+  QTest::keyClick(&view(), Qt::Key_Escape);
+  EXPECT_FALSE(action("nudgeSeed").isChecked());
+}
+
+TEST_F(CanvasToolsTest, OneToolWorksAtATime) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_N);
+  window_.image().measure().setActive(true);
+  EXPECT_FALSE(action("nudgeSeed").isChecked());
+  action("placePoints").trigger();
+  EXPECT_FALSE(window_.image().measure().isActive());
+  action("maskBrush").trigger();
+  EXPECT_FALSE(action("placePoints").isChecked());
+  QTest::keyClick(&window_, Qt::Key_N);
+  EXPECT_TRUE(action("nudgeSeed").isChecked());
+}
+
+TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
+  openExample();
+  CommandPalette palette(find<QMenuBar>("menuBar"), &window_);
+  palette.show();
+  auto* line = palette.findChild<QLineEdit*>(QStringLiteral("commandLine"));
+  QTest::keyClicks(line, QStringLiteral("step iter"));
+  ASSERT_FALSE(palette.names().isEmpty());
+  EXPECT_TRUE(palette.names().front().endsWith(action("stepIteration").text().remove('&')));
+  line->clear();
+  QTest::keyClicks(line, QStringLiteral("nudge seed"));
+  ASSERT_FALSE(palette.names().isEmpty());
+  QTest::keyClick(line, Qt::Key_Return);
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(palette.isVisible());
+  EXPECT_TRUE(action("nudgeSeed").isChecked());
+}
+
+TEST_F(CanvasToolsTest, HistoryListsEditsAndGoesToOne) {
+  openExample();
+  auto& list = find<QListWidget>("history");
+  moveSeed(0.01);
+  ASSERT_TRUE(rests());
+  moveSeed(0.01);
+  ASSERT_TRUE(rests());
+  ASSERT_EQ(list.count(), 3);
+  EXPECT_EQ(list.currentRow(), 2);
+  list.setCurrentRow(0);
+  EXPECT_FALSE(window_.document().canUndo());
+  EXPECT_EQ(list.count(), 3);
+  list.setCurrentRow(2);
+  EXPECT_FALSE(window_.document().canRedo());
+}
+
+TEST_F(CanvasToolsTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
+  openExample();
+  ASSERT_TRUE(runToTheEnd(1));
+  const std::string first = window_.document().session().runs[0].digest;
+  moveSeed(0.002);
+  ASSERT_TRUE(rests());
+  ASSERT_TRUE(runToTheEnd(2));
+  auto& list = find<QTreeWidget>("runs");
+  ASSERT_EQ(list.topLevelItemCount(), 2);
+  window_.cases().showRun(first);
+  ASSERT_TRUE(wait([&] { return window_.state().snapshot()->digest == first; }));
+  auto& compare = *window_.findChild<CompareView*>();
+  compare.showRun(window_.document().session().runs[1].digest);
+  EXPECT_TRUE(compare.isVisible());
+  ASSERT_TRUE(wait([&] { return !compare.view().layer(LayerId::kIterationEdges).empty(); }));
+  view().centreOn({200.0, 150.0}, 3.0);
+  EXPECT_NEAR(compare.view().transform().scale(), view().transform().scale(), 1e-9);
+  const auto centreOf = [](const ImageView& each) {
+    return each.transform().toPixel(QPointF(each.rect().center()));
+  };
+  EXPECT_LT((centreOf(compare.view()) - centreOf(view())).manhattanLength(), 1.0);
+  Q_EMIT view().cursorMoved({40.0, 50.0});
+  EXPECT_EQ(compare.view().linkedCursor(), QPointF(40.0, 50.0));
+}
+
+TEST_F(CanvasToolsTest, HistogramHandlesSetBlackAndWhite) {
+  openExample();
+  DisplayImage& display = window_.image().display();
+  ASSERT_TRUE(wait([&] { return display.samples() && resting(); }));
+  auto& histogram = find<LevelsHistogram>("histogram");
+  window_.dock(QStringLiteral("levels"))->raise();
+  const auto x = [&](int level) { return static_cast<int>(std::lround(histogram.xOf(level))); };
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, {x(display.levels().black), 20});
+  QTest::mouseMove(&histogram, {x(60), 20});
+  QMouseEvent move(QEvent::MouseMove, QPointF(x(60), 20.0), Qt::NoButton, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(&histogram, &move);
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, {x(60), 20});
+  EXPECT_NEAR(display.levels().black, 60, 2);
+}
+
+TEST_F(CanvasToolsTest, AClickOnATemplateRaisesTheMatchInspector) {
+  openExample();
+  ASSERT_TRUE(runToTheEnd(1));
+  window_.dock(QStringLiteral("iterations"))->raise();
+  QCoreApplication::processEvents();
+  Q_EMIT view().itemClicked(LayerId::kMatches, 0);
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(
+      window_.dock(QStringLiteral("inspector"))->widget()->visibleRegion().isEmpty());
+}
+
+}  // namespace
+}  // namespace boresight::ui

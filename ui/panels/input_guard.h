@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QObject>
+
+namespace boresight::ui {
+
+/// For the whole program: the wheel never changes a field that does not have the focus, and Ctrl+Z
+/// and Ctrl+Shift+Z are the session's, not those of the field that has it. Installed as the
+/// application's event filter.
+class InputGuard : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit InputGuard(QObject* parent);
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+class QLabel;
+class QToolBar;
+
+namespace boresight::ui {
+
+class ImageView;
+class LayerLegend;
+
+/// What lies over the image as children of it: the strip of tools, what is shown (upper right), the
+/// zoom (lower right). Keeps them in their corners.
+class CanvasChips : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit CanvasChips(ImageView& view);
+
+  QToolBar& tools() { return *tools_; }
+  /// "Iteration 1.4, refine"; empty hides it.
+  void setShown(const QString& text);
+  /// Lies in the lower left corner.
+  void setLegend(QWidget* legend);
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  QLabel* chip(const char* name);
+  void showZoom();
+  void arrange();
+
+  ImageView& view_;
+  QToolBar* tools_;
+  QLabel* shown_;
+  QLabel* zoom_;
+  QWidget* legend_ = nullptr;
+};
+
+}  // namespace boresight::ui

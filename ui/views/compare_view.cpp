@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/views/compare_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <QtWidgets>
+
+#include "sessions/run/scene_render.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/rig_links.h"
+#include "ui/models/text.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+#include "ui/views/display_image.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+
+namespace boresight::ui {
+namespace {
+
+QString taskKey() { return QStringLiteral("compare"); }
+
+/// Of another camera of the rig where the shown one is at this pose.
+Pose inOtherCamera(const sessions::SessionCase& other, const sessions::SessionCase& shown,
+                   const Pose& shown_from_station) {
+  return other.rig->camera_from_rig * shown.rig->camera_from_rig.inverse() * shown_from_station;
+}
+
+}  // namespace
+
+CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state,
+                         TaskRunner& tasks)
+    : image_(image),
+      document_(document),
+      state_(state),
+      tasks_(tasks),
+      box_(new QComboBox),
+      view_(new ImageView) {
+  box_->setObjectName(QStringLiteral("compareWith"));
+  box_->setToolTip(tr("What the second canvas shows"));
+  view_->setObjectName(QStringLiteral("compareView"));
+  view_->setHint(tr("Reading ..."));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(box_);
+  column->addWidget(view_, 1);
+  connect(box_, QOverload<int>::of(&QComboBox::activated), this, &CompareView::order);
+  ImageView& main = image_.view();
+  connect(&main, &ImageView::transformChanged, this, [this] { follow(*view_, image_.view()); });
+  connect(view_, &ImageView::transformChanged, this, [this] { follow(image_.view(), *view_); });
+  connect(&main, &ImageView::cursorMoved, this, &CompareView::pointAt);
+  connect(&main, &ImageView::cursorLeft, this, [this] { view_->setLinkedCursor(std::nullopt); });
+  connect(view_, &ImageView::cursorMoved, this, [this](const QPointF& pixel) {
+    view_->setLinkedCursor(std::nullopt);
+    if (picture_.loaded_case && state_.currentCase() &&
+        picture_.loaded_case->source.id == state_.currentCase()->source.id)
+      image_.view().setLinkedCursor(pixel);
+  });
+  connect(view_, &ImageView::cursorLeft, this,
+          [this] { image_.view().setLinkedCursor(std::nullopt); });
+  // The rig's other camera follows the station under the pointer.
+  connect(&image_, &ImagePanel::stationPlaceHovered, this,
+          [this](const std::optional<Eigen::Vector3d>& place) {
+            const auto& shown = state_.currentCase();
+            if (!picture_.loaded_case || !shown ||
+                picture_.loaded_case->source.id == shown->source.id)
+              return;
+            Eigen::Vector2d pixel;
+            const bool seen = place && project(picture_.loaded_case->source.camera,
+                                               picture_.camera_from_station * *place, pixel);
+            view_->setLinkedCursor(seen ? std::optional(pointOf(pixel)) : std::nullopt);
+          });
+  state_.onChange(ViewChange::kCase | ViewChange::kSnapshot, this, &CompareView::fill);
+  hide();
+}
+
+void CompareView::setOnboardRun(ViewState::SnapshotPtr run) {
+  if (run == onboard_) return;
+  onboard_ = std::move(run);
+  fill();
+}
+
+QStringList CompareView::choices() const {
+  QStringList names;
+  for (const Choice& choice : choices_) names << choice.name;
+  return names;
+}
+
+std::vector<CompareView::Choice> CompareView::choicesNow() const {
+  std::vector<Choice> choices;
+  const sessions::SessionCase* shown = shownCase(document_, state_);
+  if (!shown) return choices;
+  if (const auto seed = poseOf(state_, PoseRole::kSeed))
+    choices.push_back({tr("Seed"), kSeedLine, seed, std::nullopt, {}});
+  if (const auto truth = poseOf(state_, PoseRole::kTruth))
+    choices.push_back({tr("Truth"), kTruthLine, truth, std::nullopt, {}});
+  if (onboard_)
+    choices.push_back({tr("Onboard run"), isRejected(*onboard_) ? kRejectedLine : kPoseLine,
+                       onboard_->camera_from_station, std::nullopt, {}});
+  const auto& runs = document_.session().runs;
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run)
+    if (run->case_id == shown->id)
+      choices.push_back({tr("Run of %1: %2").arg(fromText(run->time), fromText(run->status)),
+                         run->status == "converged" ? kPoseLine : kRejectedLine, std::nullopt, *run,
+                         {}});
+  for (const std::string& id : sessions::casesOfRig(document_.session(), shown->id))
+    choices.push_back({tr("Camera of %1").arg(fromText(id)), kPoseLine, std::nullopt, std::nullopt,
+                       id});
+  return choices;
+}
+
+/// Keeps what is chosen where it is still there.
+void CompareView::fill() {
+  if (!isVisible()) return;
+  const QString former = box_->currentText();
+  choices_ = choicesNow();
+  box_->clear();
+  box_->addItems(choices());
+  box_->setCurrentIndex(std::max(0, box_->findText(former)));
+  order();
+}
+
+void CompareView::showRun(const std::string& digest) {
+  image_.showBeside(true);
+  fill();
+  for (std::size_t i = 0; i < choices_.size(); ++i)
+    if (choices_[i].run && choices_[i].run->digest == digest)
+      box_->setCurrentIndex(static_cast<int>(i));
+  order();
+}
+
+void CompareView::order() {
+  const auto& shown = state_.currentCase();
+  const auto index = static_cast<std::size_t>(std::max(0, box_->currentIndex()));
+  tasks_.cancel(taskKey());
+  if (!shown || index >= choices_.size()) return view_->setImage({});
+  const sessions::SessionCase* other =
+      choices_[index].case_id.empty() ? nullptr
+                                      : document_.session().findCase(choices_[index].case_id);
+  std::optional<sessions::SessionCase> other_case;
+  if (other) other_case = *other;
+  tasks_.start(
+      taskKey(),
+      [shown, choice = choices_[index], other_case,
+       pose = state_.shownPose()](const std::stop_token&) {
+        Picture picture{shown, pose, nullptr, choice.line};
+        if (choice.camera_from_station) picture.camera_from_station = *choice.camera_from_station;
+        if (choice.run)
+          picture.camera_from_station = sessions::loadRun(*choice.run).iterations.back()
+                                            ->camera_from_station;
+        if (other_case) {
+          picture.loaded_case = sessions::loadCase(*other_case);
+          picture.camera_from_station = inOtherCamera(*other_case, shown->source, pose);
+        }
+        sessions::RenderTrace render;
+        const Status status = sessions::renderScene(picture.loaded_case->source.camera,
+                                                    picture.loaded_case->scene.view(),
+                                                    picture.camera_from_station, render);
+        if (status == Status::kOk) picture.lines = linesOf(render, 0);
+        return picture;
+      },
+      [this](const Picture& picture) { take(picture); });
+}
+
+void CompareView::take(const Picture& picture) {
+  picture_ = picture;
+  // As the operator sees the other canvas; another image as the algorithm sees it.
+  const bool same = state_.currentCase() == picture.loaded_case;
+  view_->setImage(same ? image_.display().picture()
+                       : grayImage(picture.loaded_case->image.view()));
+  Layer layer = view_->layer(LayerId::kIterationEdges);
+  layer.lines = picture.lines;
+  layer.line = picture.line;
+  view_->setLayer(std::move(layer));
+  follow(*view_, image_.view());
+}
+
+/// The same part of the image, as a share where the images differ in size.
+void CompareView::follow(ImageView& follower, const ImageView& leader) {
+  if (following_ || !isVisible() || follower.imageSize().isEmpty() || leader.imageSize().isEmpty())
+    return;
+  following_ = true;
+  const QPointF centre = leader.transform().toPixel(QPointF(leader.rect().center()));
+  const QSizeF from = leader.imageSize();
+  const QSizeF to = follower.imageSize();
+  ViewTransform transform = follower.transform();
+  transform.zoomAt({}, leader.transform().scale() * from.width() / to.width());
+  transform.centreOn({centre.x() * to.width() / from.width(),
+                      centre.y() * to.height() / from.height()},
+                     follower.size());
+  follower.setTransform(transform);
+  following_ = false;
+}
+
+void CompareView::pointAt(const QPointF& pixel) {
+  if (isVisible() && picture_.loaded_case == state_.currentCase()) view_->setLinkedCursor(pixel);
+}
+
+void CompareView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  fill();
+}
+
+void CompareView::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  image_.view().setLinkedCursor(std::nullopt);
+  tasks_.cancel(taskKey());
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <QWidget>
+
+#include "sessions/session/run_record.h"
+#include "ui/state/view_state.h"
+#include "ui/views/layer.h"
+
+class QComboBox;
+
+namespace boresight::ui {
+
+class Document;
+class ImagePanel;
+class ImageView;
+class TaskRunner;
+
+/// A second canvas beside the image: the seed, the truth, another run of the case or another camera
+/// of its rig. Zoom and pointer of both are linked.
+class CompareView : public QWidget {
+  Q_OBJECT
+
+ public:
+  CompareView(ImagePanel& image, Document& document, ViewState& state, TaskRunner& tasks);
+
+  ImageView& view() { return *view_; }
+  /// What can be chosen, in the order of the box.
+  QStringList choices() const;
+  /// Shows the canvas with this run of the case.
+  void showRun(const std::string& digest);
+  /// The onboard run of the case, or nullptr: not there.
+  void setOnboardRun(ViewState::SnapshotPtr run);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+ private:
+  /// One thing to compare with: a pose of this case, a run whose pose is to be read, or a camera.
+  struct Choice {
+    QString name;
+    LineToken line = kPoseLine;
+    std::optional<Pose> camera_from_station;
+    std::optional<sessions::RunRecord> run;
+    std::string case_id;  ///< of another camera
+  };
+  /// What is shown of a choice.
+  struct Picture {
+    std::shared_ptr<const sessions::LoadedCase> loaded_case;
+    Pose camera_from_station;
+    LinesPtr lines;
+    LineToken line = kPoseLine;
+  };
+
+  std::vector<Choice> choicesNow() const;
+  void fill();
+  void order();
+  void take(const Picture& picture);
+  void follow(ImageView& follower, const ImageView& leader);
+  void pointAt(const QPointF& pixel);
+
+  ImagePanel& image_;
+  Document& document_;
+  ViewState& state_;
+  TaskRunner& tasks_;
+  QComboBox* box_;
+  ImageView* view_;
+  ViewState::SnapshotPtr onboard_;
+  std::vector<Choice> choices_;
+  Picture picture_;
+  bool following_ = false;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/views/layer_legend.h"
+
+#include <algorithm>
+
+#include <QtWidgets>
+
+#include "ui/style/icons.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/views/line_painter.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kSample = 30;
+constexpr int kKeySide = 18;
+constexpr int kSpace = 8;
+
+/// Shown without being asked for while there is something to compare.
+constexpr LayerId kOnDemand[] = {LayerId::kHypothesisEdges, LayerId::kChosenEdges,
+                                 LayerId::kNudgedEdges};
+
+}  // namespace
+
+/// A button that draws itself: the look of a line is its own icon.
+class LayerLegend::Row : public QAbstractButton {
+ public:
+  explicit Row(const LayerInfo& info) : info_(info) {
+    setCheckable(true);
+    setFocusPolicy(Qt::NoFocus);  // keys stay the image's
+    setObjectName(QStringLiteral("legend%1").arg(static_cast<int>(info.id)));
+    setToolTip(ImagePanel::tr(info.help));
+    setCursor(Qt::PointingHandCursor);
+  }
+
+  void setLayer(const Layer& layer) {
+    layer_line_ = layer.shownLine();
+    empty_ = layer.empty();
+    setText(layer.name.isEmpty() ? ImagePanel::tr(info_.name) : layer.name);
+    setChecked(layer.style.visible);
+    setAccessibleName(text());
+    update();
+  }
+
+  QSize sizeHint() const override {
+    return {kSample + kKeySide + 3 * kSpace + fontMetrics().horizontalAdvance(text()),
+            std::max(kKeySide, fontMetrics().height()) + 4};
+  }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    if (underMouse()) painter.fillRect(rect(), QColor(255, 255, 255, 24));
+    const bool dim = !isChecked() || empty_;
+    painter.setOpacity(dim ? 0.45 : 1.0);
+    const QRectF sample(2.0, 0.0, kSample, height());
+    if (info_.id == LayerId::kPoints) {
+      painter.setPen(linePen(layer_line_));
+      painter.drawEllipse(sample.center(), 5.0, 5.0);
+    } else {
+      paintLineSample(painter, sample, layer_line_);
+    }
+    painter.setPen(QColor(kOverlayText));
+    const int left = kSample + kSpace;
+    painter.drawText(QRect(left, 0, width() - left - kKeySide - kSpace, height()),
+                     Qt::AlignLeft | Qt::AlignVCenter, text());
+    paintKey(painter);
+  }
+
+ private:
+  void paintKey(QPainter& painter) const {
+    const QString key = QString::fromLatin1(info_.key);
+    const QRectF cap(width() - kKeySide - 0.5, 0.5 * (height() - kKeySide), kKeySide - 1, kKeySide);
+    painter.setPen(QColor(kDarkTheme.overlay_line));
+    if (key.size() == 1) painter.drawRoundedRect(cap, 3.0, 3.0);
+    painter.setPen(QColor(kDarkTheme.text2));
+    if (key.size() == 1) painter.drawText(cap, Qt::AlignCenter, key);
+  }
+
+  const LayerInfo& info_;
+  LineToken layer_line_ = kPoseLine;
+  bool empty_ = true;
+};
+
+LayerLegend::LayerLegend(ImagePanel& image) : QFrame(&image.view()), image_(image) {
+  setObjectName(QStringLiteral("legend"));
+  setFocusPolicy(Qt::NoFocus);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(8, 6, 8, 6);
+  column->setSpacing(2);
+  for (int i = 0; i < kLayerCount; ++i) {
+    const LayerInfo& info = layerInfo(static_cast<LayerId>(i));
+    auto* row = new Row(info);
+    rows_.push_back(row);
+    connect(row, &QAbstractButton::clicked, this, [this, id = info.id](bool on) {
+      LayerStyle style = image_.style(id);
+      style.visible = on;
+      image_.setStyle(id, style);
+    });
+  }
+  auto* all = new QToolButton;
+  all->setObjectName(QStringLiteral("allLayers"));
+  all->setText(tr("All layers"));
+  all->setIcon(overlayIcon(Icon::kLayers));
+  all->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  all->setAutoRaise(true);
+  all->setFocusPolicy(Qt::NoFocus);
+  all->setToolTip(tr("Colour and opacity of every layer"));
+  connect(all, &QToolButton::clicked, this, &LayerLegend::allLayersRequested);
+  for (Row* row : rows_) column->addWidget(row);
+  column->addWidget(all);
+  connect(&image.view(), &ImageView::layersChanged, this, &LayerLegend::update);
+  setLayers({LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
+             LayerId::kMatches});
+}
+
+void LayerLegend::setLayers(const std::vector<LayerId>& layers) {
+  layers_ = layers;
+  auto* column = static_cast<QVBoxLayout*>(layout());
+  int place = 0;
+  for (const LayerId id : layers_)
+    column->insertWidget(place++, rows_[static_cast<std::size_t>(id)]);
+  update();
+}
+
+std::vector<LayerId> LayerLegend::shown() const {
+  std::vector<LayerId> result = layers_;
+  for (const LayerId id : kOnDemand)
+    if (!image_.view().layer(id).empty() &&
+        std::find(result.begin(), result.end(), id) == result.end())
+      result.push_back(id);
+  return result;
+}
+
+void LayerLegend::update() {
+  const std::vector<LayerId> listed = shown();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto id = static_cast<LayerId>(i);
+    const bool shows = std::find(listed.begin(), listed.end(), id) != listed.end();
+    rows_[i]->setLayer(image_.view().layer(id));
+    rows_[i]->setVisible(shows);
+  }
+  adjustSize();
+  if (auto* view = parentWidget()) move(8, view->height() - height() - 8);
+}
+
+}  // namespace boresight::ui

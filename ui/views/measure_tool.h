@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <QObject>
+#include <QPointF>
+#include <QString>
+
+#include "sessions/run/surface_point.h"
+
+class QPainter;
+
+namespace boresight::ui {
+
+class ImageView;
+class ViewState;
+
+/// Measures on the image: from a press to the release, in pixels, and in millimetres on the
+/// station's surface where both ends are on it in the shown pose.
+class MeasureTool : public QObject {
+  Q_OBJECT
+
+ public:
+  MeasureTool(ImageView& view, ViewState& state, QObject* parent = nullptr);
+
+  static QString help();
+  bool isActive() const { return active_; }
+  void setActive(bool active);
+  /// "123.4 px, 45.67 mm", or empty.
+  QString text() const;
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ Q_SIGNALS:
+  void activeChanged(bool active);
+
+ private:
+  void press(const QPointF& pixel);
+  void moveTo(const QPointF& pixel);
+  void clear();
+  void paint(QPainter& painter) const;
+
+  ImageView& view_;
+  ViewState& state_;
+  bool active_ = false;
+  std::optional<QPointF> from_;  ///< px
+  QPointF to_;                   ///< px
+  sessions::Measurement measured_;
+};
+
+}  // namespace boresight::ui
