@@ -21,7 +21,7 @@ std::string countText(std::size_t count, const char* item) {
 std::string acceptedText(const LocalizationTrace& trace) {
   const auto& limits = trace.lastOptions().support;
   if (hasProbability(trace))
-    return " The pose is right with a probability of " + percent(trace.probability) + " (" +
+    return " Probability of the pose " + percent(trace.probability) + " (" +
            percent(limits.min_probability) + " needed).";
   if (!limits.gate) return "";
   return " " + percent(trace.support.share()) + " of the edges agree (" +
@@ -41,8 +41,8 @@ std::string convergedSentence(const LocalizationTrace& trace) {
 std::string notSupportedSentence(const LocalizationTrace& trace) {
   const auto& limits = trace.lastOptions().support;
   if (hasProbability(trace))
-    return "The pose is right with a probability of " + percent(trace.probability) + " only, " +
-           percent(limits.min_probability) + " needed. The seed may be turned or too far off.";
+    return "Probability of the pose " + percent(trace.probability) + ", " +
+           percent(limits.min_probability) + " needed. The seed may be turned or far off.";
   const EdgeSupport& support = trace.support;
   const bool chance = support.coverage() <= 1.5 * support.chanceCoverage();
   return std::string(chance ? "The edges fit no better than chance: " : "Too few edges fit: ") +

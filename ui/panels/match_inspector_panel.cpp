@@ -30,7 +30,7 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   ui_.setupUi(this);
   ui_.splitter->setStretchFactor(0, 1);
   ui_.splitter->setStretchFactor(1, 3);
-  ui_.splitter->setSizes({360, 1000});
+  ui_.splitter->setSizes({110, 600});
   setUpTable(*ui_.templates, filter_);
   ui_.templates->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
   ui_.show->addItems(TemplatesModel::showNames());

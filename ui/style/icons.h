@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QIcon>
+#include <QSize>
 
 #include "ui/style/theme.h"
 
@@ -50,6 +51,9 @@ enum class Icon {
   kSideBySide,
   kAlgorithm,
 };
+
+/// Of an icon next to a text: with room between the two.
+inline constexpr QSize kButtonIcon(kIcon + 6, kIcon);
 
 /// In a colour of the theme that is in use when the icon is drawn; disabled: that of hints.
 QIcon iconOf(Icon icon, QRgb Theme::*color = &Theme::text);

@@ -10,6 +10,7 @@
 #include "ui/style/icons.h"
 #include "ui/style/theme.h"
 #include "ui/views/image_panel.h"
+#include "ui/views/layers_panel.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
@@ -86,6 +87,15 @@ void WindowFrame::build() {
 void WindowFrame::connectAll() {
   connect(window_.statusBar(), &QStatusBar::messageChanged, jobs_, &JobStrip::setNote);
   connect(&docks_.image, &ImagePanel::placeText, jobs_, &JobStrip::setPlace);
+  connect(&docks_.image, &ImagePanel::allLayersRequested, this,
+          [this] {
+            docks_.layers.showAll();
+            workspaces_.reveal(QStringLiteral("layers"));
+          });
+  connect(&docks_.image, &ImagePanel::templateClicked, this, [this] {
+    if (workspaces_.current() == Workspace::kDiagnose)
+      workspaces_.reveal(QStringLiteral("inspector"));
+  });
   connect(cases_, &CaseStrip::caseRequested, &parts_.cases, &CaseController::chooseCase);
   connect(cases_, &CaseStrip::listRequested, this, [this] {
     QDockWidget* list = workspaces_.dock(QStringLiteral("cases"));

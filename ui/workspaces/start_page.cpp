@@ -119,6 +119,7 @@ void StartPage::buildSlot(int index) {
   slot.name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   slot.detail = caption({});
   slot.choose = new QPushButton(iconOf(Icon::kFolder), tr("Choose..."));
+  slot.choose->setIconSize(kButtonIcon);
   auto* icon = new QLabel;
   icon->setPixmap(iconOf(text.icon).pixmap(kIcon, kIcon));
   auto* title = new QLabel(tr(text.title));
@@ -255,6 +256,7 @@ QWidget* StartPage::exampleRow(const QString& title, const QString& text,
   texts->addStretch(1);
   auto* open = named(new QPushButton(iconOf(Icon::kRun), tr("Open and run")), "openExample");
   open->setAccessibleName(tr("Open and run: %1").arg(title));
+  open->setIconSize(kButtonIcon);
   connect(open, &QPushButton::clicked, this, [this, session] { files_.openExample(session); });
   line->addWidget(picture);
   line->addLayout(texts, 1);

@@ -30,9 +30,9 @@ TopBar::TopBar(QMenuBar& menus, QWidget* parent)
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 0, 8, 0);
   row->setSpacing(8);
-  row->addWidget(&menus);
+  row->addWidget(&menus, 0, Qt::AlignVCenter);
   row->addWidget(line);
-  row->addWidget(tabs_);
+  row->addWidget(tabs_, 0, Qt::AlignBottom);
   row->addStretch(1);
   row->addLayout(tools_);
   connect(tabs_, &QTabBar::currentChanged, this,

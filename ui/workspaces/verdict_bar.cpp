@@ -62,6 +62,7 @@ VerdictBar::VerdictBar(QWidget* parent)
   row->addWidget(action_);
   for (QWidget* each : std::initializer_list<QWidget*>{badge_, more_, action_})
     each->setFixedHeight(kButtonHeight);
+  for (QPushButton* each : {badge_, action_}) each->setIconSize(kButtonIcon);
   connect(badge_, &QPushButton::clicked, this, &VerdictBar::warningsRequested);
   connect(action_, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(verdict_.step); });
   setWarnings({});
@@ -106,6 +107,7 @@ void VerdictBar::showOthers() {
       auto* button = new QPushButton(iconOf(stepInfo(step).icon), textOf(step));
       button->setToolTip(helpOf(step));
       button->setFixedHeight(kButtonHeight);
+      button->setIconSize(kButtonIcon);
       connect(button, &QPushButton::clicked, this, ask, Qt::QueuedConnection);
       others_->addWidget(button);
     } else {

@@ -9,6 +9,7 @@
 #include "tests/support/temporary_folder.h"
 #include "ui/window/main_window.h"
 #include "ui/window/shortcut_sheet.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -152,7 +153,7 @@ TEST(Manual, OpensAtThePanelThatHasTheFocus) {
   window.show();
   auto* help = window.findChild<ManualHelp*>(QStringLiteral("manualHelp"));
   ASSERT_NE(help, nullptr);
-  window.dock(QStringLiteral("configuration"))->raise();
+  window.workspaces().reveal(QStringLiteral("configuration"));
   QCoreApplication::processEvents();
   auto* field = window.dock(QStringLiteral("configuration"))->findChild<QLineEdit*>();
   ASSERT_NE(field, nullptr);

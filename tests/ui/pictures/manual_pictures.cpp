@@ -27,6 +27,7 @@
 #include "ui/views/image_view.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -186,8 +187,7 @@ class Stage {
   }
   QDockWidget& front(const char* name) {
     QDockWidget* dock = window_.dock(QLatin1String(name));
-    dock->show();
-    dock->raise();
+    window_.workspaces().reveal(QLatin1String(name));
     rest();
     return *dock;
   }

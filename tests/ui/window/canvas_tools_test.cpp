@@ -13,6 +13,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/measure_tool.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -51,7 +52,7 @@ class CanvasToolsTest : public test::WindowTest {
 /// The wheel over a field that slid under the pointer.
 TEST_F(CanvasToolsTest, WheelOverASpinBoxWithoutFocusEditsNothing) {
   openExample();
-  window_.dock(QStringLiteral("pose"))->raise();
+  window_.workspaces().reveal(QStringLiteral("pose"));
   view().setFocus();
   auto& box = find<QDoubleSpinBox>("moveY");
   QWheelEvent event({5.0, 5.0}, box.mapToGlobal(QPoint(5, 5)), {}, {0, -120}, Qt::NoButton,
@@ -71,7 +72,7 @@ TEST_F(CanvasToolsTest, CtrlZInASpinBoxIsTheSessionsUndo) {
   window_.activateWindow();
   moveSeed(0.01);
   ASSERT_TRUE(rests());
-  window_.dock(QStringLiteral("pose"))->raise();
+  window_.workspaces().reveal(QStringLiteral("pose"));
   auto& box = find<QDoubleSpinBox>("moveStep");
   box.setFocus();
   QTest::keyClicks(&box, QStringLiteral("3"));
@@ -206,7 +207,7 @@ TEST_F(CanvasToolsTest, HistogramHandlesSetBlackAndWhite) {
   DisplayImage& display = window_.image().display();
   ASSERT_TRUE(wait([&] { return display.samples() && resting(); }));
   auto& histogram = find<LevelsHistogram>("histogram");
-  window_.dock(QStringLiteral("levels"))->raise();
+  window_.workspaces().reveal(QStringLiteral("levels"));
   const auto x = [&](int level) { return static_cast<int>(std::lround(histogram.xOf(level))); };
   QTest::mousePress(&histogram, Qt::LeftButton, {}, {x(display.levels().black), 20});
   QTest::mouseMove(&histogram, {x(60), 20});
@@ -219,7 +220,8 @@ TEST_F(CanvasToolsTest, HistogramHandlesSetBlackAndWhite) {
 TEST_F(CanvasToolsTest, AClickOnATemplateRaisesTheMatchInspector) {
   openExample();
   ASSERT_TRUE(runToTheEnd(1));
-  window_.dock(QStringLiteral("iterations"))->raise();
+  window_.workspaces().show(Workspace::kDiagnose);
+  window_.workspaces().reveal(QStringLiteral("iterations"));
   QCoreApplication::processEvents();
   Q_EMIT view().itemClicked(LayerId::kMatches, 0);
   QCoreApplication::processEvents();

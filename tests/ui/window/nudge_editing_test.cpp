@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nudging by keys as edits of the document: one window, real events.
 #include "tests/ui/window_test.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -8,7 +9,7 @@ namespace {
 class NudgeEditingTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    window_.dock(QStringLiteral("pose"))->raise();
+    window_.workspaces().reveal(QStringLiteral("pose"));
     openExample();
     id_ = window_.state().currentCase()->source.id;
   }

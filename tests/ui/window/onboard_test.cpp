@@ -8,6 +8,7 @@
 #include "sessions/session/case_run.h"
 #include "tests/ui/window_test.h"
 #include "ui/panels/widgets.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -78,7 +79,7 @@ class OnboardTest : public test::WindowTest {
     auto* button = window_.findChild<QPushButton*>(QLatin1String(name));
     ASSERT_NE(button, nullptr);
     ASSERT_TRUE(button->isEnabled()) << name;
-    window_.dock(QStringLiteral("onboard"))->raise();
+    window_.workspaces().reveal(QStringLiteral("onboard"));
     QTest::mouseClick(button, Qt::LeftButton);
     ASSERT_TRUE(rests());
   }
