@@ -63,9 +63,8 @@ std::string noPoseSentence(const LocalizationTrace& trace) {
   return text + ".";
 }
 
-}  // namespace
-
-bool isRejected(const LocalizationTrace& trace) {
+/// Whether the pose was found but refused, in contrast to a run that came to no pose.
+bool wasRefused(const LocalizationTrace& trace) {
   switch (trace.status) {
     case LocalizationStatus::kNotSupported:
     case LocalizationStatus::kAmbiguous:
@@ -77,11 +76,13 @@ bool isRejected(const LocalizationTrace& trace) {
   }
 }
 
+}  // namespace
+
 RunHeadline runHeadline(const LocalizationTrace& trace) {
   if (trace.converged()) return {"Converged", convergedSentence(trace)};
   if (trace.status == LocalizationStatus::kNotSupported)
     return {"Rejected", notSupportedSentence(trace)};
-  return {isRejected(trace) ? "Rejected" : "No pose found", noPoseSentence(trace)};
+  return {wasRefused(trace) ? "Rejected" : "No pose found", noPoseSentence(trace)};
 }
 
 }  // namespace boresight::sessions

@@ -14,7 +14,4 @@ struct RunHeadline {
 };
 RunHeadline runHeadline(const LocalizationTrace& trace);
 
-/// Whether the pose was found but refused, in contrast to a run that came to no pose.
-bool isRejected(const LocalizationTrace& trace);
-
 }  // namespace boresight::sessions

@@ -9,7 +9,6 @@
 #include "sessions/session/case_annotations.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
-#include "ui/panels/pose_panel.h"
 #include "ui/review/onboard_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/state/document.h"
