@@ -62,6 +62,7 @@ void writeSeed(const LocalizationProblem& problem, ByteWriter& writer) {
   writeVector(problem.uncertainty.translation_m, writer);
   writeVector(problem.uncertainty.rotation_rad, writer);
   writeVector(problem.uncertainty.pivot_in_camera_m, writer);
+  writeVector(problem.end_effector_in_camera_m, writer);
 }
 
 void writeMesh(const MeshView& mesh, ByteWriter& writer) {
@@ -191,8 +192,12 @@ ProblemFault readSeed(ByteReader& reader, LocalizationProblem& problem) {
   problem.uncertainty.translation_m = readVector(reader);
   problem.uncertainty.rotation_rad = readVector(reader);
   problem.uncertainty.pivot_in_camera_m = readVector(reader);
+  problem.end_effector_in_camera_m = readVector(reader);
   if (reader.failed()) return ProblemFault::kContent;
-  return isUsable(PosePrior{seed, problem.uncertainty}) ? ProblemFault::kNone : ProblemFault::kPose;
+  return isUsable(PosePrior{seed, problem.uncertainty}) &&
+                 problem.end_effector_in_camera_m.allFinite()
+             ? ProblemFault::kNone
+             : ProblemFault::kPose;
 }
 
 /// Room for a counted list whose elements take `bytes_each` in the file; its length comes first.
