@@ -43,7 +43,7 @@ void requireFilesNamed(const ProblemArguments& arguments) {
   if (arguments.camera.empty() && !sessions::hasImageLabel(arguments.image))
     throw CLI::RequiredError("--camera");
   if (arguments.mesh.empty()) throw CLI::RequiredError("--mesh");
-  if (arguments.seed.empty()) throw CLI::RequiredError("--seed");
+  arguments.requireSeed();
 }
 
 std::string pgmOf(const sessions::GrayImage& image) {
@@ -63,7 +63,7 @@ int writeProblem(const ProblemArguments& arguments) {
   if (from_dataset)
     requireRunnable(loaded, arguments.dataset, arguments.dataset);
   else
-    requireRunnable(loaded, arguments.cameraFile(), arguments.seed);
+    requireRunnable(loaded, arguments.cameraFile(), arguments.seedFile());
   for (const std::string& line : input.notes) note(line);
   const LocalizationProblem problem = loaded.problem();
   const LocalizerOptions options = arguments.optionsOf(loaded.source);

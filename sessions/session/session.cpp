@@ -49,6 +49,10 @@ const Decision* Session::decisionOn(const std::string& case_id) const {
 
 const RunRecord* Session::lastRunOf(const std::string& case_id) const { return runs.find(case_id); }
 
+FrameTree framesOf(const SessionCase& session_case) {
+  return frameTree(session_case.camera_reference, session_case.frames);
+}
+
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance) {
   session_case.camera_from_station_truth = camera_from_station;

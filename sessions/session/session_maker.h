@@ -18,9 +18,11 @@ struct CaseFiles {
   ImageReadOptions eight_bit;
   /// camera.json, text of calibration or an image with a label; "": the image's own label.
   std::filesystem::path camera;
-  /// Between the camera model's frame and those of seed and truth, where these differ.
+  /// Transforms between named frames (sessions/io/frames.md).
   std::vector<std::filesystem::path> transforms;
   std::vector<PartSource> parts;
+  /// May be empty where the transforms join CAMERA and STATION: then that is the seed, and the
+  /// transforms' covariances are its uncertainty.
   std::filesystem::path seed;
   std::optional<DeclaredUncertainty> uncertainty;  ///< instead of the seed file's, but its pivot
   std::optional<UncertaintyPivot> pivot;           ///< instead of the seed file's
@@ -28,6 +30,9 @@ struct CaseFiles {
   std::optional<std::filesystem::path> ignore;
   std::optional<double> feature_size_m;
   std::optional<double> mesh_scale_sigma;
+  /// Instead of what the transforms say of CAMERA and END_EFFECTOR.
+  std::optional<Pose> camera_from_end_effector;
+  std::optional<Requirement> requirement;
 };
 
 /// A case with the hashes of its files as they are now, and the notes for the operator (a seed that
