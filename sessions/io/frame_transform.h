@@ -34,7 +34,7 @@ struct FrameTransform {
 };
 
 /// Reads a file with one transform (`boresight-transform`, version 1) or with several
-/// (`boresight-frames`, version 1; sessions/io/frames.md). InputError.
+/// (`boresight-frames`, version 1; sessions/io/cameras.md). InputError.
 std::vector<FrameTransform> readFrameTransforms(const std::filesystem::path& file);
 std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& files);
 

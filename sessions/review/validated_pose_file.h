@@ -129,8 +129,10 @@ struct VerifyReport {
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
 /// the run is run again (the annotations are solved again), and its digest, pose, covariance,
 /// matches and every check are compared with what is stated; with `convergence_again` the
-/// convergence test, too. InputError when it is no such file.
+/// convergence test, too. Files that are not where the document names them are looked for below
+/// `folder`, by their hashes. InputError when it is no such file.
 VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,
-                        bool convergence_again = false);
+                        bool convergence_again = false,
+                        const std::optional<std::filesystem::path>& folder = std::nullopt);
 
 }  // namespace boresight::sessions

@@ -25,7 +25,8 @@ using nlohmann::ordered_json;
 struct Document {
   fs::path file;
   ordered_json json;
-  Session session;
+  Session session;  ///< as embedded
+  Session located;  ///< the same with the paths that its files have here
   HandedPose pose;
 };
 
@@ -62,7 +63,7 @@ Document readDocument(const fs::path& file) {
   Document document;
   document.file = file;
   document.json = ordered_json::parse(asText(bytes));  // keeps the order, which is signed
-  document.session = readSession(root.at("session"));
+  document.session = document.located = readSession(root.at("session"));
   document.pose = readHandedPose(root);
   if (document.session.findCase(document.pose.case_id) == nullptr)
     root.failMember("case", "the embedded session does not have it");
@@ -82,7 +83,7 @@ void verifySignature(const Document& document, Findings& findings) {
 /// True when all files are what they were.
 bool verifyInputs(const Document& document, Findings& findings) {
   bool all = true;
-  for (const Finding& found : checkInputs(document.session)) {
+  for (const Finding& found : checkInputs(document.located)) {
     if (found.what == "run") continue;  // a run's trace does not come along: it is run again
     findings.push_back({false, found.what, found.text});
     all = false;
@@ -135,7 +136,7 @@ void verifyMeasured(const Document& document, const MeasuredPose& measured, bool
 std::optional<MeasuredPose> measureAgain(const Document& document, int convergence_seeds,
                                          Findings& findings) {
   try {
-    return measurePose(document.session, document.pose, convergence_seeds, document.file);
+    return measurePose(document.located, document.pose, convergence_seeds, document.file);
   } catch (const InputError& error) {
     findings.push_back({false, "run", std::string("it cannot be measured: ") + error.what()});
     return {};
@@ -213,8 +214,12 @@ bool VerifyReport::good() const {
                      [](const VerifyFinding& verify_finding) { return verify_finding.good; });
 }
 
-VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again) {
+VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again,
+                        const std::optional<fs::path>& folder) {
   Document document = readDocument(file);
+  if (folder)
+    document.located =
+        relinked(document.session, findMissing(document.session, *folder / file.filename()));
   VerifyReport report;
   Findings& findings = report.findings;
   verifySignature(document, findings);

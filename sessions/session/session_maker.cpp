@@ -71,8 +71,8 @@ PoseFile seedOfFrames(const PoseFrames& frames, const CaseFiles& files) {
 
 /// A line for the operator where the seed was converted by what the image's label states.
 std::string labelNote(const PoseFrames& frames, const FrameName& frame) {
-  const auto chain =
-      frameTree(frames.reference, frames.transforms).chain(kCameraFrame, frame);
+  const FrameTree tree = frameTree(frames.reference, frames.transforms);
+  const auto chain = tree.chain(kCameraFrame, frame);
   if (!chain || std::none_of(chain->links.begin(), chain->links.end(), [](const FrameLink& link) {
         return link.transform->origin == TransformSource::kLabel;
       }))

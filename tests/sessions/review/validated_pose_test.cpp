@@ -485,6 +485,20 @@ TEST_F(ValidatedPose, AnInputThatIsMissingOrChangedIsNamed) {
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)), HasSubstr("image: "));
 }
 
+TEST_F(ValidatedPose, MovedAndRenamedFilesAreFoundByTheirHash) {
+  const fs::path file = writeValidated();
+  const fs::path image = session_.findCase(id_)->image.source.file;
+  const test::TemporaryFolder elsewhere;
+  fs::create_directories(elsewhere / "images");
+  fs::rename(image, elsewhere.path() / "images" / ("renamed" + image.extension().string()));
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)), HasSubstr("image: "));
+  const VerifyReport report = sessions::verifyPose(file, true, false, elsewhere.path());
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  overwrite(elsewhere.path() / "images" / ("renamed" + image.extension().string()), {1, 2, 3});
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, false, elsewhere.path())),
+              HasSubstr("image: "));
+}
+
 TEST_F(ValidatedPose, AStaleRunIsNotHandedOver) {
   run();
   sessions::SessionCase session_case = *session_.findCase(id_);
