@@ -45,6 +45,13 @@ void CaseArguments::addTo(CLI::App& command) {
                   "Bit depth of the image's samples, e.g. 12 in a 16-bit file")
       ->check(CLI::Range(1, 16))
       ->type_name("N");
+  command
+      .add_option("--levels", levels,
+                  "Samples that become 0 and 255, e.g. 1489 5828 of a radiometric product (default: "
+                  "the whole range of the bit depth)")
+      ->expected(2)
+      ->check(CLI::Range(0, 65535))
+      ->type_name("BLACK WHITE");
 }
 
 void CaseArguments::addEndEffectorTo(CLI::App& command) {
@@ -86,6 +93,11 @@ sessions::CaseFiles CaseArguments::files() const {
   sessions::CaseFiles files;
   files.image = image;
   if (bit_depth > 0) files.eight_bit.bit_depth = bit_depth;
+  if (!levels.empty()) {
+    if (levels[0] >= levels[1])
+      throw CLI::ValidationError("--levels", "black must be below white");
+    files.eight_bit.levels = sessions::GrayLevels{levels[0], levels[1]};
+  }
   files.camera = camera;
   files.transforms.assign(frames.files.begin(), frames.files.end());
   files.parts.resize(1);

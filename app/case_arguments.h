@@ -18,6 +18,7 @@ struct CaseArguments {
   OptionArguments options;
   double feature_size_m = 0.0;
   int bit_depth = 0;
+  std::vector<int> levels;
   std::vector<double> uncertainty, end_effector_m, requirement;
   std::string pivot;
 

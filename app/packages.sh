@@ -12,7 +12,8 @@ boresight_packages=(
 
 # Other compilers, and an emulator for what one of them makes: the tests that need them are skipped,
 # visibly, where they are not.
-boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils doxygen)
+boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils doxygen
+  openssh-client)
 
 # missingPackages PACKAGE...: those that are not installed, one a line.
 missingPackages() {

@@ -22,7 +22,7 @@ void ProblemArguments::addTo(CLI::App& command) {
   addFile(command, "--dataset", dataset, "dataset.json with the case (replaces the files above)");
   command.add_option("--case", case_id, "Case of the dataset")->type_name("ID");
   for (const char* name : {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore",
-                           "--uncertainty", "--pivot", "--bit-depth"})
+                           "--uncertainty", "--pivot", "--bit-depth", "--levels"})
     command.get_option(name)->excludes("--dataset");
   command.get_option("--dataset")->needs("--case");
   command.get_option("--case")->needs("--dataset");

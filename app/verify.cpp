@@ -11,16 +11,17 @@ namespace {
 
 struct VerifyArguments {
   std::string file;
-  std::string folder;
+  std::string folder, signers;
   bool no_run = false;
   bool full = false;
 };
 
 int verify(const VerifyArguments& arguments) {
-  std::optional<std::filesystem::path> folder;
-  if (!arguments.folder.empty()) folder = arguments.folder;
+  sessions::VerifyPlaces places;
+  if (!arguments.folder.empty()) places.folder = arguments.folder;
+  if (!arguments.signers.empty()) places.signers = arguments.signers;
   const sessions::VerifyReport report =
-      sessions::verifyPose(arguments.file, !arguments.no_run, arguments.full, folder);
+      sessions::verifyPose(arguments.file, !arguments.no_run, arguments.full, places);
   for (const sessions::VerifyFinding& finding : report.findings)
     print((finding.good ? "good        " : "WRONG       ") + finding.what + ": " + finding.text);
   for (const std::string& text : report.not_proved) print("not proved  " + text);
@@ -46,6 +47,9 @@ void addVerify(CLI::App& app, int& exit_code) {
                    "by their hashes")
       ->check(CLI::ExistingDirectory)
       ->type_name("FOLDER");
+  addFile(*command, "--signers", arguments->signers,
+          "Allowed signers (ssh-keygen): those who decided must have signed the file with a key that "
+          "this lists for their names, in FILE.sig or FILE.*.sig");
   CLI::Option* no_run =
       command->add_flag("--no-run", arguments->no_run,
                         "Skip the localization; pose, covariance and checks are then not proved");

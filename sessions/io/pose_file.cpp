@@ -134,8 +134,27 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
   return pose;
 }
 
+namespace {
+
+PoseFile readValidatedPose(const JsonReader& json) {
+  PoseFile pose;
+  pose.camera_from_station =
+      readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
+  if (const auto covariance = json.find("covariance"))
+    pose.covariance = readCovariance(*covariance);
+  return pose;
+}
+
+}  // namespace
+
 PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
   const JsonDocument document(file);
+  const JsonReader root = document.root();
+  const auto format = root.isObject() ? root.find("format") : std::nullopt;
+  if (format && format->isText() && format->text() == kValidatedPoseFormat) {
+    root.requireFormat(kValidatedPoseFormat, 1);
+    return readValidatedPose(root.at("pose"));
+  }
   return document.read(kPoseFormat, kPoseVersion,
                        [&frames](const JsonReader& json) { return readPose(json, frames); });
 }

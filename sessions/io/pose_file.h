@@ -26,6 +26,9 @@ struct DeclaredUncertainty {
   bool operator==(const DeclaredUncertainty&) const = default;
 };
 
+/// Of a validated_pose.json, whose pose can be a seed or a truth.
+inline constexpr const char* kValidatedPoseFormat = "boresight-validated-pose";
+
 /// What a pose file (or a pose inside another file) states.
 struct PoseFile {
   Pose camera_from_station;
@@ -46,7 +49,8 @@ struct PoseFrames {
   std::vector<FrameTransform> transforms = {};
 };
 
-/// Reads pose.json (`boresight-pose`, version 1). `reference_from_station` may stand in place of
+/// Reads pose.json (`boresight-pose`, version 1), or the pose and its covariance of a
+/// validated_pose.json, which may state NOT VALIDATED. `reference_from_station` may stand in place of
 /// `camera_from_station`: in the camera model's frame, or in the one that `reference_frame`
 /// {name, index} names, which the transforms join to the camera model's or the camera's. A
 /// covariance or uncertainty is always stated in the camera frame. InputError.
