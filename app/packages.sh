@@ -7,7 +7,7 @@ boresight_packages=(
   libminizip-dev zlib1g-dev pkg-config libcairo2-dev libpango1.0-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev
   qtbase5-dev libvtk9-dev libvtk9-qt-dev libqwt-qt5-dev xvfb xauth libgl1-mesa-dri
-  help2man
+  help2man pybind11-dev python3-dev python3-numpy
 )
 
 # Other compilers, and an emulator for what one of them makes: the tests that need them are skipped,
