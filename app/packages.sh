@@ -13,7 +13,7 @@ boresight_packages=(
 # Other compilers, and an emulator for what one of them makes: the tests that need them are skipped,
 # visibly, where they are not.
 boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils doxygen
-  openssh-client)
+  openssh-client python3-matplotlib)
 
 # missingPackages PACKAGE...: those that are not installed, one a line.
 missingPackages() {

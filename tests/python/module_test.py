@@ -118,5 +118,23 @@ class Module(unittest.TestCase):
             self.assertEqual(again.digest, self.run_.digest)
 
 
+class Notebook(unittest.TestCase):
+    def test_notebook_draws_its_figure(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no matplotlib")
+        matplotlib.use("Agg")
+        notebook = Path(os.environ["NOTEBOOKS"]) / "error_strips.ipynb"
+        cells = json.loads(notebook.read_text())["cells"]
+        script = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code")
+        with tempfile.TemporaryDirectory() as place:
+            os.environ["RESULTS"] = str(Path(place) / "example.sqlite")
+            os.environ["DATASET"] = str(EXAMPLES / "dataset.json")
+            os.environ["PATH"] = str(Path(WHS).parent) + os.pathsep + os.environ["PATH"]
+            exec(compile(script, str(notebook), "exec"), {})
+            self.assertGreater((Path(place) / "example.png").stat().st_size, 10000)
+
+
 if __name__ == "__main__":
     unittest.main()
