@@ -70,6 +70,10 @@ struct ProblemCheck {
   const char* option = nullptr;              ///< name, or nullptr
 };
 
+/// Reads the output of writeOptions. kOption with the first option that is misplaced, of another
+/// kind or out of range.
+ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options);
+
 /// Writes a problem and its options to `out` and returns the number of bytes needed. `out` may be
 /// empty; when it is smaller than needed, its content is not valid. The image is not written, only
 /// its size as the camera's.
