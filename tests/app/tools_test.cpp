@@ -52,11 +52,17 @@ TEST(WhsOptions, TableForUplinkIsReadAsAConfiguration) {
   runWhs({"options", "--profile", "paper", "--set", "loop.max_iterations=7", "--table", table,
           "--dictionary", dictionary},
          0);
-  EXPECT_EQ(runWhs({"options", "--config", table}, 0).out,
-            runWhs({"options", "--profile", "paper", "--set", "loop.max_iterations=7"}, 0).out);
+  const auto ownOptions = [](const std::string& out) {
+    return out.substr(0, out.find("Options of the other methods"));
+  };
+  EXPECT_EQ(ownOptions(runWhs({"options", "--config", table}, 0).out),
+            ownOptions(runWhs({"options", "--profile", "paper", "--set", "loop.max_iterations=7"},
+                              0)
+                           .out));
   const auto json = nlohmann::json::parse(folder.read("dictionary.json"));
   std::size_t count = 0;
-  LocalizerOptions::visitFields(LocalizerOptions(), [&](const OptionInfo& info, const auto&) {
+  const LocalizerOptions options;
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto&) {
     EXPECT_EQ(json["parameters"][count++]["name"], info.name);
   });
   EXPECT_EQ(json["parameters"].size(), count);
