@@ -10,7 +10,10 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/json_reader.h"
+#include "sessions/run/run_text.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/session_file.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::app {
