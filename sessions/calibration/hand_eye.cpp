@@ -11,12 +11,12 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr double kLossSigmas = 3.0;
+constexpr double kArmLossSigmas = 3.0;
 constexpr double kRotationScale_rad = 0.1;
 constexpr double kTranslationScale_m = 0.1;
 
 /// The end effector by telemetry against the one that image and mounting say, in units of sigma.
-struct Residual {
+struct ArmResidual {
   const ArmPosture* posture;
   const Pose* camera_from_end_effector;
   const Pose* base_from_station;
@@ -67,11 +67,11 @@ HandEye calibrateHandEye(std::span<const ArmPosture> postures,
   std::array<double, 6> hand{};
   std::array<double, 6> base{};
   ceres::Problem problem;
-  using Cost = ceres::NumericDiffCostFunction<Residual, ceres::CENTRAL, 6, 6, 6>;
+  using Cost = ceres::NumericDiffCostFunction<ArmResidual, ceres::CENTRAL, 6, 6, 6>;
   for (const ArmPosture& posture : postures)
     problem.AddResidualBlock(
-        new Cost(new Residual{&posture, &camera_from_end_effector_start, &station_start}),
-        new ceres::CauchyLoss(kLossSigmas), hand.data(), base.data());
+        new Cost(new ArmResidual{&posture, &camera_from_end_effector_start, &station_start}),
+        new ceres::CauchyLoss(kArmLossSigmas), hand.data(), base.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 200;

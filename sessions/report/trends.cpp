@@ -113,12 +113,12 @@ void addSeries(std::span<const TrendPoint> points, const std::vector<std::size_t
 
 void drawStation(PdfCanvas& canvas, std::span<const TrendPoint> points, const std::string& station,
                  const std::vector<std::size_t>& members) {
-  constexpr double kMargin = 40.0;
+  constexpr double kPageMargin = 40.0;
   constexpr double kPlotHeight = 200.0;
-  canvas.text(kMargin, kMargin, PdfCanvas::kWidth - 2 * kMargin,
+  canvas.text(kPageMargin, kPageMargin, PdfCanvas::kWidth - 2 * kPageMargin,
               "Station " + station + ": " + std::to_string(members.size()) + " runs",
               {.size = 13.0, .bold = true});
-  double top = kMargin + 30.0;
+  double top = kPageMargin + 30.0;
   for (const auto& [title, first, count, unit] :
        {std::tuple("Correction to command", 0, 3, "mm"), std::tuple("", 3, 3, "mrad"),
         std::tuple("Residual of the last iteration", 6, 1, "px")}) {
@@ -129,7 +129,7 @@ void drawStation(PdfCanvas& canvas, std::span<const TrendPoint> points, const st
     plot.whole_x = true;
     for (int figure = first; figure < first + count; ++figure)
       addSeries(points, members, static_cast<std::size_t>(figure), plot);
-    drawPlot(canvas, {kMargin, top, PdfCanvas::kWidth - 2 * kMargin, kPlotHeight}, plot);
+    drawPlot(canvas, {kPageMargin, top, PdfCanvas::kWidth - 2 * kPageMargin, kPlotHeight}, plot);
     top += kPlotHeight + 20.0;
   }
 }
