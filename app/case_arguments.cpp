@@ -2,17 +2,37 @@
 #include "app/case_arguments.h"
 
 #include "sessions/io/camera_field.h"
+#include "sessions/io/errors.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_sheet.h"
 
 namespace boresight::app {
+namespace {
+
+/// CLI::ValidationError.
+sessions::Requirement requirementOf(const std::vector<double>& numbers) {
+  sessions::Requirement requirement;
+  if (numbers.size() == 2)
+    throw CLI::ValidationError("--requirement", "takes three numbers (mm, mm, deg), or one (px)");
+  if (numbers.size() == 1) {
+    requirement.projection_px = numbers[0];
+    return requirement;
+  }
+  requirement.normal_mm = numbers[0];
+  requirement.lateral_mm = numbers[1];
+  requirement.rotation_deg = numbers[2];
+  return requirement;
+}
+
+}  // namespace
 
 void CaseArguments::addTo(CLI::App& command) {
   addFile(command, "--image", image, "PNG, JPEG, TIFF, VICAR, PDS3 or PDS4");
   addFile(command, "--camera", camera, kOwnCameraHelp);
   addFile(command, "--mesh", mesh, kMeshHelp);
   addMeshUnit(command, mesh_unit, kMeshUnitHelp);
-  addFile(command, "--seed", seed, "pose.json with the approximate pose of the camera");
+  addFile(command, "--seed", seed, "pose.json with the approximate pose of the camera (default: as --frames joins "
+          "CAMERA and STATION)");
   frames.addTo(command);
   options.addTo(command);
   command
@@ -26,6 +46,30 @@ void CaseArguments::addTo(CLI::App& command) {
                   "Bit depth of the image's samples, e.g. 12 in a 16-bit file")
       ->check(CLI::Range(1, 16))
       ->type_name("N");
+  command
+      .add_option("--levels", levels,
+                  "Samples that become 0 and 255, e.g. 1489 5828 of a radiometric product (default: "
+                  "the whole range of the bit depth)")
+      ->expected(2)
+      ->check(CLI::Range(0, 65535))
+      ->type_name("BLACK WHITE");
+}
+
+void CaseArguments::addEndEffectorTo(CLI::App& command) {
+  command
+      .add_option("--end-effector", end_effector_m,
+                  "End effector in the camera frame (default: as --frames joins CAMERA and "
+                  "END_EFFECTOR)")
+      ->expected(3)
+      ->check(numberIn(-100.0, 100.0))
+      ->type_name("X Y Z M");
+  command
+      .add_option("--requirement", requirement,
+                  "Largest normal and lateral error (mm) and rotation (deg), or one number: px in "
+                  "the image")
+      ->expected(1, 3)
+      ->check(numberIn(1e-6, 1e6))
+      ->type_name("MM MM DEG");
 }
 
 void CaseArguments::addUncertaintyTo(CLI::App& command) {
@@ -42,10 +86,19 @@ CLI::Option* CaseArguments::addTruthTo(CLI::App& command) {
   return addFile(command, "--truth", truth, "pose.json with the true pose");
 }
 
+void CaseArguments::requireSeed() const {
+  if (seed.empty() && frames.files.empty()) throw CLI::RequiredError("--seed (or --frames)");
+}
+
 sessions::CaseFiles CaseArguments::files() const {
   sessions::CaseFiles files;
   files.image = image;
   if (bit_depth > 0) files.eight_bit.bit_depth = bit_depth;
+  if (!levels.empty()) {
+    if (levels[0] >= levels[1])
+      throw CLI::ValidationError("--levels", "black must be below white");
+    files.eight_bit.levels = sessions::GrayLevels{levels[0], levels[1]};
+  }
   files.camera = camera;
   files.transforms.assign(frames.files.begin(), frames.files.end());
   files.parts.resize(1);
@@ -56,6 +109,10 @@ sessions::CaseFiles CaseArguments::files() const {
   if (!ignore.empty()) files.ignore = ignore;
   if (feature_size_m > 0.0) files.feature_size_m = feature_size_m;
   if (!uncertainty.empty()) setUncertainty(uncertainty, files.uncertainty.emplace());
+  if (!end_effector_m.empty())
+    files.camera_from_end_effector.emplace().translation_m =
+        Eigen::Map<const Eigen::Vector3d>(end_effector_m.data());
+  if (!requirement.empty()) files.requirement = requirementOf(requirement);
   if (!pivot.empty())
     files.pivot = pivot == "station" ? sessions::UncertaintyPivot::kStation
                                      : sessions::UncertaintyPivot::kCamera;
@@ -82,6 +139,10 @@ ReadCase readCase(const CaseArguments& arguments) {
 void requireRunnable(const sessions::LoadedCase& loaded, const std::string& camera_file,
                      const std::string& seed_file) {
   const sessions::SessionCase& session_case = loaded.source;
+  if (!session_case.has_seed)
+    throw sessions::InputError(seed_file,
+                               "the transforms do not join CAMERA and STATION; add the missing one, "
+                               "or give a seed");
   sessions::requireSameSize(loaded.image, session_case.camera);
   sessions::requireField(camera_file, "distortion", session_case.camera);
   sessions::requireSensibleSeed(session_case.camera, loaded.scene,

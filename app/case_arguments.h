@@ -18,15 +18,23 @@ struct CaseArguments {
   OptionArguments options;
   double feature_size_m = 0.0;
   int bit_depth = 0;
-  std::vector<double> uncertainty;
+  std::vector<int> levels;
+  std::vector<double> uncertainty, end_effector_m, requirement;
   std::string pivot;
 
   /// Adds all options but --uncertainty, --pivot and --truth. None is required.
   void addTo(CLI::App& command);
   void addUncertaintyTo(CLI::App& command);
+  void addEndEffectorTo(CLI::App& command);
   CLI::Option* addTruthTo(CLI::App& command);
   /// The image itself where its label has the camera model.
   const std::string& cameraFile() const { return camera.empty() ? image : camera; }
+  /// The transforms where these join CAMERA and STATION.
+  const std::string& seedFile() const {
+    return seed.empty() && !frames.files.empty() ? frames.files.front() : seed;
+  }
+  /// CLI::RequiredError unless there is a seed, or transforms that may join CAMERA and STATION.
+  void requireSeed() const;
   /// CLI::ValidationError.
   sessions::CaseFiles files() const;
   /// The options of a run: --feature-size, else --set or --config, else the case's feature size.

@@ -16,9 +16,8 @@
 namespace boresight::app {
 
 void FrameArguments::addTo(CLI::App& command) {
-  addFile(command, "--transform", files,
-          "transform.json between the frame that a pose names and that of the camera "
-          "model; may be repeated");
+  addFile(command, "--frames,--transform", files,
+          "frames.json or transform.json: transforms between named frames; may be repeated");
 }
 
 sessions::PoseFrames FrameArguments::of(const sessions::CameraFile& camera) const {

@@ -219,11 +219,14 @@ Work workLeft(const EvaluateArguments& arguments, const std::vector<sessions::Pl
   return work;
 }
 
+/// Prints the rate of the runs made by this command.
 void runAll(EvaluateArguments& arguments, const sessions::Dataset& dataset, const Work& work,
             sessions::ResultsWriter& writer, const std::stop_token& stop) {
   std::size_t total = 0;
+  std::size_t done = 0;
   for (const auto& [method, runs] : work) total += runs.size();
   if (total == 0) return;
+  const auto began = std::chrono::steady_clock::now();
   writer.begin(batchRunOf(arguments));
   Progress progress(total);
   for (const auto& [method, runs] : work) {
@@ -233,10 +236,14 @@ void runAll(EvaluateArguments& arguments, const sessions::Dataset& dataset, cons
         [&](std::size_t, std::size_t, const sessions::RunResult& result) {
           writer.add(result);
           progress(result);
+          ++done;
         },
         stop);
   }
   if (!stop.stop_requested()) writer.end();
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;
+  print(std::to_string(done) + " runs in " + sessions::fixedText(passed.count(), 1) + " s, " +
+        sessions::fixedText(static_cast<double>(done) / passed.count(), 2) + " runs/s");
 }
 
 void writeLines(const std::string& file, const std::vector<sessions::RunResult>& results) {

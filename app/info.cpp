@@ -250,10 +250,48 @@ void describePoseFile(const path& file, const sessions::JsonReader& root) {
     describeCameraPose(sessions::readPose(file));
 }
 
+std::string sigmaText(const Matrix6d& covariance) {
+  const Vector6d sigma = 1e3 * sessions::sigmasOf(covariance);
+  std::string text = "1 sigma";
+  for (const auto& [first, unit] : {std::pair(3, "mm"), std::pair(0, "mrad")}) {
+    for (int axis = first; axis < first + 3; ++axis) text += " " + sessions::fixedText(sigma[axis], 3);
+    text += std::string(" ") + unit + (first == 3 ? "," : "");
+  }
+  return text;
+}
+
 void describeTransform(const sessions::FrameTransform& transform) {
-  line("from " + frameText(transform.source) + " to " + frameText(transform.target) + ": " +
-       transform.comment);
+  std::string text = "from " + frameText(transform.source) + " to " + frameText(transform.target) +
+                     ": " + transform.comment;
+  if (transform.origin != sessions::TransformSource::kUnstated)
+    text += std::string(" (") +
+            sessions::kTransformSourceNames[static_cast<std::size_t>(transform.origin)] + ")";
+  line(text);
   printPose(transform.target_from_source, "target_from_source");
+  if (transform.covariance) line("  " + sigmaText(*transform.covariance) + ", target frame");
+}
+
+/// What each frame is from the first one, with each transform's share of the covariance.
+void describeChains(const sessions::FrameTree& tree) {
+  const std::vector<sessions::FrameName> frames = tree.frames();
+  const bool camera = std::find(frames.begin(), frames.end(), sessions::kCameraFrame) != frames.end();
+  const sessions::FrameName& first = camera ? sessions::kCameraFrame : frames.front();
+  for (const sessions::FrameName& frame : frames) {
+    const auto chain = tree.chain(first, frame);
+    if (!chain || chain->links.empty()) continue;
+    line(chain->path());
+    printPose(chain->a_from_b, "first_from_last");
+    if (!chain->covariance_stated) continue;
+    for (const sessions::FrameLink& link : chain->links)
+      line("  " + sigmaText(link.contribution) + " by " + link.transform->comment);
+    line("  " + sigmaText(chain->covariance) + " in all, in " + frameText(first));
+  }
+}
+
+void describeFrames(const path& file) {
+  const auto transforms = sessions::readFrameTransforms(file);
+  for (const sessions::FrameTransform& transform : transforms) describeTransform(transform);
+  if (transforms.size() > 1) describeChains(sessions::FrameTree(transforms));
 }
 
 /// validated_pose.json: what it states; `whs verify` asks whether that is so.
@@ -262,12 +300,11 @@ void describeValidatedPose(const sessions::JsonReader& root) {
   printPose(sessions::readTransform(root.at("pose").at("camera_from_station")),
             "camera_from_station");
   if (const auto frames = root.find("frames"))
-    for (const char* name : {"camera_model", "station"})
-      if (const auto frame = frames->find(name)) {
-        line("in " + frame->at("frame").text());
-        printPose(sessions::readTransform(frame->at("reference_from_station")),
-                  "reference_from_station");
-      }
+    for (const auto& [name, frame] : frames->members()) {
+      line("in " + name);
+      printPose(sessions::readTransform(frame.at("reference_from_station")),
+                "reference_from_station");
+    }
   line("whs verify checks it against its signature and its inputs");
 }
 
@@ -290,8 +327,8 @@ void describeJson(const path& file) {
     describeCamera(sessions::readCameraFile(file));
   } else if (format == "boresight-pose") {
     describePoseFile(file, document.root());
-  } else if (format == "boresight-transform") {
-    describeTransform(sessions::readFrameTransform(file));
+  } else if (format == "boresight-transform" || format == "boresight-frames") {
+    describeFrames(file);
   } else if (format == "boresight-dataset") {
     describeDataset(sessions::readDataset(file));
   } else if (format == "boresight-points") {

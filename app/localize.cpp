@@ -7,6 +7,7 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/image_file.h"
 #include "sessions/report/result_file.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "sessions/review/review_subject.h"
 #include "sessions/run/acceptance.h"
 #include "sessions/run/image_quality.h"
@@ -34,7 +35,8 @@ void LocalizeArguments::addTo(CLI::App& command) {
   CaseArguments::addTo(command);
   addUncertaintyTo(command);
   addTruthTo(command);
-  for (const char* name : {"--image", "--mesh", "--seed"}) command.get_option(name)->required();
+  addEndEffectorTo(command);
+  for (const char* name : {"--image", "--mesh"}) command.get_option(name)->required();
   method.addTo(command, false);
   addThreads(command, threads);
   addKernels(command, kernels);
@@ -57,7 +59,7 @@ sessions::RunProvenance provenance(const LocalizeArguments& arguments, const Rea
     run_provenance.changed_options.push_back(std::move(option));
   run_provenance.loaded = input.loaded.get();
   run_provenance.camera_file = arguments.cameraFile();
-  run_provenance.seed_file = arguments.seed;
+  run_provenance.seed_file = arguments.seedFile();
   run_provenance.truth_file = arguments.truth;
   run_provenance.config_file = arguments.options.config;
   run_provenance.warnings = input.notes;
@@ -83,19 +85,32 @@ void writeOverlay(const std::string& file, const sessions::LoadedCase& loaded,
 }
 
 /// The pose in the frames that have names.
-void printNamedPoses(const sessions::SessionCase& session_case, const Pose& camera_from_station) {
-  for (const sessions::NamedPose& pose : sessions::namedPoses(
-           session_case.camera_reference, session_case.station_frame, camera_from_station))
+void printNamedPoses(const sessions::SessionCase& session_case, const Pose& camera_from_station,
+                     const Matrix6d& covariance) {
+  for (const sessions::NamedPose& pose :
+       sessions::namedPoses(session_case, camera_from_station, covariance))
     std::cout << "\n"
-              << sessions::poseText(pose.reference_from_station, Matrix6d::Zero(),
+              << sessions::poseText(pose.reference_from_station, *pose.covariance,
                                     sessions::namedPoseTitle(pose));
 }
 
-void printResult(const sessions::LocalizationTrace& trace,
-                 const sessions::SessionCase& session_case,
+/// Of a case with an end effector, in the frame that is named last.
+void printCorrection(const sessions::LoadedCase& loaded, const sessions::LocalizationTrace& trace) {
+  const sessions::SessionCase& session_case = loaded.source;
+  if (!session_case.camera_from_end_effector) return;
+  const Pose& pose = trace.camera_from_station;
+  const Matrix6d covariance =
+      sessions::poseCovariance(session_case, loaded.scene.view(), pose, trace.covariance).total();
+  for (const sessions::Correction& correction :
+       sessions::correctionsOf(session_case, pose, covariance))
+    std::cout << "\n" << sessions::correctionText(correction);
+}
+
+void printResult(const sessions::LocalizationTrace& trace, const sessions::LoadedCase& loaded,
                  const std::optional<sessions::ImageQuality>& quality,
                  const std::optional<sessions::PoseError>& error) {
   using sessions::fixedText;
+  const sessions::SessionCase& session_case = loaded.source;
   std::cout << sessions::iterationTable(trace) << "\n";
   std::cout << "image at the seed: " << sessions::imageQualityText(quality) << "\n";
   if (trace.converged()) {
@@ -106,7 +121,8 @@ void printResult(const sessions::LocalizationTrace& trace,
               << sessions::poseText(trace.camera_from_station, trace.covariance)
               << "(from the image only; errors of the mesh's scale and of the calibration are not "
                  "included)\n";
-    printNamedPoses(session_case, trace.camera_from_station);
+    printNamedPoses(session_case, trace.camera_from_station, trace.covariance);
+    printCorrection(loaded, trace);
   } else {
     std::cout << "not converged: " << localizationStatusText(trace.status)
               << "; the best estimate remains the seed\n";
@@ -146,13 +162,14 @@ void writeRecord(const std::string& file, const RecordWriter& record) {
 int localizeImage(const LocalizeArguments& arguments) {
   if (!arguments.record.empty() && arguments.method.needsSetup())
     throw CLI::ValidationError("--record", "onboard records exist only for --method whs");
+  arguments.requireSeed();
   const ReadCase input = readCase(arguments);
   const sessions::LoadedCase& loaded = *input.loaded;
   const LocalizerOptions options = arguments.optionsOf(loaded.source);
   for (const std::string& file :
        {arguments.out, arguments.trace, arguments.record, arguments.overlay})
     if (!file.empty()) sessions::requireWritable(file);
-  requireRunnable(loaded, arguments.cameraFile(), arguments.seed);
+  requireRunnable(loaded, arguments.cameraFile(), arguments.seedFile());
   for (const std::string& line : input.notes) note(line);
   sessions::RunSettings settings;
   settings.level =
@@ -170,9 +187,9 @@ int localizeImage(const LocalizeArguments& arguments) {
   sessions::requireAccepted(trace, {{arguments.image, ""},
                                     {arguments.cameraFile(), ""},
                                     {arguments.mesh, ""},
-                                    {arguments.seed, ""}});
+                                    {arguments.seedFile(), ""}});
   const auto error = sessions::truthError(loaded, trace.camera_from_station);
-  printResult(trace, loaded.source, sessions::imageQualityOf(loaded.problem()), error);
+  printResult(trace, loaded, sessions::imageQualityOf(loaded.problem()), error);
   if (settings.memory_limit > 0) std::cout << "\n" << sessions::memoryTable(trace) << std::flush;
   if (!arguments.out.empty())
     sessions::writeResult(arguments.out, trace, error, provenance(arguments, input, options));

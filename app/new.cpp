@@ -36,6 +36,7 @@ void NewArguments::addTo(CLI::App& command) {
       ->excludes(from_dataset);
   CaseArguments::addTo(command);
   addTruthTo(command);
+  addEndEffectorTo(command);
   command.add_option("--id", id, "Name of the case (default: the image's)");
   command
       .add_option("--mesh-scale-sigma", mesh_scale_sigma,
@@ -44,8 +45,8 @@ void NewArguments::addTo(CLI::App& command) {
       ->type_name("S");
   CLI::Option* from_image = command.get_option("--image")->excludes(from_dataset);
   for (const char* name :
-       {"--camera", "--transform", "--mesh", "--mesh-unit", "--seed", "--truth", "--ignore", "--id",
-        "--bit-depth", "--feature-size", "--mesh-scale-sigma"})
+       {"--camera", "--frames", "--mesh", "--mesh-unit", "--seed", "--truth", "--ignore", "--id",
+        "--bit-depth", "--levels", "--feature-size", "--mesh-scale-sigma", "--end-effector", "--requirement"})
     command.get_option(name)->needs(from_image);
   addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
   dataset.addTo(command);

@@ -2,9 +2,14 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "app/commands.h"
 #include "app/written_pages.h"
+#include "core/localizer/parameter_table.h"
 #include "sessions/baselines/methods.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/json_writer.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/text/text_table.h"
 
@@ -77,8 +82,43 @@ void printList(const std::vector<OptionDescription>& options) {
   }
 }
 
-int printOptions(const std::string& profile) {
-  printList(sessions::listOptions(profileOptions(profile)));
+struct OptionsArguments {
+  OptionArguments options;
+  std::string table, dictionary;
+};
+
+void writeTable(const std::string& file, const LocalizerOptions& options) {
+  std::vector<std::uint8_t> bytes(encodeParameters(options, {}));
+  (void)encodeParameters(options, bytes);
+  sessions::writeFileAtomically(file, bytes);
+}
+
+/// Name, kind, unit, range, meaning and default of every option, in the order of the table.
+void writeDictionary(const std::string& file) {
+  static const char* const kKinds[] = {"boolean", "integer", "real", "choice"};
+  nlohmann::ordered_json json = {{"format", "boresight-parameter-dictionary"},
+                                 {"version", kParameterVersion}};
+  json["parameters"] = nlohmann::ordered_json::array();
+  for (const OptionDescription& option : sessions::listOptions(LocalizerOptions())) {
+    nlohmann::ordered_json entry = {{"name", option.name},
+                                    {"kind", kKinds[static_cast<int>(option.kind)]},
+                                    {"default", sessions::valueText(option, option.value)},
+                                    {"meaning", option.help}};
+    if (!option.unit.empty()) entry["unit"] = option.unit;
+    if (option.kind == OptionKind::kChoice) entry["choices"] = option.choices;
+    if (option.kind == OptionKind::kInteger || option.kind == OptionKind::kReal)
+      entry["range"] = {option.minimum, option.maximum};
+    json["parameters"].push_back(std::move(entry));
+  }
+  sessions::writeJsonFile(file, json);
+}
+
+int printOptions(const OptionsArguments& arguments) {
+  if (!arguments.table.empty()) writeTable(arguments.table, arguments.options.read());
+  if (!arguments.dictionary.empty()) writeDictionary(arguments.dictionary);
+  if (!arguments.table.empty() || !arguments.dictionary.empty()) return kDone;
+  const std::string profile = arguments.options.profileName();
+  printList(sessions::listOptions(arguments.options.read()));
   std::cout << "\nOptions of the other methods (" << sessions::methodNames() << "):\n";
   printList(sessions::listOptions(methodProfile(profile)));
   return kDone;
@@ -123,13 +163,17 @@ std::string commandsPage(const CLI::App& app) {
 }  // namespace
 
 void addOptions(CLI::App& app, int& exit_code) {
-  const auto [command, profile] =
+  const auto [command, arguments] =
       addCommand(app, exit_code, "options",
-                 "Lists every option of a run: value in a profile, range, meaning", printOptions);
-  *profile = "default";
-  command->add_option("--profile", *profile, "default or paper")
-      ->check(CLI::IsMember({"default", "paper"}))
-      ->capture_default_str();
+                 "Lists every option of a run: value, range, meaning; or writes them as a table for "
+                 "uplink",
+                 printOptions);
+  arguments->options.addTo(*command);
+  addFile(*command, "--table", arguments->table,
+          "Writes the options as a binary table with a checksum, which --config and the flight "
+          "driver read");
+  addFile(*command, "--dictionary", arguments->dictionary,
+          "Writes what the table's parameters mean, as JSON");
 }
 
 /// Writes the manual's pages of commands and options, for the build: hidden from the help.

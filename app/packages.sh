@@ -3,16 +3,17 @@
 
 boresight_packages=(
   build-essential cmake ninja-build ccache
-  libeigen3-dev libopencv-dev libassimp-dev libgdal-dev nlohmann-json3-dev libsqlite3-dev libcli11-dev
+  libeigen3-dev libopencv-dev libassimp-dev libgdal-dev nlohmann-json3-dev libsqlite3-dev libceres-dev libcli11-dev
   libminizip-dev zlib1g-dev pkg-config libcairo2-dev libpango1.0-dev fonts-dejavu-core
   libgtest-dev libgmock-dev libbenchmark-dev
   qtbase5-dev libvtk9-dev libvtk9-qt-dev libqwt-qt5-dev xvfb xauth libgl1-mesa-dri
-  help2man
+  help2man pybind11-dev python3-dev python3-numpy
 )
 
 # Other compilers, and an emulator for what one of them makes: the tests that need them are skipped,
 # visibly, where they are not.
-boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils doxygen)
+boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils doxygen
+  openssh-client python3-matplotlib)
 
 # missingPackages PACKAGE...: those that are not installed, one a line.
 missingPackages() {

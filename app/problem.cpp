@@ -22,7 +22,7 @@ void ProblemArguments::addTo(CLI::App& command) {
   addFile(command, "--dataset", dataset, "dataset.json with the case (replaces the files above)");
   command.add_option("--case", case_id, "Case of the dataset")->type_name("ID");
   for (const char* name : {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore",
-                           "--uncertainty", "--pivot", "--bit-depth"})
+                           "--uncertainty", "--pivot", "--bit-depth", "--levels"})
     command.get_option(name)->excludes("--dataset");
   command.get_option("--dataset")->needs("--case");
   command.get_option("--case")->needs("--dataset");
@@ -43,7 +43,7 @@ void requireFilesNamed(const ProblemArguments& arguments) {
   if (arguments.camera.empty() && !sessions::hasImageLabel(arguments.image))
     throw CLI::RequiredError("--camera");
   if (arguments.mesh.empty()) throw CLI::RequiredError("--mesh");
-  if (arguments.seed.empty()) throw CLI::RequiredError("--seed");
+  arguments.requireSeed();
 }
 
 std::string pgmOf(const sessions::GrayImage& image) {
@@ -63,7 +63,7 @@ int writeProblem(const ProblemArguments& arguments) {
   if (from_dataset)
     requireRunnable(loaded, arguments.dataset, arguments.dataset);
   else
-    requireRunnable(loaded, arguments.cameraFile(), arguments.seed);
+    requireRunnable(loaded, arguments.cameraFile(), arguments.seedFile());
   for (const std::string& line : input.notes) note(line);
   const LocalizationProblem problem = loaded.problem();
   const LocalizerOptions options = arguments.optionsOf(loaded.source);

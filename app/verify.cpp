@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <optional>
+
 #include "app/commands.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/validated_pose_file.h"
@@ -9,13 +11,17 @@ namespace {
 
 struct VerifyArguments {
   std::string file;
+  std::string folder, signers;
   bool no_run = false;
   bool full = false;
 };
 
 int verify(const VerifyArguments& arguments) {
+  sessions::VerifyPlaces places;
+  if (!arguments.folder.empty()) places.folder = arguments.folder;
+  if (!arguments.signers.empty()) places.signers = arguments.signers;
   const sessions::VerifyReport report =
-      sessions::verifyPose(arguments.file, !arguments.no_run, arguments.full);
+      sessions::verifyPose(arguments.file, !arguments.no_run, arguments.full, places);
   for (const sessions::VerifyFinding& finding : report.findings)
     print((finding.good ? "good        " : "WRONG       ") + finding.what + ": " + finding.text);
   for (const std::string& text : report.not_proved) print("not proved  " + text);
@@ -35,6 +41,15 @@ void addVerify(CLI::App& app, int& exit_code) {
       "check was waived. Exit status: 0 all measured values agree, 6 they do not",
       verify);
   addFile(*command, "file", arguments->file, "validated_pose.json")->required();
+  command
+      ->add_option("--folder", arguments->folder,
+                   "Look below this folder for files that are not where the document names them, "
+                   "by their hashes")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("FOLDER");
+  addFile(*command, "--signers", arguments->signers,
+          "Allowed signers (ssh-keygen): those who decided must have signed the file with a key that "
+          "this lists for their names, in FILE.sig or FILE.*.sig");
   CLI::Option* no_run =
       command->add_flag("--no-run", arguments->no_run,
                         "Skip the localization; pose, covariance and checks are then not proved");

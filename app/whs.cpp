@@ -103,7 +103,8 @@ int run(int argc, char** argv) {
        {addLocalize, addEvaluate, addMerge,  addTables,  addCompare, addCheck,
         addDecide,   addVerify,   addViews,  addReport,  addQueue,   addSolve,
         addRender,   addCamera,   addInfo,   addOptions, addNew,     addRun,
-        addPack,     addExport,   addImport, addProblem, addBench,   addDocuments})
+        addPack,     addExport,   addImport, addProblem, addBench,   addDocuments, addTrends,
+        addCalibrate})
     add(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);

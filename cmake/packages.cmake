@@ -17,6 +17,9 @@ set(CPACK_COMPONENTS_ALL core)
 if(BORESIGHT_BUILD_SESSIONS)
   list(APPEND CPACK_COMPONENTS_ALL programs)
 endif()
+if(TARGET boresight_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -37,6 +40,15 @@ Boresight finds out where a camera is relative to a known object from one
 image, a coarse mesh and a rough guess, by rendering the salient edges of the
 object and finding them in the image. This package has the program without a
 window (whs), the desktop program (boresight) and examples.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-boresight)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy, fonts-dejavu-core")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+  "localizes a camera before a known object: the Python module
+Boresight as a Python module: cases, runs with every intermediate as an array,
+poses from points, checks, results.")
 
 set(CPACK_DEBIAN_CORE_PACKAGE_NAME libboresight-core-dev)
 set(CPACK_DEBIAN_CORE_PACKAGE_SECTION libdevel)

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/localizer/localizer.h"
+#include "core/localizer/parameter_table.h"
 #include "core/localizer/problem_bytes.h"
 
 namespace boresight::flight {
@@ -171,7 +172,24 @@ int localize(const LocalizationProblem& problem, const LocalizerOptions& options
   return printResult(localizer, kArenaBytes - memory.size());
 }
 
-int run(const char* problem_file, const char* image_file) {
+/// Replaces the problem's options by those of a table that was sent up; `memory` is overwritten.
+Fault readParameters(const char* file, std::span<std::byte> memory, LocalizerOptions& options) {
+  Fault wrong;
+  std::FILE* stream = openFile(file, wrong);
+  if (stream == nullptr) return wrong;
+  const long size = sizeOfFile(stream);
+  const auto count = static_cast<std::size_t>(size);
+  ProblemCheck check{ProblemFault::kSize, nullptr};
+  if (size >= 0 && count <= memory.size() &&
+      std::fread(memory.data(), 1, count, stream) == count)
+    check = decodeParameters({reinterpret_cast<const std::uint8_t*>(memory.data()), count}, options);
+  std::fclose(stream);
+  if (check.fault == ProblemFault::kNone) return {};
+  if (check.fault == ProblemFault::kNotAProblem) return {"not a parameter table"};
+  return {problemFaultText(check.fault), check.option};
+}
+
+int run(const char* problem_file, const char* image_file, const char* parameter_file) {
   const std::span<std::byte> block(arena_block);
   Fault wrong;
   std::FILE* problem_stream = openFile(problem_file, wrong);
@@ -189,16 +207,21 @@ int run(const char* problem_file, const char* image_file) {
   wrong = readImage(image_stream, arena, problem);
   std::fclose(image_stream);
   if (wrong.reason != nullptr) return refuse(image_file, wrong);
-  return localize(problem, options, block.subspan(used + arena.used()), problem_file);
+  const std::span<std::byte> memory = block.subspan(used + arena.used());
+  if (parameter_file != nullptr) wrong = readParameters(parameter_file, memory, options);
+  if (wrong.reason != nullptr) return refuse(parameter_file, wrong);
+  return localize(problem, options, memory, problem_file);
 }
 
 }  // namespace
 }  // namespace boresight::flight
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: flight_driver PROBLEM.bin IMAGE.pgm (see whs problem --help)\n");
+  if (argc != 3 && argc != 4) {
+    std::fprintf(stderr,
+                 "usage: flight_driver PROBLEM.bin IMAGE.pgm [PARAMETERS.bin] (see whs problem "
+                 "--help, whs options --help)\n");
     return boresight::flight::kUsage;
   }
-  return boresight::flight::run(argv[1], argv[2]);
+  return boresight::flight::run(argv[1], argv[2], argc == 4 ? argv[3] : nullptr);
 }

@@ -13,7 +13,8 @@ namespace {
 bool holdsForWholeRun(std::string_view name) {
   constexpr std::string_view kNames[] = {"templates.count",        "refinement.enabled",
                                          "refinement.max_samples", "loop.coarse_size_px",
-                                         "loop.halved_size_px",    "loop.max_rolled_hypotheses"};
+                                         "loop.halved_size_px",    "loop.max_rolled_hypotheses",
+                                         "loop.correction_point"};
   return name.starts_with("edges.") || name.starts_with("render.") || name.starts_with("search.") ||
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
@@ -47,9 +48,11 @@ const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOpti
   return fixed;
 }
 
-LocalizationProblem withoutUnusedColor(LocalizationProblem problem,
-                                       const LocalizerOptions& options) {
+LocalizationProblem withoutUnusedInputs(LocalizationProblem problem,
+                                        const LocalizerOptions& options) {
   if (!options.search.enabled || !options.search.color) problem.color = {};
+  if (options.loop.correction_point != CorrectionPoint::kEndEffector)
+    problem.end_effector_in_camera_m.setZero();
   return problem;
 }
 

@@ -17,8 +17,8 @@
 
 namespace boresight {
 
-enum class CorrectionPoint : std::int32_t { kCamera = 0, kStation = 1 };
-inline constexpr const char* kCorrectionPointNames[] = {"camera", "station"};
+enum class CorrectionPoint : std::int32_t { kCamera = 0, kStation = 1, kEndEffector = 2 };
+inline constexpr const char* kCorrectionPointNames[] = {"camera", "station", "end_effector"};
 
 /// Options of the loop around the stages (Pham 2025, Sec. III-A).
 struct LoopOptions {
@@ -86,8 +86,9 @@ struct LoopOptions {
     visit(OptionInfo{"loop.shrink_iterations", "", 0, 10,
                      "Iterations that shrink threshold and uncertainty."},
           self.shrink_iterations);
-    visit(OptionInfo{"loop.correction_point", "", 0, 1,
-                     "Where corrections are measured: at the camera's centre or at the station's.",
+    visit(OptionInfo{"loop.correction_point", "", 0, 2,
+                     "Where corrections are measured: at the camera's centre, the station's, or the "
+                     "end effector.",
                      kCorrectionPointNames},
           self.correction_point);
     visit(OptionInfo{"loop.converged_translation_m", "m", 0.0, 1.0,
@@ -158,9 +159,9 @@ struct OptionValues {
   }
 };
 
-/// The problem without the colour of its image when the run does not use colour.
-LocalizationProblem withoutUnusedColor(LocalizationProblem problem,
-                                       const LocalizerOptions& options);
+/// The problem without colour and end effector when the run does not use them.
+LocalizationProblem withoutUnusedInputs(LocalizationProblem problem,
+                                        const LocalizerOptions& options);
 
 bool sameOptions(const LocalizerOptions& first, const LocalizerOptions& second);
 /// The first option in which `after` differs from `before` and that holds for a whole run, or

@@ -13,6 +13,9 @@ namespace {
 
 Status validateProblem(const LocalizationProblem& problem, const LocalizerOptions& options) {
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
+  if (options.loop.correction_point == CorrectionPoint::kEndEffector &&
+      problem.end_effector_in_camera_m.isZero(0.0))
+    return Status::kInvalidOption;  // no end effector is known
   if (problem.image.data == nullptr || problem.image.width != problem.camera.width ||
       problem.image.height != problem.camera.height) {
     return Status::kInvalidImage;
@@ -24,6 +27,7 @@ Status validateProblem(const LocalizationProblem& problem, const LocalizerOption
   if (!(problem.camera.valid_radius > 0.0)) return Status::kInvalidCamera;  // not prepared
   if (!isUsable(PosePrior{problem.camera_from_station_seed, problem.uncertainty}))
     return Status::kInvalidPose;
+  if (!problem.end_effector_in_camera_m.allFinite()) return Status::kInvalidPose;
   return validateMesh(problem.mesh);
 }
 
@@ -31,7 +35,7 @@ Status validateProblem(const LocalizationProblem& problem, const LocalizerOption
 
 Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& options,
                     std::span<std::byte> block, int workers, Kernels kernels) {
-  problem_ = withoutUnusedColor(problem, options);
+  problem_ = problem;
   options_ = options;
   workspace_ = {};
   workspace_.camera_from_station = problem.camera_from_station_seed;
@@ -44,8 +48,9 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
   if (laid_out != Status::kOk) return laid_out;
   levels_ = levelsOf(sizeOf(problem_), options_);
   scene_ = matchedBounds(problem_.mesh);
+  const LocalizationProblem used = withoutUnusedInputs(problem, options);
   searched_ = {problem_.image,
-               problem_.color,
+               used.color,
                problem_.ignore,
                problem_.camera,
                problem_.mesh,
@@ -53,7 +58,7 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
                problem_.camera_from_station_seed,
                problem_.uncertainty};
   digestOptions(options_, digest_);
-  digestProblem(problem_, digest_);
+  digestProblem(used, digest_);
   if (match_outside_) matchOutside(surfaces_);
   return Status::kOk;
 }

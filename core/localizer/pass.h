@@ -100,7 +100,9 @@ class Pass {
               const Matrix6d& covariance);
 
   /// Context for the policies.
-  RunContext context() const { return {options_, problem_.camera, scene_, levels_}; }
+  RunContext context() const { 
+    return {options_, problem_.camera, scene_, levels_, problem_.end_effector_in_camera_m};
+   }
   /// The problem of the run.
   const LocalizationProblem& problem() const { return problem_; }
   /// The options of the run.

@@ -84,6 +84,7 @@ struct RunContext {
   const Camera& camera;             ///< of the full image
   const BoundingBox& scene;         ///< of the matched parts, station frame
   RunLevels levels;                 ///< of the image pyramid
+  const Eigen::Vector3d& end_effector_in_camera_m;  ///< of the problem
 };
 
 }  // namespace boresight

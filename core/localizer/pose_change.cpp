@@ -16,10 +16,17 @@ Vector6d limitsOf(const SeedUncertainty& uncertainty) {
 
 }  // namespace
 
-double translationBetween_m(const Pose& before, const Pose& after, const BoundingBox& scene,
-                            CorrectionPoint point) {
-  if (point == CorrectionPoint::kStation)
-    return (after * scene.centre() - before * scene.centre()).norm();
+double translationBetween_m(const Pose& before, const Pose& after, const RunContext& run) {
+  switch (run.options.loop.correction_point) {
+    case CorrectionPoint::kStation:
+      return (after * run.scene.centre() - before * run.scene.centre()).norm();
+    case CorrectionPoint::kEndEffector:
+      return (after.inverse() * run.end_effector_in_camera_m -
+              before.inverse() * run.end_effector_in_camera_m)
+          .norm();
+    case CorrectionPoint::kCamera:
+      break;
+  }
   return (after.inverse().translation_m - before.inverse().translation_m).norm();
 }
 
@@ -81,8 +88,7 @@ Pose pulledBack(const Seed& seed, const Pose& camera_from_station) {
 
 void measureCorrection(const Pose& before, const Pose& after, const RunContext& run,
                        Iteration& iteration) {
-  iteration.correction_translation_m =
-      translationBetween_m(before, after, run.scene, run.options.loop.correction_point);
+  iteration.correction_translation_m = translationBetween_m(before, after, run);
   iteration.correction_image_px = displacementBetween_px(before, after, run.scene, run.camera);
   iteration.correction_rotation_rad = rotationBetween_rad(before, after);
 }

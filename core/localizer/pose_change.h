@@ -11,10 +11,9 @@
 // Distances between two poses for the convergence test.
 namespace boresight {
 
-/// Distance between the poses: of the camera's centre in the station's frame, or of the scene's
-/// middle in the camera's.
-double translationBetween_m(const Pose& before, const Pose& after, const BoundingBox& scene,
-                            CorrectionPoint point);
+/// Distance between the poses at loop.correction_point: of the camera's centre or the end effector
+/// in the station frame, or of the scene's middle in the camera frame.
+double translationBetween_m(const Pose& before, const Pose& after, const RunContext& run);
 /// Angle between the poses, [0, pi].
 double rotationBetween_rad(const Pose& before, const Pose& after);
 /// Mean displacement of the corners of the scene's box in the image; 1e6 when none is seen from

@@ -62,6 +62,7 @@ void writeSeed(const LocalizationProblem& problem, ByteWriter& writer) {
   writeVector(problem.uncertainty.translation_m, writer);
   writeVector(problem.uncertainty.rotation_rad, writer);
   writeVector(problem.uncertainty.pivot_in_camera_m, writer);
+  writeVector(problem.end_effector_in_camera_m, writer);
 }
 
 void writeMesh(const MeshView& mesh, ByteWriter& writer) {
@@ -127,29 +128,6 @@ bool readOption(OptionKind kind, std::uint64_t bits, Field& field) {
   }
 }
 
-/// kOption with the first option that is misplaced, of another kind or out of range.
-ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options) {
-  ProblemCheck check;
-  std::uint32_t left = reader.u32();
-  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
-    if (check.fault != ProblemFault::kNone) return;
-    const std::size_t length = left > 0 ? reader.u8() : 0;
-    const std::span<const std::uint8_t> name = reader.take(length);
-    const auto kind = static_cast<OptionKind>(reader.u8());
-    const std::uint64_t bits = reader.u64();
-    if (left == 0 || reader.failed() || bytesAsText(name) != info.name ||
-        !readOption(kind, bits, field)) {
-      check = {ProblemFault::kOption, info.name};
-    }
-    --left;
-  });
-  if (check.fault != ProblemFault::kNone) return check;
-  if (left > 0) return {ProblemFault::kOption, nullptr};  // more options than exist
-  const char* invalid = firstInvalidOption(options);
-  if (invalid != nullptr) return {ProblemFault::kOption, invalid};
-  return check;
-}
-
 Eigen::Vector3d readVector(ByteReader& reader) {
   Eigen::Vector3d vector;
   for (int i = 0; i < 3; ++i) vector[i] = reader.f64();
@@ -191,8 +169,12 @@ ProblemFault readSeed(ByteReader& reader, LocalizationProblem& problem) {
   problem.uncertainty.translation_m = readVector(reader);
   problem.uncertainty.rotation_rad = readVector(reader);
   problem.uncertainty.pivot_in_camera_m = readVector(reader);
+  problem.end_effector_in_camera_m = readVector(reader);
   if (reader.failed()) return ProblemFault::kContent;
-  return isUsable(PosePrior{seed, problem.uncertainty}) ? ProblemFault::kNone : ProblemFault::kPose;
+  return isUsable(PosePrior{seed, problem.uncertainty}) &&
+                 problem.end_effector_in_camera_m.allFinite()
+             ? ProblemFault::kNone
+             : ProblemFault::kPose;
 }
 
 /// Room for a counted list whose elements take `bytes_each` in the file; its length comes first.
@@ -359,6 +341,28 @@ const char* problemFaultText(ProblemFault fault) {
       return "mesh and mask do not fit into memory; use a coarser mesh";
   }
   return "unknown";
+}
+
+ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options) {
+  ProblemCheck check;
+  std::uint32_t left = reader.u32();
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
+    if (check.fault != ProblemFault::kNone) return;
+    const std::size_t length = left > 0 ? reader.u8() : 0;
+    const std::span<const std::uint8_t> name = reader.take(length);
+    const auto kind = static_cast<OptionKind>(reader.u8());
+    const std::uint64_t bits = reader.u64();
+    if (left == 0 || reader.failed() || bytesAsText(name) != info.name ||
+        !readOption(kind, bits, field)) {
+      check = {ProblemFault::kOption, info.name};
+    }
+    --left;
+  });
+  if (check.fault != ProblemFault::kNone) return check;
+  if (left > 0) return {ProblemFault::kOption, nullptr};  // more options than exist
+  const char* invalid = firstInvalidOption(options);
+  if (invalid != nullptr) return {ProblemFault::kOption, invalid};
+  return check;
 }
 
 std::size_t encodeProblem(const LocalizationProblem& problem, const LocalizerOptions& options,

@@ -38,12 +38,13 @@ void writeOptions(const LocalizerOptions& options, ByteWriter& writer);
 ///       of the CAHV family also f64 skew (px), 3 f64 O, 3 f64 R, 3 f64 E (m), f64 linearity
 ///     seed camera_from_station: f64 quaternion w x y z, f64 translation x y z (m)
 ///     uncertainty: 3 f64 translation (m), 3 f64 rotation (rad), 3 f64 pivot in camera (m)
+///     3 f64 end effector in camera (m)
 ///     u32 parts, each: f64 normal threshold (rad), f64 depth threshold (m), u8 match
 ///     u32 vertices, each: 3 f32 in station (m)
 ///     u32 faces, each: 3 i32 vertices, u16 part
 ///     u8 ignore: 1 when there is a mask, then its words (u64) row by row
 ///     32 bytes SHA-256 of all before
-inline constexpr std::uint32_t kProblemVersion = 1;
+inline constexpr std::uint32_t kProblemVersion = 2;
 
 /// Faults of an encoded problem, in the order of the checks.
 enum class ProblemFault : std::uint8_t {
@@ -68,6 +69,10 @@ struct ProblemCheck {
   ProblemFault fault = ProblemFault::kNone;  ///< kNone when they were read
   const char* option = nullptr;              ///< name, or nullptr
 };
+
+/// Reads the output of writeOptions. kOption with the first option that is misplaced, of another
+/// kind or out of range.
+ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options);
 
 /// Writes a problem and its options to `out` and returns the number of bytes needed. `out` may be
 /// empty; when it is smaller than needed, its content is not valid. The image is not written, only

@@ -106,6 +106,8 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   digestVector(problem.uncertainty.translation_m, writer);
   digestVector(problem.uncertainty.rotation_rad, writer);
   digestVector(problem.uncertainty.pivot_in_camera_m, writer);
+  if (!problem.end_effector_in_camera_m.isZero(0.0))
+    digestVector(problem.end_effector_in_camera_m, writer);
 }
 
 void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer) {

@@ -10,7 +10,7 @@ namespace boresight {
 
 inline constexpr std::array<std::uint8_t, 8> kRecordMagic = {'B', 'O', 'R', 'S',
                                                              'R', 'C', 'R', 'D'};
-inline constexpr std::uint32_t kRecordVersion = 1;
+inline constexpr std::uint32_t kRecordVersion = 2;
 inline constexpr std::size_t kRecordHeaderBytes = kRecordMagic.size() + 4;
 
 /// Four letters, in the order of the file.

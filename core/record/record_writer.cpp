@@ -29,6 +29,7 @@ void writeInputs(const RecordInputs& inputs, const LocalizationProblem& problem,
   writeVector(problem.uncertainty.translation_m, writer);
   writeVector(problem.uncertainty.rotation_rad, writer);
   writeVector(problem.uncertainty.pivot_in_camera_m, writer);
+  writeVector(problem.end_effector_in_camera_m, writer);
 }
 
 /// Progress of an iteration; stages that it did not reach hold values of another iteration.
@@ -193,7 +194,8 @@ void RecordWriter::add(RecordBlock type, const Fill& fill) {
 
 void RecordWriter::begin(const RecordInputs& inputs, const LocalizationProblem& problem,
                          const LocalizerOptions& options) {
-  add(RecordBlock::kInputs, [&](ByteWriter& writer) { writeInputs(inputs, problem, writer); });
+  const LocalizationProblem used = withoutUnusedInputs(problem, options);
+  add(RecordBlock::kInputs, [&](ByteWriter& writer) { writeInputs(inputs, used, writer); });
   changeOptions(options, 0);
 }
 

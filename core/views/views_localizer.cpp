@@ -92,9 +92,13 @@ LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
   view_problem.camera_from_station_seed =
       inCamera(view.camera_from_rig, problem_.rig_from_station_seed);
   view_problem.uncertainty = problem_.uncertainty;
-  if (index > 0)
-    view_problem.uncertainty = turnedInto(
-        view.camera_from_rig * problem_.views[0].camera_from_rig.inverse(), problem_.uncertainty);
+  view_problem.end_effector_in_camera_m = problem_.end_effector_in_camera_m;
+  if (index > 0) {
+    const Pose camera_from_first =
+        view.camera_from_rig * problem_.views[0].camera_from_rig.inverse();
+    view_problem.uncertainty = turnedInto(camera_from_first, problem_.uncertainty);
+    view_problem.end_effector_in_camera_m = camera_from_first * problem_.end_effector_in_camera_m;
+  }
   return view_problem;
 }
 

@@ -35,6 +35,8 @@ struct ViewsProblem {
   Pose rig_from_station_seed;   ///< where the search begins
   /// Per axis of the *first* view's seed camera frame, its pivot in it, as with a single view.
   SeedUncertainty uncertainty;
+  /// Fixed to the first camera; see LocalizationProblem.
+  Eigen::Vector3d end_effector_in_camera_m = Eigen::Vector3d::Zero();
 };
 
 /// Result of a view.

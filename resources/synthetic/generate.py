@@ -41,13 +41,15 @@ def arguments():
     for name, text in (("far", "far standoff, 1.05 to 1.30 m"), ("hard", "hard cases")):
         add("--" + name, type=float, nargs="?", const=1.0, default=0.0, metavar="SHARE",
             help=f"share of shots with {text} (without a number: all)")
+    add("--seeds", type=int, default=1, metavar="N",
+        help="seeds of each picture; a further one is a case ID-s001, ... (default 1)")
     add("--size", type=int, default=plan.SIDE_px, metavar="PX",
         help="side of the pictures; the view stays the same (default 2048)")
     add("--blender", default="blender", help="the program")
     options = parser.parse_args()
     options.stations = options.stations.split(",")
-    if options.cases < 1 or options.jobs < 1 or options.size < 64:
-        parser.error("--cases and --jobs must be at least 1, --size at least 64")
+    if min(options.cases, options.jobs, options.seeds) < 1 or options.size < 64:
+        parser.error("--cases, --jobs and --seeds must be at least 1, --size at least 64")
     if not set(options.stations) <= set(plan.STATIONS):
         parser.error("--stations knows " + ", ".join(plan.STATIONS))
     return options
@@ -144,7 +146,7 @@ class Run:
         else:
             self.failed.append(log)
             print(f"{shot['shot']} failed; what blender said is in {log}", file=sys.stderr)
-        layout.write(self.options.out)
+        layout.write(self.options.out, self.options.seeds)
         rate = self.made / (time.monotonic() - self.started)
         left_min = (self.total - self.made) / rate / 60.0
         if sys.stderr.isatty():
@@ -170,8 +172,8 @@ def main():
     except KeyboardInterrupt:
         run.stop()
         raise SystemExit("stopped; the same command goes on")
-    count = layout.write(options.out)
-    print(f"{count} cases in {options.out / 'dataset.json'}")
+    count = layout.write(options.out, options.seeds)
+    print(f"{count} pictures in {options.out / 'dataset.json'}")
     if run.failed:
         raise SystemExit(f"{len(run.failed)} shots failed; the same command tries them again")
     shutil.rmtree(options.out / "unfinished")

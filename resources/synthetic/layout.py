@@ -22,23 +22,23 @@ def records(root):
     return [json.loads(p.read_text()) for p in sorted((root / "cases").glob("*.json"))]
 
 
-def write(root):
-    """Both indices; how many cases they hold."""
+def write(root, seeds=1):
+    """Both indices, with `seeds` cases of each picture in dataset.json; how many pictures."""
     known = records(root)
     if known:
-        replace_json(root / "dataset.json", dataset(root, known))
+        replace_json(root / "dataset.json", dataset(root, known, seeds))
         write_bop(root / "bop", known)
     return len(known)
 
 
-def dataset(root, known):
+def dataset(root, known, seeds=1):
     stations = sorted({r["plan"]["station"] for r in known})
     cameras = {r["frame"]["camera"]: r["frame"]["camera_parameters"] for r in known}
     return {"format": "boresight-dataset", "version": 1,
             "requirement": {"normal_mm": 0.4, "lateral_mm": 0.4, "rotation_deg": 0.25},
             "stations": {name: _station(root, name) for name in stations},
             "cameras": dict(sorted(cameras.items())),
-            "cases": [_case(r) for r in known]}
+            "cases": [case for r in known for case in _cases(r, seeds)]}
 
 
 def parts_of(root, station):
@@ -72,6 +72,19 @@ def _case(record):
     if "requirement" in plan.STATIONS[station]:
         made["requirement"] = plan.STATIONS[station]["requirement"]
     return made
+
+
+def _cases(record, seeds):
+    """The case of a picture, then one for each further seed. The two pictures of a rig have one
+    seed, so further ones are not of a rig."""
+    first = _case(record)
+    cases = [first]
+    for index in range(1, seeds):
+        seed = plan.further_seed(record["plan"], record["frame"], index)
+        case = {k: v for k, v in first.items() if k != "rig"}
+        cases.append(case | {"id": f"{first['id']}-s{index:03d}",
+                             "seed": {"camera_from_station": seed}})
+    return cases
 
 
 def write_bop(root, known):

@@ -30,22 +30,22 @@ BASELINE_m, TOE_IN_deg = 0.10, 11.0
 # effector is on the camera's axis. `declared`: a box that contains every truth, about the centre of
 # the station's bounding box (`centre_m`). `declared_far`: the same errors drawn at the camera.
 # Objects: errors about their centre, uniform in balls, declared as the balls' radii.
+# One range for both stations, as in Sec. III-A ("+-30 mm, +-5 deg on each axis"), and as much wider
+# as the station's centre and the roll of the camera need.
+ARM_DECLARED = {"translation_m": [0.036, 0.036, 0.030], "rotation_deg": [5.5, 5.5, 6.0],
+                "pivot": "station"}
+ARM_DECLARED_FAR = {"translation_m": [0.033, 0.040, 0.030], "rotation_deg": [5.5, 5.5, 6.0],
+                    "pivot": "camera"}
 OBJECT_DECLARED = {"translation_m": [0.030] * 3, "rotation_deg": [10.0] * 3, "pivot": "station"}
 STATIONS = {
     "bc": {"standoff_m": (0.400, 0.435), "feature_size_m": 0.015, "end_effector_m": 0.39,
            "centre_m": [0.001434, -0.005, -0.020], "tilt_deg": (1.0, 11.0), "roll_deg": (-6.0, 4.0),
            "error": {"normal_m": 0.020, "lateral_m": 0.030, "tilt_deg": 5.0},
-           "declared": {"translation_m": [0.036, 0.036, 0.023], "rotation_deg": [5.5, 5.5, 6.0],
-                        "pivot": "station"},
-           "declared_far": {"translation_m": [0.033, 0.040, 0.028],
-                            "rotation_deg": [5.5, 5.5, 6.0], "pivot": "camera"}},
+           "declared": ARM_DECLARED, "declared_far": ARM_DECLARED_FAR},
     "os": {"standoff_m": (0.380, 0.412), "feature_size_m": 0.018, "end_effector_m": 0.37,
            "centre_m": [-0.00476, 0.0, -0.038], "tilt_deg": (1.0, 11.0), "roll_deg": (3.0, 4.0),
            "error": {"normal_m": 0.0115, "lateral_m": 0.014, "tilt_deg": 1.75},
-           "declared": {"translation_m": [0.022, 0.022, 0.015], "rotation_deg": [2.0, 2.0, 5.5],
-                        "pivot": "station"},
-           "declared_far": {"translation_m": [0.016, 0.023, 0.0155],
-                            "rotation_deg": [2.0, 2.0, 5.5], "pivot": "camera"}},
+           "declared": ARM_DECLARED, "declared_far": ARM_DECLARED_FAR},
     "tube": {"standoff_m": (0.380, 0.440), "feature_size_m": 0.020, "end_effector_m": 0.37,
              "centre_m": [0.0, 0.00112, 0.00054], "tilt_deg": (2.0, 28.0), "roll_deg": (0.0, 180.0),
              "declared": OBJECT_DECLARED, "requirement": {"projection_px": 2.0}},
@@ -229,15 +229,20 @@ def _draw_mounted_error(draw, largest, point):
     return pose_of([row[:3] for row in turn[:3]], [point[i] + move[i] - turned[i] for i in range(3)])
 
 
+def _largest_error(station, is_far):
+    """Largest normal (m), lateral (m) and out-of-plane (rad) error, and the point in the camera
+    frame (m) that they hold at."""
+    limits = STATIONS[station]["error"]
+    point = [0.0, 0.0, 0.0 if is_far else STATIONS[station]["end_effector_m"]]
+    return (limits["normal_m"], limits["lateral_m"], math.radians(limits["tilt_deg"])), point
+
+
 def _mounted_error(draw, station, seed_left, is_pair, is_far):
     """camera_true_from_camera_seed of the left camera, with Table I's errors at the end effector
     (far: at the camera). Both cameras of a pair have it within the largest errors and within the
     declared box."""
-    values = STATIONS[station]
-    point = [0.0, 0.0, 0.0 if is_far else values["end_effector_m"]]
-    declared = values["declared_far" if is_far else "declared"]
-    limits = values["error"]
-    largest = (limits["normal_m"], limits["lateral_m"], math.radians(limits["tilt_deg"]))
+    declared = STATIONS[station]["declared_far" if is_far else "declared"]
+    largest, point = _largest_error(station, is_far)
     point_right, seed_right = point_of(RIGHT_FROM_LEFT, point), multiply(RIGHT_FROM_LEFT, seed_left)
     while True:
         error = _draw_mounted_error(draw, largest, point)
@@ -261,6 +266,25 @@ def _object_error(draw, seed_pose, station, hard):
     move = [a * b for a, b in zip(_in_ball(draw), limits["translation_m"])]
     return displaced([math.radians(limits["rotation_deg"][0]) * v for v in _in_ball(draw)], move,
                      centre)
+
+
+def further_seed(shot, frame, index):
+    """camera_from_station of another seed of a picture, by the law of its first one."""
+    station, truth = shot["station"], frame["camera_from_station"]
+    draw = random.Random(f"{shot['scene_seed']}/{frame['id']}/{index}")
+    hard = next((tag for tag in frame["tags"] if tag.startswith("hard_")), None)
+    is_far = "far" in frame["tags"]
+    declared = declared_uncertainty(station, frame["tags"])
+    while True:
+        if station in LYING:
+            return multiply(invert(_object_error(draw, truth, station, hard)), truth)
+        largest, point = _largest_error(station, is_far)
+        if "camera_from_end_effector" in frame and not is_far:  # the right camera of a pair
+            point = [row[3] for row in frame["camera_from_end_effector"][:3]]
+        error = _draw_mounted_error(draw, largest, point)
+        seed = multiply(invert(error), truth)
+        if is_declared(error, declared, pivot_of(station, declared, seed)):
+            return seed
 
 
 def declared_uncertainty(station, tags):

@@ -225,7 +225,7 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
   const BitImage ignore = image.ignore ? image.ignore->view() : BitImage{};
   const LocalizationProblem problem = problemOf(
       image.image, image.ignore ? &ignore : nullptr, dataset_.cameras.at(dataset_case.camera),
-      scene.scene.view(), seed, *dataset_case.uncertainty);
+      scene.scene.view(), seed, *dataset_case.uncertainty, dataset_case.camera_from_end_effector);
   result.camera_from_station_seed = problem.camera_from_station_seed;
   result.camera_from_station = problem.camera_from_station_seed;
   result.seed_error =

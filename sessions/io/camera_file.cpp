@@ -12,6 +12,7 @@
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 #include "sessions/io/labels/image_label.h"
+#include "sessions/io/raw_metadata.h"
 
 namespace boresight::sessions {
 namespace {
@@ -213,6 +214,7 @@ CameraFile readCameraFile(const std::filesystem::path& file) {
   if (isCahvorFile(file)) return readCahvorCamera(file);
   if (hasImageLabel(file)) return readLabelCamera(file);
   const JsonDocument document(file);
+  if (isRawMetadata(document.root())) return readRawMetadata(document.root());
   return document.read(kCameraFormat, kCameraVersion,
                        [](const JsonReader& json) { return readCameraFile(json); });
 }

@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/digest.h"
+#include "core/localizer/parameter_table.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/file_bytes.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
 
@@ -37,8 +40,28 @@ OptionList readOptions(const JsonReader& json) {
   return options;
 }
 
+namespace {
+
+/// Every option of a parameter table.
+Config readParameters(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  LocalizerOptions options;
+  const ProblemCheck check = decodeParameters(bytes, options);
+  if (check.fault != ProblemFault::kNone)
+    throw InputError(file, check.option != nullptr ? check.option : "",
+                     problemFaultText(check.fault));
+  Config config;
+  config.file = file;
+  for (const OptionDescription& option : listOptions(options))
+    config.options.emplace_back(option.name, option.value);
+  return config;
+}
+
+}  // namespace
+
 Config readConfig(const std::filesystem::path& file) {
-  const JsonDocument document(file);
+  const auto bytes = readFileBytes(file, kMaxJsonBytes);
+  if (isParameterTable(bytes)) return readParameters(file, bytes);
+  const JsonDocument document(file, asText(bytes));
   return document.read(kConfigFormat, kConfigVersion, [&file](const JsonReader& json) {
     Config config;
     config.file = file;

@@ -27,7 +27,8 @@ std::optional<LocalizerOptions> profileOptions(const std::string& name);
 /// "default, paper", for messages.
 const char* profileNames();
 
-/// Reads config.json; values are checked when they are applied. InputError.
+/// Reads config.json, whose values are checked when they are applied, or a parameter table
+/// (core/localizer/parameter_table.h) with every option. InputError.
 Config readConfig(const std::filesystem::path& file);
 
 /// SHA-256 over every option, by name and value: whatever differs makes a run stale.

@@ -210,7 +210,8 @@ Dataset readMembers(const JsonReader& json) {
     dataset.stations.emplace(id, readStation(id, station, dataset));
   if (const auto transforms = json.find("transforms"))
     for (const JsonReader& item : transforms->elements())
-      dataset.transforms.push_back(readFrameTransform(item.path()));
+      for (FrameTransform& transform : readFrameTransforms(item.path()))
+        dataset.transforms.push_back(std::move(transform));
   if (const auto cameras = json.find("cameras"))
     for (const auto& [id, camera] : cameras->members())
       addCamera(id, readCameraFile(camera), dataset);

@@ -87,10 +87,10 @@ struct Case {
   std::optional<std::filesystem::path> ignore;
   Pose seed_camera_from_station;
   /// Of a seed that was given in a named frame.
-  std::optional<StationFrame> station_frame = std::nullopt;
+  std::optional<FrameName> station_frame = std::nullopt;
   std::optional<Pose> truth_camera_from_station;
   /// Of a truth that was given in a named frame.
-  std::optional<StationFrame> truth_frame = std::nullopt;
+  std::optional<FrameName> truth_frame = std::nullopt;
   std::optional<Matrix6d> truth_covariance = std::nullopt;  ///< nothing: it is exact
   std::optional<Rig> rig;
   std::vector<std::string> tags;

@@ -5,94 +5,91 @@
 
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
 
 namespace boresight::sessions {
 namespace {
 
 constexpr const char* kTransformFormat = "boresight-transform";
-constexpr int kTransformVersion = 1;
-constexpr double kSameTranslation_m = 1e-6;
-constexpr double kSameRotation_rad = 1e-6;
+constexpr const char* kFramesFormat = "boresight-frames";
+constexpr int kVersion = 1;
+constexpr double kMaxSigma_mm = 1e4;
+constexpr double kMaxSigma_mrad = 1e3;
 
-/// The message where no transform is given, or only some between other frames.
-std::string noWayText(const FrameName& a, const FrameName& b,
-                      std::span<const FrameTransform> given) {
-  const std::string needed =
-      "the pose is given in " + frameText(b) + ", but the camera model in " + frameText(a);
-  if (a.name.empty())
-    return needed +
-           "; if both are one frame, leave reference_frame out of the pose; else state the "
-           "camera's frame in a camera.json and give their transform";
-  if (given.empty()) return needed + "; give the transform between the two (transform.json)";
-  std::string others;
-  for (const FrameTransform& frame_transform : given)
-    others += (others.empty() ? "" : ", ") + frame_transform.file.filename().string() +
-              " leads from " + frameText(frame_transform.source) + " to " +
-              frameText(frame_transform.target);
-  return needed + ", and " + others;
+Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
+  return Eigen::Matrix3d{{0.0, -v.z(), v.y()}, {v.z(), 0.0, -v.x()}, {-v.y(), v.x(), 0.0}};
 }
 
-/// The transform from `b` to `a` where this one or its inverse is it.
-std::optional<Pose> joinBy(const FrameTransform& transform, const FrameName& a,
-                           const FrameName& b) {
-  if (transform.target == a && transform.source == b) return transform.target_from_source;
-  if (transform.target == b && transform.source == a) return transform.target_from_source.inverse();
-  return std::nullopt;
+/// {"translation_mm", "rotation_mrad"}: one sigma per axis of the target frame, at the origin of
+/// the source frame.
+Matrix6d readSigma(const JsonReader& json, const Pose& target_from_source) {
+  Vector6d variances;
+  variances << json.at("rotation_mrad").vector3(0.0, kMaxSigma_mrad) * 1e-3,
+      json.at("translation_mm").vector3(0.0, kMaxSigma_mm) * 1e-3;
+  variances = variances.cwiseAbs2();
+  // A turn about the source's origin o by w is one about the target's and a shift of o x w.
+  Matrix6d about_target = Matrix6d::Identity();
+  about_target.bottomLeftCorner<3, 3>() = crossMatrix(target_from_source.translation_m);
+  return about_target * variances.asDiagonal() * about_target.transpose();
 }
 
-FrameTransform readTransformMembers(const JsonReader& root) {
+TransformSource readOrigin(const JsonReader& json) {
+  const std::string name = json.choice({"telemetry", "calibration", "label", "commanded"});
+  std::size_t index = 0;
+  while (name != kTransformSourceNames[index]) ++index;
+  return static_cast<TransformSource>(index);
+}
+
+FrameTransform readTransformMembers(const JsonReader& json) {
   FrameTransform transform;
-  transform.target = readFrameName(root.at("target"));
-  transform.source = readFrameName(root.at("source"));
+  transform.target = readFrameName(json.at("target"));
+  transform.source = readFrameName(json.at("source"));
   if (transform.target == transform.source)
-    root.failMember("source", "is the same frame as the target");
-  transform.target_from_source = readTransform(root.at("target_from_source"));
-  transform.comment = root.at("comment").nonEmptyText();
+    json.failMember("source", "is the same frame as the target");
+  transform.target_from_source = readTransform(json.at("target_from_source"));
+  const auto covariance = json.find("covariance");
+  const auto sigma = json.find("sigma");
+  if (covariance && sigma) sigma->fail("cannot be combined with covariance; give one of the two");
+  if (covariance) transform.covariance = readCovariance(*covariance);
+  if (sigma) transform.covariance = readSigma(*sigma, transform.target_from_source);
+  if (const auto origin = json.find("origin")) transform.origin = readOrigin(*origin);
+  transform.comment = json.at("comment").nonEmptyText();
   return transform;
 }
 
-/// As two files of one transform agree whose digits were rounded.
-bool nearlySame(const Pose& a, const Pose& b) {
-  return (a.translation_m - b.translation_m).norm() <= kSameTranslation_m &&
-         a.rotation.angularDistance(b.rotation) <= kSameRotation_rad;
+std::vector<FrameTransform> readList(const JsonReader& root) {
+  std::vector<FrameTransform> transforms;
+  for (const JsonReader& item : root.at("transforms").elements())
+    transforms.push_back(readTransformMembers(item));
+  if (transforms.empty()) root.failMember("transforms", "is empty");
+  return transforms;
 }
 
 }  // namespace
 
-FrameTransform readFrameTransform(const std::filesystem::path& file) {
+std::vector<FrameTransform> readFrameTransforms(const std::filesystem::path& file) {
   const auto bytes = readFileBytes(file, kMaxJsonBytes);
-  FrameTransform transform = JsonDocument(file, asText(bytes))
-                                 .read(kTransformFormat, kTransformVersion, readTransformMembers);
-  transform.file = file;
-  transform.file_sha256 = sha256Text(bytes);
-  return transform;
+  const JsonDocument document(file, asText(bytes));
+  std::vector<FrameTransform> transforms;
+  const JsonReader root = document.root();
+  const auto format = root.isObject() ? root.find("format") : std::nullopt;
+  if (format && format->isText() && format->text() == kFramesFormat)
+    transforms = document.read(kFramesFormat, kVersion, readList);
+  else
+    transforms = {document.read(kTransformFormat, kVersion, readTransformMembers)};
+  for (FrameTransform& transform : transforms) {
+    transform.file = file;
+    transform.file_sha256 = sha256Text(bytes);
+  }
+  return transforms;
 }
 
 std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& files) {
   std::vector<FrameTransform> transforms;
-  for (const std::string& file : files) transforms.push_back(readFrameTransform(file));
+  for (const std::string& file : files)
+    for (FrameTransform& transform : readFrameTransforms(std::filesystem::path(file)))
+      transforms.push_back(std::move(transform));
   return transforms;
-}
-
-JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
-                        std::span<const FrameTransform> given, const JsonReader& at) {
-  if (!a.name.empty() && a == b) return {};
-  std::optional<JoinedFrames> joined;
-  for (const FrameTransform& frame_transform : given) {
-    const std::optional<Pose> a_from_b = joinBy(frame_transform, a, b);
-    if (!a_from_b) continue;
-    if (joined && !nearlySame(joined->a_from_b, *a_from_b))
-      at.fail("of the given transforms " + joined->by->file.string() + " and " +
-              frame_transform.file.filename().string() + " lead from " + frameText(b) + " to " +
-              frameText(a) + " with different values; give only the valid one");
-    if (joined) continue;
-    joined = JoinedFrames{*a_from_b, frame_transform};
-    joined->by->file = frame_transform.file.filename();
-  }
-  if (!joined) at.fail(noWayText(a, b, given));
-  return *joined;
 }
 
 }  // namespace boresight::sessions

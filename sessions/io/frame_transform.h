@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,11 +13,19 @@
 
 namespace boresight::sessions {
 
-/// A transform between two named frames, as an operator gave it.
+/// Where the numbers of a transform come from.
+enum class TransformSource { kUnstated, kTelemetry, kCalibration, kLabel, kCommanded };
+inline constexpr const char* kTransformSourceNames[] = {"unstated", "telemetry", "calibration",
+                                                        "label", "commanded"};
+
+/// A transform between two named frames.
 struct FrameTransform {
   FrameName target;
   FrameName source;
   Pose target_from_source;
+  /// Over (rotation rad, translation m), left perturbation, target frame; nothing: exact.
+  std::optional<Matrix6d> covariance = std::nullopt;
+  TransformSource origin = TransformSource::kUnstated;
   std::string comment;  ///< where it comes from, not empty
   std::filesystem::path file;
   std::string file_sha256;
@@ -26,27 +33,9 @@ struct FrameTransform {
   bool operator==(const FrameTransform&) const = default;
 };
 
-/// Reads transform.json (`boresight-transform`, version 1). InputError.
-FrameTransform readFrameTransform(const std::filesystem::path& file);
+/// Reads a file with one transform (`boresight-transform`, version 1) or with several
+/// (`boresight-frames`, version 1; sessions/io/cameras.md). InputError.
+std::vector<FrameTransform> readFrameTransforms(const std::filesystem::path& file);
 std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& files);
-
-/// The frame that a pose of the station was given in, and what joined it to the camera model's.
-struct StationFrame {
-  FrameName frame;
-  /// None where the frame is that of the camera model.
-  std::optional<FrameTransform> joined_by = std::nullopt;
-
-  bool operator==(const StationFrame&) const = default;
-};
-
-/// The transform from frame `b` to frame `a` by one of `given` or its inverse, and which one it
-/// was. InputError about `at`, naming both frames, when none leads from one to the other, or two of
-/// them by different numbers: frames are never chained, nor converted by what a label says of them.
-struct JoinedFrames {
-  Pose a_from_b;
-  std::optional<FrameTransform> by;  ///< with its file's name alone; none where the two are one
-};
-JoinedFrames joinFrames(const FrameName& a, const FrameName& b,
-                        std::span<const FrameTransform> given, const JsonReader& at);
 
 }  // namespace boresight::sessions

@@ -68,24 +68,45 @@ DeclaredUncertainty readUncertainty(const JsonReader& json) {
 
 namespace {
 
-/// A pose of the station in the camera model's frame, or in one that is joined to it.
+/// The message where the transforms do not join the frame of a pose to the camera.
+std::string notJoinedText(const FrameName& frame, const PoseFrames& frames) {
+  const bool model = frames.reference.has_value();
+  const std::string needed =
+      "the pose is given in " + frameText(frame) +
+      (model ? ", but the camera model in " + frameText(frames.reference->frame) : "");
+  if (model && frames.reference->frame.name.empty())
+    return needed +
+           "; if both are one frame, leave reference_frame out of the pose; else state the "
+           "camera's frame in a camera.json and give their transform";
+  const std::string wanted = model ? "the two" : "it and CAMERA";
+  if (frames.transforms.empty())
+    return needed + "; give the transform between " + wanted + " (transform.json)";
+  std::string others;
+  for (const FrameTransform& transform : frames.transforms)
+    others += (others.empty() ? "" : ", ") + transform.file.filename().string() + " leads from " +
+              frameText(transform.source) + " to " + frameText(transform.target);
+  return needed + ", and no transforms join " + wanted + ": " + others;
+}
+
+/// A pose of the station in the camera model's frame, or in one that is joined to the camera.
 void readReferencePose(const JsonReader& json, const PoseFrames& frames, PoseFile& pose) {
   const JsonReader given = json.at("reference_from_station");
-  if (!frames.reference)
-    given.fail(
-        "needs a camera of the CAHV family, whose file states its reference frame; give "
-        "camera_from_station");
-  const CameraReference& reference = *frames.reference;
-  pose.camera_from_station =
-      reference.camera_from_reference * readTransform(given, &pose.rotation_deviation);
-  pose.station_frame = StationFrame{reference.frame};
   const auto named = json.find("reference_frame");
-  if (!named) return;
-  const FrameName frame = readFrameName(*named);
-  const JoinedFrames joined = joinFrames(reference.frame, frame, frames.transforms, *named);
-  pose.station_frame = StationFrame{frame, joined.by};
-  pose.camera_from_station =
-      reference.camera_from_reference * joined.a_from_b * readTransform(given);
+  if (!frames.reference && !named)
+    given.fail(
+        "needs reference_frame, or a camera of the CAHV family, whose file states its frame; or "
+        "give camera_from_station");
+  const Pose reference_from_station = readTransform(given, &pose.rotation_deviation);
+  if (!named) {
+    pose.station_frame = frames.reference->frame;
+    pose.camera_from_station = frames.reference->camera_from_reference * reference_from_station;
+    return;
+  }
+  pose.station_frame = readFrameName(*named);
+  const FrameTree tree = frameTree(frames.reference, frames.transforms);
+  const auto chain = tree.chain(kCameraFrame, *pose.station_frame);
+  if (!chain) named->fail(notJoinedText(*pose.station_frame, frames));
+  pose.camera_from_station = chain->a_from_b * reference_from_station;
 }
 
 }  // namespace
@@ -113,8 +134,27 @@ PoseFile readPose(const JsonReader& json, const PoseFrames& frames) {
   return pose;
 }
 
+namespace {
+
+PoseFile readValidatedPose(const JsonReader& json) {
+  PoseFile pose;
+  pose.camera_from_station =
+      readTransform(json.at("camera_from_station"), &pose.rotation_deviation);
+  if (const auto covariance = json.find("covariance"))
+    pose.covariance = readCovariance(*covariance);
+  return pose;
+}
+
+}  // namespace
+
 PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames) {
   const JsonDocument document(file);
+  const JsonReader root = document.root();
+  const auto format = root.isObject() ? root.find("format") : std::nullopt;
+  if (format && format->isText() && format->text() == kValidatedPoseFormat) {
+    root.requireFormat(kValidatedPoseFormat, 1);
+    return readValidatedPose(root.at("pose"));
+  }
   return document.read(kPoseFormat, kPoseVersion,
                        [&frames](const JsonReader& json) { return readPose(json, frames); });
 }

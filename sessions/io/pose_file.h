@@ -10,7 +10,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/io/camera_file.h"
-#include "sessions/io/frame_transform.h"
+#include "sessions/io/frame_tree.h"
 #include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
@@ -26,6 +26,9 @@ struct DeclaredUncertainty {
   bool operator==(const DeclaredUncertainty&) const = default;
 };
 
+/// Of a validated_pose.json, whose pose can be a seed or a truth.
+inline constexpr const char* kValidatedPoseFormat = "boresight-validated-pose";
+
 /// What a pose file (or a pose inside another file) states.
 struct PoseFile {
   Pose camera_from_station;
@@ -34,22 +37,23 @@ struct PoseFile {
   std::optional<DeclaredUncertainty> uncertainty;
   /// Over (rotation rad, translation m), left perturbation, camera frame; nothing: not stated.
   std::optional<Matrix6d> covariance = std::nullopt;
-  /// Of a pose that was given as `reference_from_station`.
-  std::optional<StationFrame> station_frame = std::nullopt;
+  /// Of a pose that was given as `reference_from_station`; the name may be empty.
+  std::optional<FrameName> station_frame = std::nullopt;
 };
 
 /// What a pose in a named frame needs to be converted to the camera frame.
 struct PoseFrames {
   /// Of a camera of the CAHV family.
   std::optional<CameraReference> reference = std::nullopt;
-  /// Between the camera model's frame and that of the pose, where these differ.
+  /// By which frames are joined to the camera model's, or to the camera's.
   std::vector<FrameTransform> transforms = {};
 };
 
-/// Reads pose.json (`boresight-pose`, version 1). `reference_from_station` may stand in place of
-/// `camera_from_station` where the camera's file says where its reference frame is: the camera
-/// model's frame, or the one that `reference_frame` {name, index} names, which must be that frame
-/// or be joined to it by one of the transforms. InputError.
+/// Reads pose.json (`boresight-pose`, version 1), or the pose and its covariance of a
+/// validated_pose.json, which may state NOT VALIDATED. `reference_from_station` may stand in place of
+/// `camera_from_station`: in the camera model's frame, or in the one that `reference_frame`
+/// {name, index} names, which the transforms join to the camera model's or the camera's. A
+/// covariance or uncertainty is always stated in the camera frame. InputError.
 PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames = {});
 /// The same for a pose inside another file, without format and version.
 PoseFile readPose(const JsonReader& json, const PoseFrames& frames = {});

@@ -99,6 +99,8 @@ void walkInputs(const OnboardRecord& record, const OnboardRecord& other, Walk& w
     walk.compare(RunPart::kSeed, "the seeds", a.camera_from_station_seed,
                  b.camera_from_station_seed);
     walk.compare(RunPart::kSeed, "the uncertainties of the seeds", uncertainty(a), uncertainty(b));
+    walk.compare(RunPart::kSeed, "the end effectors", a.end_effector_in_camera_m,
+                 b.end_effector_in_camera_m);
   }
   if (record.options.empty() || other.options.empty()) return;
   walkOptions(record.options.front(), other.options.front(), walk);

@@ -30,6 +30,7 @@ void fields(ArchiveReader& archive, RecordedInputs& inputs) {
   numbers(archive, inputs.width, inputs.height);
   fields(archive, inputs.camera_from_station_seed);
   fields(archive, inputs.uncertainty);
+  vectorFields(archive, inputs.end_effector_in_camera_m);
 }
 
 void fields(ArchiveReader& archive, RecordedOptions& recorded) {

@@ -42,6 +42,7 @@ struct RecordedInputs {
   std::int32_t height = 0;
   Pose camera_from_station_seed;
   SeedUncertainty uncertainty;
+  Eigen::Vector3d end_effector_in_camera_m = Eigen::Vector3d::Zero();  ///< zero: not used
 };
 
 struct RecordedTemplate {

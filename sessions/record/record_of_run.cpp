@@ -15,11 +15,13 @@ namespace {
 
 RecordedInputs inputsOf(const LocalizationProblem& given, const LocalizerOptions& options) {
   RecordedInputs recorded_inputs;
-  recorded_inputs.sha256 = recordInputs(withoutUnusedColor(given, options));
+  const LocalizationProblem used = withoutUnusedInputs(given, options);
+  recorded_inputs.sha256 = recordInputs(used);
   recorded_inputs.width = given.image.width;
   recorded_inputs.height = given.image.height;
   recorded_inputs.camera_from_station_seed = given.camera_from_station_seed;
   recorded_inputs.uncertainty = given.uncertainty;
+  recorded_inputs.end_effector_in_camera_m = used.end_effector_in_camera_m;
   return recorded_inputs;
 }
 

@@ -106,6 +106,7 @@ class Replayer {
     if (record.inputs) {
       given_.camera_from_station_seed = record.inputs->camera_from_station_seed;
       given_.uncertainty = record.inputs->uncertainty;
+      given_.end_effector_in_camera_m = record.inputs->end_effector_in_camera_m;
     }
     bounds_ = matchedBounds(ground.mesh);
     run_.replayed = true;
@@ -171,7 +172,7 @@ void Replayer::noteInputs() {
   for (const std::string& text : recorded_plan_.remarks) remark(text);
   if (!record_.inputs) return;
   const RecordedInputs& onboard = *record_.inputs;
-  RecordInputs record_inputs = recordInputs(withoutUnusedColor(given_, run_.options));
+  RecordInputs record_inputs = recordInputs(withoutUnusedInputs(given_, run_.options));
   if (onboard.sha256.pixels != record_inputs.pixels) {
     // The run may have had the gray image alone.
     LocalizationProblem gray = given_;

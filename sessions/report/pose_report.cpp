@@ -180,8 +180,7 @@ double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) 
 /// Where the pose was asked for in a frame with a name: in that one, the last that there is.
 double drawNamedPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const SessionCase& session_case = caseOf(report);
-  const auto named = namedPoses(session_case.camera_reference, session_case.station_frame,
-                                report.pose.camera_from_station);
+  const auto named = namedPoses(session_case, report.pose.camera_from_station);
   if (named.empty()) return box.y;
   const Pose& pose = named.back().reference_from_station;
   Rows rows(canvas, box, namedPoseTitle(named.back()));
@@ -195,8 +194,8 @@ void drawEndEffector(PdfCanvas& canvas, const PdfBox& box, const PoseReport& rep
   const SessionCase& session_case = caseOf(report);
   if (!session_case.camera_from_end_effector || !session_case.has_seed) return;
   const EndEffectorPose end_effector_pose =
-      endEffectorPose(session_case.camera_from_station_seed, report.pose.camera_from_station,
-                      *session_case.camera_from_end_effector, report.pose.covariance.total());
+      endEffectorPose(session_case, report.pose.camera_from_station,
+                      report.pose.covariance.total());
   const Pose& correction = end_effector_pose.end_effector_seed_from_end_effector_estimated;
   Rows rows(canvas, box, "Correction of the commanded pose");
   rows.addText("end_effector_seed_from_end_effector_estimated");

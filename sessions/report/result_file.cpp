@@ -9,6 +9,7 @@
 #include "sessions/io/config_file.h"
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/review/pose_uncertainty.h"
 #include "sessions/run/acceptance.h"
 #include "sessions/run/alternatives.h"
 #include "sessions/run/image_quality.h"
@@ -126,6 +127,10 @@ ordered_json provenanceJson(const LocalizationTrace& trace, const RunProvenance&
   json["seed"] = fileJson(provenance.seed_file);
   if (!session_case.image.label.empty()) json["image_label"] = toJson(session_case.image.label);
   if (session_case.station_frame) json["station_frame"] = toJson(*session_case.station_frame);
+  if (!session_case.frames.empty()) {
+    ordered_json& frames = json["frames"] = ordered_json::array();
+    for (const FrameTransform& transform : session_case.frames) frames.push_back(toJson(transform));
+  }
   if (const auto& ignore = provenance.loaded->ignore)
     json["ignore"] = {{"file", ignore->file.string()},
                       {"sha256", ignore->file_sha256},
@@ -133,6 +138,19 @@ ordered_json provenanceJson(const LocalizationTrace& trace, const RunProvenance&
   if (!provenance.truth_file.empty()) json["truth"] = fileJson(provenance.truth_file);
   if (!provenance.config_file.empty()) json["config"] = fileJson(provenance.config_file);
   return json;
+}
+
+/// The pose in every named frame, and the correction to command of a converged run.
+void addFrames(const LocalizationTrace& trace, const LoadedCase& loaded, ordered_json& json) {
+  const SessionCase& session_case = loaded.source;
+  const Pose& pose = trace.camera_from_station;
+  std::optional<Matrix6d> covariance;
+  if (trace.converged())
+    covariance = poseCovariance(session_case, loaded.scene.view(), pose, trace.covariance).total();
+  const auto named = namedPoses(session_case, pose, covariance);
+  if (!named.empty()) json["frames"] = toJson(named);
+  if (covariance && session_case.camera_from_end_effector)
+    json["correction_to_command"] = toJson(correctionsOf(session_case, pose, *covariance));
 }
 
 }  // namespace
@@ -151,9 +169,7 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["attempts"] = trace.attempts;
   json["camera_from_station"] = toJson(trace.camera_from_station);
   json["camera_from_station_seed"] = toJson(trace.camera_from_station_seed);
-  if (const SessionCase& session_case = provenance.loaded->source; session_case.camera_reference)
-    json["frames"] = toJson(namedPoses(session_case.camera_reference, session_case.station_frame,
-                                       trace.camera_from_station));
+  addFrames(trace, *provenance.loaded, json);
   if (trace.converged()) json["covariance"] = toJson(trace.covariance);
   json["matches"] = result.matches;
   json["inliers"] = result.inliers;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/review/pose_uncertainty.h"
 
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
 #include "core/pnp/normal_equations.h"
+#include "sessions/io/json_writer.h"
 #include "sessions/review/edge_evidence.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -63,7 +68,8 @@ PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& m
 
 EndEffectorPose endEffectorPose(const Pose& camera_from_station_seed,
                                 const Pose& camera_from_station,
-                                const Pose& camera_from_end_effector, const Matrix6d& covariance) {
+                                const Pose& camera_from_end_effector, const Matrix6d& covariance,
+                                const Matrix6d& camera_from_end_effector_covariance) {
   EndEffectorPose end_effector_pose;
   end_effector_pose.station_from_end_effector =
       camera_from_station.inverse() * camera_from_end_effector;
@@ -71,10 +77,67 @@ EndEffectorPose endEffectorPose(const Pose& camera_from_station_seed,
       camera_from_end_effector.inverse() * camera_from_station_seed *
       end_effector_pose.station_from_end_effector;
   // camera_from_station -> Exp(xi) camera_from_station turns station_from_end_effector into
-  // camera_from_station^-1 Exp(-xi) camera_from_end_effector, which is it times Exp(-Ad xi).
+  // camera_from_station^-1 Exp(-xi) camera_from_end_effector, which is it times Exp(-Ad xi); an
+  // error of camera_from_end_effector is on the same side.
   const Matrix6d turn = adjointOf(camera_from_end_effector.inverse());
-  end_effector_pose.covariance = turn * covariance * turn.transpose();
+  end_effector_pose.covariance =
+      turn * (covariance + camera_from_end_effector_covariance) * turn.transpose();
   return end_effector_pose;
+}
+
+EndEffectorPose endEffectorPose(const SessionCase& session_case, const Pose& camera_from_station,
+                                const Matrix6d& covariance) {
+  const auto chain = framesOf(session_case).chain(kCameraFrame, kEndEffectorFrame);
+  return endEffectorPose(session_case.camera_from_station_seed, camera_from_station,
+                         *session_case.camera_from_end_effector, covariance,
+                         chain ? chain->covariance : Matrix6d::Zero());
+}
+
+std::vector<Correction> correctionsOf(const SessionCase& session_case,
+                                      const Pose& camera_from_station, const Matrix6d& covariance) {
+  if (!session_case.camera_from_end_effector || !session_case.has_seed) return {};
+  const EndEffectorPose pose = endEffectorPose(session_case, camera_from_station, covariance);
+  const Pose move = pose.end_effector_seed_from_end_effector_estimated.inverse();
+  const Correction own{kEndEffectorFrame, move.translation_m, rotationLog(move.rotation),
+                       pose.covariance};
+  std::vector<Correction> corrections = {own};
+  const FrameTree tree = framesOf(session_case);
+  for (const FrameName& frame : tree.frames()) {
+    const auto chain = tree.chain(frame, kEndEffectorFrame);
+    if (!chain || frame == kEndEffectorFrame) continue;
+    const Eigen::Matrix3d turn = chain->a_from_b.rotation.toRotationMatrix();
+    Matrix6d both = Matrix6d::Zero();
+    both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = turn;
+    corrections.push_back({frame, turn * own.translation_m, turn * own.rotation_rad,
+                           both * own.covariance * both.transpose()});
+  }
+  return corrections;
+}
+
+std::string correctionText(const Correction& correction) {
+  const Vector6d sigma = sigmasOf(correction.covariance);
+  const auto row = [](const char* name, const Eigen::Vector3d& value, const auto& one_sigma,
+                      int decimals) {
+    std::string text = std::string("  ") + name;
+    for (int axis = 0; axis < 3; ++axis)
+      text += "  " + fixedText(1e3 * value[axis], decimals) + " +- " +
+              fixedText(1e3 * one_sigma[axis], decimals);
+    return text + "\n";
+  };
+  return "correction to command in " + frameText(correction.frame) +
+         ", at the end effector (x, y, z; 1 sigma)\n" +
+         row("translation, mm", correction.translation_m, sigma.tail<3>(), 3) +
+         row("rotation, mrad ", correction.rotation_rad, sigma.head<3>(), 3);
+}
+
+nlohmann::ordered_json toJson(const std::vector<Correction>& corrections) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Correction& correction : corrections)
+    json[frameText(correction.frame)] = {
+        {"translation_m", toJson(correction.translation_m)},
+        {"rotation_deg", toJson(Eigen::Vector3d(correction.rotation_rad / kDegree_rad))},
+        {"covariance", toJson(correction.covariance)}};
+  return json;
 }
 
 }  // namespace boresight::sessions

@@ -3,6 +3,10 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
@@ -42,10 +46,34 @@ struct EndEffectorPose {
   Matrix6d covariance = Matrix6d::Zero();
 };
 
-/// `covariance` is the pose's: left perturbation in the camera frame. The seed and the transform
-/// between camera and end effector are taken as exact.
-EndEffectorPose endEffectorPose(const Pose& camera_from_station_seed,
-                                const Pose& camera_from_station,
-                                const Pose& camera_from_end_effector, const Matrix6d& covariance);
+/// `covariance` is the pose's: left perturbation in the camera frame. The seed is taken as exact.
+/// `camera_from_end_effector_covariance`: left perturbation in the camera frame.
+EndEffectorPose endEffectorPose(
+    const Pose& camera_from_station_seed, const Pose& camera_from_station,
+    const Pose& camera_from_end_effector, const Matrix6d& covariance,
+    const Matrix6d& camera_from_end_effector_covariance = Matrix6d::Zero());
+/// The same of a case that has an end effector, with the covariance that its frames state.
+EndEffectorPose endEffectorPose(const SessionCase& session_case, const Pose& camera_from_station,
+                                const Matrix6d& covariance);
+
+/// The move of the end effector that undoes the seed's error: a target that was planned from the
+/// seed is reached after it. At the end effector's origin, along and about the axes of `frame`.
+/// The arm's own error over so short a move is not included.
+struct Correction {
+  FrameName frame;
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< rotation vector
+  Matrix6d covariance = Matrix6d::Zero();                  ///< (rotation rad, translation m)
+};
+
+/// In the end effector's frame and in every frame that is joined to it; nothing for a case without
+/// an end effector.
+std::vector<Correction> correctionsOf(const SessionCase& session_case,
+                                      const Pose& camera_from_station, const Matrix6d& covariance);
+/// "correction to command in ARM_BASE: translation ... mm +- ..., rotation ... mrad +- ..."; for
+/// the terminal.
+std::string correctionText(const Correction& correction);
+/// By the frame's text: {"translation_m", "rotation_deg", "covariance"}.
+nlohmann::ordered_json toJson(const std::vector<Correction>& corrections);
 
 }  // namespace boresight::sessions

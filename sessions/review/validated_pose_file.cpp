@@ -86,8 +86,7 @@ ordered_json poseJson(const HandedPose& pose, const SessionCase& session_case) {
 
 ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& session_case) {
   const EndEffectorPose end_effector_pose =
-      endEffectorPose(session_case.camera_from_station_seed, pose.camera_from_station,
-                      *session_case.camera_from_end_effector, pose.covariance.total());
+      endEffectorPose(session_case, pose.camera_from_station, pose.covariance.total());
   const Pose& correction = end_effector_pose.end_effector_seed_from_end_effector_estimated;
   ordered_json json;
   json["station_from_end_effector"] = toJson(end_effector_pose.station_from_end_effector);
@@ -96,6 +95,8 @@ ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& session_
   json["correction_rotation_deg"] =
       toJson(Eigen::Vector3d(rotationLog(correction.rotation) / kDegree_rad));
   if (pose.covariance.known()) {
+    json["correction_to_command"] = toJson(
+        correctionsOf(session_case, pose.camera_from_station, pose.covariance.total()));
     json["covariance"] = toJson(end_effector_pose.covariance);
     json["covariance_is_of"] =
         "(rotation rad, translation m), right perturbation in the end effector's frame";
@@ -116,18 +117,17 @@ std::string runText(const HandedPose& pose, const Session& session) {
   return text;
 }
 
-/// The camera model's frame, and what joined the station's to it.
+/// The camera model's frame, and the transforms between frames.
 void addFrames(const SessionCase& session_case, ordered_json& chain) {
   if (session_case.camera_reference)
     chain.push_back(
         linkJson("camera_from_reference", session_case.camera_reference->camera_from_reference,
                  "the camera model, in " + frameText(session_case.camera_reference->frame)));
-  if (!session_case.station_frame || !session_case.station_frame->joined_by) return;
-  const FrameTransform& join = *session_case.station_frame->joined_by;
-  chain.push_back(linkJson("target_from_source", join.target_from_source,
-                           join.file.string() + ", sha256 " + join.file_sha256 + ", from " +
-                               frameText(join.source) + " to " + frameText(join.target) + ": " +
-                               join.comment));
+  for (const FrameTransform& join : session_case.frames)
+    chain.push_back(linkJson("target_from_source", join.target_from_source,
+                             join.file.string() + ", sha256 " + join.file_sha256 + ", from " +
+                                 frameText(join.source) + " to " + frameText(join.target) + ": " +
+                                 join.comment));
 }
 
 /// Every transform that was used, and where it came from.
@@ -247,9 +247,10 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   json["conventions"] = conventionsJson();
   json["pose"] = poseJson(pose, session_case);
   // Frames are never converted silently: those that the case knows by name are named.
-  if (session_case.camera_reference)
-    json["frames"] = toJson(namedPoses(session_case.camera_reference, session_case.station_frame,
-                                       pose.camera_from_station));
+  std::optional<Matrix6d> covariance;
+  if (pose.covariance.known()) covariance = pose.covariance.total();
+  const auto named = namedPoses(session_case, pose.camera_from_station, covariance);
+  if (!named.empty()) json["frames"] = toJson(named);
   if (session_case.camera_from_end_effector && session_case.has_seed)
     json["end_effector"] = endEffectorJson(pose, session_case);
   json["chain"] = chainJson(pose, session_case, alone);

@@ -16,7 +16,6 @@
 
 namespace boresight::sessions {
 
-inline constexpr const char* kValidatedPoseFormat = "boresight-validated-pose";
 inline constexpr int kValidatedPoseVersion = 1;
 
 /// The pose with which a case is handed over, and what is to be said of it everywhere.
@@ -129,8 +128,14 @@ struct VerifyReport {
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
 /// the run is run again (the annotations are solved again), and its digest, pose, covariance,
 /// matches and every check are compared with what is stated; with `convergence_again` the
-/// convergence test, too. InputError when it is no such file.
+/// convergence test, too. Files that are not where the document names them are looked for below
+/// `places.folder`, by their hashes; with `places.signers` those who decided must have signed the
+/// file with their keys (key_signature.h). InputError when it is no such file.
+struct VerifyPlaces {
+  std::optional<std::filesystem::path> folder = std::nullopt;
+  std::optional<std::filesystem::path> signers = std::nullopt;
+};
 VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,
-                        bool convergence_again = false);
+                        bool convergence_again = false, const VerifyPlaces& places = {});
 
 }  // namespace boresight::sessions

@@ -9,6 +9,7 @@
 #include "sessions/io/file_bytes.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/json_writer.h"
+#include "sessions/review/key_signature.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/decision.h"
@@ -25,7 +26,8 @@ using nlohmann::ordered_json;
 struct Document {
   fs::path file;
   ordered_json json;
-  Session session;
+  Session session;  ///< as embedded
+  Session located;  ///< the same with the paths that its files have here
   HandedPose pose;
 };
 
@@ -62,7 +64,7 @@ Document readDocument(const fs::path& file) {
   Document document;
   document.file = file;
   document.json = ordered_json::parse(asText(bytes));  // keeps the order, which is signed
-  document.session = readSession(root.at("session"));
+  document.session = document.located = readSession(root.at("session"));
   document.pose = readHandedPose(root);
   if (document.session.findCase(document.pose.case_id) == nullptr)
     root.failMember("case", "the embedded session does not have it");
@@ -79,10 +81,25 @@ void verifySignature(const Document& document, Findings& findings) {
                            : "the document was changed since it was signed, or was never signed"});
 }
 
+/// Those who decided have signed the file with their own keys.
+void verifyKeys(const Document& document, const fs::path& signers, Findings& findings) {
+  const Decision* decision = document.session.decisionOn(document.pose.case_id);
+  if (decision == nullptr) return;
+  std::vector<std::string> names = {decision->by};
+  if (decision->approval) names.push_back(decision->approval->by);
+  for (const std::string& name : names) {
+    const bool good = isSignedBy(name, document.file, signers);
+    findings.push_back({good, "key",
+                        good ? name + " signed the file"
+                             : "no signature of " + name + " with a key that " +
+                                   signers.filename().string() + " lists for this name"});
+  }
+}
+
 /// True when all files are what they were.
 bool verifyInputs(const Document& document, Findings& findings) {
   bool all = true;
-  for (const Finding& found : checkInputs(document.session)) {
+  for (const Finding& found : checkInputs(document.located)) {
     if (found.what == "run") continue;  // a run's trace does not come along: it is run again
     findings.push_back({false, found.what, found.text});
     all = false;
@@ -135,7 +152,7 @@ void verifyMeasured(const Document& document, const MeasuredPose& measured, bool
 std::optional<MeasuredPose> measureAgain(const Document& document, int convergence_seeds,
                                          Findings& findings) {
   try {
-    return measurePose(document.session, document.pose, convergence_seeds, document.file);
+    return measurePose(document.located, document.pose, convergence_seeds, document.file);
   } catch (const InputError& error) {
     findings.push_back({false, "run", std::string("it cannot be measured: ") + error.what()});
     return {};
@@ -188,13 +205,14 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
 }
 
 /// No measurement tells a person, a time or a reason.
-void listNotProved(const Decision* decision, bool measured, bool with_convergence,
+void listNotProved(const Decision* decision, bool measured, bool with_convergence, bool with_keys,
                    std::vector<std::string>& list) {
   if (!measured) list.emplace_back("run, pose, covariance and checks: not measured");
   if (decision == nullptr) return;
   const std::string approved = decision->approval ? " and " + decision->approval->by : "";
-  list.push_back("who: " + decision->by + approved +
-                 " (a name is text; the signature is a checksum without a key)");
+  if (!with_keys)
+    list.push_back("who: " + decision->by + approved +
+                   " (the name is as typed: give --signers to check signatures with their keys)");
   list.push_back("when: " + decision->time +
                  (decision->approval ? " and " + decision->approval->time : ""));
   for (const JudgedCheck& judged : decision->checks)
@@ -213,11 +231,16 @@ bool VerifyReport::good() const {
                      [](const VerifyFinding& verify_finding) { return verify_finding.good; });
 }
 
-VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again) {
+VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_again,
+                        const VerifyPlaces& places) {
   Document document = readDocument(file);
+  if (places.folder)
+    document.located =
+        relinked(document.session, findMissing(document.session, *places.folder / file.filename()));
   VerifyReport report;
   Findings& findings = report.findings;
   verifySignature(document, findings);
+  if (places.signers) verifyKeys(document, *places.signers, findings);
   const ReviewStatus status = reviewStatusOf(document.session, document.pose.case_id);
   takeReviewStatus(document, status);
   report.review_status = document.pose.review_status;
@@ -233,7 +256,8 @@ VerifyReport verifyPose(const fs::path& file, bool run_again, bool convergence_a
   if (run_again && inputs) measured = measureAgain(document, convergence_seeds, findings);
   if (measured) verifyMeasured(document, *measured, with_convergence, findings);
   verifyMembers(document, measured, findings);
-  listNotProved(status.decision, measured.has_value(), with_convergence, report.not_proved);
+  listNotProved(status.decision, measured.has_value(), with_convergence,
+                places.signers.has_value(), report.not_proved);
   return report;
 }
 

@@ -56,7 +56,8 @@ class OneView final : public SteppedRun {
                                              std::span<std::byte>(memory_.get(), bytes),
                                              settings.threads, settings.kernels);
     if (settings.onboard_record != nullptr)
-      settings.onboard_record->begin(recordInputs(localizer_->problem()), problem, plan.options);
+      settings.onboard_record->begin(recordInputs(withoutUnusedInputs(problem, plan.options)),
+                                      problem, plan.options);
   }
 
   StepReport step(const std::stop_token& stop) override {

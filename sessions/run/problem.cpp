@@ -99,7 +99,8 @@ RecordInputs::Hash cameraHash(const Camera& camera) {
 
 LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, const Camera& camera,
                               const MeshView& mesh, const Pose& camera_from_station_seed,
-                              const DeclaredUncertainty& uncertainty) {
+                              const DeclaredUncertainty& uncertainty,
+                              const std::optional<Pose>& camera_from_end_effector) {
   LocalizationProblem problem;
   problem.image = image.view();
   problem.color = image.colorView();
@@ -109,6 +110,8 @@ LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, co
   problem.camera_from_station_seed = camera_from_station_seed;
   problem.uncertainty =
       seedUncertainty(uncertainty, camera_from_station_seed, matchedBounds(mesh).centre());
+  if (camera_from_end_effector)
+    problem.end_effector_in_camera_m = camera_from_end_effector->translation_m;
   return problem;
 }
 
@@ -163,6 +166,8 @@ void requireAccepted(const LocalizationTrace& trace, const InputPlaces& places) 
       refuse(places.image, reason);
     case Status::kInvalidPose:
       refuse(places.seed, reason);
+    case Status::kInvalidOption:
+      refuse(places.seed, explanation(trace));
     default:
       break;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/localizer/problem.h"
@@ -17,10 +18,11 @@ namespace boresight::sessions {
 /// A problem from inputs that were read; points to image, mask (nullptr: none) and mesh.
 LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, const Camera& camera,
                               const MeshView& mesh, const Pose& camera_from_station_seed,
-                              const DeclaredUncertainty& uncertainty);
+                              const DeclaredUncertainty& uncertainty,
+                              const std::optional<Pose>& camera_from_end_effector);
 
 /// The hashes by which an onboard record knows the inputs of a run (core/record/FORMAT.md);
-/// `problem` without the colour that the run does not use (withoutUnusedColor).
+/// `problem` without inputs that the run does not use (withoutUnusedInputs).
 RecordInputs recordInputs(const LocalizationProblem& problem);
 
 /// Why a run from this seed makes no sense, or "": the matched parts lie behind the camera, or

@@ -88,6 +88,10 @@ std::string pnpFailedText(const LocalizationTrace& trace, const IterationTrace& 
 }
 
 std::string faultText(const LocalizationTrace& trace) {
+  if (trace.fault == Status::kInvalidOption &&
+      trace.lastOptions().loop.correction_point == CorrectionPoint::kEndEffector)
+    return "loop.correction_point is end_effector, but no end effector is known: state "
+           "camera_from_end_effector in dataset.json, or choose another point";
   std::string text = std::string("the run stopped: ") + statusText(trace.fault);
   if (trace.fault == Status::kCapacityExceeded)
     text += format(

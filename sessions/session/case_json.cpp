@@ -18,6 +18,8 @@ namespace {
 constexpr double kMaxCoordinate_px = 1e6;
 constexpr auto kSide_px = integerIn(1, kMaxImageSide_px);
 constexpr auto kStroke = choiceOf<StrokeKind>("brush", "polygon", "saturation");
+constexpr auto kOrigin = choiceOf<TransformSource>("unstated", "telemetry", "calibration",
+                                                   "label", "commanded");
 constexpr auto kFrame = jsonCodec<FrameName>(&readFrameName);
 constexpr auto kCamera =
     jsonCodec<CameraFile>([](const JsonReader& json) { return readCameraFile(json); });
@@ -158,16 +160,12 @@ void fields(Archive& archive, Self& transform) {
   archive.field("target", transform.target, kFrame);
   archive.field("source", transform.source, kFrame);
   archive.field("target_from_source", transform.target_from_source, kExactPose);
+  archive.optional("covariance", transform.covariance, kCovariance);
+  archive.field("origin", transform.origin, kOrigin);
   archive.field("comment", transform.comment, kNonEmptyText);
   archive.field("file", file, kNonEmptyText);
   archive.field("sha256", transform.file_sha256, kSha256);
   if constexpr (Archive::kReads) transform.file = file;
-}
-
-template <class Archive, ConstOr<StationFrame> Self>
-void fields(Archive& archive, Self& frame) {
-  fields(archive, frame.frame);
-  archive.object("joined_by", frame.joined_by);
 }
 
 template <class Archive, ConstOr<Rig> Self>
@@ -203,6 +201,7 @@ void fields(Archive& archive, Self& self) {
   archive.optional("tags", self.tags, listOf(kNonEmptyText));
   archive.optional("requirement", self.requirement, kRequirement);
   archive.optional("camera_from_end_effector", self.camera_from_end_effector, kExactPose);
+  archive.optionalList("frames", self.frames);
   archive.optionalPath("landmarks", self.landmarks, FileUse::kLandmarks);
   if constexpr (Archive::kReads) {
     self.camera = camera.camera;
@@ -220,7 +219,7 @@ ordered_json toJson(const SessionCase& session_case, const PathWriter& path) {
 }
 SessionCase readSessionCase(const JsonReader& json) { return readFields<SessionCase>(json); }
 
-ordered_json toJson(const StationFrame& frame) { return fieldsJson(frame); }
+ordered_json toJson(const FrameTransform& transform) { return fieldsJson(transform); }
 
 ordered_json toJson(const std::vector<LabelItem>& label) { return listOf(kLabelItem).write(label); }
 

@@ -64,7 +64,8 @@ GrayImage loadImage(const ImageInput& input) {
 
 LocalizationProblem LoadedCase::problem() const {
   return problemOf(image, ignore ? &ignore_bits : nullptr, source.camera, scene.view(),
-                   source.camera_from_station_seed, source.uncertainty);
+                   source.camera_from_station_seed, source.uncertainty,
+                   source.camera_from_end_effector);
 }
 
 std::shared_ptr<const LoadedCase> loadCase(const SessionCase& session_case) {

@@ -119,6 +119,10 @@ class Search {
     const auto [first, last] = files().equal_range(dependency.file.filename());
     for (auto place = first; place != last; ++place)
       if (hasSha256(place->second, dependency.sha256)) return place->second;
+    for (const auto& [name, place] : files())  // renamed
+      if (name.extension() == dependency.file.extension() &&
+          hasSha256(place, dependency.sha256))
+        return place;
     return std::nullopt;
   }
 

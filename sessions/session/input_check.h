@@ -40,7 +40,8 @@ struct Relink {
 };
 
 /// Looks for missing files below the folder of the session: first where the ends of their paths
-/// lead, then everywhere by name (at most 100000 entries). Only a file with the right hash counts.
+/// lead, then everywhere by name (at most 100000 entries), then by extension. Only a file with the
+/// right hash counts.
 std::vector<Relink> findMissing(const Session& session, const std::filesystem::path& session_file);
 
 /// The same session with each missing path replaced by the found one; hashes stay.

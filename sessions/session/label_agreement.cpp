@@ -94,10 +94,8 @@ void flagLabel(const SessionCase& session_case, const ImageLabel& label,
     if (concern.empty() && label.subframe && !label.subframe->whole())
       std::erase_if(flags, [](const RedFlag& flag) { return flag.code == "camera_off_centre"; });
   }
-  for (const std::optional<StationFrame>* given :
-       {&session_case.station_frame, &session_case.truth_frame}) {
-    if (!*given || !(*given)->joined_by) continue;
-    const RedFlag flag{"transform_label", transformConcern(*(*given)->joined_by, label)};
+  for (const FrameTransform& given : session_case.frames) {
+    const RedFlag flag{"transform_label", transformConcern(given, label)};
     if (!flag.text.empty() && std::find(flags.begin(), flags.end(), flag) == flags.end())
       flags.push_back(flag);
   }

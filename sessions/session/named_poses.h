@@ -7,32 +7,32 @@
 #include <vector>
 
 #include "sessions/io/camera_file.h"
-#include "sessions/io/frame_transform.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {
 
 struct NamedPose {
-  std::string of;  ///< "camera_model", or "station": the frame that the seed was given in
   FrameName frame;
   Pose reference_from_station;  ///< of that frame
-  std::string joined_by;        ///< of "station": what joined it to the camera model's frame
+  /// Left perturbation in that frame; nothing where none was given.
+  std::optional<Matrix6d> covariance = std::nullopt;
+  std::string joined_by;  ///< the transforms between the frame and the camera model
 };
 
-/// The pose in the camera model's frame and, where a transform joined another one to it, in that of
-/// the seed; nothing for a camera without a named reference.
-std::vector<NamedPose> namedPoses(const std::optional<CameraReference>& camera_reference,
-                                  const std::optional<StationFrame>& station_frame,
-                                  const Pose& camera_from_station);
+/// The pose in every frame that is joined to the camera, that of the seed last; nothing for a case
+/// without frames. `covariance`: of the pose, left perturbation in the camera frame; the
+/// transforms' covariances are added to it.
+std::vector<NamedPose> namedPoses(const SessionCase& session_case, const Pose& camera_from_station,
+                                  const std::optional<Matrix6d>& covariance = std::nullopt);
 
-/// {"camera_model": {"frame", "reference_from_station"}, "station": {..., "joined_by"}}.
+/// By the frame's text: {"reference_from_station", "covariance", "joined_by"}.
 nlohmann::ordered_json toJson(const std::vector<NamedPose>& poses);
 
 /// "reference_from_station in SITE_FRAME (194)": what heads the pose's matrix.
 std::string namedPoseTitle(const NamedPose& pose);
 
-/// In which frames the camera model and the seed were given, and what joined the two; nothing for a
-/// camera without a reference frame.
+/// In which frames the camera model, the seed and the truth were given, and how these are joined;
+/// nothing for a case without frames.
 std::vector<LabelItem> frameLines(const SessionCase& session_case);
 
 }  // namespace boresight::sessions

@@ -49,6 +49,10 @@ const Decision* Session::decisionOn(const std::string& case_id) const {
 
 const RunRecord* Session::lastRunOf(const std::string& case_id) const { return runs.find(case_id); }
 
+FrameTree framesOf(const SessionCase& session_case) {
+  return frameTree(session_case.camera_reference, session_case.frames);
+}
+
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance) {
   session_case.camera_from_station_truth = camera_from_station;
@@ -153,6 +157,7 @@ std::string inputsDigest(const SessionCase& session_case) {
   inputs.has_seed = session_case.has_seed;
   inputs.camera_from_station_seed = session_case.camera_from_station_seed;
   inputs.uncertainty = session_case.uncertainty;
+  inputs.camera_from_end_effector = session_case.camera_from_end_effector;
   inputs.ignore = session_case.ignore;
   inputs.ignore_strokes = session_case.ignore_strokes;
   // Where the files are makes no difference.

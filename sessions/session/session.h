@@ -74,11 +74,11 @@ struct SessionCase {
   bool has_seed = true;
   Pose camera_from_station_seed;
   /// Of a seed that was given in a named frame. No input of a run.
-  std::optional<StationFrame> station_frame;
+  std::optional<FrameName> station_frame;
   DeclaredUncertainty uncertainty;
   std::optional<Pose> camera_from_station_truth;
   /// Of a truth that was given in a named frame. No input of a run.
-  std::optional<StationFrame> truth_frame;
+  std::optional<FrameName> truth_frame;
   /// Of a truth that was measured (by annotations): left perturbation, camera frame, as the
   /// annotations alone say. Nothing: it is exact. No input of a run.
   std::optional<Matrix6d> truth_covariance;
@@ -90,12 +90,17 @@ struct SessionCase {
   std::vector<std::string> tags;
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
+  /// Between named frames, without loops (frame_tree.h); `file` is a name alone. No input of a run.
+  std::vector<FrameTransform> frames;
   /// landmarks.json with the station's named points, absolute; may not be there yet. No input of a
   /// run, and annotators add to it: its bytes are not known to the session.
   std::optional<std::filesystem::path> landmarks;
 
   bool operator==(const SessionCase&) const = default;
 };
+
+/// The tree of the case's frames, with that of its camera model.
+FrameTree framesOf(const SessionCase& session_case);
 
 /// Gives a case this truth in place of a former one, with all that was said of that.
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,

@@ -43,9 +43,9 @@ nlohmann::ordered_json toJson(const SessionCase& session_case, const PathWriter&
 /// The reverse, without whether its id is given twice. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 
-/// {"name", "index", "joined_by": {"target", "source", "target_from_source", "comment", "file",
-/// "sha256"}}: the file's name alone, since its numbers are here.
-nlohmann::ordered_json toJson(const StationFrame& frame);
+/// {"target", "source", "target_from_source", "covariance", "origin", "comment", "file", "sha256"}:
+/// the file's name alone, since its numbers are here.
+nlohmann::ordered_json toJson(const FrameTransform& transform);
 
 /// An array of [keyword, value].
 nlohmann::ordered_json toJson(const std::vector<LabelItem>& label);

@@ -5,9 +5,11 @@
 #include <map>
 #include <system_error>
 
+#include "core/base/math.h"
 #include "sessions/evaluation/bop_dataset.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/errors.h"
+#include "sessions/io/labels/image_label.h"
 #include "sessions/session/check_limits.h"
 #include "sessions/session/input_check.h"
 
@@ -17,6 +19,68 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path wholePath(const fs::path& file) { return fs::absolute(file).lexically_normal(); }
+
+/// As a case keeps them: the numbers are here, so the file's name suffices.
+std::vector<FrameTransform> keptFrames(std::vector<FrameTransform> transforms) {
+  for (FrameTransform& transform : transforms) transform.file = transform.file.filename();
+  return transforms;
+}
+
+/// Adds the frames of the image's label that no transform joins yet.
+void addLabelFrames(const fs::path& image, const std::optional<CameraReference>& reference,
+                    std::vector<FrameTransform>& transforms) {
+  if (!hasImageLabel(image)) return;
+  for (const LabelFrame& stated : readImageLabel(image).frames) {
+    if (stated.frame == stated.reference ||
+        frameTree(reference, transforms).chain(stated.reference, stated.frame))
+      continue;
+    FrameTransform transform;
+    transform.target = stated.reference;
+    transform.source = stated.frame;
+    transform.target_from_source = stated.reference_from_frame;
+    transform.origin = TransformSource::kLabel;
+    transform.comment = "the image's label";
+    transform.file = image;
+    transform.file_sha256 = inputSha256(image);
+    transforms.push_back(std::move(transform));
+  }
+}
+
+/// Half-widths of a seed's uncertainty that a covariance is taken as, in sigmas.
+constexpr double kSeedSigmas = 3.0;
+
+/// The seed that the transforms between CAMERA and STATION are.
+std::optional<PoseFile> seedOfFrames(const PoseFrames& frames) {
+  const auto chain =
+      frameTree(frames.reference, frames.transforms).chain(kCameraFrame, kStationFrame);
+  if (!chain) return std::nullopt;
+  PoseFile seed;
+  seed.camera_from_station = chain->a_from_b;
+  if (!chain->covariance_stated) return seed;
+  const Vector6d limits = kSeedSigmas * sigmasOf(chain->covariance);
+  DeclaredUncertainty& uncertainty = seed.uncertainty.emplace();
+  uncertainty.rotation_deg = limits.head<3>() / kDegree_rad;
+  uncertainty.translation_m = limits.tail<3>();
+  return seed;
+}
+
+/// A line for the operator where the seed was converted by what the image's label states.
+std::string labelNote(const PoseFrames& frames, const FrameName& frame) {
+  const FrameTree tree = frameTree(frames.reference, frames.transforms);
+  const auto chain = tree.chain(kCameraFrame, frame);
+  if (!chain || std::none_of(chain->links.begin(), chain->links.end(), [](const FrameLink& link) {
+        return link.transform->origin == TransformSource::kLabel;
+      }))
+    return "";
+  return "the seed is converted from " + frameText(frame) + " by the frames of the image's label";
+}
+
+std::optional<Pose> endEffectorOf(const PoseFrames& frames) {
+  const auto chain =
+      frameTree(frames.reference, frames.transforms).chain(kCameraFrame, kEndEffectorFrame);
+  if (!chain) return std::nullopt;
+  return chain->a_from_b;
+}
 
 ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
   const GrayImage image = readImage(file, eight_bit);
@@ -75,6 +139,7 @@ SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const Image
   session_case.tags = dataset_case.tags;
   session_case.requirement = dataset_case.requirement;
   session_case.camera_from_end_effector = dataset_case.camera_from_end_effector;
+  session_case.frames = keptFrames(dataset.transforms);
   return session_case;
 }
 
@@ -106,9 +171,18 @@ MadeCase makeCase(const CaseFiles& files) {
   session_case.mesh_scale_sigma = files.mesh_scale_sigma;
   PoseFrames frames{camera.reference};
   for (const fs::path& file : files.transforms)
-    frames.transforms.push_back(readFrameTransform(file));
-  session_case.has_seed = !files.seed.empty();
-  const PoseFile seed = session_case.has_seed ? readPose(files.seed, frames) : PoseFile();
+    for (FrameTransform& transform : readFrameTransforms(file))
+      frames.transforms.push_back(std::move(transform));
+  addLabelFrames(files.image, camera.reference, frames.transforms);
+  session_case.frames = keptFrames(frames.transforms);
+  session_case.camera_from_end_effector = files.camera_from_end_effector;
+  if (!session_case.camera_from_end_effector)
+    session_case.camera_from_end_effector = endEffectorOf(frames);
+  session_case.requirement = files.requirement;
+  const std::optional<PoseFile> given =
+      files.seed.empty() ? seedOfFrames(frames) : readPose(files.seed, frames);
+  session_case.has_seed = given.has_value();
+  const PoseFile seed = given.value_or(PoseFile());
   session_case.camera_from_station_seed = seed.camera_from_station;
   session_case.station_frame = seed.station_frame;
   const DeclaredUncertainty stated = seed.uncertainty.value_or(DeclaredUncertainty());
@@ -116,6 +190,9 @@ MadeCase makeCase(const CaseFiles& files) {
   session_case.uncertainty.pivot = files.pivot.value_or(stated.pivot);
   if (session_case.has_seed && !files.uncertainty && !seed.uncertainty)
     result.notes.push_back("the seed states no uncertainty; taking 0.03 m and 5 deg");
+  if (const std::string by_label = labelNote(frames, seed.station_frame.value_or(kStationFrame));
+      !by_label.empty())
+    result.notes.push_back(by_label);
   const std::string projected = projectionNote(seed.rotation_deviation);
   if (!projected.empty()) result.notes.push_back(files.seed.string() + ": " + projected);
   if (files.truth) {

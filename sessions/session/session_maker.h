@@ -18,16 +18,21 @@ struct CaseFiles {
   ImageReadOptions eight_bit;
   /// camera.json, text of calibration or an image with a label; "": the image's own label.
   std::filesystem::path camera;
-  /// Between the camera model's frame and those of seed and truth, where these differ.
+  /// Transforms between named frames (sessions/io/cameras.md).
   std::vector<std::filesystem::path> transforms;
   std::vector<PartSource> parts;
-  std::filesystem::path seed;  ///< "": a case without a seed
+  /// "": the chain between STATION and CAMERA, with the transforms' covariances as its uncertainty;
+  /// where the transforms do not join these, a case without a seed.
+  std::filesystem::path seed;
   std::optional<DeclaredUncertainty> uncertainty;  ///< instead of the seed file's, but its pivot
   std::optional<UncertaintyPivot> pivot;           ///< instead of the seed file's
   std::optional<std::filesystem::path> truth;
   std::optional<std::filesystem::path> ignore;
   std::optional<double> feature_size_m;
   std::optional<double> mesh_scale_sigma;
+  /// Instead of what the transforms say of CAMERA and END_EFFECTOR.
+  std::optional<Pose> camera_from_end_effector;
+  std::optional<Requirement> requirement;
 };
 
 /// A case with the hashes of its files as they are now, and the notes for the operator (a seed that

@@ -74,6 +74,7 @@ ViewsProblem LoadedViews::problem() const {
   views_problem.mesh = first.mesh;
   views_problem.rig_from_station_seed = rigSeed(cases.front()->source);
   views_problem.uncertainty = first.uncertainty;
+  views_problem.end_effector_in_camera_m = first.end_effector_in_camera_m;
   return views_problem;
 }
 

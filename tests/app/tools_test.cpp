@@ -45,6 +45,33 @@ TEST(WhsOptions, ListsEveryOptionWithRangeAndMeaning) {
   EXPECT_NE(runWhs({"options", "--profile", "paper"}).out, out);
 }
 
+TEST(WhsOptions, TableForUplinkIsReadAsAConfiguration) {
+  const TemporaryFolder folder;
+  const std::string table = folder / "parameters.bin";
+  const std::string dictionary = folder / "dictionary.json";
+  runWhs({"options", "--profile", "paper", "--set", "loop.max_iterations=7", "--table", table,
+          "--dictionary", dictionary},
+         0);
+  const auto ownOptions = [](const std::string& out) {
+    return out.substr(0, out.find("Options of the other methods"));
+  };
+  EXPECT_EQ(ownOptions(runWhs({"options", "--config", table}, 0).out),
+            ownOptions(runWhs({"options", "--profile", "paper", "--set", "loop.max_iterations=7"},
+                              0)
+                           .out));
+  const auto json = nlohmann::json::parse(folder.read("dictionary.json"));
+  std::size_t count = 0;
+  const LocalizerOptions options;
+  LocalizerOptions::visitFields(options, [&](const OptionInfo& info, const auto&) {
+    EXPECT_EQ(json["parameters"][count++]["name"], info.name);
+  });
+  EXPECT_EQ(json["parameters"].size(), count);
+  std::string bytes = folder.read("parameters.bin");
+  bytes[40] ^= 1;
+  const ProgramRun refused = runWhs({"options", "--config", folder.write("bad.bin", bytes)}, 3);
+  EXPECT_THAT(refused.err, HasSubstr("damaged: the checksum does not match"));
+}
+
 TEST(WhsRender, DrawsWhatTheCoreRenders) {
   const TemporaryFolder folder;
   runWhs({"render", "--camera", kExample / "camera.json", "--mesh", kExample / "model.ply",

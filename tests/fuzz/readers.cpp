@@ -142,7 +142,7 @@ constexpr FuzzedReader kReaders[] = {
     {"session", "s.boresight.json",
      [](const Path& file) { (void)sessions::readSessionFile(file); }},
     {"transform", "transform.json",
-     [](const Path& file) { (void)sessions::readFrameTransform(file); }},
+     [](const Path& file) { (void)sessions::readFrameTransforms(file); }},
     {"trace", "run.trace", [](const Path& file) { (void)sessions::loadTrace(file); }, sealTrace},
 };
 

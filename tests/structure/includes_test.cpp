@@ -26,7 +26,7 @@ const std::vector<std::vector<std::string>> kFloors = {
     {"sessions/annotation", "sessions/baselines", "sessions/record"},
     {"sessions/evaluation"},
     {"sessions/session"},
-    {"sessions/review"},
+    {"sessions/calibration", "sessions/review"},
     {"sessions/exchange", "sessions/report"},
     {"sessions/tables"},
     {"ui/manual", "ui/models", "ui/plots", "ui/state"},

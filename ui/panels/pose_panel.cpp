@@ -216,8 +216,7 @@ void PosePanel::showNamedPoses(PoseRole role) {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   QStringList texts;
   if (loaded_case && pose(role))
-    for (const sessions::NamedPose& named : sessions::namedPoses(
-             loaded_case->source.camera_reference, loaded_case->source.station_frame, *pose(role)))
+    for (const sessions::NamedPose& named : sessions::namedPoses(loaded_case->source, *pose(role)))
       texts << fromText(sessions::namedPoseTitle(named)) + QLatin1Char('\n') +
                    matrixRows(named.reference_from_station);
   ui_.namedPoses->setText(texts.join(QStringLiteral("\n\n")));

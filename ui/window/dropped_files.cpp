@@ -64,7 +64,7 @@ Take takeOfJson(const std::filesystem::path& file) {
   static const std::vector<FileKind> kFormats = {
       {{"boresight-camera"}, takeCamera},
       {{"boresight-pose"}, takePose},
-      {{"boresight-transform"}, takeTransform},
+      {{"boresight-transform", "boresight-frames"}, takeTransform},
       {{"boresight-dataset"}, takeAs<&DroppedFiles::dataset>},
       {{"boresight-session"}, takeAs<&DroppedFiles::session>},
   };

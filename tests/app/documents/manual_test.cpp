@@ -287,7 +287,7 @@ TEST(Manual, FramesOfThePlanetaryPageAreThoseOfTheLabel) {
   runPage("planetary.md", folder);
   const sessions::ImageLabel label = sessions::readImageLabel(folder / "1F483288473.IMG");
   const sessions::FrameTransform stated =
-      sessions::readFrameTransform(folder / "site_from_rover.json");
+      sessions::readFrameTransforms(folder / "site_from_rover.json").front();
   const auto told = std::find_if(label.frames.begin(), label.frames.end(), [&](const auto& item) {
     return item.frame == stated.source && item.reference == stated.target;
   });

@@ -136,6 +136,11 @@ TEST(LocalizerDigest, ChangesWithEveryInput) {
       [](Inputs& i) { std::swap(i.scene.solid.faces[0], i.scene.solid.faces[1]); },
       [](Inputs& i) { i.options.pnp.seed = 2; },
       [](Inputs& i) { i.options.loop.max_iterations = 11; },
+      [](Inputs& i) { i.options.loop.correction_point = CorrectionPoint::kEndEffector; },
+      [](Inputs& i) {
+        i.options.loop.correction_point = CorrectionPoint::kEndEffector;
+        i.scene.end_effector_in_camera_m.z() += 1e-12;
+      },
   };
   std::vector<Digest> seen;
   for (const auto& change : changes) {

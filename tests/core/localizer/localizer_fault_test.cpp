@@ -52,6 +52,10 @@ TEST(LocalizerFault, Options) {
   expectFault({"enum", expected, [](Input& i) {
                  i.options.loop.correction_point = static_cast<CorrectionPoint>(7);
                }});
+  expectFault({"end effector", expected, [](Input& i) {
+                 i.options.loop.correction_point = CorrectionPoint::kEndEffector;
+                 i.problem.end_effector_in_camera_m.setZero();
+               }});
   std::size_t bytes = 0;
   LocalizerOptions options;
   options.templates.count = -1;
@@ -89,6 +93,8 @@ TEST(LocalizerFault, Pose) {
                [](Input& i) { i.problem.uncertainty.rotation_rad.z() = kInfinity; }});
   expectFault(
       {"negative", expected, [](Input& i) { i.problem.uncertainty.translation_m.x() = -0.01; }});
+  expectFault({"end effector", expected,
+               [](Input& i) { i.problem.end_effector_in_camera_m.x() = kNan; }});
   expectFault(
       {"pivot", expected, [](Input& i) { i.problem.uncertainty.pivot_in_camera_m.x() = kNan; }});
 }

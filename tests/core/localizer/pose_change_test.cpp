@@ -30,14 +30,23 @@ Camera pinhole() {
   return camera;
 }
 
-TEST(PoseChange, Translation_IsMeasuredAtTheCameraOrTheScene) {
+TEST(PoseChange, Translation_IsMeasuredAtTheChosenPoint) {
   const BoundingBox scene{{0.9, -0.1, -0.1}, {1.1, 0.1, 0.1}};  // a metre from the origin
   const Pose before;
   Pose turned;
   turned.rotation = rotationExp(Eigen::Vector3d(0.0, 0.0, kPi / 2.0));
-  EXPECT_NEAR(translationBetween_m(before, turned, scene, CorrectionPoint::kCamera), 0.0, 1e-15);
-  EXPECT_NEAR(translationBetween_m(before, turned, scene, CorrectionPoint::kStation),
-              std::sqrt(2.0), 1e-12);
+  const Camera camera = pinhole();
+  const Eigen::Vector3d end_effector_in_camera_m{0.3, 0.4, 2.0};
+  LocalizerOptions options;
+  const RunContext run{options, camera, scene, {}, end_effector_in_camera_m};
+  const auto translation_m = [&](CorrectionPoint point) {
+    options.loop.correction_point = point;
+    return translationBetween_m(before, turned, run);
+  };
+  EXPECT_NEAR(translation_m(CorrectionPoint::kCamera), 0.0, 1e-15);
+  EXPECT_NEAR(translation_m(CorrectionPoint::kStation), std::sqrt(2.0), 1e-12);
+  // Half a metre from the axis, turned by a quarter.
+  EXPECT_NEAR(translation_m(CorrectionPoint::kEndEffector), 0.5 * std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(rotationBetween_rad(before, turned), kPi / 2.0, 1e-12);
 }
 

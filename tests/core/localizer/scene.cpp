@@ -408,6 +408,7 @@ LocalizationProblem Case::problem() const {
   problem.mesh = solid.view();
   problem.camera_from_station_seed = seed;
   problem.uncertainty = uncertainty;
+  problem.end_effector_in_camera_m = end_effector_in_camera_m;
   return problem;
 }
 

@@ -100,6 +100,7 @@ struct Case {
   Pose truth;
   Pose seed;
   SeedUncertainty uncertainty;
+  Eigen::Vector3d end_effector_in_camera_m = {0.01, -0.02, 0.3};
   const BitImage* ignore = nullptr;
 
   LocalizationProblem problem() const;

@@ -67,7 +67,7 @@ TEST(RecordWriter, Blocks_FollowTheFormat) {
     EXPECT_EQ(reader.u32(), crc32(whole.first(12 + length)));
     ASSERT_FALSE(reader.failed());
     for (const auto& [type, content] : {std::pair{RecordBlock::kIteration, std::size_t{252}},
-                                        {RecordBlock::kInputs, 264},
+                                        {RecordBlock::kInputs, 288},
                                         {RecordBlock::kEdges, 52},
                                         {RecordBlock::kSupport, 33},
                                         {RecordBlock::kEnd, kEndBytes}}) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 
 #include "sessions/io/errors.h"
 #include "tests/support/example_case.h"
@@ -42,6 +43,23 @@ TEST(RunBatch, LocalizesTheExample) {
     EXPECT_GT(result.probability.value_or(0.0), 0.9);
     EXPECT_TRUE(result.image_quality);
   }
+}
+
+TEST(RunBatch, MeasuresCorrectionsAtTheEndEffectorOfTheCase) {
+  Dataset dataset = exampleDataset();
+  BatchOptions options = quick();
+  for (Case& dataset_case : dataset.cases) dataset_case.camera_from_end_effector.reset();
+  const std::string at_camera = runBatch(dataset, options, {}).front().digest;
+  options.localizer.loop.correction_point = CorrectionPoint::kEndEffector;
+  EXPECT_THAT(runBatch(dataset, options, {}).front().message,
+              HasSubstr("no end effector is known"));
+  std::set<std::string> digests = {at_camera};
+  for (const double ahead_m : {0.3, 0.4}) {
+    for (Case& dataset_case : dataset.cases)
+      dataset_case.camera_from_end_effector.emplace().translation_m.z() = ahead_m;
+    digests.insert(runBatch(dataset, options, {}).front().digest);
+  }
+  EXPECT_EQ(digests.size(), 3u);
 }
 
 TEST(RunBatch, GivesTheSameInTheSameOrderForAnyNumberOfJobs) {

@@ -41,6 +41,34 @@ class ReadCamera : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+/// An entry of the public image feed of Mars 2020, against the same vectors in a camera.json.
+TEST_F(ReadCamera, ReadsTheMetadataOfARawImage) {
+  const std::string start =
+      R"({"imageid": "NRF_0731", "dimension": "(1288,968)", "site": 36, "drive": 1610,)"
+      R"( "subframe_rect": [2545.0, 1.0, 2576.0, 1936.0], "scale_factor": 2,)"
+      R"( "camera_model_type": "CAHVORE", "camera_model_component_list": ")";
+  const std::string components =
+      "(0.57409,0.460145,-1.94506);(-0.811535,0.532626,0.240282);(-824.337,-1223.95,0.351512);"
+      "(-496.164,321.169,1666.04);(-0.811482,0.533042,0.23954);(0.000000424,0.0517186,-0.0187155);"
+      "(0.000000012,0.00000003,-0.000000003);2;0.0";
+  const auto file = folder_.write("metadata.json", start + components + "\"}");
+  const CameraFile metadata = readCameraFile(file);
+  const Camera written = read(
+      R"("model": "cahvore", "width": 1288, "height": 968, "C": [0.57409, 0.460145, -1.94506],)"
+      R"( "A": [-0.811535, 0.532626, 0.240282], "H": [-824.337, -1223.95, 0.351512],)"
+      R"( "V": [-496.164, 321.169, 1666.04], "O": [-0.811482, 0.533042, 0.23954],)"
+      R"( "R": [4.24e-07, 0.0517186, -0.0187155], "E": [1.2e-08, 3e-08, -3e-09],)"
+      R"( "cahvore_type": 2, "cahvore_parameter": 0.0)");
+  EXPECT_EQ(metadata.camera, written);
+  ASSERT_TRUE(metadata.reference);
+  EXPECT_EQ(metadata.reference->frame, (FrameName{"ROVER_NAV_FRAME", {36, 1610}}));
+  for (const std::string& wrong : {std::string("(1,2)"), std::string("(1,nan)"), components + ";x"})
+    EXPECT_THAT(folder_.message([&] {
+      (void)readCameraFile(folder_.write("wrong.json", start + wrong + "\"}"));
+    }),
+                HasSubstr("wrong.json: camera_model_component_list: "));
+}
+
 TEST_F(ReadCamera, ReadsEveryModel) {
   const Camera pinhole = read(std::string(R"("model": "pinhole", )") + kSize + kFocus);
   EXPECT_EQ(pinhole.model, CameraModel::kPinhole);

@@ -156,5 +156,18 @@ TEST(SeedUncertaintyOf, TurnsDegreesAndThePivotIntoTheCoresTerms) {
   EXPECT_TRUE(station.pivot_in_camera_m.isApprox(Eigen::Vector3d(0.1, 0.2, 0.7), 1e-15));
 }
 
+TEST(ReadPose, TakesTheOneOfAValidatedPose) {
+  const test::TemporaryFolder folder;
+  const PoseFile pose = readPose(folder.write("validated_pose.json", R"({
+    "format": "boresight-validated-pose", "version": 1, "state": "validated",
+    "pose": {"source": "run", "camera_from_station": [[1,0,0,0.1],[0,1,0,0.2],[0,0,1,0.3],[0,0,0,1]],
+             "covariance": [[1,0,0,0,0,0],[0,1,0,0,0,0],[0,0,1,0,0,0],
+                            [0,0,0,1,0,0],[0,0,0,0,1,0],[0,0,0,0,0,2]]}})"));
+  EXPECT_EQ(pose.camera_from_station.translation_m, Eigen::Vector3d(0.1, 0.2, 0.3));
+  ASSERT_TRUE(pose.covariance);
+  EXPECT_EQ((*pose.covariance)(5, 5), 2.0);
+  EXPECT_FALSE(pose.uncertainty);
+}
+
 }  // namespace
 }  // namespace boresight::sessions

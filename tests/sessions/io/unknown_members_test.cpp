@@ -98,7 +98,7 @@ TEST_F(UnknownMembers, OfEveryObject_AreRefused) {
   expectRefused(kReadCamera, vectors(), {"", "/subframe", "/reference_frame"});
   expectRefused(kReadPose, pose(), {"", "/uncertainty"});
   expectRefused(readConfig, {{"format", "boresight-config"}, {"version", 1}}, {""});
-  expectRefused(readFrameTransform, transformFile(), {"", "/target", "/source"});
+  expectRefused([](const auto& file) { return readFrameTransforms(file); }, transformFile(), {"", "/target", "/source"});
   expectRefused(readDataset, dataset(),
                 {"", "/cases/0", "/cases/0/rig", "/cases/0/seed", "/stations/bc", "/requirement"});
 }

@@ -43,6 +43,7 @@ TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
       {RunPart::kSeed,
        [](auto& run) { run.inputs->camera_from_station_seed.translation_m.z() += 1e-15; }},
       {RunPart::kSeed, [](auto& run) { run.inputs->uncertainty.rotation_rad.x() *= 2.0; }},
+      {RunPart::kSeed, [](auto& run) { run.inputs->end_effector_in_camera_m.x() += 0.1; }},
       {RunPart::kOptions, [](auto& run) { run.options.front().options[5].bits ^= 1; }},
       {RunPart::kOptions, [](auto& run) { run.options.front().options.pop_back(); }},
       {RunPart::kEdges, [](auto& run) { run.edges->sha256[9] ^= 4; }},

@@ -70,6 +70,7 @@ void expectEqual(const OnboardRecord& a, const OnboardRecord& b) {
   EXPECT_EQ(a.inputs->uncertainty.translation_m, b.inputs->uncertainty.translation_m);
   EXPECT_EQ(a.inputs->uncertainty.rotation_rad, b.inputs->uncertainty.rotation_rad);
   EXPECT_EQ(a.inputs->uncertainty.pivot_in_camera_m, b.inputs->uncertainty.pivot_in_camera_m);
+  EXPECT_EQ(a.inputs->end_effector_in_camera_m, b.inputs->end_effector_in_camera_m);
   EXPECT_EQ(a.options, b.options);
   EXPECT_EQ(a.edges->sha256, b.edges->sha256);
   EXPECT_EQ(a.edges->low_threshold, b.edges->low_threshold);

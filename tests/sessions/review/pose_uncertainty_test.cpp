@@ -192,5 +192,49 @@ TEST(EndEffectorPose, TheCovarianceIsTheScatterOfDraws) {
           << row << ", " << column;
 }
 
+/// After the move, the end effector is over the station where the seed had it.
+TEST(Correction, MoveReachesWhatWasPlannedFromTheSeed) {
+  Random random = randomFor("Correction.Move");
+  const FrameName base{"ARM_BASE", {}};
+  for (int trial = 0; trial < 20; ++trial) {
+    SessionCase session_case;
+    session_case.camera_from_station_seed = randomPose(random);
+    session_case.camera_from_end_effector = randomPose(random);
+    FrameTransform hand_eye;
+    hand_eye.target = kCameraFrame;
+    hand_eye.source = kEndEffectorFrame;
+    hand_eye.target_from_source = *session_case.camera_from_end_effector;
+    hand_eye.covariance = randomCovariance(random, 1e-5);
+    FrameTransform telemetry;
+    telemetry.target = base;
+    telemetry.source = kEndEffectorFrame;
+    telemetry.target_from_source = randomPose(random);
+    telemetry.covariance = randomCovariance(random, 1.0);  // common to both poses: does not enter
+    session_case.frames = {hand_eye, telemetry};
+    const Pose estimate = randomPose(random);
+    const Matrix6d covariance = randomCovariance(random, 1e-4);
+    const auto corrections = correctionsOf(session_case, estimate, covariance);
+    ASSERT_EQ(corrections.size(), 3u);  // END_EFFECTOR, CAMERA, ARM_BASE
+    const Correction& in_base = corrections.back();
+    EXPECT_EQ(in_base.frame, base);
+
+    const Pose base_from_station =
+        telemetry.target_from_source * hand_eye.target_from_source.inverse() * estimate;
+    Pose moved = telemetry.target_from_source;  // of the end effector, in the base
+    moved.translation_m += in_base.translation_m;
+    moved.rotation = rotationExp(in_base.rotation_rad) * moved.rotation;
+    const Pose planned =
+        session_case.camera_from_station_seed.inverse() * *session_case.camera_from_end_effector;
+    EXPECT_LT(perturbationBetween(planned, base_from_station.inverse() * moved).norm(), 1e-9);
+    const double trace = corrections.front().covariance.trace();
+    EXPECT_NEAR(in_base.covariance.trace(), trace, 1e-9 * trace);
+    EXPECT_GT(trace, correctionsOf([&] {
+                       SessionCase exact = session_case;
+                       exact.frames[0].covariance.reset();
+                       return exact;
+                     }(), estimate, covariance).front().covariance.trace());
+  }
+}
+
 }  // namespace
 }  // namespace boresight::sessions

@@ -485,6 +485,46 @@ TEST_F(ValidatedPose, AnInputThatIsMissingOrChangedIsNamed) {
   EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)), HasSubstr("image: "));
 }
 
+/// Keys are made for the test. A name has blanks, and characters of a shell.
+TEST_F(ValidatedPose, SignaturesOfThoseWhoDecidedAreChecked) {
+  if (std::system("command -v ssh-keygen >/dev/null") != 0) GTEST_SKIP() << "no ssh-keygen";
+  const fs::path file = writeValidated();
+  const std::string by = session_.decisionOn(id_)->by;
+  const std::string key = (folder_.path() / "key").string();
+  ASSERT_EQ(std::system(("ssh-keygen -q -t ed25519 -N '' -C x -f " + key).c_str()), 0);
+  std::ifstream stream(key + ".pub");
+  const std::string public_key((std::istreambuf_iterator<char>(stream)), {});
+  const fs::path signers = folder_.write("signers", "\"" + by + "\" " + public_key);
+  const fs::path of_another = folder_.write("others", "\"$(whoami); B.\" " + public_key);
+  const auto verify = [&](const fs::path& allowed) {
+    return sessions::verifyPose(file, false, false, {std::nullopt, allowed});
+  };
+  EXPECT_THAT(wrongsOf(verify(signers)), HasSubstr("key: no signature of " + by));
+  ASSERT_EQ(std::system(("ssh-keygen -q -Y sign -n boresight -f " + key + " " + file.string() +
+                         " 2>/dev/null")
+                            .c_str()),
+            0);
+  EXPECT_TRUE(verify(signers).good()) << wrongsOf(verify(signers));
+  EXPECT_THAT(wrongsOf(verify(of_another)), HasSubstr("key: no signature of " + by));
+  EXPECT_THROW((void)verify(folder_.path() / "none"), sessions::InputError);
+  std::ofstream(file, std::ios::app) << "\n";  // the JSON is the same, the signed bytes are not
+  EXPECT_THAT(wrongsOf(verify(signers)), HasSubstr("key: no signature of " + by));
+}
+
+TEST_F(ValidatedPose, MovedAndRenamedFilesAreFoundByTheirHash) {
+  const fs::path file = writeValidated();
+  const fs::path image = session_.findCase(id_)->image.source.file;
+  const test::TemporaryFolder elsewhere;
+  fs::create_directories(elsewhere / "images");
+  fs::rename(image, elsewhere.path() / "images" / ("renamed" + image.extension().string()));
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true)), HasSubstr("image: "));
+  const VerifyReport report = sessions::verifyPose(file, true, false, {elsewhere.path()});
+  EXPECT_TRUE(report.good()) << wrongsOf(report);
+  overwrite(elsewhere.path() / "images" / ("renamed" + image.extension().string()), {1, 2, 3});
+  EXPECT_THAT(wrongsOf(sessions::verifyPose(file, true, false, {elsewhere.path()})),
+              HasSubstr("image: "));
+}
+
 TEST_F(ValidatedPose, AStaleRunIsNotHandedOver) {
   run();
   sessions::SessionCase session_case = *session_.findCase(id_);

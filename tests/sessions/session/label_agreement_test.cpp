@@ -44,8 +44,13 @@ class LabelAgreement : public ::testing::Test {
     one_.camera_reference = camera.reference;
   }
   void give(const FrameName& target, const FrameName& source, const Pose& target_from_source) {
-    FrameTransform transform{target, source, target_from_source, "by hand", "sol3.json", ""};
-    one_.station_frame = StationFrame{kSite, transform};
+    FrameTransform transform;
+    transform.target = target;
+    transform.source = source;
+    transform.target_from_source = target_from_source;
+    transform.comment = "by hand";
+    transform.file = "sol3.json";
+    one_.frames = {transform};
   }
   std::vector<std::string> flags() const {
     std::vector<RedFlag> found;

@@ -65,11 +65,13 @@ inline void addRandomFrames(Random& random, sessions::SessionCase& session_case)
       sessions::CameraReference{randomPose(random), randomFrame(random)};
   if (coin(random)) session_case.camera_reference->frame = {};
   if (coin(random)) return;
-  session_case.station_frame = sessions::StationFrame{randomFrame(random)};
+  session_case.station_frame = randomFrame(random);
   if (coin(random)) return;
-  sessions::FrameTransform& join = session_case.station_frame->joined_by.emplace();
+  sessions::FrameTransform& join = session_case.frames.emplace_back();
   join.target = randomFrame(random);
-  join.source = randomFrame(random);
+  join.source = *session_case.station_frame;
+  join.origin = static_cast<sessions::TransformSource>(random.below(5));
+  if (coin(random)) join.covariance = Matrix6d(Vector6d::Constant(1e-6).asDiagonal());
   join.target_from_source = randomPose(random);
   join.comment = "sol 12";
   join.file = "transform.json";

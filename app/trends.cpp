@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+
+#include "app/commands.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/report/trends.h"
+
+namespace boresight::app {
+namespace {
+
+struct TrendArguments {
+  std::vector<std::string> sessions;
+  std::string csv, pdf;
+};
+
+int trends(const TrendArguments& arguments) {
+  for (const std::string& file : {arguments.csv, arguments.pdf})
+    if (!file.empty()) sessions::requireWritable(file);
+  const std::vector<std::filesystem::path> files(arguments.sessions.begin(),
+                                                 arguments.sessions.end());
+  std::vector<std::string> remarks;
+  const std::vector<sessions::TrendPoint> points = sessions::trendOf(files, remarks);
+  for (const std::string& remark : remarks) note(remark);
+  std::cout << sessions::trendTable(points) << std::flush;
+  if (!arguments.csv.empty())
+    sessions::writeFileAtomically(arguments.csv, sessions::trendCsv(points));
+  if (!arguments.pdf.empty())
+    sessions::writeFileAtomically(arguments.pdf, sessions::trendPdf(points));
+  return kDone;
+}
+
+}  // namespace
+
+void addTrends(CLI::App& app, int& exit_code) {
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "trends",
+      "Lists corrections, residuals and checks of stations over many sessions, one a sol, and "
+      "flags runs that stand out",
+      trends);
+  addFile(*command, "sessions", arguments->sessions, "Session files, in the order of time")
+      ->required();
+  addFile(*command, "--csv", arguments->csv, "Writes the same as CSV, with sigmas");
+  addFile(*command, "--pdf", arguments->pdf, "Writes plots, a page a station");
+}
+
+}  // namespace boresight::app

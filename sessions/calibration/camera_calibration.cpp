@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/calibration/camera_calibration.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include <ceres/ceres.h>
+
+#include "core/geometry/pose.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr int kCoefficients = 8;
+constexpr int kCameraSize = 3 + kCoefficients;  ///< focal, centre, distortion
+constexpr double kLossSigmas = 3.0;
+constexpr int kMostIterations = 100;
+/// Changes that are large: 5 % of the focal length, 50 px, 0.5 of a coefficient.
+constexpr double kFocalScale = 0.05;
+constexpr double kCentreScale_px = 50.0;
+constexpr double kDistortionScale = 0.5;
+
+using CameraChange = std::array<double, kCameraSize>;
+using PoseChange = std::array<double, 6>;
+
+bool changedCamera(const Camera& camera, const double* change, Camera& result) {
+  result = camera;
+  result.fx *= std::exp(change[0]);
+  result.fy *= std::exp(change[0]);
+  result.cx += change[1];
+  result.cy += change[2];
+  bool distorted = false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kCoefficients); ++i) {
+    result.distortion[i] += change[3 + i];
+    distorted = distorted || change[3 + i] != 0.0;
+  }
+  return !distorted || prepareCamera(result) == Status::kOk;
+}
+
+/// Residual of an observation in units of its sigma; the second one is 0 where only a normal counts.
+struct Residual {
+  const Camera* camera;
+  const Pose* camera_from_station;
+  const PointObservation* observation;
+
+  bool operator()(const double* camera_change, const double* pose_change, double* residual) const {
+    Camera changed;
+    if (!changedCamera(*camera, camera_change, changed)) return false;
+    const Pose pose = perturbed(Eigen::Map<const Vector6d>(pose_change), *camera_from_station);
+    Eigen::Vector2d pixel;
+    if (!project(changed, pose * observation->point_in_station_m, pixel)) return false;
+    const Eigen::Vector2d off = (observation->pixel - pixel) / observation->sigma_px;
+    const bool along = !observation->normal.isZero(0.0);
+    residual[0] = along ? observation->normal.dot(off) : off.x();
+    residual[1] = along ? 0.0 : off.y();
+    return true;
+  }
+};
+
+int coefficientsOf(const Camera& camera) {
+  if (camera.model == CameraModel::kKannalaBrandt) return 4;
+  if (camera.model != CameraModel::kBrownConrady) return 0;
+  return camera.distortion[5] != 0.0 || camera.distortion[6] != 0.0 || camera.distortion[7] != 0.0
+             ? 8
+             : 5;
+}
+
+/// Indices into a CameraChange that are adjusted.
+std::vector<int> freeIndices(const Camera& camera, const FreeParameters& free) {
+  std::vector<int> indices;
+  if (free.focal) indices.push_back(0);
+  if (free.centre) indices.insert(indices.end(), {1, 2});
+  if (free.distortion)
+    for (int i = 0; i < coefficientsOf(camera); ++i) indices.push_back(3 + i);
+  return indices;
+}
+
+CalibrationParameter parameterOf(int index, const Camera& adjusted, const CameraChange& change) {
+  static const char* const kBrown[] = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
+  const auto at = static_cast<std::size_t>(index);
+  if (index == 0) return {"focal_relative", "", std::exp(change[0]) - 1.0, 0.0, kFocalScale};
+  if (index < 3)
+    return {index == 1 ? "centre_x_px" : "centre_y_px", "px", change[at], 0.0, kCentreScale_px};
+  const std::string name = adjusted.model == CameraModel::kKannalaBrandt
+                               ? "k" + std::to_string(index - 2)
+                               : kBrown[index - 3];
+  return {name, "", adjusted.distortion[at - 3], 0.0, kDistortionScale};
+}
+
+/// The adjustment: unknowns and the problem over them.
+struct Adjustment {
+  CameraChange camera{};
+  std::vector<PoseChange> poses;
+  ceres::Problem problem;
+  int observations = 0;  ///< scalar ones
+
+  Adjustment(const Camera& start, std::span<const CalibrationView> views,
+             const std::vector<int>& free)
+      : poses(views.size()) {
+    problem.AddParameterBlock(camera.data(), kCameraSize);
+    std::vector<int> fixed;
+    for (int i = 0; i < kCameraSize; ++i)
+      if (std::find(free.begin(), free.end(), i) == free.end()) fixed.push_back(i);
+    if (!fixed.empty())
+      problem.SetManifold(camera.data(), new ceres::SubsetManifold(kCameraSize, fixed));
+    for (std::size_t v = 0; v < views.size(); ++v)
+      for (const PointObservation& observation : views[v].points) {
+        using Cost =
+            ceres::NumericDiffCostFunction<Residual, ceres::CENTRAL, 2, kCameraSize, 6>;
+        problem.AddResidualBlock(
+            new Cost(new Residual{&start, &views[v].camera_from_station, &observation}),
+            new ceres::CauchyLoss(kLossSigmas), camera.data(), poses[v].data());
+        observations += observation.normal.isZero(0.0) ? 2 : 1;
+      }
+  }
+
+  void solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.linear_solver_ordering.reset(new ceres::ParameterBlockOrdering);
+    for (PoseChange& pose : poses) options.linear_solver_ordering->AddElementToGroup(pose.data(), 0);
+    options.linear_solver_ordering->AddElementToGroup(camera.data(), 1);
+    options.max_num_iterations = kMostIterations;
+    options.function_tolerance = 1e-12;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (!summary.IsSolutionUsable())
+      throw std::runtime_error("the adjustment does not converge; check the observations");
+  }
+
+  /// Rows of weighted residuals; free camera parameters first.
+  Eigen::MatrixXd jacobian() {
+    ceres::Problem::EvaluateOptions options;
+    options.parameter_blocks.push_back(camera.data());
+    for (PoseChange& pose : poses) options.parameter_blocks.push_back(pose.data());
+    ceres::CRSMatrix sparse;
+    problem.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+    for (int row = 0; row < sparse.num_rows; ++row)
+      for (int k = sparse.rows[static_cast<std::size_t>(row)];
+           k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k)
+        dense(row, sparse.cols[static_cast<std::size_t>(k)]) =
+            sparse.values[static_cast<std::size_t>(k)];
+    return dense;
+  }
+};
+
+/// Sums over the residuals of the adjusted camera, without the loss.
+void measureResiduals(std::span<const CalibrationView> views, CameraCalibration& result) {
+  double weighted = 0.0;
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (const PointObservation& observation : views[v].points) {
+      const PoseChange none{};
+      const CameraChange same{};
+      std::array<double, 2> residual{};
+      if (!Residual{&result.camera, &result.camera_from_station[v], &observation}(
+              same.data(), none.data(), residual.data()))
+        continue;
+      const double square = residual[0] * residual[0] + residual[1] * residual[1];
+      weighted += square;
+      squares += square * observation.sigma_px * observation.sigma_px;
+      ++count;
+    }
+  if (count > 0) result.rms_px = std::sqrt(squares / static_cast<double>(count));
+  if (result.degrees_of_freedom > 0)
+    result.noise_factor = std::sqrt(weighted / result.degrees_of_freedom);
+}
+
+}  // namespace
+
+std::optional<CalibrationSigma> CameraCalibration::sigma() const {
+  double focal = std::numeric_limits<double>::infinity();
+  double centre = std::numeric_limits<double>::infinity();
+  for (const CalibrationParameter& parameter : parameters) {
+    if (parameter.name == "focal_relative") focal = parameter.sigma;
+    if (parameter.name == "centre_x_px") centre = parameter.sigma;
+    if (parameter.name == "centre_y_px") centre = std::max(centre, parameter.sigma);
+  }
+  if (!std::isfinite(focal) || !std::isfinite(centre)) return std::nullopt;
+  return CalibrationSigma{focal, centre};
+}
+
+CameraCalibration calibrateCamera(const Camera& camera, std::span<const CalibrationView> views,
+                                  const FreeParameters& free) {
+  const std::vector<int> indices = freeIndices(camera, free);
+  if (indices.empty()) throw std::invalid_argument("nothing of the camera is free");
+  if (views.empty()) throw std::invalid_argument("there are no images with observations");
+  Adjustment adjustment(camera, views, indices);
+  CameraCalibration result;
+  result.degrees_of_freedom = adjustment.observations - static_cast<int>(indices.size()) -
+                              6 * static_cast<int>(views.size());
+  if (result.degrees_of_freedom < 0)
+    throw std::invalid_argument("there are fewer observations than unknowns");
+  adjustment.solve();
+  if (!changedCamera(camera, adjustment.camera.data(), result.camera))
+    throw std::runtime_error("the adjusted camera cannot project; free less of it");
+  for (std::size_t v = 0; v < views.size(); ++v)
+    result.camera_from_station.push_back(
+        perturbed(Eigen::Map<const Vector6d>(adjustment.poses[v].data()),
+                  views[v].camera_from_station));
+  for (const int index : indices)
+    result.parameters.push_back(parameterOf(index, result.camera, adjustment.camera));
+  measureResiduals(views, result);
+  const double noise = std::max(1.0, result.noise_factor);
+  const Eigen::MatrixXd information =
+      reducedInformation(adjustment.jacobian(), static_cast<Eigen::Index>(indices.size())) /
+      (noise * noise);
+  result.covariance = judgeInformation(information, result.parameters, result.undetermined);
+  return result;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a least-squares problem says of some of its parameters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace boresight::sessions {
+
+/// A parameter of a calibration.
+struct CalibrationParameter {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+  double sigma = 0.0;  ///< one sigma; not finite: not determined
+  /// A change of this size is large for the parameter: directions whose sigma exceeds it count as
+  /// not determined.
+  double scale = 1.0;
+};
+
+/// A combination of parameters that the observations do not determine.
+struct Undetermined {
+  double sigma = 0.0;  ///< in units of the parameters' scales
+  std::string text;    ///< "focal_relative with centre_x_px: ..."
+};
+
+/// The information on the first `count` parameters of J'J when the others are free (Schur
+/// complement). `jacobian`: rows of residuals over their sigmas.
+Eigen::MatrixXd reducedInformation(const Eigen::MatrixXd& jacobian, Eigen::Index count);
+
+/// Covariance and sigmas of the parameters, and what is not determined: eigenvectors of the
+/// information in units of the scales whose sigma exceeds 1. Those directions are left out of the
+/// covariance, and parameters with a share of more than a tenth in one have no finite sigma.
+Eigen::MatrixXd judgeInformation(const Eigen::MatrixXd& information,
+                                 std::vector<CalibrationParameter>& parameters,
+                                 std::vector<Undetermined>& undetermined);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What images of a station say of its points: annotations, or matches of runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/geometry/pose.h"
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+struct PointObservation {
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  /// Only the distance along it counts; zero: both coordinates count.
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  double sigma_px = 1.0;
+};
+
+/// The observations of an image.
+struct CalibrationView {
+  std::string case_id;
+  Pose camera_from_station;  ///< where the adjustment begins
+  std::vector<PointObservation> points;
+};
+
+/// Where the observations of a case come from.
+enum class ObservationSource { kAnnotations, kRuns };
+
+/// One view for each case with at least `kFewestPoints` observations: enabled point annotations, or
+/// edge places of the last refinement of the last converged run. InputError when a run cannot be
+/// read.
+inline constexpr std::size_t kFewestPoints = 6;
+std::vector<CalibrationView> observationsOf(const Session& session, ObservationSource source);
+
+}  // namespace boresight::sessions

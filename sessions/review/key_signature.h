@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Signatures by the reviewers' own keys, made and checked by OpenSSH.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace boresight::sessions {
+
+/// `ssh-keygen -Y sign -n boresight -f KEY FILE` writes FILE.sig.
+inline constexpr const char* kSignatureNamespace = "boresight";
+
+/// The signatures of a file: FILE.sig and FILE.*.sig next to it, by name.
+std::vector<std::filesystem::path> signatureFiles(const std::filesystem::path& file);
+
+/// Whether `name` signed the file, as ssh-keygen(1) says: a signature of it verifies with a key that
+/// `signers` (its ALLOWED SIGNERS format) lists for this name. InputError when there is no such
+/// file, or no ssh-keygen.
+bool isSignedBy(const std::string& name, const std::filesystem::path& file,
+                const std::filesystem::path& signers);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The Python module against the program whs, and against arithmetic of its own."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import boresight
+
+EXAMPLES = Path(os.environ["EXAMPLES"])
+WHS = os.environ["WHS"]
+
+
+def example(station="bc"):
+    folder = EXAMPLES / station
+    return boresight.read_case(image=folder / "image.png", mesh=folder / "model.ply", mesh_unit="m",
+                               seed=folder / "seed.json", camera=folder / "camera.json",
+                               truth=folder / "truth.json")
+
+
+def project(camera, camera_from_station, points):
+    """Pinhole and Brown-Conrady with five coefficients."""
+    p = points @ camera_from_station[:3, :3].T + camera_from_station[:3, 3]
+    x, y = p[:, 0] / p[:, 2], p[:, 1] / p[:, 2]
+    k1, k2, p1, p2, k3 = (list(camera.get("dist", [])) + [0.0] * 5)[:5]
+    r2 = x * x + y * y
+    radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3))
+    u = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)
+    v = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
+    return np.stack([camera["fx"] * u + camera["cx"], camera["fy"] * v + camera["cy"]], axis=1)
+
+
+class Module(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.case = example()
+        cls.run_ = boresight.localize(cls.case)
+
+    def test_run_has_the_digest_of_whs(self):
+        folder = EXAMPLES / "bc"
+        with tempfile.TemporaryDirectory() as place:
+            out = Path(place) / "result.json"
+            subprocess.run([WHS, "localize", "--image", folder / "image.png", "--mesh",
+                            folder / "model.ply", "--mesh-unit", "m", "--seed", folder / "seed.json",
+                            "--camera", folder / "camera.json", "--out", out], check=True,
+                           capture_output=True)
+            result = json.loads(out.read_text())
+        self.assertEqual(self.run_.digest, result["digest"])
+        self.assertTrue(self.run_.converged)
+        np.testing.assert_allclose(self.run_.camera_from_station, result["camera_from_station"],
+                                   atol=1e-15)
+        np.testing.assert_array_equal(self.run_.covariance, result["covariance"])
+
+    def test_pose_is_near_the_truth(self):
+        error = self.run_.camera_from_station @ np.linalg.inv(self.case.camera_from_station_truth)
+        self.assertLess(np.linalg.norm(error[:3, 3]), 1e-3)
+
+    def test_arrays_have_the_shapes_of_the_image(self):
+        height, width = self.case.image.shape
+        self.assertEqual(self.run_.edges(0).shape, (height, width))
+        self.assertGreater(self.run_.edges(0).sum(), 1000)
+        matching = next(i for i in self.run_.iterations if i["kind"] == "match")
+        self.assertEqual(len(matching["templates"]["x"]), len(matching["matches"]["x"]))
+        self.assertEqual(len(matching["matches"]["pixel"]), len(matching["matches"]["inlier"]))
+        with self.assertRaises(IndexError):
+            self.run_.edges(99)
+
+    def test_rendered_edges_lie_on_the_projected_mesh(self):
+        render = boresight.render_edges(self.case, self.case.camera_from_station_truth)
+        self.assertTrue(render["edges"][render["y"], render["x"]].all())
+        seen = project(self.case.camera, self.case.camera_from_station_truth,
+                       self.case.vertices_in_station_m.astype(float))
+        self.assertGreater(render["x"].min(), seen[:, 0].min() - 2)
+        self.assertLess(render["x"].max(), seen[:, 0].max() + 2)
+
+    def test_pnp_recovers_a_pose(self):
+        points = np.random.default_rng(1).uniform(-0.05, 0.05, (30, 3))
+        pose = self.case.camera_from_station_truth
+        pixels = project(self.case.camera, pose, points)
+        solved = boresight.solve_pnp(points, pixels, EXAMPLES / "bc" / "camera.json")
+        np.testing.assert_allclose(solved["camera_from_station"], pose, atol=1e-8)
+        self.assertLess(solved["rms_px"], 1e-6)
+        with self.assertRaises(ValueError):
+            boresight.solve_pnp(points[:2], pixels[:2], EXAMPLES / "bc" / "camera.json")
+
+    def test_checks_are_those_of_review(self):
+        checks = {check["id"]: check for check in boresight.check(self.run_)}
+        self.assertEqual(checks["converged"]["state"], "passed")
+
+    def test_options_are_checked(self):
+        with self.assertRaises(ValueError):
+            boresight.localize(self.case, options={"loop.nothing": 1})
+        with self.assertRaises(ValueError):
+            boresight.localize(self.case, profile="none")
+        stopped = boresight.localize(self.case, options={"loop.max_iterations": 1})
+        self.assertNotEqual(stopped.digest, self.run_.digest)
+
+    def test_wrong_files_raise(self):
+        with self.assertRaises(boresight.InputError) as raised:
+            boresight.read_case(image="/nowhere.png", mesh=EXAMPLES / "bc" / "model.ply",
+                                mesh_unit="m", seed=EXAMPLES / "bc" / "seed.json",
+                                camera=EXAMPLES / "bc" / "camera.json")
+        self.assertIn("/nowhere.png", str(raised.exception))
+
+    def test_session_is_written_and_read(self):
+        with tempfile.TemporaryDirectory() as place:
+            file = Path(place) / "s.boresight.json"
+            boresight.new_session(file, [self.case])
+            session = boresight.read_session(file)
+            self.assertEqual(session.case_ids, [self.case.id])
+            again = boresight.localize(session.case(self.case.id))
+            self.assertEqual(again.digest, self.run_.digest)
+
+
+class Notebook(unittest.TestCase):
+    def test_notebook_draws_its_figure(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no matplotlib")
+        matplotlib.use("Agg")
+        notebook = Path(os.environ["NOTEBOOKS"]) / "error_strips.ipynb"
+        cells = json.loads(notebook.read_text())["cells"]
+        script = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code")
+        with tempfile.TemporaryDirectory() as place:
+            os.environ["RESULTS"] = str(Path(place) / "example.sqlite")
+            os.environ["DATASET"] = str(EXAMPLES / "dataset.json")
+            os.environ["PATH"] = str(Path(WHS).parent) + os.pathsep + os.environ["PATH"]
+            exec(compile(script, str(notebook), "exec"), {})
+            self.assertGreater((Path(place) / "example.png").stat().st_size, 10000)
+
+
+if __name__ == "__main__":
+    unittest.main()
