@@ -41,8 +41,10 @@ QDockWidget* Workspaces::dock(const QString& name) const {
 void Workspaces::show(Workspace workspace) {
   if (workspace == current_) return;
   if (shown_) state() = body_.saveState(kStateVersion);
+  const QSize size = body_.window()->size();
   current_ = workspace;
   bringUp();
+  keepSize(size);
   Q_EMIT changed(workspace);
 }
 
@@ -51,6 +53,19 @@ void Workspaces::bringUp() {
   const bool restored = !state().isEmpty() && body_.restoreState(state(), kStateVersion);
   placing_ = false;
   if (!restored) arrange();
+}
+
+/// Panels of two workspaces are there together for a moment, which can make the window larger than
+/// the screen.
+void Workspaces::keepSize(const QSize& size) {
+  if (!shown_) return;
+  QMetaObject::invokeMethod(
+      this,
+      [this, size] {
+        QWidget* window = body_.window();
+        if (!window->isMaximized() && !window->isFullScreen()) window->resize(size);
+      },
+      Qt::QueuedConnection);
 }
 
 void Workspaces::reveal(const QString& name) {

@@ -6,6 +6,7 @@
 
 #include <QByteArray>
 #include <QObject>
+#include <QSize>
 
 #include "ui/workspaces/workspace.h"
 
@@ -48,6 +49,7 @@ class Workspaces : public QObject {
   void giveSizes(const std::vector<PlacedDock>& places);
   void keepOneDrawer(QDockWidget* opened);
   void bringUp();
+  void keepSize(const QSize& size);
   QByteArray& stateOf(Workspace workspace, bool narrow) {
     return states_[narrow ? 1 : 0][static_cast<std::size_t>(workspace)];
   }

@@ -48,7 +48,8 @@ TEST_F(ImageShareTest, ImageTakesItsPartOfTheScreen) {
     }
 }
 
-/// Nothing is cut off: a scroll bar below a table or page says that something is.
+/// Nothing is cut off: a scroll bar below a page says that something is. Tables of many columns
+/// may scroll.
 TEST_F(ImageShareTest, NothingScrollsSideways) {
   openExample();
   QTest::keyClick(&window_, Qt::Key_F5);
@@ -58,7 +59,8 @@ TEST_F(ImageShareTest, NothingScrollsSideways) {
       const auto workspace = static_cast<Workspace>(i);
       shareOf(workspace, size);
       for (const auto* area : window_.findChildren<QAbstractScrollArea*>())
-        if (area->isVisible() && area->horizontalScrollBar()->isVisible())
+        if (!qobject_cast<const QTableView*>(area) && area->isVisible() &&
+            area->horizontalScrollBar()->isVisible())
           ADD_FAILURE() << workspaceInfo(workspace).name << " at " << size.width() << ": "
                         << area->objectName().toStdString() << " of "
                         << area->parentWidget()->metaObject()->className() << " scrolls sideways";

@@ -44,7 +44,7 @@ TEST_F(SessionSavingTest, SavedUnderATypedNameItIsOpenedAgain) {
     auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
     name->setText(typed);
     QTest::keyClick(name, Qt::Key_Return);
-    return true;
+    return false;  // until it is closed
   });
   ASSERT_TRUE(files().saveAs());
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "sol.boresight.json"));
