@@ -87,7 +87,8 @@ void CommandPalette::filter(const QString& text) {
     const QString keys = command.action->shortcut().toString(QKeySequence::NativeText);
     auto* item = new QListWidgetItem(
         command.action->icon(),
-        keys.isEmpty() ? command.name : QStringLiteral("%1    (%2)").arg(command.name, keys), list_);
+        keys.isEmpty() ? command.name : QStringLiteral("%1    (%2)").arg(command.name, keys),
+        list_);
     item->setData(kCommand, static_cast<int>(index));
     item->setToolTip(command.action->toolTip());
     if (!command.action->isEnabled()) item->setFlags(item->flags() & ~Qt::ItemIsEnabled);

@@ -162,9 +162,8 @@ void WindowDocks::place() const {
   for (const char* name : {"mask", "levels", "pose", "configuration"})
     window_.tabifyDockWidget(layers_dock, dock(QLatin1String(name)));
   window_.addDockWidget(Qt::BottomDockWidgetArea, iterations);
-  for (const char* name :
-       {"hypotheses", "inspector", "annotation", "review", "queue", "onboard", "inputs",
-                           "history", "runs"})
+  for (const char* name : {"hypotheses", "inspector", "annotation", "review", "queue", "onboard",
+                           "inputs", "history", "runs"})
     window_.tabifyDockWidget(iterations, dock(QLatin1String(name)));
   for (QDockWidget* each : docks_) each->show();
   layers_dock->raise();

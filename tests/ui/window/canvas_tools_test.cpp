@@ -150,7 +150,7 @@ TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
   auto* line = palette.findChild<QLineEdit*>(QStringLiteral("commandLine"));
   QTest::keyClicks(line, QStringLiteral("step iter"));
   ASSERT_FALSE(palette.names().isEmpty());
-  EXPECT_TRUE(palette.names().front().endsWith(action("stepIteration").text().remove('&')));
+  EXPECT_TRUE(palette.names().front().endsWith(action("stepIteration").text().remove(QLatin1Char('&'))));
   line->clear();
   QTest::keyClicks(line, QStringLiteral("nudge seed"));
   ASSERT_FALSE(palette.names().isEmpty());
