@@ -44,6 +44,7 @@ CommandPalette::CommandPalette(QMenuBar& menus, QWidget* parent)
   column->addWidget(list_, 1);
   line_->setObjectName(QStringLiteral("commandLine"));
   list_->setObjectName(QStringLiteral("commands"));
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   line_->setPlaceholderText(tr("Parts of a name, such as \"step iter\""));
   line_->setClearButtonEnabled(true);
   line_->installEventFilter(this);

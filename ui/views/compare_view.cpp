@@ -19,6 +19,8 @@
 namespace boresight::ui {
 namespace {
 
+constexpr int kMargin = 8;
+
 QString taskKey() { return QStringLiteral("compare"); }
 
 /// Of another camera of the rig where the shown one is at this pose.
@@ -42,9 +44,10 @@ CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state
   view_->setHint(tr("Reading ..."));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(box_);
-  column->addWidget(view_, 1);
+  column->addWidget(view_);
+  box_->setParent(view_);  // so that both images lie alike
+  box_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  box_->move(kMargin, kMargin);
   connect(box_, QOverload<int>::of(&QComboBox::activated), this, &CompareView::order);
   ImageView& main = image_.view();
   connect(&main, &ImageView::transformChanged, this, [this] { follow(*view_, image_.view()); });
@@ -123,6 +126,7 @@ void CompareView::fill() {
   box_->clear();
   box_->addItems(choices());
   box_->setCurrentIndex(std::max(0, box_->findText(former)));
+  box_->adjustSize();
   order();
 }
 
@@ -209,7 +213,6 @@ void CompareView::showEvent(QShowEvent* event) {
 void CompareView::hideEvent(QHideEvent* event) {
   QWidget::hideEvent(event);
   image_.view().setLinkedCursor(std::nullopt);
-  tasks_.cancel(taskKey());
 }
 
 }  // namespace boresight::ui
