@@ -19,7 +19,7 @@
 namespace boresight::ui {
 namespace {
 
-constexpr int kMargin = 8;
+constexpr int kBoxMargin = 8;
 
 QString taskKey() { return QStringLiteral("compare"); }
 
@@ -47,7 +47,7 @@ CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state
   column->addWidget(view_);
   box_->setParent(view_);  // so that both images lie alike
   box_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  box_->move(kMargin, kMargin);
+  box_->move(kBoxMargin, kBoxMargin);
   connect(box_, QOverload<int>::of(&QComboBox::activated), this, &CompareView::order);
   ImageView& main = image_.view();
   connect(&main, &ImageView::transformChanged, this, [this] { follow(*view_, image_.view()); });
