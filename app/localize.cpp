@@ -91,7 +91,8 @@ void printNamedPoses(const sessions::SessionCase& session_case, const Pose& came
        sessions::namedPoses(session_case, camera_from_station, covariance))
     std::cout << "\n"
               << sessions::poseText(pose.reference_from_station, *pose.covariance,
-                                    sessions::namedPoseTitle(pose));
+                                    sessions::namedPoseTitle(pose),
+                                    "origin of " + frameText(pose.frame));
 }
 
 /// Of a case with an end effector, in the frame that is named last.

@@ -13,12 +13,12 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr int kReach = 2;               ///< px, of a pixel's neighbours
-constexpr double kSame_px = 0.35;       ///< places nearer than this are one
-constexpr double kFarthest_px = 2.3;    ///< between neighbours
+constexpr int kReach = 2;             ///< px, of a pixel's neighbours
+constexpr double kSame_px = 0.35;     ///< places nearer than this are one
+constexpr double kFarthest_px = 2.3;  ///< between neighbours
 constexpr double kLeastAlong_px = 0.15;
-constexpr double kCorner_px = 1.8;      ///< between ends that meet
-constexpr double kLeastCosine = 0.6;    ///< between the normals of neighbours
+constexpr double kCorner_px = 1.8;         ///< between ends that meet
+constexpr double kLeastCosine = 0.6;       ///< between the normals of neighbours
 constexpr double kStraightCosine = 0.985;  ///< above it there is no corner
 constexpr int kNone = -1;
 
@@ -172,8 +172,8 @@ class Joiner {
     node(best).next[static_cast<std::size_t>(best_side)] = index;
   }
 
-  /// Appends the place of `to`. Where the direction changes both lines end at the corner, also where
-  /// a place lies beyond it.
+  /// Appends the place of `to`. Where the direction changes both lines end at the corner, also
+  /// where a place lies beyond it.
   void append(std::vector<Eigen::Vector2d>& line, int from, int to) {
     const Node& a = node(from);
     const Node& b = node(to);
@@ -186,8 +186,8 @@ class Joiner {
     const Eigen::Vector2d along_b = way.dot(b.tangent(0)) < 0.0 ? b.tangent(1) : b.tangent(0);
     const Eigen::Vector2d corner =
         a.place_px + cross(way, along_b) / cross(along_a, along_b) * along_a;
-    const bool near = (corner - a.place_px).norm() < kCorner_px &&
-                      (corner - b.place_px).norm() < kCorner_px;
+    const bool near =
+        (corner - a.place_px).norm() < kCorner_px && (corner - b.place_px).norm() < kCorner_px;
     if (near && (corner - a.place_px).dot(along_a) < 0.0) line.pop_back();
     if (near) line.push_back(corner);
     if (!near || (b.place_px - corner).dot(along_b) > 0.0) line.push_back(b.place_px);
@@ -235,7 +235,8 @@ double distanceToSegment(const Eigen::Vector2d& place, const Eigen::Vector2d& fr
                          const Eigen::Vector2d& to) {
   const Eigen::Vector2d way = to - from;
   const double squared = way.squaredNorm();
-  const double share = squared > 0.0 ? std::clamp((place - from).dot(way) / squared, 0.0, 1.0) : 0.0;
+  const double share =
+      squared > 0.0 ? std::clamp((place - from).dot(way) / squared, 0.0, 1.0) : 0.0;
   return (place - from - share * way).norm();
 }
 

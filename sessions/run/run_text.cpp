@@ -290,7 +290,8 @@ std::string iterationTable(const LocalizationTrace& trace) {
               : "");
 }
 
-std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::string& name) {
+std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::string& name,
+                     const std::string& place) {
   const Eigen::Vector3d rotation_rad = rotationLog(pose.rotation);
   Eigen::Quaterniond q = pose.rotation;
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
@@ -302,8 +303,8 @@ std::string poseText(const Pose& pose, const Matrix6d& covariance, const std::st
   text += format("rotation vector %.5f %.5f %.5f deg; quaternion wxyz %.9f %.9f %.9f %.9f\n",
                  toDegrees(rotation_rad.x()), toDegrees(rotation_rad.y()),
                  toDegrees(rotation_rad.z()), q.w(), q.x(), q.y(), q.z());
-  if (!covariance.isZero(0.0))
-    text += sigmaText(covariance, name.starts_with("rig") ? "rig's origin" : "camera");
+  const std::string usual = name.starts_with("rig") ? "rig's origin" : "camera";
+  if (!covariance.isZero(0.0)) text += sigmaText(covariance, place.empty() ? usual : place);
   return text;
 }
 

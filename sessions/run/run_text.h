@@ -12,9 +12,11 @@ namespace boresight::sessions {
 std::string iterationTable(const LocalizationTrace& trace);
 
 /// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m
-/// and one sigma per axis where a covariance is given (not all zero). `name` heads it.
+/// and one sigma per axis where a covariance is given (not all zero), which holds at the camera,
+/// the rig's origin (a `name` that begins with "rig"), or `place`. `name` heads it.
 std::string poseText(const Pose& pose, const Matrix6d& covariance,
-                     const std::string& name = "camera_from_station");
+                     const std::string& name = "camera_from_station",
+                     const std::string& place = "");
 
 /// Why a run ended as it did: what was measured, what was needed, and what to try. One sentence or
 /// two; empty for a run that converged.

@@ -268,8 +268,7 @@ void RigMenu::addLinks(QMenu& menu, const sessions::SessionCase& shown,
                    [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
   if (const auto other_from_shown = sessions::linkOfLabels(shown, other))
     menu.addAction(tr("As the labels say (%1)").arg(fromText(shown.camera_reference->frame.name)),
-                   this,
-                   [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
+                   this, [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
   menu.addAction(tr("By a pose from the clipboard ..."), this, [this, id] { askForPose(id); });
 }
 

@@ -44,6 +44,7 @@ CommandPalette::CommandPalette(QMenuBar& menus, QWidget* parent)
   column->addWidget(list_, 1);
   line_->setObjectName(QStringLiteral("commandLine"));
   list_->setObjectName(QStringLiteral("commands"));
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   line_->setPlaceholderText(tr("Parts of a name, such as \"step iter\""));
   line_->setClearButtonEnabled(true);
   line_->installEventFilter(this);
@@ -87,7 +88,8 @@ void CommandPalette::filter(const QString& text) {
     const QString keys = command.action->shortcut().toString(QKeySequence::NativeText);
     auto* item = new QListWidgetItem(
         command.action->icon(),
-        keys.isEmpty() ? command.name : QStringLiteral("%1    (%2)").arg(command.name, keys), list_);
+        keys.isEmpty() ? command.name : QStringLiteral("%1    (%2)").arg(command.name, keys),
+        list_);
     item->setData(kCommand, static_cast<int>(index));
     item->setToolTip(command.action->toolTip());
     if (!command.action->isEnabled()) item->setFlags(item->flags() & ~Qt::ItemIsEnabled);

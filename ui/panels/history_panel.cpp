@@ -30,8 +30,8 @@ void HistoryPanel::fill() {
   list_->addItem(document_.isOpen() ? tr("Session as opened") : tr("No session is open"));
   for (int i = 0; i < texts.size(); ++i) {
     list_->addItem(texts[i]);
-    if (i >= done) list_->item(i + 1)->setForeground(palette().color(QPalette::Disabled,
-                                                                      QPalette::Text));
+    if (i >= done)
+      list_->item(i + 1)->setForeground(palette().color(QPalette::Disabled, QPalette::Text));
   }
   list_->setCurrentRow(document_.isOpen() ? done : -1);
   if (list_->currentItem()) list_->scrollToItem(list_->currentItem());

@@ -22,8 +22,9 @@ LevelsHistogram::LevelsHistogram(DisplayImage& display, QWidget* parent)
     : QWidget(parent), display_(display) {
   setObjectName(QStringLiteral("histogram"));
   setMinimumHeight(72);
-  setToolTip(tr("Drag the handles: what is left of the first is shown black, what is right of the "
-                "second white. Display only: runs do not change."));
+  setToolTip(
+      tr("Drag the handles: what is left of the first is shown black, what is right of the "
+         "second white. Display only: runs do not change."));
   setAccessibleName(tr("Histogram of the gray levels"));
   connect(&display_, &DisplayImage::levelsChanged, this, [this] {
     setEnabled(display_.samples() && !display_.showsCore());
@@ -68,9 +69,9 @@ void LevelsHistogram::paintEvent(QPaintEvent*) {
     painter.setPen(QPen(QColor(theme().accent), 1.5));
     painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
     painter.setBrush(black ? Qt::black : Qt::white);
-    painter.drawPolygon(QPolygonF({QPointF(x, area.bottom() + 1.0),
-                                   QPointF(x + kHandle, height() - 2.0),
-                                   QPointF(x - kHandle, height() - 2.0)}));
+    painter.drawPolygon(
+        QPolygonF({QPointF(x, area.bottom() + 1.0), QPointF(x + kHandle, height() - 2.0),
+                   QPointF(x - kHandle, height() - 2.0)}));
   }
 }
 

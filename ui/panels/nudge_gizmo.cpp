@@ -78,8 +78,8 @@ Pose NudgeGizmo::pose() const {
 std::optional<QPointF> NudgeGizmo::centre() const {
   const auto& loaded_case = state_.currentCase();
   Eigen::Vector2d pixel;
-  if (!loaded_case || !project(loaded_case->source.camera,
-                               pose() * nudge_.frame().centre_in_station_m, pixel))
+  if (!loaded_case ||
+      !project(loaded_case->source.camera, pose() * nudge_.frame().centre_in_station_m, pixel))
     return std::nullopt;
   return view_.transform().toWidget(pointOf(pixel));
 }
@@ -118,8 +118,8 @@ void NudgeGizmo::dragTo(const QPointF& pixel) {
       break;
     case Part::kRing: {
       Vector6d turn = Vector6d::Zero();
-      turn[2] = std::remainder(angleOf(*middle, place) - angleOf(*middle, before),
-                               2.0 * std::acos(-1.0));
+      turn[2] =
+          std::remainder(angleOf(*middle, place) - angleOf(*middle, before), 2.0 * std::acos(-1.0));
       apply(turn);
       break;
     }

@@ -39,8 +39,7 @@ RunsPanel::RunsPanel(Document& document, ViewState& state, QWidget* parent)
   list_->setFrameShape(QFrame::NoFrame);
   list_->setContextMenuPolicy(Qt::CustomContextMenu);
   list_->setToolTip(tr("Double click opens a run; the context menu compares and pins it"));
-  connect(list_, &QTreeWidget::itemActivated, this,
-          [this] { Q_EMIT openRequested(chosen()); });
+  connect(list_, &QTreeWidget::itemActivated, this, [this] { Q_EMIT openRequested(chosen()); });
   connect(list_, &QWidget::customContextMenuRequested, this, &RunsPanel::showMenu);
   connect(&document_, &Document::opened, this, &RunsPanel::fill);
   connect(&document_, &Document::changed, this, &RunsPanel::fill);

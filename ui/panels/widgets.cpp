@@ -24,8 +24,9 @@ QString tableText(const QAbstractItemModel& model) {
   QStringList lines = {QString()};
   for (int column = 0; column < model.columnCount(); ++column)
     lines[0] += (column > 0 ? QStringLiteral("\t") : QString()) +
-                model.headerData(column, Qt::Horizontal).toString().replace(QLatin1Char('\n'),
-                                                                            QLatin1Char(' '));
+                model.headerData(column, Qt::Horizontal)
+                    .toString()
+                    .replace(QLatin1Char('\n'), QLatin1Char(' '));
   for (int row = 0; row < model.rowCount(); ++row) lines << rowText(model, row);
   return lines.join(QLatin1Char('\n'));
 }

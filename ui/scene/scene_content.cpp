@@ -154,8 +154,7 @@ std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& 
 }
 
 Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
-                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m,
-                  bool rejected) {
+                  const Pose& camera_from_station, const Eigen::Vector3d& centre_m, bool rejected) {
   const PoseRoleStyle& style = poseRoleStyle(role, rejected);
   Frustum frustum;
   frustum.role = role;

@@ -31,7 +31,8 @@ std::vector<Entry> entries(const SceneContent& content, const SceneLook& look, b
   std::vector<Entry> result;
   if (look.shown.frusta && with_cameras)
     for (const Frustum& frustum : content.frusta)
-      result.push_back({Entry::kLine, &poseRoleStyle(frustum.role, frustum.rejected), frustum.label});
+      result.push_back(
+          {Entry::kLine, &poseRoleStyle(frustum.role, frustum.rejected), frustum.label});
   const auto has_part = [&](bool match) {
     const MeshView mesh = content.mesh();
     return std::any_of(mesh.parts.begin(), mesh.parts.end(),

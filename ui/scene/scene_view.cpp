@@ -302,9 +302,8 @@ void SceneView::hover(const QPointF& at) {
   overlay_->setHovered(std::nullopt);  // of another view
   if (content_->empty()) return;
   const Viewpoint view = viewpoint();
-  const auto surface =
-      sessions::surfacePointAt(view.camera, content_->mesh(), view.view_from_station,
-                               {at.x() - 0.5, at.y() - 0.5});
+  const auto surface = sessions::surfacePointAt(
+      view.camera, content_->mesh(), view.view_from_station, {at.x() - 0.5, at.y() - 0.5});
   Q_EMIT stationPlaceHovered(surface ? std::optional(surface->in_station_m) : std::nullopt);
 }
 

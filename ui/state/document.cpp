@@ -185,9 +185,9 @@ QStringList Document::editTexts() const {
 
 bool Document::goToEdit(std::size_t done) {
   return history_ && done != history_->done() && attempt(&Document::changed, [&] {
-    while (history_->done() > done) history_->undo();
-    while (history_->done() < done && history_->canRedo()) history_->redo();
-  });
+           while (history_->done() > done) history_->undo();
+           while (history_->done() < done && history_->canRedo()) history_->redo();
+         });
 }
 
 std::filesystem::path Document::untitledFolder() {

@@ -16,7 +16,8 @@ QString hex(QRgb color) { return QColor(color).name(); }
 /// The overlay is dark in both themes, and is styled here, not by the window.
 QString overlaySheet() {
   return QStringLiteral(
-             "QFrame#legend, QToolBar#canvasTools, QLabel#shownChip, QLabel#zoomChip { background: %1; border: 1px "
+             "QFrame#legend, QToolBar#canvasTools, QLabel#shownChip, QLabel#zoomChip { background: "
+             "%1; border: 1px "
              "solid %2; border-radius: %3px; color: %4; }"
              "QLabel#shownChip, QLabel#zoomChip { padding: 3px 8px; }"
              "QFrame#legend QToolButton { color: %4; background: transparent; border: none; "
@@ -36,7 +37,10 @@ QString overlaySheet() {
 }  // namespace
 
 CanvasChips::CanvasChips(ImageView& view)
-    : QObject(&view), view_(view), tools_(new QToolBar(&view)), shown_(chip("shownChip")),
+    : QObject(&view),
+      view_(view),
+      tools_(new QToolBar(&view)),
+      shown_(chip("shownChip")),
       zoom_(chip("zoomChip")) {
   view.setStyleSheet(overlaySheet());
   tools_->setObjectName(QStringLiteral("canvasTools"));

@@ -19,6 +19,8 @@
 namespace boresight::ui {
 namespace {
 
+constexpr int kBoxMargin = 8;
+
 QString taskKey() { return QStringLiteral("compare"); }
 
 /// Of another camera of the rig where the shown one is at this pose.
@@ -29,8 +31,7 @@ Pose inOtherCamera(const sessions::SessionCase& other, const sessions::SessionCa
 
 }  // namespace
 
-CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state,
-                         TaskRunner& tasks)
+CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state, TaskRunner& tasks)
     : image_(image),
       document_(document),
       state_(state),
@@ -43,9 +44,10 @@ CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state
   view_->setHint(tr("Reading ..."));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(box_);
-  column->addWidget(view_, 1);
+  column->addWidget(view_);
+  box_->setParent(view_);  // so that both images lie alike
+  box_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  box_->move(kBoxMargin, kBoxMargin);
   connect(box_, QOverload<int>::of(&QComboBox::activated), this, &CompareView::order);
   ImageView& main = image_.view();
   connect(&main, &ImageView::transformChanged, this, [this] { follow(*view_, image_.view()); });
@@ -61,17 +63,17 @@ CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state
   connect(view_, &ImageView::cursorLeft, this,
           [this] { image_.view().setLinkedCursor(std::nullopt); });
   // The rig's other camera follows the station under the pointer.
-  connect(&image_, &ImagePanel::stationPlaceHovered, this,
-          [this](const std::optional<Eigen::Vector3d>& place) {
-            const auto& shown = state_.currentCase();
-            if (!picture_.loaded_case || !shown ||
-                picture_.loaded_case->source.id == shown->source.id)
-              return;
-            Eigen::Vector2d pixel;
-            const bool seen = place && project(picture_.loaded_case->source.camera,
-                                               picture_.camera_from_station * *place, pixel);
-            view_->setLinkedCursor(seen ? std::optional(pointOf(pixel)) : std::nullopt);
-          });
+  connect(
+      &image_, &ImagePanel::stationPlaceHovered, this,
+      [this](const std::optional<Eigen::Vector3d>& place) {
+        const auto& shown = state_.currentCase();
+        if (!picture_.loaded_case || !shown || picture_.loaded_case->source.id == shown->source.id)
+          return;
+        Eigen::Vector2d pixel;
+        const bool seen = place && project(picture_.loaded_case->source.camera,
+                                           picture_.camera_from_station * *place, pixel);
+        view_->setLinkedCursor(seen ? std::optional(pointOf(pixel)) : std::nullopt);
+      });
   state_.onChange(ViewChange::kCase | ViewChange::kSnapshot, this, &CompareView::fill);
   hide();
 }
@@ -97,17 +99,22 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
   if (const auto truth = poseOf(state_, PoseRole::kTruth))
     choices.push_back({tr("Truth"), kTruthLine, truth, std::nullopt, {}});
   if (onboard_)
-    choices.push_back({tr("Onboard run"), isRejected(*onboard_) ? kRejectedLine : kPoseLine,
-                       onboard_->camera_from_station, std::nullopt, {}});
+    choices.push_back({tr("Onboard run"),
+                       isRejected(*onboard_) ? kRejectedLine : kPoseLine,
+                       onboard_->camera_from_station,
+                       std::nullopt,
+                       {}});
   const auto& runs = document_.session().runs;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run)
     if (run->case_id == shown->id)
       choices.push_back({tr("Run of %1: %2").arg(fromText(run->time), fromText(run->status)),
-                         run->status == "converged" ? kPoseLine : kRejectedLine, std::nullopt, *run,
+                         run->status == "converged" ? kPoseLine : kRejectedLine,
+                         std::nullopt,
+                         *run,
                          {}});
   for (const std::string& id : sessions::casesOfRig(document_.session(), shown->id))
-    choices.push_back({tr("Camera of %1").arg(fromText(id)), kPoseLine, std::nullopt, std::nullopt,
-                       id});
+    choices.push_back(
+        {tr("Camera of %1").arg(fromText(id)), kPoseLine, std::nullopt, std::nullopt, id});
   return choices;
 }
 
@@ -119,6 +126,7 @@ void CompareView::fill() {
   box_->clear();
   box_->addItems(choices());
   box_->setCurrentIndex(std::max(0, box_->findText(former)));
+  box_->adjustSize();
   order();
 }
 
@@ -136,9 +144,9 @@ void CompareView::order() {
   const auto index = static_cast<std::size_t>(std::max(0, box_->currentIndex()));
   tasks_.cancel(taskKey());
   if (!shown || index >= choices_.size()) return view_->setImage({});
-  const sessions::SessionCase* other =
-      choices_[index].case_id.empty() ? nullptr
-                                      : document_.session().findCase(choices_[index].case_id);
+  const sessions::SessionCase* other = choices_[index].case_id.empty()
+                                           ? nullptr
+                                           : document_.session().findCase(choices_[index].case_id);
   std::optional<sessions::SessionCase> other_case;
   if (other) other_case = *other;
   tasks_.start(
@@ -148,8 +156,8 @@ void CompareView::order() {
         Picture picture{shown, pose, nullptr, choice.line};
         if (choice.camera_from_station) picture.camera_from_station = *choice.camera_from_station;
         if (choice.run)
-          picture.camera_from_station = sessions::loadRun(*choice.run).iterations.back()
-                                            ->camera_from_station;
+          picture.camera_from_station =
+              sessions::loadRun(*choice.run).iterations.back()->camera_from_station;
         if (other_case) {
           picture.loaded_case = sessions::loadCase(*other_case);
           picture.camera_from_station = inOtherCamera(*other_case, shown->source, pose);
@@ -168,8 +176,7 @@ void CompareView::take(const Picture& picture) {
   picture_ = picture;
   // As the operator sees the other canvas; another image as the algorithm sees it.
   const bool same = state_.currentCase() == picture.loaded_case;
-  view_->setImage(same ? image_.display().picture()
-                       : grayImage(picture.loaded_case->image.view()));
+  view_->setImage(same ? image_.display().picture() : grayImage(picture.loaded_case->image.view()));
   Layer layer = view_->layer(LayerId::kIterationEdges);
   layer.lines = picture.lines;
   layer.line = picture.line;
@@ -187,9 +194,9 @@ void CompareView::follow(ImageView& follower, const ImageView& leader) {
   const QSizeF to = follower.imageSize();
   ViewTransform transform = follower.transform();
   transform.zoomAt({}, leader.transform().scale() * from.width() / to.width());
-  transform.centreOn({centre.x() * to.width() / from.width(),
-                      centre.y() * to.height() / from.height()},
-                     follower.size());
+  transform.centreOn(
+      {centre.x() * to.width() / from.width(), centre.y() * to.height() / from.height()},
+      follower.size());
   follower.setTransform(transform);
   following_ = false;
 }
@@ -206,7 +213,6 @@ void CompareView::showEvent(QShowEvent* event) {
 void CompareView::hideEvent(QHideEvent* event) {
   QWidget::hideEvent(event);
   image_.view().setLinkedCursor(std::nullopt);
-  tasks_.cancel(taskKey());
 }
 
 }  // namespace boresight::ui

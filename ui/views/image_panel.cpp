@@ -151,9 +151,8 @@ void ImagePanel::buildTools() {
     view_->setLayersHidden(false);
     on ? blink_timer_.start() : blink_timer_.stop();
   });
-  connect(swipe_, &QAction::toggled, this, [this](bool on) {
-    view_->setSwipe(on ? std::optional<double>(0.5) : std::nullopt);
-  });
+  connect(swipe_, &QAction::toggled, this,
+          [this](bool on) { view_->setSwipe(on ? std::optional<double>(0.5) : std::nullopt); });
 }
 
 void ImagePanel::setBeside(QWidget* canvas) {
@@ -217,15 +216,15 @@ void ImagePanel::showCase() {
   if (!same_scene ||
       !(before->source.camera_from_station_seed == after->source.camera_from_station_seed))
     forget(LayerId::kSeedEdges);
-  if (!same_scene || !(before->source.camera_from_station_truth ==
-                       after->source.camera_from_station_truth))
+  if (!same_scene ||
+      !(before->source.camera_from_station_truth == after->source.camera_from_station_truth))
     forget(LayerId::kTruthEdges);
   if (!same_scene) {
     agreement_of_.reset();
     pose_lines_ = {};
     setBits(LayerId::kAgreement, {});
-    for (const LayerId id : {LayerId::kIterationEdges, LayerId::kNudgedEdges,
-                             LayerId::kChosenEdges, LayerId::kHypothesisEdges})
+    for (const LayerId id : {LayerId::kIterationEdges, LayerId::kNudgedEdges, LayerId::kChosenEdges,
+                             LayerId::kHypothesisEdges})
       forget(id);
   }
   setBits(LayerId::kIgnoreMask, ignoreBits(after));
@@ -317,9 +316,8 @@ void ImagePanel::askForPoseLines() {
   tasks_.start(
       key,
       [wanted, loaded_case = state_.currentCase()](const std::stop_token&) {
-        return wanted.corrected
-                   ? linesOfPose(*loaded_case, wanted.iteration->camera_from_station)
-                   : linesOf(wanted.iteration->render, wanted.iteration->level);
+        return wanted.corrected ? linesOfPose(*loaded_case, wanted.iteration->camera_from_station)
+                                : linesOf(wanted.iteration->render, wanted.iteration->level);
       },
       [this, wanted](const LinesPtr& lines) {
         if (wanted == pose_lines_) setLines(LayerId::kIterationEdges, lines);
@@ -462,11 +460,9 @@ void ImagePanel::showContextMenu(const QPointF& pixel, const QPoint& global) {
     menu.addAction(tr("Copy %1:  %2").arg(name, text),
                    [text] { QGuiApplication::clipboard()->setText(text); });
   };
-  copy(tr("pixel"),
-       QStringLiteral("%1 %2").arg(pixel.x(), 0, 'f', 2).arg(pixel.y(), 0, 'f', 2));
-  const auto point =
-      sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(),
-                               state_.shownPose(), {pixel.x(), pixel.y()});
+  copy(tr("pixel"), QStringLiteral("%1 %2").arg(pixel.x(), 0, 'f', 2).arg(pixel.y(), 0, 'f', 2));
+  const auto point = sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(),
+                                              state_.shownPose(), {pixel.x(), pixel.y()});
   if (point)
     copy(tr("station point, m"), QStringLiteral("%1 %2 %3")
                                      .arg(point->in_station_m.x(), 0, 'f', 6)

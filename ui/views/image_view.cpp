@@ -251,8 +251,8 @@ void ImageView::paintLayer(QPainter& painter, std::size_t index) {
   paintBits(painter, layer, drawn_[index]);
   painter.setRenderHint(QPainter::Antialiasing, true);
   if (layer.lines)
-    paintLines(painter, transform_, *layer.lines, lineOf(layer), painter.hasClipping()
-                   ? painter.clipBoundingRect() : QRectF(rect()));
+    paintLines(painter, transform_, *layer.lines, lineOf(layer),
+               painter.hasClipping() ? painter.clipBoundingRect() : QRectF(rect()));
   for (const Mark& mark : layer.marks) paintMark(painter, transform_, mark, layer.style.color);
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setOpacity(1.0);

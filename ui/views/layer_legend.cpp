@@ -112,8 +112,8 @@ LayerLegend::LayerLegend(ImagePanel& image) : QFrame(&image.view()), image_(imag
   for (Row* row : rows_) column->addWidget(row);
   column->addWidget(all);
   connect(&image.view(), &ImageView::layersChanged, this, &LayerLegend::update);
-  setLayers({LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
-             LayerId::kMatches});
+  setLayers(
+      {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges, LayerId::kMatches});
 }
 
 void LayerLegend::setLayers(const std::vector<LayerId>& layers) {

@@ -104,8 +104,8 @@ void LayersPanel::arrange() {
     const Row& row = rows_[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
     const bool shows = i < fewer || fewer == 0 || all_->isChecked();
     int column = 0;
-    for (QWidget* each : std::initializer_list<QWidget*>{row.shown, row.key, row.color,
-                                                         row.opacity}) {
+    for (QWidget* each :
+         std::initializer_list<QWidget*>{row.shown, row.key, row.color, row.opacity}) {
       grid_->addWidget(each, i < fewer ? i : i + 1, column++);
       each->setVisible(shows);
     }

@@ -477,8 +477,8 @@ void CaseController::showRun(const std::string& digest) {
       [this, id = case_id_](std::shared_ptr<const sessions::LocalizationTrace> snapshot) {
         if (id != case_id_) return;
         state_.setSnapshot(std::move(snapshot));
-        state_.setCursor({static_cast<int>(state_.snapshot()->iterations.size()) - 1,
-                          Stage::kFinished});
+        state_.setCursor(
+            {static_cast<int>(state_.snapshot()->iterations.size()) - 1, Stage::kFinished});
       });
 }
 

@@ -95,10 +95,10 @@ void MainWindow::connectAll() {
   auto* annotation_files = new AnnotationFiles(*this, parts_, docks_->annotation);
   connect(annotation_files, &AnnotationFiles::failed, this, &MainWindow::showMessage);
   connect(annotation_files, &AnnotationFiles::noted, this, note);
-  connect(findChild<QAction*>(QStringLiteral("importAnnotations")), &QAction::triggered, annotation_files,
-          &AnnotationFiles::importAnnotations);
-  connect(findChild<QAction*>(QStringLiteral("exportAnnotations")), &QAction::triggered, annotation_files,
-          &AnnotationFiles::exportAnnotations);
+  connect(findChild<QAction*>(QStringLiteral("importAnnotations")), &QAction::triggered,
+          annotation_files, &AnnotationFiles::importAnnotations);
+  connect(findChild<QAction*>(QStringLiteral("exportAnnotations")), &QAction::triggered,
+          annotation_files, &AnnotationFiles::exportAnnotations);
   connect(&onboard_, &OnboardController::rerunRequested, &cases_, &CaseController::runPlan);
   connect(&onboard_, &OnboardController::failed, this, &MainWindow::showMessage);
   connect(&onboard_, &OnboardController::told, this, note);

@@ -36,6 +36,24 @@ QToolButton* toolOf(Icon icon, const char* name, const QString& tip) {
   return button;
 }
 
+/// The layers that a workspace's task needs; the others are in "all layers".
+std::vector<LayerId> layersOf(Workspace workspace) {
+  switch (workspace) {
+    case Workspace::kAnnotate:
+      return {LayerId::kPoints, LayerId::kAnnotationEdges, LayerId::kAnnotationResiduals,
+              LayerId::kSeedEdges, LayerId::kProposals, LayerId::kIgnoreMask};
+    case Workspace::kDiagnose:
+      return {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kMatches,
+              LayerId::kTemplates, LayerId::kAgreement, LayerId::kResiduals};
+    case Workspace::kReview:
+      return {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
+              LayerId::kTestEdges, LayerId::kAgreement};
+    default:
+      return {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
+              LayerId::kTestEdges, LayerId::kMatches};
+  }
+}
+
 }  // namespace
 
 WindowFrame::WindowFrame(QMainWindow& window, QMainWindow& body, const WindowParts& parts,
@@ -137,6 +155,7 @@ void WindowFrame::arrange() {
   const bool narrow = workspaces_.isNarrow();
   const bool start = workspace == Workspace::kStart;
   top_bar_->setCurrent(workspace);
+  docks_.layers.setShortList(layersOf(workspace));
   stack_->setCurrentWidget(start ? static_cast<QWidget*>(start_) : canvas_column_);
   files_.setMakesNewSession(start);
   if (start) start_->refresh();

@@ -108,7 +108,7 @@ TEST_F(CanvasToolsTest, GizmoRingRollsAndWheelChangesTheDistance) {
   drag(centre + NudgeGizmo::kRing * QPointF(1.0, 0.0),
        centre + NudgeGizmo::kRing * QPointF(std::cos(angle), std::sin(angle)));
   const Pose rolled = window_.state().nudgedPose().value();
-  EXPECT_NEAR(rolled.rotation.angularDistance(seed.rotation), angle, 1e-6);
+  EXPECT_NEAR(rolled.rotation.angularDistance(seed.rotation), angle, 0.5 / NudgeGizmo::kRing);
   EXPECT_LT((rolled * middle() - seed * middle()).norm(), 1e-9);
   QWheelEvent event(centre, view().mapToGlobal(centre.toPoint()), {}, {0, 120}, Qt::NoButton,
                     Qt::NoModifier, Qt::NoScrollPhase, false);
