@@ -32,12 +32,12 @@ double toDegrees(double angle_rad) { return angle_rad / kDegree_rad; }
 double toMillimetres(double length_m) { return length_m * 1e3; }
 
 /// `place` has the origin and the axes.
-std::string sigmaText(const Matrix6d& covariance, const char* place) {
+std::string sigmaText(const Matrix6d& covariance, const std::string& place) {
   const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
   return format(
       "1 sigma at the %s, along and about its x y z: %.4f %.4f %.4f mm, %.4f %.4f %.4f "
       "mrad\n",
-      place, toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
+      place.c_str(), toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
       1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
 }
 
