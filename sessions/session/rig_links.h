@@ -22,8 +22,8 @@ const RunRecord* ownRunOf(const Session& session, const std::string& other,
 /// them has none.
 std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other);
 
-/// The same as the images' labels say: both camera models are in one named frame. Nothing where they
-/// are not.
+/// The same as the images' labels say: both camera models are in one named frame. Nothing where
+/// they are not.
 std::optional<Pose> linkOfLabels(const SessionCase& session_case, const SessionCase& other);
 
 /// The same session with `other_id` linked to the rig of `case_id`; a case without one becomes the

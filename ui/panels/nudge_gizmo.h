@@ -26,7 +26,7 @@ class NudgeGizmo : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr double kRing = 96.0;  ///< of the ring, on the screen
+  static constexpr double kRing = 96.0;    ///< of the ring, on the screen
   static constexpr double kHandle = 40.0;  ///< from the ring to the handle of the distance
 
   NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state, QObject* parent = nullptr);

@@ -41,8 +41,9 @@ QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLeve
 
 /// The current case's image as the operator sees it: the 8-bit pixels that the core sees, or the
 /// file's samples stretched between two levels. At first images of more than 8 bits are stretched
-/// automatically, and those of 8 bits that use less than half of their range. Reading and stretching happen in the task runner; until a
-/// picture is made the one before, or the core's, is shown.
+/// automatically, and those of 8 bits that use less than half of their range. Reading and
+/// stretching happen in the task runner; until a picture is made the one before, or the core's, is
+/// shown.
 class DisplayImage : public QObject {
   Q_OBJECT
 

@@ -102,17 +102,17 @@ enum class MarkShape : std::uint8_t {
 /// centre of the top-left pixel is (0, 0).
 struct Mark {
   MarkShape shape = MarkShape::kCross;
-  QPointF at;            ///< centre, or where an arrow or a segment begins
-  QPointF to;            ///< where it ends
-  QRectF area;           ///< of a rectangle
-  QPolygonF outline;     ///< of a strip: along one side and back along the other
-  double size_px = 9.0;  ///< on the screen, whatever the zoom
-  QColor color;          ///< instead of the layer's, where valid
-  bool dashed = false;   ///< a second difference in addition to the colour
-  bool cased = false;    ///< with a dark rim, to be seen on any image
-  double width = 1.5;    ///< of its lines, on the screen
+  QPointF at;                     ///< centre, or where an arrow or a segment begins
+  QPointF to;                     ///< where it ends
+  QRectF area;                    ///< of a rectangle
+  QPolygonF outline;              ///< of a strip: along one side and back along the other
+  double size_px = 9.0;           ///< on the screen, whatever the zoom
+  QColor color;                   ///< instead of the layer's, where valid
+  bool dashed = false;            ///< a second difference in addition to the colour
+  bool cased = false;             ///< with a dark rim, to be seen on any image
+  double width = 1.5;             ///< of its lines, on the screen
   std::optional<LineToken> line;  ///< width, pattern and halo instead of these three
-  int item = -1;         ///< what it belongs to (a template, a point), or -1: cannot be picked
+  int item = -1;  ///< what it belongs to (a template, a point), or -1: cannot be picked
   QString label;
 };
 

@@ -22,7 +22,8 @@ class LayerLegend : public QFrame {
  public:
   explicit LayerLegend(ImagePanel& image);
 
-  /// From top to bottom; layers that the operator compares with are added while they show something.
+  /// From top to bottom; layers that the operator compares with are added while they show
+  /// something.
   void setLayers(const std::vector<LayerId>& layers);
   const std::vector<LayerId>& layers() const { return layers_; }
   /// Layers that are listed now.

@@ -128,9 +128,9 @@ TEST(EdgeLines, OfALevelAreInPixelsOfTheFullImage) {
 
 TEST(EdgeLines, BoxesHoldTheirLines) {
   RenderTrace render;
-  ASSERT_EQ(renderScene(test::makePinhole(400, 300, 900.0), Disc(12, 0.1).view(), tilted(0.3),
-                        render),
-            Status::kOk);
+  ASSERT_EQ(
+      renderScene(test::makePinhole(400, 300, 900.0), Disc(12, 0.1).view(), tilted(0.3), render),
+      Status::kOk);
   for (const EdgeLine& line : edgeLines(render, 0)) {
     ASSERT_GE(line.places_px.size(), 2u);
     for (const Eigen::Vector2d& place : line.places_px) EXPECT_TRUE(line.box_px.contains(place));

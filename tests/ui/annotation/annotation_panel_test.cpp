@@ -126,8 +126,9 @@ TEST_F(AnnotationPanelTest, ArrowsOnARowMoveItsAnnotationAndCtrlGoesToOtherRows)
   QTest::keyClick(&panel_->table(), Qt::Key_Right);
   QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ShiftModifier);
   EXPECT_EQ(controller_.selected(), ids[2]);
-  EXPECT_LT((*controller_.annotations().points[2].pixel - before - Eigen::Vector2d(0.1, 1.0)).norm(),
-            1e-9);
+  EXPECT_LT(
+      (*controller_.annotations().points[2].pixel - before - Eigen::Vector2d(0.1, 1.0)).norm(),
+      1e-9);
   QTest::keyClick(&panel_->table(), Qt::Key_Down, Qt::ControlModifier);
   EXPECT_EQ(controller_.selected(), ids[3]);
 }

@@ -106,8 +106,8 @@ TEST_F(ImagePanelTest, PointerOffTheStation_ShowsOnlyThePixel) {
 /// Lines of a pose as the core renders it.
 bool areLinesOf(const LinesPtr& lines, const sessions::LoadedCase& value, const Pose& pose) {
   sessions::RenderTrace render;
-  if (!lines || sessions::renderScene(value.source.camera, value.scene.view(), pose, render) !=
-                    Status::kOk)
+  if (!lines ||
+      sessions::renderScene(value.source.camera, value.scene.view(), pose, render) != Status::kOk)
     return false;
   const sessions::EdgeLines expected = sessions::edgeLines(render, 0);
   return std::equal(lines->begin(), lines->end(), expected.begin(), expected.end(),
@@ -128,8 +128,8 @@ TEST_F(ImagePanelTest, AHypothesisIsDrawnWithTheChosenPose) {
       },
       kPatienceMs));
   const auto& value = *state_.currentCase();
-  EXPECT_TRUE(areLinesOf(layer(LayerId::kHypothesisEdges).lines, value,
-                         competing.camera_from_station));
+  EXPECT_TRUE(
+      areLinesOf(layer(LayerId::kHypothesisEdges).lines, value, competing.camera_from_station));
   EXPECT_TRUE(areLinesOf(layer(LayerId::kChosenEdges).lines, value, run->camera_from_station));
   EXPECT_EQ(layer(LayerId::kHypothesisEdges).name, QStringLiteral("Competing pose 1"));
   EXPECT_TRUE(layer(LayerId::kSeedEdges).faded);

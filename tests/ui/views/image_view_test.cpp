@@ -191,8 +191,8 @@ TEST_F(EdgeLinesOnImage, AtAThirdNoneOfALineIsLost) {
     int bluest = 0;
     for (int v = -1; v <= 1; ++v)
       for (int u = -1; u <= 1; ++u) {
-        const QColor color = picture.pixelColor(static_cast<int>(place.x()) + u,
-                                                static_cast<int>(place.y()) + v);
+        const QColor color =
+            picture.pixelColor(static_cast<int>(place.x()) + u, static_cast<int>(place.y()) + v);
         bluest = std::max(bluest, color.blue() - color.red());
       }
     EXPECT_GT(bluest, 60) << share;

@@ -151,7 +151,8 @@ TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
   auto* line = palette.findChild<QLineEdit*>(QStringLiteral("commandLine"));
   QTest::keyClicks(line, QStringLiteral("step iter"));
   ASSERT_FALSE(palette.names().isEmpty());
-  EXPECT_TRUE(palette.names().front().endsWith(action("stepIteration").text().remove(QLatin1Char('&'))));
+  EXPECT_TRUE(
+      palette.names().front().endsWith(action("stepIteration").text().remove(QLatin1Char('&'))));
   line->clear();
   QTest::keyClicks(line, QStringLiteral("nudge seed"));
   ASSERT_FALSE(palette.names().isEmpty());
@@ -225,8 +226,7 @@ TEST_F(CanvasToolsTest, AClickOnATemplateRaisesTheMatchInspector) {
   QCoreApplication::processEvents();
   Q_EMIT view().itemClicked(LayerId::kMatches, 0);
   QCoreApplication::processEvents();
-  EXPECT_FALSE(
-      window_.dock(QStringLiteral("inspector"))->widget()->visibleRegion().isEmpty());
+  EXPECT_FALSE(window_.dock(QStringLiteral("inspector"))->widget()->visibleRegion().isEmpty());
 }
 
 }  // namespace
