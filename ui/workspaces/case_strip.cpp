@@ -155,13 +155,16 @@ CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
             if (!showing_ && current.isValid())
               Q_EMIT caseRequested(model_.at(current.row()).id);
           });
-  connect(&model_, &QAbstractItemModel::modelReset, this, &CaseStrip::showCount);
-  connect(&model_, &QAbstractItemModel::rowsInserted, this, &CaseStrip::showCount);
+  connect(&model_, &QAbstractItemModel::modelReset, this, &CaseStrip::showRows);
+  connect(&model_, &QAbstractItemModel::rowsInserted, this, &CaseStrip::showRows);
   setNarrow(false);
-  showCount();
+  showRows();
 }
 
-void CaseStrip::showCount() { filter_->setText(QString::number(model_.rowCount())); }
+void CaseStrip::showRows() {
+  filter_->setText(QString::number(model_.rowCount()));
+  setCurrent(current_);
+}
 
 void CaseStrip::setNarrow(bool narrow) {
   static_cast<CaseTile*>(list_->itemDelegate())->setNarrow(narrow);
@@ -170,6 +173,7 @@ void CaseStrip::setNarrow(bool narrow) {
 }
 
 void CaseStrip::setCurrent(const QString& id) {
+  current_ = id;
   showing_ = true;
   const QModelIndex index = model_.index(model_.rowOf(id), 0);
   list_->setCurrentIndex(index);

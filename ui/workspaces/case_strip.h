@@ -30,11 +30,12 @@ class CaseStrip : public QFrame {
   void addRequested();
 
  private:
-  void showCount();
+  void showRows();
 
   CasesModel& model_;
   QToolButton* filter_ = nullptr;
   QListView* list_ = nullptr;
+  QString current_;  ///< the case that the window shows
   bool showing_ = false;  ///< the list follows the window, not the operator
 };
 

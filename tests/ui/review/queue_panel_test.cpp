@@ -48,11 +48,17 @@ class QueuePanelTest : public test::WindowTest {
     QTest::keySequence(&window_, QKeySequence(QStringLiteral("Shift+F9")));
   }
 
-  bool filled() {
+  bool checked() {
     return wait([&] {
       const QueueController& queue = panel_->controller();
       return queue.count() == 2 && queue.doneCount() == 2 && !window_.tasks().isBusy();
     });
+  }
+  /// The first time the operator goes to the worst case.
+  bool filled() {
+    if (!checked()) return false;
+    if (!std::exchange(at_worst_, true)) table_->setCurrentIndex(table_->model()->index(0, 0));
+    return true;
   }
   bool inSight() const { return !window_.dock(QStringLiteral("queue"))->visibleRegion().isEmpty(); }
   QStringList listed() const {
@@ -69,6 +75,7 @@ class QueuePanelTest : public test::WindowTest {
   void type(const QString& text) { QTest::keyClicks(QApplication::focusWidget(), text); }
   const auto& decisions() { return window_.document().session().decisions; }
 
+  bool at_worst_ = false;
   QueuePanel* panel_ = nullptr;
   QTableView* table_ = nullptr;
   QString good_ = QString::fromStdString(RunExample::get().good);
@@ -87,6 +94,11 @@ TEST_F(QueuePanelTest, Queue_IsFilledInTheBackgroundWorstFirst) {
   EXPECT_FALSE(second.siblingAtColumn(QueueModel::kFromSeed).data().toString().isEmpty());
   field("queueFilter").setText(QStringLiteral("failed"));
   EXPECT_EQ(listed(), QStringList({bad_}));
+}
+
+TEST_F(QueuePanelTest, OpensWithTheShownCaseChosen) {
+  ASSERT_TRUE(checked());
+  EXPECT_EQ(panel_->chosenCase(), window_.cases().caseId());
 }
 
 TEST_F(QueuePanelTest, EnterOpensTheIterationThatFailed) {

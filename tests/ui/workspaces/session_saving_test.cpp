@@ -35,22 +35,6 @@ TEST_F(SessionSavingTest, NameWithoutASuffixGetsTheOneThatIsListed) {
   EXPECT_EQ(sessionFileName("/a/sol.boresight.json"), "/a/sol.boresight.json");
 }
 
-TEST_F(SessionSavingTest, SavedUnderATypedNameItIsOpenedAgain) {
-  openExample();
-  const QString typed = QString::fromStdString((folder_.path() / "sol").string());
-  const Answer answer([&](QWidget* modal) {
-    auto* dialog = qobject_cast<QFileDialog*>(modal);
-    if (!dialog) return false;
-    auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
-    name->setText(typed);
-    QTest::keyClick(name, Qt::Key_Return);
-    return false;  // until it is closed
-  });
-  ASSERT_TRUE(files().saveAs());
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "sol.boresight.json"));
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "sol"));
-}
-
 TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
   openExample();
   moveSeed(0.01);
