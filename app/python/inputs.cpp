@@ -7,6 +7,7 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/run/scene_render.h"
 #include "sessions/session/session_document.h"
+#include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
 
 namespace boresight::python {
