@@ -48,7 +48,8 @@ sessions::LocalizationTrace run(const sessions::Dataset& dataset,
   const sessions::GrayImage image = sessions::readCaseImage(dataset, dataset_case);
   const LocalizationProblem problem =
       sessions::problemOf(image, nullptr, dataset.cameras.at(dataset_case.camera), scene.view(),
-                          dataset_case.seed_camera_from_station, *dataset_case.uncertainty);
+                          dataset_case.seed_camera_from_station, *dataset_case.uncertainty,
+                          dataset_case.camera_from_end_effector);
   LocalizerOptions options = defaultProfile();
   const sessions::Station& station = dataset.stations.at(dataset_case.station);
   if (station.feature_size_m) options.templates.feature_size_m = *station.feature_size_m;

@@ -29,7 +29,7 @@ class ScriptedPass {
     levels_ = levelsOf(size, options);
   }
 
-  RunContext context() const { return {options, camera_, scene_, levels_}; }
+  RunContext context() const { return {options, camera_, scene_, levels_, end_effector_in_camera_m_}; }
 
   /// The record of a match pass that found a pose.
   Agreement match(const PassPlan& plan, const Pose& found, int inliers, int matches = 90) {
@@ -78,6 +78,7 @@ class ScriptedPass {
     return record;
   }
 
+  Eigen::Vector3d end_effector_in_camera_m_ = Eigen::Vector3d::Zero();
   Camera camera_;
   BoundingBox scene_;
   RunLevels levels_;

@@ -44,7 +44,7 @@ class ReadCamera : public ::testing::Test {
 /// An entry of the public image feed of Mars 2020, against the same vectors in a camera.json.
 TEST_F(ReadCamera, ReadsTheMetadataOfARawImage) {
   const std::string start =
-      R"({"imageid": "NRF_0731", "dimension": "(1288,968)", "site": 36, "drive": 1610,)"
+      R"x({"imageid": "NRF_0731", "dimension": "(1288,968)", "site": 36, "drive": 1610,)x"
       R"( "subframe_rect": [2545.0, 1.0, 2576.0, 1936.0], "scale_factor": 2,)"
       R"( "camera_model_type": "CAHVORE", "camera_model_component_list": ")";
   const std::string components =
