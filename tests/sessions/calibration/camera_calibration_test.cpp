@@ -95,8 +95,10 @@ TEST(CameraCalibration, DistortionIsFound) {
   ASSERT_EQ(prepareCamera(start), Status::kOk);
   const auto views = viewsOf(truth, 12, 0.05, random);
   const CameraCalibration result = calibrateCamera(start, views, {true, true, true});
-  for (const CalibrationParameter& parameter : result.parameters)
-    if (parameter.name == "k1") EXPECT_NEAR(parameter.value, -0.1, 4.0 * parameter.sigma);
+  for (const CalibrationParameter& parameter : result.parameters) {
+    if (parameter.name != "k1") continue;
+    EXPECT_NEAR(parameter.value, -0.1, 4.0 * parameter.sigma);
+  }
   EXPECT_NEAR(result.rms_px, 0.05 * std::sqrt(2.0), 0.02);
   EXPECT_NEAR(result.noise_factor, 1.0, 0.1);
 }
