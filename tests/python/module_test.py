@@ -51,7 +51,7 @@ class Module(unittest.TestCase):
                             "--camera", folder / "camera.json", "--out", out], check=True,
                            capture_output=True)
             result = json.loads(out.read_text())
-        self.assertEqual(self.run_.digest, result["digest"])
+        self.assertEqual(self.run_.digest, result["provenance"]["digest"])
         self.assertTrue(self.run_.converged)
         np.testing.assert_allclose(self.run_.camera_from_station, result["camera_from_station"],
                                    atol=1e-15)

@@ -55,7 +55,7 @@ TEST(RecordWriter, Blocks_FollowTheFormat) {
   ByteReader reader(bytes);
   const auto magic = reader.take(8);
   EXPECT_TRUE(std::equal(magic.begin(), magic.end(), kRecordMagic.begin()));
-  EXPECT_EQ(reader.u32(), 1u);
+  EXPECT_EQ(reader.u32(), kRecordVersion);
   std::uint32_t number = 0;
   std::vector<std::uint32_t> types;
   while (reader.left() > 0) {
