@@ -244,7 +244,8 @@ std::string replayedText(const LocalizationTrace& trace) {
 std::string aloneText(const LocalizationTrace& trace) {
   if (trace.converged()) return convergedText(trace);
   if (trace.finished) return failedText(trace);
-  if (trace.iterations.empty()) return trace.edges ? "The image's edges are found." : "The run has begun.";
+  if (trace.iterations.empty())
+    return trace.edges ? "The image's edges are found." : "The run has begun.";
   const std::string number = std::to_string(trace.iterations.size());
   if (!trace.last_under_way) return "Iteration " + number + " is complete.";
   return "Iteration " + number + ": last complete stage is " +

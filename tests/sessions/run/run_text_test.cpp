@@ -193,7 +193,7 @@ TEST(RunStatusText, ConvergedRun_StatesItsEvidence) {
 
 TEST(RunStatusText, SaysHowFarARunIs) {
   LocalizationTrace trace;
-  EXPECT_EQ(runStatusText(trace), "No run yet.");
+  EXPECT_EQ(runStatusText(trace), "The run has begun.");
   trace = endedWith(LocalizationStatus::kRunning);
   EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
   trace.last_under_way = true;

@@ -50,8 +50,9 @@ TEST(SessionMaker, ADatasetAndItsFilesMakeTheSameRun) {
   const Session session = sessions::makeSession(exampleFolder() / "dataset.json");
   ASSERT_EQ(session.cases.size(), 2u);
   for (const auto& session_case : session.cases) {
-    const sessions::MadeCase new_case =
-        sessions::makeCase(filesOf(exampleFolder() / session_case->station));
+    sessions::CaseFiles files = filesOf(exampleFolder() / session_case->station);
+    files.camera_from_end_effector = session_case->camera_from_end_effector;
+    const sessions::MadeCase new_case = sessions::makeCase(files);
     EXPECT_THAT(new_case.notes, IsEmpty());
     EXPECT_EQ(sessions::inputsDigest(new_case.made), sessions::inputsDigest(*session_case))
         << session_case->id;
