@@ -157,7 +157,6 @@ std::string inputsDigest(const SessionCase& session_case) {
   inputs.has_seed = session_case.has_seed;
   inputs.camera_from_station_seed = session_case.camera_from_station_seed;
   inputs.uncertainty = session_case.uncertainty;
-  inputs.camera_from_end_effector = session_case.camera_from_end_effector;
   inputs.ignore = session_case.ignore;
   inputs.ignore_strokes = session_case.ignore_strokes;
   // Where the files are makes no difference.

@@ -80,8 +80,11 @@ void readMetres(const Path& file) { (void)sessions::readMesh(file, "m"); }
 sessions::PoseFrames roverFrames() {
   sessions::CameraReference reference;
   reference.frame = {"ROVER_FRAME", {194, 835, 1}};
-  const sessions::FrameTransform transform{{"SITE_FRAME", {194}}, reference.frame, Pose(),
-                                           "a transform",         "t.json",        ""};
+  sessions::FrameTransform transform;
+  transform.target = {"SITE_FRAME", {194}};
+  transform.source = reference.frame;
+  transform.comment = "a transform";
+  transform.file = "t.json";
   return {reference, {transform}};
 }
 

@@ -210,8 +210,8 @@ TEST(OnboardRecord, RefusesOtherFiles) {
   EXPECT_THAT(message({}), HasSubstr("r.whsr"));
   EXPECT_THAT(message({'P', 'K'}), HasSubstr("is not an onboard record"));
   Bytes newer = run.bytes;
-  newer[11] = 2;
-  EXPECT_THAT(message(newer), HasSubstr("is a record of version 2"));
+  newer[11] = 3;
+  EXPECT_THAT(message(newer), HasSubstr("is a record of version 3"));
   Bytes longer = run.bytes;
   longer.push_back(0);
   EXPECT_THAT(parseRecord("r", longer).missing, testing::ElementsAre(HasSubstr("1 bytes follow")));
