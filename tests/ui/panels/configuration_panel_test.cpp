@@ -96,7 +96,7 @@ TEST_F(ConfigurationPanelTest, ANumberIsTypedInFull) {
 TEST_F(ConfigurationPanelTest, AChoiceIsChosenFromAList) {
   auto* box = edit<QComboBox>(QStringLiteral("correction_point"));
   ASSERT_NE(box, nullptr);
-  EXPECT_EQ(box->count(), 2);
+  EXPECT_EQ(box->count(), 3);
   QTest::keyClick(box, Qt::Key_Up);
   enter(box);
   EXPECT_EQ(options_.loop.correction_point, CorrectionPoint::kCamera);

@@ -106,7 +106,7 @@ TEST_F(IterationsPanelTest, ActionsWalkThroughTheRun) {
 
 TEST_F(IterationsPanelTest, AStageButtonShowsThatStage) {
   view_.setCursor({0, Stage::kFinished});
-  for (auto* button : panel_.findChildren<QToolButton*>()) {
+  for (auto* button : scrubber_.findChildren<QToolButton*>()) {
     if (button->text() != QStringLiteral("Match")) continue;
     QTest::mouseClick(button, Qt::LeftButton);
   }

@@ -30,7 +30,8 @@ class ImageShareTest : public test::WindowTest {
     QApplication::processEvents();
     window_.image().view().fit();
     QApplication::processEvents();
-    EXPECT_EQ(window_.size(), size) << workspaceInfo(workspace).name << ": panels need more room";
+    EXPECT_TRUE(wait([&] { return window_.size() == size; }))
+        << workspaceInfo(workspace).name << ": panels need more room";
     return imageShare(window_);
   }
 };
