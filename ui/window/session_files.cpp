@@ -300,13 +300,17 @@ bool SessionFiles::saveAs() {
   const QString name = document.isUntitled() || !document.isOpen()
                            ? tr("session.boresight.json")
                            : text(document.file().filename());
-  // With the suffix the dialog asks about the file that is written.
-  QFileDialog dialog(&window_, tr("Save the session"), {}, tr("Sessions (*.boresight.json)"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QStringLiteral("boresight.json"));
-  dialog.selectFile(inSessionFolder(document, name));
-  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return false;
-  const std::filesystem::path file = sessionFileName(path(dialog.selectedFiles().front()));
+  const QString chosen =
+      QFileDialog::getSaveFileName(&window_, tr("Save the session"), inSessionFolder(document, name),
+                                   tr("Sessions (*.boresight.json)"));
+  if (chosen.isEmpty()) return false;
+  const std::filesystem::path file = sessionFileName(path(chosen));
+  // The dialog has asked about the name without the suffix.
+  if (file != path(chosen) && std::filesystem::exists(file) &&
+      QMessageBox::question(&window_, tr("Save the session"),
+                            tr("%1 exists. Replace it?").arg(text(file.filename()))) !=
+          QMessageBox::Yes)
+    return false;
   if (!parts_.document.saveAs(file)) return false;
   noteRecentFile(file);
   return true;

@@ -79,6 +79,7 @@ LocalizerOptions changeable(const LocalizerOptions& base, LocalizerOptions wante
   wanted.loop.coarse_size_px = base.loop.coarse_size_px;
   wanted.loop.halved_size_px = base.loop.halved_size_px;
   wanted.loop.max_rolled_hypotheses = base.loop.max_rolled_hypotheses;
+  wanted.loop.correction_point = base.loop.correction_point;
   wanted.search = base.search;
   return wanted;
 }

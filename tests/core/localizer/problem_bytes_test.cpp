@@ -113,7 +113,7 @@ TEST(ProblemBytes, Header_FollowsTheFormat) {
   const Case scene = stationCase(4);
   const Bytes bytes = encoded(scene.problem(), defaultProfile());
   const auto size = static_cast<std::uint32_t>(bytes.size());
-  Bytes head = {'B', 'O', 'R', 'S', 'I', 'G', 'H', 'T', 0, 0, 0, 1};
+  Bytes head = {'B', 'O', 'R', 'S', 'I', 'G', 'H', 'T', 0, 0, 0, kProblemVersion};
   for (int shift = 24; shift >= 0; shift -= 8)
     head.push_back(static_cast<std::uint8_t>(size >> shift));
   EXPECT_TRUE(std::equal(head.begin(), head.end(), bytes.begin()));
