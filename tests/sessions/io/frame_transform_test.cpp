@@ -171,7 +171,7 @@ TEST_F(FrameTransforms, AreNeverGuessed) {
   nameless.frame = {};
   EXPECT_THAT(poseError(kSiteJson, {nameless, {transform()}}), HasSubstr("a frame without a name"));
   EXPECT_THAT(poseError(kSiteJson, {std::nullopt, {transform()}}),
-              HasSubstr("needs a camera of the CAHV family"));
+              HasSubstr("no transforms join it and CAMERA"));
   const auto file = folder_.write(
       "seed.json", R"({"format": "boresight-pose", "version": 1, "camera_from_station":
          [[1,0,0,0],[0,1,0,0],[0,0,1,1],[0,0,0,1]], "reference_frame": {"name": "SITE_FRAME"}})");

@@ -93,7 +93,7 @@ TEST_F(ReadPose, ProjectsANearlyOrthonormalMatrixAndSaysSo) {
 
 TEST_F(ReadPose, RefusesAPoseInAReferenceFrame) {
   EXPECT_THAT(error(R"({"format": "boresight-pose", "version": 1, "reference_from_station": []})"),
-              StartsWith("seed.json: reference_from_station: needs a camera of the CAHV family"));
+              StartsWith("seed.json: reference_from_station: needs reference_frame, or a camera of the CAHV family"));
   EXPECT_EQ(error(R"({"format": "boresight-pose", "version": 1})"),
             "seed.json: camera_from_station: missing");
 }
@@ -156,7 +156,7 @@ TEST(SeedUncertaintyOf, TurnsDegreesAndThePivotIntoTheCoresTerms) {
   EXPECT_TRUE(station.pivot_in_camera_m.isApprox(Eigen::Vector3d(0.1, 0.2, 0.7), 1e-15));
 }
 
-TEST(ReadPose, TakesTheOneOfAValidatedPose) {
+TEST(ValidatedPoseFile, IsReadAsAPose) {
   const test::TemporaryFolder folder;
   const PoseFile pose = readPose(folder.write("validated_pose.json", R"({
     "format": "boresight-validated-pose", "version": 1, "state": "validated",
