@@ -184,8 +184,8 @@ TEST(LocalizerChange, FixedOptions_AreRefused) {
         EXPECT_FALSE(localizer.changeOptions(options)) << "out of range";
       });
   EXPECT_EQ(course.digest, plain.digest) << "a refused change must not change the digest";
-  EXPECT_EQ(refused, 15);
-  EXPECT_EQ(accepted, 26);
+  EXPECT_EQ(refused, 16);
+  EXPECT_EQ(accepted, 25);
 }
 
 TEST(LocalizerChange, ChangeWithinAnIteration_IsRefused) {
