@@ -408,6 +408,7 @@ TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
   EXPECT_TRUE(test::has(listed(), "validated"));
   ASSERT_TRUE(window_.document().save());
   ASSERT_TRUE(reopen());
+  QTest::keyClick(&window_, Qt::Key_F9);
   ASSERT_TRUE(checked());
   EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
 }
