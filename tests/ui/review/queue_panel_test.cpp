@@ -201,11 +201,11 @@ TEST_F(QueuePanelTest, IsNotFilledWhileHaltedOrOutOfSight) {
   changed.review.limits = {{"check.inlier_count", 13.0}};
   ASSERT_TRUE(window_.document().edit(changed, QStringLiteral("limits")));
   EXPECT_FALSE(panel_->controller().isBusy());
-  window_.dock(QStringLiteral("iterations"))->raise();
+  QTest::keyClick(&window_, Qt::Key_2, Qt::ControlModifier);  // another workspace
   ASSERT_TRUE(wait([&] { return !inSight(); }));
   panel_->controller().setHalted(false);
   EXPECT_FALSE(panel_->controller().isBusy());
-  window_.dock(QStringLiteral("queue"))->raise();
+  QTest::keyClick(&window_, Qt::Key_5, Qt::ControlModifier);
   EXPECT_TRUE(filled());
 }
 
