@@ -63,6 +63,9 @@ void CaseArguments::addEndEffectorTo(CLI::App& command) {
       ->expected(3)
       ->check(numberIn(-100.0, 100.0))
       ->type_name("X Y Z M");
+}
+
+void CaseArguments::addRequirementTo(CLI::App& command) {
   command
       .add_option("--requirement", requirement,
                   "Largest normal and lateral error (mm) and rotation (deg), or one number: px in "

@@ -26,6 +26,7 @@ struct CaseArguments {
   void addTo(CLI::App& command);
   void addUncertaintyTo(CLI::App& command);
   void addEndEffectorTo(CLI::App& command);
+  void addRequirementTo(CLI::App& command);
   CLI::Option* addTruthTo(CLI::App& command);
   /// The image itself where its label has the camera model.
   const std::string& cameraFile() const { return camera.empty() ? image : camera; }

@@ -36,6 +36,7 @@ void LocalizeArguments::addTo(CLI::App& command) {
   addUncertaintyTo(command);
   addTruthTo(command);
   addEndEffectorTo(command);
+  addRequirementTo(command);
   for (const char* name : {"--image", "--mesh"}) command.get_option(name)->required();
   method.addTo(command, false);
   addThreads(command, threads);

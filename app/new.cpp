@@ -37,6 +37,7 @@ void NewArguments::addTo(CLI::App& command) {
   CaseArguments::addTo(command);
   addTruthTo(command);
   addEndEffectorTo(command);
+  addRequirementTo(command);
   command.add_option("--id", id, "Name of the case (default: the image's)");
   command
       .add_option("--mesh-scale-sigma", mesh_scale_sigma,

@@ -296,7 +296,9 @@ TEST_F(WhsProblem, Driver_WithLostOutput_Fails) {
 }
 
 TEST_F(WhsProblem, IsTheSameFromADataset) {
-  runWhs(arguments(), 0);
+  Arguments files = arguments();
+  files.insert(files.end(), {"--end-effector", "0", "0", "0.37"});  // as the dataset states it
+  runWhs(files, 0);
   const std::string problem = folder_.read("problem.bin");
   runWhs({"problem", "--dataset", exampleFolder() / "dataset.json", "--case", kOsCase, "--out",
           problem_, "--image-out", image_},

@@ -38,7 +38,7 @@ const std::vector<std::vector<std::string>> kFloors = {
     {"ui/scene"},
     {"ui/window"},
     {"app/flight"},
-    {"app"},
+    {"app", "app/python"},
 };
 
 /// Floor of a folder; the number of floors when it is on none.
