@@ -16,7 +16,7 @@
 namespace boresight::app {
 
 void FrameArguments::addTo(CLI::App& command) {
-  addFile(command, "--frames,--transform", files,
+  addFile(command, "--frames", files,
           "frames.json or transform.json: transforms between named frames; may be repeated");
 }
 

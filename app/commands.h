@@ -101,7 +101,7 @@ struct OptionArguments {
   std::size_t memoryLimit() const;
 };
 
-/// --transform: what joins the frame of a pose to that of a camera model.
+/// --frames: what joins the frame of a pose to that of a camera model.
 struct FrameArguments {
   std::vector<std::string> files;
 

@@ -67,7 +67,7 @@ class Downlink : public ::testing::Test {
     Arguments arguments = {"new", "--image", image_, "--mesh", mesh, "--mesh-unit", "m"};
     arguments.insert(arguments.end(), {"--seed", seed_, "--id", "sol12", "--feature-size", "0.018",
                                        "--out", session_});
-    if (with_transform) arguments.insert(arguments.end(), {"--transform", transform_});
+    if (with_transform) arguments.insert(arguments.end(), {"--frames", transform_});
     return arguments;
   }
 
@@ -161,7 +161,7 @@ TEST_F(Downlink, IsLocalizedInTheFrameThatItsSeedIsGivenIn) {
   const std::string out = folder_ / "result.json";
   Arguments arguments = localizeArguments(
       {{"--image", image_.string()}, {"--camera", ""}, {"--seed", seed_}, {"--out", out}});
-  arguments.insert(arguments.end(), {"--transform", transform_.string()});
+  arguments.insert(arguments.end(), {"--frames", transform_.string()});
   const ProgramRun run = runWhs(arguments, 0);
   const json frames = json::parse(folder_.read("result.json"))["frames"];
   expectNear(poseOf(frames["SITE_FRAME (194)"]["reference_from_station"]),
@@ -189,7 +189,7 @@ TEST_F(Downlink, ATransformThatTheLabelContradictsIsReported) {
                                              {"--camera", ""},
                                              {"--seed", seed_},
                                              {"--out", folder_ / "result.json"}});
-    arguments.insert(arguments.end(), {"--transform", transform});
+    arguments.insert(arguments.end(), {"--frames", transform});
     return runWhs(arguments);
   };
   const ProgramRun agrees = localized(transform_.string());
