@@ -11,6 +11,7 @@
 #include <ceres/ceres.h>
 
 #include "core/geometry/pose.h"
+#include "sessions/calibration/dense_jacobian.h"
 
 namespace boresight::sessions {
 namespace {
@@ -41,7 +42,8 @@ bool changedCamera(const Camera& camera, const double* change, Camera& result) {
   return !distorted || prepareCamera(result) == Status::kOk;
 }
 
-/// Residual of an observation in units of its sigma; the second one is 0 where only a normal counts.
+/// Residual of an observation in units of its sigma; the second one is 0 where only a normal
+/// counts.
 struct Residual {
   const Camera* camera;
   const Pose* camera_from_station;
@@ -109,8 +111,7 @@ struct Adjustment {
       problem.SetManifold(camera.data(), new ceres::SubsetManifold(kCameraSize, fixed));
     for (std::size_t v = 0; v < views.size(); ++v)
       for (const PointObservation& observation : views[v].points) {
-        using Cost =
-            ceres::NumericDiffCostFunction<Residual, ceres::CENTRAL, 2, kCameraSize, 6>;
+        using Cost = ceres::NumericDiffCostFunction<Residual, ceres::CENTRAL, 2, kCameraSize, 6>;
         problem.AddResidualBlock(
             new Cost(new Residual{&start, &views[v].camera_from_station, &observation}),
             new ceres::CauchyLoss(kLossSigmas), camera.data(), poses[v].data());
@@ -122,7 +123,8 @@ struct Adjustment {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.linear_solver_ordering.reset(new ceres::ParameterBlockOrdering);
-    for (PoseChange& pose : poses) options.linear_solver_ordering->AddElementToGroup(pose.data(), 0);
+    for (PoseChange& pose : poses)
+      options.linear_solver_ordering->AddElementToGroup(pose.data(), 0);
     options.linear_solver_ordering->AddElementToGroup(camera.data(), 1);
     options.max_num_iterations = kMostIterations;
     options.function_tolerance = 1e-12;
@@ -138,15 +140,7 @@ struct Adjustment {
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks.push_back(camera.data());
     for (PoseChange& pose : poses) options.parameter_blocks.push_back(pose.data());
-    ceres::CRSMatrix sparse;
-    problem.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-    for (int row = 0; row < sparse.num_rows; ++row)
-      for (int k = sparse.rows[static_cast<std::size_t>(row)];
-           k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k)
-        dense(row, sparse.cols[static_cast<std::size_t>(k)]) =
-            sparse.values[static_cast<std::size_t>(k)];
-    return dense;
+    return denseJacobian(problem, options);
   }
 };
 
@@ -202,9 +196,8 @@ CameraCalibration calibrateCamera(const Camera& camera, std::span<const Calibrat
   if (!changedCamera(camera, adjustment.camera.data(), result.camera))
     throw std::runtime_error("the adjusted camera cannot project; free less of it");
   for (std::size_t v = 0; v < views.size(); ++v)
-    result.camera_from_station.push_back(
-        perturbed(Eigen::Map<const Vector6d>(adjustment.poses[v].data()),
-                  views[v].camera_from_station));
+    result.camera_from_station.push_back(perturbed(
+        Eigen::Map<const Vector6d>(adjustment.poses[v].data()), views[v].camera_from_station));
   for (const int index : indices)
     result.parameters.push_back(parameterOf(index, result.camera, adjustment.camera));
   measureResiduals(views, result);

@@ -8,6 +8,8 @@
 
 #include <ceres/ceres.h>
 
+#include "sessions/calibration/dense_jacobian.h"
+
 namespace boresight::sessions {
 namespace {
 
@@ -35,16 +37,6 @@ struct ArmResidual {
     return true;
   }
 };
-
-Eigen::MatrixXd denseOf(const ceres::CRSMatrix& sparse) {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-  for (int row = 0; row < sparse.num_rows; ++row)
-    for (int k = sparse.rows[static_cast<std::size_t>(row)];
-         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k)
-      dense(row, sparse.cols[static_cast<std::size_t>(k)]) =
-          sparse.values[static_cast<std::size_t>(k)];
-  return dense;
-}
 
 std::vector<CalibrationParameter> parametersOf(const std::array<double, 6>& change) {
   static const char* const kNames[] = {"rotation_x_rad",  "rotation_y_rad",  "rotation_z_rad",
@@ -89,13 +81,12 @@ HandEye calibrateHandEye(std::span<const ArmPosture> postures,
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.parameter_blocks = {hand.data(), base.data()};
   evaluate.apply_loss_function = false;
-  ceres::CRSMatrix sparse;
   double half_squares = 0.0;
-  problem.Evaluate(evaluate, &half_squares, nullptr, nullptr, &sparse);
+  const Eigen::MatrixXd jacobian = denseJacobian(problem, evaluate, &half_squares);
   const double freedom = 6.0 * static_cast<double>(postures.size()) - 12.0;
   if (freedom > 0.0) result.noise_factor = std::sqrt(2.0 * half_squares / freedom);
   const double noise = std::max(1.0, result.noise_factor);
-  result.covariance = judgeInformation(reducedInformation(denseOf(sparse), 6) / (noise * noise),
+  result.covariance = judgeInformation(reducedInformation(jacobian, 6) / (noise * noise),
                                        result.parameters, result.undetermined);
   return result;
 }

@@ -38,7 +38,8 @@ Eigen::MatrixXd judgeInformation(const Eigen::MatrixXd& information,
                                  std::vector<Undetermined>& undetermined) {
   const auto count = static_cast<Eigen::Index>(parameters.size());
   Eigen::VectorXd scales(count);
-  for (Eigen::Index i = 0; i < count; ++i) scales[i] = parameters[static_cast<std::size_t>(i)].scale;
+  for (Eigen::Index i = 0; i < count; ++i)
+    scales[i] = parameters[static_cast<std::size_t>(i)].scale;
   const Eigen::MatrixXd scaled = scales.asDiagonal() * information * scales.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
@@ -51,15 +52,15 @@ Eigen::MatrixXd judgeInformation(const Eigen::MatrixXd& information,
       continue;
     }
     lost += direction.cwiseAbs2();
-    undetermined.push_back({value > 0.0 ? 1.0 / std::sqrt(value)
-                                        : std::numeric_limits<double>::infinity(),
-                            namesOf(direction, parameters)});
+    undetermined.push_back(
+        {value > 0.0 ? 1.0 / std::sqrt(value) : std::numeric_limits<double>::infinity(),
+         namesOf(direction, parameters)});
   }
   covariance = scales.asDiagonal() * covariance * scales.asDiagonal();
   for (Eigen::Index i = 0; i < count; ++i)
-    parameters[static_cast<std::size_t>(i)].sigma =
-        lost[i] > kNotableShare ? std::numeric_limits<double>::infinity()
-                                : std::sqrt(covariance(i, i));
+    parameters[static_cast<std::size_t>(i)].sigma = lost[i] > kNotableShare
+                                                        ? std::numeric_limits<double>::infinity()
+                                                        : std::sqrt(covariance(i, i));
   return covariance;
 }
 

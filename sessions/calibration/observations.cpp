@@ -23,8 +23,8 @@ CalibrationView annotatedView(const Session& session, const SessionCase& session
   if (found == session.annotations.end()) return view;
   for (const PointPair& pair : found->second->points)
     if (pair.used())
-      view.points.push_back({*pair.point_in_station_m, *pair.pixel, Eigen::Vector2d::Zero(),
-                             pair.sigma_px});
+      view.points.push_back(
+          {*pair.point_in_station_m, *pair.pixel, Eigen::Vector2d::Zero(), pair.sigma_px});
   if (view.points.size() < kFewestPoints) return view;
   const auto solved = solveCaseAnnotations(session, session_case.id, false, false);
   if (const auto pose = solved.camera_from_station())
@@ -51,8 +51,8 @@ CalibrationView runView(const Session& session, const SessionCase& session_case)
   const double sigma_px = std::max(refinement.rms_px, kSmallestSigma_px);
   for (std::size_t i = 0; i < used.size(); i += step) {
     Eigen::Vector2d predicted;
-    if (!project(session_case.camera,
-                 refinement.camera_from_station * used[i]->point_in_station_m, predicted))
+    if (!project(session_case.camera, refinement.camera_from_station * used[i]->point_in_station_m,
+                 predicted))
       continue;
     view.points.push_back({used[i]->point_in_station_m,
                            predicted + used[i]->residual_px * used[i]->normal, used[i]->normal,

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/file_bytes.h"
+#include "sessions/io/json_writer.h"
 #include "sessions/io/json_reader.h"
 #include "sessions/io/pose_file.h"
 
@@ -90,6 +91,19 @@ std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& 
     for (FrameTransform& transform : readFrameTransforms(std::filesystem::path(file)))
       transforms.push_back(std::move(transform));
   return transforms;
+}
+
+void writeFrameTransform(const std::filesystem::path& file, const FrameTransform& transform) {
+  nlohmann::ordered_json json = {{"format", kTransformFormat},
+                                 {"version", kVersion},
+                                 {"target", toJson(transform.target)},
+                                 {"source", toJson(transform.source)},
+                                 {"target_from_source", toJson(transform.target_from_source)}};
+  if (transform.covariance) json["covariance"] = toJson(*transform.covariance);
+  if (transform.origin != TransformSource::kUnstated)
+    json["origin"] = kTransformSourceNames[static_cast<std::size_t>(transform.origin)];
+  json["comment"] = transform.comment;
+  writeJsonFile(file, json);
 }
 
 }  // namespace boresight::sessions

@@ -78,6 +78,31 @@ TEST_F(FrameTransforms, SaysWhatItIs) {
   EXPECT_NE(read.file_sha256, "");
 }
 
+TEST_F(FrameTransforms, WrittenTransformReadsBackTheSame) {
+  FrameTransform written;
+  written.target = kSite;
+  written.source = kRover;
+  written.target_from_source = {Eigen::Quaterniond(0.9, 0.1, -0.2, 0.3).normalized(), {1, 2, 3}};
+  written.covariance = Matrix6d::Identity() * 1e-6 + Matrix6d::Constant(1e-7);
+  written.origin = TransformSource::kCalibration;
+  written.comment = "12 postures";
+  const auto file = folder_ / "hand_eye.json";
+  writeFrameTransform(file, written);
+  FrameTransform read = readFrameTransforms(std::filesystem::path(file)).front();
+  EXPECT_LT(perturbationBetween(read.target_from_source, written.target_from_source).norm(), 1e-15);
+  EXPECT_LT((*read.covariance - *written.covariance).norm(), 1e-15);
+  EXPECT_EQ(read.file, file);
+  read.target_from_source = written.target_from_source;
+  read.covariance = written.covariance;
+  read.file.clear();
+  read.file_sha256.clear();
+  EXPECT_EQ(read, written);
+  written.covariance.reset();
+  written.origin = TransformSource::kUnstated;
+  writeFrameTransform(file, written);
+  EXPECT_FALSE(readFrameTransforms(std::filesystem::path(file)).front().covariance);
+}
+
 TEST_F(FrameTransforms, NamesWhatIsWrong) {
   for (const char* key : {"target", "source", "target_from_source", "comment"}) {
     nlohmann::ordered_json json = transformJson();

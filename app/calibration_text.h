@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// How `whs calibrate` and `whs hand-eye` print what they estimated.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sessions/calibration/information.h"
+
+namespace boresight::app {
+
+/// At most nine decimals; "not determined" for what is not finite.
+std::string numberText(double value);
+
+/// A table of the parameters with their sigmas, the noise factor, and a line for each direction
+/// that the images leave open.
+void printParameters(const std::vector<sessions::CalibrationParameter>& parameters,
+                     const std::vector<sessions::Undetermined>& undetermined, double noise_factor);
+
+}  // namespace boresight::app

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <iostream>
+#include <optional>
+
+#include "app/calibration_text.h"
+#include "app/commands.h"
+#include "sessions/calibration/hand_eye.h"
+#include "sessions/io/atomic_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/frame_transform.h"
+#include "sessions/io/frame_tree.h"
+#include "sessions/run/run_text.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_file.h"
+
+namespace boresight::app {
+namespace {
+
+struct HandEyeArguments {
+  std::vector<std::string> sessions;
+  std::string arm;
+  std::string out;
+};
+
+/// What all sessions together say of the arm.
+struct ArmObservations {
+  std::vector<sessions::ArmPosture> postures;
+  std::optional<Pose> start;  ///< the first case's camera_from_end_effector
+};
+
+/// The transform by telemetry between the arm's frame and the end effector, and its sigmas.
+std::optional<sessions::ArmPosture> postureOf(const sessions::SessionCase& session_case,
+                                              const sessions::FrameName& arm, const Pose& pose) {
+  for (const sessions::FrameTransform& transform : session_case.frames) {
+    const sessions::FrameTree tree({transform});
+    const auto arm_from_end_effector = tree.chain(arm, sessions::kEndEffectorFrame);
+    if (!arm_from_end_effector) continue;
+    sessions::ArmPosture posture{arm_from_end_effector->a_from_b, pose};
+    if (!arm_from_end_effector->covariance_stated) return posture;
+    // The chain back has its covariance at the end effector, where the adjustment has residuals.
+    const Vector6d sigma =
+        sessions::sigmasOf(tree.chain(sessions::kEndEffectorFrame, arm)->covariance);
+    posture.sigma_rotation_rad = std::max(1e-9, sigma.head<3>().mean());
+    posture.sigma_translation_m = std::max(1e-9, sigma.tail<3>().mean());
+    return posture;
+  }
+  return std::nullopt;
+}
+
+void addObservations(const sessions::Session& session, const sessions::FrameName& arm,
+                     ArmObservations& observations) {
+  for (const auto& session_case : session.cases) {
+    const sessions::RunRecord* record = session.lastRunOf(session_case->id);
+    if (record == nullptr) continue;
+    const sessions::LocalizationTrace run = sessions::loadSnapshot(*record);
+    if (!run.converged()) continue;
+    if (const auto posture = postureOf(*session_case, arm, run.camera_from_station))
+      observations.postures.push_back(*posture);
+    if (!observations.start) observations.start = session_case->camera_from_end_effector;
+  }
+}
+
+sessions::HandEye handEyeOf(const HandEyeArguments& arguments,
+                            const ArmObservations& observations) {
+  try {
+    return sessions::calibrateHandEye(observations.postures, observations.start.value_or(Pose()));
+  } catch (const std::invalid_argument& refusal) {
+    throw sessions::InputError(arguments.sessions.front(), "frames",
+                               std::string(refusal.what()) +
+                                   ": converged runs with a transform between " + arguments.arm +
+                                   " and END_EFFECTOR");
+  }
+}
+
+void writeHandEye(const HandEyeArguments& arguments, const sessions::HandEye& hand_eye,
+                  std::size_t postures) {
+  // A covariance without the open directions would promise more than is known.
+  if (!hand_eye.undetermined.empty())
+    throw sessions::InputError(arguments.out, "covariance",
+                               "is not written while a direction is not determined; add postures "
+                               "that turn about other axes");
+  sessions::FrameTransform transform;
+  transform.target = sessions::kCameraFrame;
+  transform.source = sessions::kEndEffectorFrame;
+  transform.target_from_source = hand_eye.camera_from_end_effector;
+  transform.covariance = hand_eye.covariance;
+  transform.origin = sessions::TransformSource::kCalibration;
+  transform.comment = "whs hand-eye, " + std::to_string(postures) + " postures";
+  sessions::writeFrameTransform(arguments.out, transform);
+}
+
+int handEye(const HandEyeArguments& arguments) {
+  if (!arguments.out.empty()) sessions::requireWritable(arguments.out);
+  ArmObservations observations;
+  for (const std::string& file : arguments.sessions)
+    addObservations(sessions::readSessionFile(file).session, {arguments.arm, {}}, observations);
+  const sessions::HandEye hand_eye = handEyeOf(arguments, observations);
+  const std::size_t postures = observations.postures.size();
+  std::cout << postures << " postures; changes of camera_from_end_effector\n";
+  printParameters(hand_eye.parameters, hand_eye.undetermined, hand_eye.noise_factor);
+  std::cout << sessions::poseText(hand_eye.camera_from_end_effector, hand_eye.covariance,
+                                  "camera_from_end_effector")
+            << std::flush;
+  if (!arguments.out.empty()) writeHandEye(arguments, hand_eye, postures);
+  return kDone;
+}
+
+}  // namespace
+
+void addHandEye(CLI::App& app, int& exit_code) {
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "hand-eye",
+      "Estimates the camera's place on the arm from converged runs in several postures and the "
+      "arm's telemetry, with its covariance; says what the postures cannot determine",
+      handEye);
+  addFile(*command, "sessions", arguments->sessions, "Session files of one camera")->required();
+  command
+      ->add_option("--arm", arguments->arm,
+                   "Frame that the cases' frames join with END_EFFECTOR by telemetry")
+      ->type_name("FRAME")
+      ->required();
+  addFile(*command, "--out", arguments->out,
+          "Writes camera_from_end_effector with its covariance as a transform for --frames");
+}
+
+}  // namespace boresight::app

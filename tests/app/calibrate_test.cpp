@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// calibrate and hand-eye.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/io/camera_file.h"
+#include "sessions/io/frame_transform.h"
+#include "sessions/io/frame_tree.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session_file.h"
+#include "sessions/session/session_maker.h"
+#include "tests/app/run_whs.h"
+#include "tests/support/random_pose.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::Session;
+using sessions::SessionCase;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double kLongerFocalLength = 1.004;
+
+/// Places of the camera all around the station, at several distances and rolled.
+std::vector<Pose> placesOfTheCamera(int count) {
+  Random random = randomFor("Calibrate");
+  std::vector<Pose> places;
+  for (int i = 0; i < count; ++i) {
+    Vector6d turn = Vector6d::Zero();
+    for (int axis = 0; axis < 3; ++axis) turn[axis] = random.uniform(-0.6, 0.6);
+    Pose& place = places.emplace_back(perturbed(turn, Pose()));
+    place.translation_m = {random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
+                           random.uniform(0.25, 0.5)};
+  }
+  return places;
+}
+
+/// The case of the orbiting sample as often as wanted.
+Session sessionOf(int count) {
+  Session session = sessions::makeSession(exampleFolder() / "dataset.json", {"os-000038"});
+  const SessionCase first = *session.cases.front();
+  session.cases.clear();
+  for (int i = 0; i < count; ++i) {
+    SessionCase session_case = first;
+    session_case.id = "c" + std::to_string(i);
+    session.cases.push_back(sessions::SharedValue<SessionCase>(session_case));
+  }
+  return session;
+}
+
+sessions::Annotations annotationsFrom(const Pose& camera_from_station, const Camera& camera) {
+  sessions::Annotations annotations;
+  Random random = randomFor("Calibrate.Points");
+  for (int i = 0; i < 20; ++i) {
+    sessions::PointPair point;
+    point.id = "p" + std::to_string(i);
+    point.point_in_station_m = randomVector(random, 0.05);
+    Eigen::Vector2d pixel;
+    if (!project(camera, camera_from_station * *point.point_in_station_m, pixel)) continue;
+    point.pixel = pixel + 0.05 * Eigen::Vector2d(random.normal(), random.normal());
+    point.sigma_px = 0.05;
+    annotations.points.push_back(point);
+  }
+  return annotations;
+}
+
+class Calibrate : public testing::Test {
+ protected:
+  /// Annotated through a lens that is longer than the session's camera says.
+  std::string annotatedSession() const {
+    Session session = sessionOf(8);
+    Camera camera = session.cases.front()->camera;
+    camera.fx *= kLongerFocalLength;
+    camera.fy *= kLongerFocalLength;
+    EXPECT_EQ(prepareCamera(camera), Status::kOk);
+    const auto places = placesOfTheCamera(8);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      session = withAnnotations(session, session.cases[i]->id, annotationsFrom(places[i], camera));
+    sessions::writeSessionFile(file_, session);
+    return file_;
+  }
+
+  /// A run in each posture of the arm; telemetry as exact as a file can say.
+  std::string sessionOfPostures(const std::vector<Pose>& camera_from_station,
+                                const Pose& camera_from_end_effector,
+                                const Pose& arm_from_station) const {
+    Session session = sessionOf(static_cast<int>(camera_from_station.size()));
+    sessions::LocalizationTrace run = sessions::runCase(session, "c0");
+    EXPECT_TRUE(run.converged());
+    for (std::size_t i = 0; i < camera_from_station.size(); ++i) {
+      SessionCase session_case = *session.cases[i];
+      session_case.camera_from_end_effector = Pose();  // where the estimate begins
+      sessions::FrameTransform telemetry;
+      telemetry.target = {"ARM_BASE", {}};
+      telemetry.source = sessions::kEndEffectorFrame;
+      telemetry.target_from_source =
+          arm_from_station * camera_from_station[i].inverse() * camera_from_end_effector;
+      telemetry.covariance = 1e-8 * Matrix6d::Identity();
+      telemetry.comment = "posture " + std::to_string(i);
+      session_case.frames = {telemetry};
+      session.cases[i] = sessions::SharedValue<SessionCase>(session_case);
+    }
+    for (std::size_t i = 0; i < camera_from_station.size(); ++i) {
+      run.camera_from_station = camera_from_station[i];
+      session = withRun(session, storeRun(session, session.cases[i]->id, run, file_));
+    }
+    sessions::writeSessionFile(file_, session);
+    return file_;
+  }
+
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_ / "s.boresight.json";
+};
+
+TEST_F(Calibrate, FindsALongerFocalLengthAndWritesTheCamera) {
+  const std::string out = folder_ / "camera.json";
+  EXPECT_THAT(runWhs({"calibrate", annotatedSession(), "--out", out}, 0).out,
+              AllOf(HasSubstr("8 images"), HasSubstr("focal_relative"), HasSubstr("noise factor")));
+  const sessions::CameraFile written = sessions::readCameraFile(out);
+  const Camera stated = sessionOf(1).cases.front()->camera;
+  ASSERT_TRUE(written.calibration_sigma);
+  const double sigma = written.calibration_sigma->focal_relative;
+  EXPECT_GT(sigma, 0.0);
+  EXPECT_LT(sigma, 1e-3);
+  EXPECT_NEAR(written.camera.fx / stated.fx, kLongerFocalLength, 4.0 * sigma);
+}
+
+TEST_F(Calibrate, TellsTheDriftBetweenSessions) {
+  const std::string file = annotatedSession();
+  EXPECT_THAT(runWhs({"calibrate", file, file}, 0).out,
+              AllOf(HasSubstr("drift since"), HasSubstr(" 0.0\n")));
+}
+
+TEST_F(Calibrate, RefusesWhatCannotBeCalibratedInOneSentence) {
+  sessions::writeSessionFile(file_, sessionOf(2));
+  ProgramRun run = runWhs({"calibrate", file_}, 3);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  Session two_cameras = sessionOf(2);
+  SessionCase other = *two_cameras.cases[1];
+  other.camera.fx *= 1.1;
+  two_cameras.cases[1] = sessions::SharedValue<SessionCase>(other);
+  sessions::writeSessionFile(file_, two_cameras);
+  run = runWhs({"calibrate", file_}, 3);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("c1 has another camera than c0"));
+  runWhs({"calibrate", file_, "--free", "zoom"}, 2);
+  runWhs({"calibrate", file_, "--out", folder_ / "no_folder" / "camera.json"}, 3);
+}
+
+TEST_F(Calibrate, HandEyeFindsTheCamerasPlaceOnTheArm) {
+  Random random = randomFor("Calibrate.HandEye");
+  Vector6d place;
+  place << 0.1, -0.2, 0.05, 0.02, -0.03, 0.1;
+  const Pose camera_from_end_effector = perturbed(place, Pose());
+  const std::string out = folder_ / "hand_eye.json";
+  const std::string file =
+      sessionOfPostures(placesOfTheCamera(6), camera_from_end_effector, randomPose(random));
+  EXPECT_THAT(runWhs({"hand-eye", file, "--arm", "ARM_BASE", "--out", out}, 0).out,
+              HasSubstr("6 postures"));
+  const auto transforms = sessions::readFrameTransforms(std::filesystem::path(out));
+  const auto chain =
+      sessions::FrameTree(transforms).chain(sessions::kCameraFrame, sessions::kEndEffectorFrame);
+  ASSERT_TRUE(chain);
+  EXPECT_TRUE(chain->covariance_stated);
+  EXPECT_LT(perturbationBetween(chain->a_from_b, camera_from_end_effector).norm(), 1e-6);
+}
+
+TEST_F(Calibrate, HandEyeDoesNotWriteWhatPosturesLeaveOpen) {
+  std::vector<Pose> about_one_axis;
+  for (int i = 0; i < 5; ++i) {
+    Vector6d turn = Vector6d::Zero();
+    turn[2] = 0.3 * i;
+    about_one_axis.push_back(perturbed(turn, Pose{Eigen::Quaterniond::Identity(), {0, 0, 0.4}}));
+  }
+  const std::string file = sessionOfPostures(about_one_axis, Pose(), Pose());
+  EXPECT_THAT(runWhs({"hand-eye", file, "--arm", "ARM_BASE"}, 0).out,
+              HasSubstr("not determined by these images"));
+  const std::string out = folder_ / "hand_eye.json";
+  const ProgramRun run = runWhs({"hand-eye", file, "--arm", "ARM_BASE", "--out", out}, 3);
+  EXPECT_THAT(run.err, HasSubstr("not written while a direction is not determined"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(Calibrate, HandEyeSaysWhatItNeeds) {
+  sessions::writeSessionFile(file_, sessionOf(3));
+  const ProgramRun run = runWhs({"hand-eye", file_, "--arm", "ARM_BASE"}, 3);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("converged runs with a transform between ARM_BASE and"));
+  runWhs({"hand-eye", file_}, 2);
+}
+
+}  // namespace
+}  // namespace boresight::test
