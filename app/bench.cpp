@@ -52,10 +52,11 @@ std::vector<Loaded> readCases(const sessions::Dataset& dataset, std::vector<std:
 }
 
 /// The case from its own seed, `repetitions` times.
-LocalizationFigure measureCase(const sessions::LoadedCase& loaded, LocalizerOptions options,
-                               int repetitions, sessions::RunSettings settings) {
-  if (options.templates.feature_size_m == 0.0)
-    options.templates.feature_size_m = loaded.source.feature_size_m.value_or(0.0);
+LocalizationFigure measureCase(const sessions::LoadedCase& loaded,
+                               const LocalizerOptions& stated_options, int repetitions,
+                               sessions::RunSettings settings) {
+  const LocalizerOptions options =
+      sessions::withFeatureSize(stated_options, loaded.source.feature_size_m);
   settings.level = sessions::RecordLevel::kSummary;
   const Camera& camera = loaded.source.camera;
   LocalizationFigure figure{loaded.source.id, settings.kernels, settings.threads,

@@ -77,8 +77,8 @@ void Arguments::addTo(CLI::App& app) {
       ->check(CLI::IsMember({"start", "run", "diagnose", "annotate", "review", "onboard"},
                             CLI::ignore_case))
       ->type_name("NAME");
-  app.add_option("--theme", theme, "Light or dark colours")->check(CLI::IsMember({"light", "dark"}));
-  app.add_flag_callback("--dark", [this] { theme = "dark"; }, "Dark colours");
+  app.add_option("--theme", theme, "Light or dark colours")
+      ->check(CLI::IsMember({"light", "dark"}));
   app.add_option("--documents", documents, "Write pages of the manual")->group("");
 }
 
@@ -169,8 +169,7 @@ int runProgram(int argc, char** argv) {
   window.rememberLayout();
   window.show();
   if (arguments.screenshot.workspace) window.workspaces().show(*arguments.screenshot.workspace);
-  if (!arguments.files.empty())
-    window.takeFiles({arguments.files.begin(), arguments.files.end()});
+  if (!arguments.files.empty()) window.takeFiles({arguments.files.begin(), arguments.files.end()});
   return QApplication::exec();
 }
 

@@ -31,7 +31,8 @@ void CaseArguments::addTo(CLI::App& command) {
   addFile(command, "--camera", camera, kOwnCameraHelp);
   addFile(command, "--mesh", mesh, kMeshHelp);
   addMeshUnit(command, mesh_unit, kMeshUnitHelp);
-  addFile(command, "--seed", seed, "pose.json with the approximate pose of the camera (default: as --frames joins "
+  addFile(command, "--seed", seed,
+          "pose.json with the approximate pose of the camera (default: as --frames joins "
           "CAMERA and STATION)");
   frames.addTo(command);
   options.addTo(command);
@@ -47,9 +48,10 @@ void CaseArguments::addTo(CLI::App& command) {
       ->check(CLI::Range(1, 16))
       ->type_name("N");
   command
-      .add_option("--levels", levels,
-                  "Samples that become 0 and 255, e.g. 1489 5828 of a radiometric product (default: "
-                  "the whole range of the bit depth)")
+      .add_option(
+          "--levels", levels,
+          "Samples that become 0 and 255, e.g. 1489 5828 of a radiometric product (default: "
+          "the whole range of the bit depth)")
       ->expected(2)
       ->check(CLI::Range(0, 65535))
       ->type_name("BLACK WHITE");
@@ -98,8 +100,7 @@ sessions::CaseFiles CaseArguments::files() const {
   files.image = image;
   if (bit_depth > 0) files.eight_bit.bit_depth = bit_depth;
   if (!levels.empty()) {
-    if (levels[0] >= levels[1])
-      throw CLI::ValidationError("--levels", "black must be below white");
+    if (levels[0] >= levels[1]) throw CLI::ValidationError("--levels", "black must be below white");
     files.eight_bit.levels = sessions::GrayLevels{levels[0], levels[1]};
   }
   files.camera = camera;
@@ -143,9 +144,10 @@ void requireRunnable(const sessions::LoadedCase& loaded, const std::string& came
                      const std::string& seed_file) {
   const sessions::SessionCase& session_case = loaded.source;
   if (!session_case.has_seed)
-    throw sessions::InputError(seed_file,
-                               "the transforms do not join CAMERA and STATION; add the missing one, "
-                               "or give a seed");
+    throw sessions::InputError(
+        seed_file,
+        "the transforms do not join CAMERA and STATION; add the missing one, "
+        "or give a seed");
   sessions::requireSameSize(loaded.image, session_case.camera);
   sessions::requireField(camera_file, "distortion", session_case.camera);
   sessions::requireSensibleSeed(session_case.camera, loaded.scene,

@@ -254,7 +254,8 @@ std::string sigmaText(const Matrix6d& covariance) {
   const Vector6d sigma = 1e3 * sessions::sigmasOf(covariance);
   std::string text = "1 sigma";
   for (const auto& [first, unit] : {std::pair(3, "mm"), std::pair(0, "mrad")}) {
-    for (int axis = first; axis < first + 3; ++axis) text += " " + sessions::fixedText(sigma[axis], 3);
+    for (int axis = first; axis < first + 3; ++axis)
+      text += " " + sessions::fixedText(sigma[axis], 3);
     text += std::string(" ") + unit + (first == 3 ? "," : "");
   }
   return text;
@@ -274,7 +275,8 @@ void describeTransform(const sessions::FrameTransform& transform) {
 /// What each frame is from the first one, with each transform's share of the covariance.
 void describeChains(const sessions::FrameTree& tree) {
   const std::vector<sessions::FrameName> frames = tree.frames();
-  const bool camera = std::find(frames.begin(), frames.end(), sessions::kCameraFrame) != frames.end();
+  const bool camera =
+      std::find(frames.begin(), frames.end(), sessions::kCameraFrame) != frames.end();
   const sessions::FrameName& first = camera ? sessions::kCameraFrame : frames.front();
   for (const sessions::FrameName& frame : frames) {
     const auto chain = tree.chain(first, frame);

@@ -163,11 +163,11 @@ std::string commandsPage(const CLI::App& app) {
 }  // namespace
 
 void addOptions(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] =
-      addCommand(app, exit_code, "options",
-                 "Lists every option of a run: value, range, meaning; or writes them as a table for "
-                 "uplink",
-                 printOptions);
+  const auto [command, arguments] = addCommand(
+      app, exit_code, "options",
+      "Lists every option of a run: value, range, meaning; or writes them as a table for "
+      "uplink",
+      printOptions);
   arguments->options.addTo(*command);
   addFile(*command, "--table", arguments->table,
           "Writes the options as a binary table with a checksum, which --config and the flight "

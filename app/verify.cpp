@@ -47,9 +47,10 @@ void addVerify(CLI::App& app, int& exit_code) {
                    "by their hashes")
       ->check(CLI::ExistingDirectory)
       ->type_name("FOLDER");
-  addFile(*command, "--signers", arguments->signers,
-          "Allowed signers (ssh-keygen): those who decided must have signed the file with a key that "
-          "this lists for their names, in FILE.sig or FILE.*.sig");
+  addFile(
+      *command, "--signers", arguments->signers,
+      "Allowed signers (ssh-keygen): those who decided must have signed the file with a key that "
+      "this lists for their names, in FILE.sig or FILE.*.sig");
   CLI::Option* no_run =
       command->add_flag("--no-run", arguments->no_run,
                         "Skip the localization; pose, covariance and checks are then not proved");

@@ -91,9 +91,7 @@ LocalizerOptions optionsOf(const std::string& profile, const py::dict& changes,
     config.options.emplace_back(name.cast<std::string>(), option);
   }
   sessions::applyConfig(options, config);
-  if (options.templates.feature_size_m == 0.0)
-    options.templates.feature_size_m = session_case.feature_size_m.value_or(0.0);
-  return options;
+  return sessions::withFeatureSize(options, session_case.feature_size_m);
 }
 
 Run localizeCase(const Case& one, const std::string& profile, const py::dict& changes) {

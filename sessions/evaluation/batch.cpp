@@ -16,6 +16,7 @@
 
 #include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
+#include "sessions/io/config_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
@@ -232,9 +233,8 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
       errorOf(dataset_case, problem.camera, problem.camera_from_station_seed, scene);
 
   result.image_quality = imageQualityOf(problem);
-  LocalizerOptions options = options_.localizer;
-  if (options.templates.feature_size_m == 0.0 && item.work->mesh_station->feature_size_m)
-    options.templates.feature_size_m = *item.work->mesh_station->feature_size_m;
+  const LocalizerOptions options =
+      withFeatureSize(options_.localizer, item.work->mesh_station->feature_size_m);
   result.message = seedConcern(problem.camera, problem.mesh, problem.camera_from_station_seed);
   if (result.message.empty()) {
     RunSettings settings;

@@ -87,4 +87,10 @@ std::string optionsDigest(const LocalizerOptions& options) {
   return hexText(writer.digest()).data();
 }
 
+LocalizerOptions withFeatureSize(LocalizerOptions options, std::optional<double> feature_size_m) {
+  if (options.templates.feature_size_m == 0.0)
+    options.templates.feature_size_m = feature_size_m.value_or(0.0);
+  return options;
+}
+
 }  // namespace boresight::sessions

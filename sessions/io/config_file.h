@@ -54,4 +54,7 @@ void applyConfig(Options& options, const Config& config) {
   options = changed;
 }
 
+/// The options with a case's feature size where they state none.
+LocalizerOptions withFeatureSize(LocalizerOptions options, std::optional<double> feature_size_m);
+
 }  // namespace boresight::sessions

@@ -71,8 +71,8 @@ std::optional<FrameChain> findChain(std::span<const FrameTransform> transforms, 
       first.a_from_b.rotation.angularDistance(second.target_from_source.rotation);
   throw InputError(second.file,
                    "leads from " + frameText(second.source) + " to " + frameText(second.target) +
-                       ", as does the way " + first.path() + " of " + files + "; the two differ by " +
-                       fixedText(1e3 * apart_m, 3) + " mm and " +
+                       ", as does the way " + first.path() + " of " + files +
+                       "; the two differ by " + fixedText(1e3 * apart_m, 3) + " mm and " +
                        fixedText(turned_rad / kDegree_rad, 3) + " deg; give only the valid one");
 }
 

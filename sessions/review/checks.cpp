@@ -14,9 +14,7 @@ namespace {
 
 RunPlan planFor(const ReviewSubject& subject) {
   if (subject.run) return subject.run->plan();
-  LocalizerOptions options = defaultProfile();
-  options.templates.feature_size_m = subject.loaded->source.feature_size_m.value_or(0.0);
-  return RunPlan(options);
+  return RunPlan(withFeatureSize(defaultProfile(), subject.loaded->source.feature_size_m));
 }
 
 /// The case with its seed displaced by `offset`.

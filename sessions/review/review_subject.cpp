@@ -49,8 +49,7 @@ std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& l
       run->status != localizationStatusText(LocalizationStatus::kConverged))
     return {};
   const LocalizationTrace seen = read_run(*run);
-  const Pose one_from_other =
-      session_case.rig->camera_from_rig * other.rig->camera_from_rig.inverse();
+  const Pose one_from_other = *linkOfRig(other, session_case);
   const PoseCovariance own =
       poseCovariance(other, loaded.scene.view(), seen.camera_from_station, seen.covariance);
   const auto turned = [turn = adjointOf(one_from_other)](const Matrix6d& covariance) {

@@ -83,13 +83,6 @@ int chosenCandidate(const LocalizationTrace& run) {
   return nearest;
 }
 
-/// The pose that others compete with. A run that ends as ambiguous has its seed for a result, but
-/// its last iteration has the best pose.
-Pose bestPoseOf(const LocalizationTrace& run) {
-  if (run.converged() || run.iterations.empty()) return run.camera_from_station;
-  return run.iterations.back()->camera_from_station;
-}
-
 void addHypotheses(const LocalizationTrace& run, std::size_t index, std::vector<Alternative>& all) {
   const IterationTrace& iteration = *run.iterations[index];
   if (iteration.hypotheses.size() < 2) return;
@@ -109,7 +102,7 @@ void addHypotheses(const LocalizationTrace& run, std::size_t index, std::vector<
 
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
   std::vector<Alternative> all;
-  const Pose best = bestPoseOf(run);
+  const Pose best = run.lastPose();
   for (std::size_t i = 0; i < run.competing_poses.size(); ++i) {
     all.push_back(ofCompeting(run.competing_poses[i], i));
     compare(best, all.back());

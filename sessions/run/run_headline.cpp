@@ -32,7 +32,8 @@ std::string convergedSentence(const LocalizationTrace& trace) {
   double variance = 0.0;
   for (int i = 3; i < 6; ++i) variance = std::max(variance, trace.covariance(i, i));
   std::string text = "in " + countText(trace.iterations.size(), "iteration");
-  if (trace.attempts > 1) text += " and " + countText(static_cast<std::size_t>(trace.attempts), "attempt");
+  if (trace.attempts > 1)
+    text += " and " + countText(static_cast<std::size_t>(trace.attempts), "attempt");
   if (!trace.replayed) text += ", " + fixedText(trace.seconds.total(), 2) + " s";
   return text + "." + acceptedText(trace) + " Position good to " +
          fixedText(1e3 * std::sqrt(variance), 3) + " mm (1 sigma at the camera).";

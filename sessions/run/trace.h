@@ -206,6 +206,11 @@ struct LocalizationTrace {
   std::size_t own_view = 0;  ///< index of this run's view
 
   bool converged() const { return status == LocalizationStatus::kConverged; }
+  /// The result, or the pose that a failed run ended at: that of its last iteration.
+  const Pose& lastPose() const {
+    return converged() || iterations.empty() ? camera_from_station
+                                             : iterations.back()->camera_from_station;
+  }
   RunPlan plan() const { return {options, changes}; }
   const LocalizerOptions& lastOptions() const {
     return changes.empty() ? options : changes.back().options;

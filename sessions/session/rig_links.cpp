@@ -50,6 +50,11 @@ const RunRecord* ownRunOf(const Session& session, const std::string& other,
   return last;
 }
 
+std::optional<Pose> linkOfRig(const SessionCase& session_case, const SessionCase& other) {
+  if (!session_case.rig || !other.rig || session_case.rig->id != other.rig->id) return {};
+  return other.rig->camera_from_rig * session_case.rig->camera_from_rig.inverse();
+}
+
 std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other) {
   if (!session_case.camera_from_station_truth || !other.camera_from_station_truth) return {};
   return *other.camera_from_station_truth * session_case.camera_from_station_truth->inverse();

@@ -18,8 +18,11 @@ std::vector<std::string> casesOfRig(const Session& session, const std::string& c
 const RunRecord* ownRunOf(const Session& session, const std::string& other,
                           const std::string& case_id);
 
-/// How one case's camera lies from another's as the true poses of both say; nothing where one of
-/// them has none.
+/// How one case's camera lies from another's by their rig: `other_from_case`, as below. Nothing
+/// where they are not in one rig.
+std::optional<Pose> linkOfRig(const SessionCase& session_case, const SessionCase& other);
+
+/// The same as the true poses of both say; nothing where one of them has none.
 std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other);
 
 /// The same as the images' labels say: both camera models are in one named frame. Nothing where

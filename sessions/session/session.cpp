@@ -143,10 +143,7 @@ LocalizerOptions sessionOptions(const Session& session, const std::filesystem::p
 
 LocalizerOptions caseOptions(const Session& session, const SessionCase& session_case,
                              const std::filesystem::path& file) {
-  LocalizerOptions options = sessionOptions(session, file);
-  if (options.templates.feature_size_m == 0.0 && session_case.feature_size_m)
-    options.templates.feature_size_m = *session_case.feature_size_m;
-  return options;
+  return withFeatureSize(sessionOptions(session, file), session_case.feature_size_m);
 }
 
 std::string inputsDigest(const SessionCase& session_case) {

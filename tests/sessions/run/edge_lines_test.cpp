@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "sessions/run/scene_render.h"
@@ -88,7 +89,9 @@ double farthest(const std::vector<Segment>& along, const std::vector<Segment>& f
   return most;
 }
 
-TEST(EdgeLines, LieWithinATenthOfAPixelOfTheGeometry) {
+/// Calls `check(lines, outline, name)` for discs of several shapes seen from several directions.
+template <class Check>
+void forDiscs(Check&& check) {
   const Camera camera = test::makePinhole(400, 300, 900.0);
   for (const int sides : {4, 5, 12, 90})
     for (const double tilt_rad : {0.0, 0.3, 0.8}) {
@@ -96,25 +99,22 @@ TEST(EdgeLines, LieWithinATenthOfAPixelOfTheGeometry) {
       const Pose pose = tilted(tilt_rad);
       RenderTrace render;
       ASSERT_EQ(renderScene(camera, disc.view(), pose, render), Status::kOk);
-      const EdgeLines lines = edgeLines(render, 0);
-      EXPECT_LT(farthest(segmentsOf(lines), outline(disc, camera, pose)), 0.1)
-          << sides << " sides, " << tilt_rad;
+      check(edgeLines(render, 0), outline(disc, camera, pose),
+            std::to_string(sides) + " sides, " + std::to_string(tilt_rad));
     }
 }
 
+TEST(EdgeLines, LieWithinATenthOfAPixelOfTheGeometry) {
+  forDiscs([](const EdgeLines& lines, const auto& outline, const std::string& name) {
+    EXPECT_LT(farthest(segmentsOf(lines), outline), 0.1) << name;
+  });
+}
+
 TEST(EdgeLines, CoverTheWholeOutlineWithFewLines) {
-  const Camera camera = test::makePinhole(400, 300, 900.0);
-  for (const int sides : {4, 5, 12, 90})
-    for (const double tilt_rad : {0.0, 0.3, 0.8}) {
-      const Disc disc(sides, 0.1);
-      const Pose pose = tilted(tilt_rad);
-      RenderTrace render;
-      ASSERT_EQ(renderScene(camera, disc.view(), pose, render), Status::kOk);
-      const EdgeLines lines = edgeLines(render, 0);
-      EXPECT_LT(farthest(outline(disc, camera, pose), segmentsOf(lines)), 0.5)
-          << sides << " sides, " << tilt_rad;
-      EXPECT_LE(lines.size(), 4u) << "a pattern of dashes needs long lines";
-    }
+  forDiscs([](const EdgeLines& lines, const auto& outline, const std::string& name) {
+    EXPECT_LT(farthest(outline, segmentsOf(lines)), 0.5) << name;
+    EXPECT_LE(lines.size(), 4u) << "a pattern of dashes needs long lines";
+  });
 }
 
 TEST(EdgeLines, OfALevelAreInPixelsOfTheFullImage) {
