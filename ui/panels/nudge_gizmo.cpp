@@ -236,15 +236,7 @@ void NudgeGizmo::paint(QPainter& painter) const {
   }
   const QString text =
       tr("Drag: move. Ring: roll. Handle or wheel: distance. Enter: use as seed. Esc: drop.");
-  const QFontMetricsF metrics(painter.font());
-  QRectF box(0.0, 0.0, metrics.horizontalAdvance(text) + 16.0, metrics.height() + 8.0);
-  box.moveCenter(QPointF(0.5 * view_.width(), 8.0 + 0.5 * box.height()));
-  painter.setPen(QColor(kDarkTheme.overlay_line));
-  painter.setBrush(QColor(kDarkTheme.overlay));
-  painter.drawRoundedRect(box, kRadius, kRadius);
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QColor(kOverlayText));
-  painter.drawText(box, Qt::AlignCenter, text);
+  paintNote(painter, {0.5 * (view_.width() - noteSize(painter, text).width()), 8.0}, text);
   painter.setRenderHint(QPainter::Antialiasing, false);
 }
 

@@ -23,12 +23,6 @@ constexpr int kBoxMargin = 8;
 
 QString taskKey() { return QStringLiteral("compare"); }
 
-/// Of another camera of the rig where the shown one is at this pose.
-Pose inOtherCamera(const sessions::SessionCase& other, const sessions::SessionCase& shown,
-                   const Pose& shown_from_station) {
-  return other.rig->camera_from_rig * shown.rig->camera_from_rig.inverse() * shown_from_station;
-}
-
 }  // namespace
 
 CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state, TaskRunner& tasks)
@@ -101,9 +95,10 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
   if (onboard_)
     choices.push_back({tr("Onboard run"),
                        isRejected(*onboard_) ? kRejectedLine : kPoseLine,
-                       onboard_->camera_from_station,
+                       onboard_->lastPose(),
                        std::nullopt,
-                       {}});
+                       {},
+                       true});
   const auto& runs = document_.session().runs;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run)
     if (run->case_id == shown->id)
@@ -130,19 +125,29 @@ void CompareView::fill() {
   order();
 }
 
-void CompareView::showRun(const std::string& digest) {
+/// The last choice that is wanted.
+template <class Wanted>
+void CompareView::choose(const Wanted& wanted) {
   image_.showBeside(true);
   fill();
   for (std::size_t i = 0; i < choices_.size(); ++i)
-    if (choices_[i].run && choices_[i].run->digest == digest)
-      box_->setCurrentIndex(static_cast<int>(i));
+    if (wanted(choices_[i])) box_->setCurrentIndex(static_cast<int>(i));
   order();
+}
+
+void CompareView::showRun(const std::string& digest) {
+  choose([&digest](const Choice& each) { return each.run && each.run->digest == digest; });
+}
+
+void CompareView::showOnboardRun() {
+  if (onboard_) choose([](const Choice& each) { return each.onboard; });
 }
 
 void CompareView::order() {
   const auto& shown = state_.currentCase();
   const auto index = static_cast<std::size_t>(std::max(0, box_->currentIndex()));
   tasks_.cancel(taskKey());
+  Q_EMIT chosen(index < choices_.size() && choices_[index].onboard);
   if (!shown || index >= choices_.size()) return view_->setImage({});
   const sessions::SessionCase* other = choices_[index].case_id.empty()
                                            ? nullptr
@@ -156,11 +161,10 @@ void CompareView::order() {
         Picture picture{shown, pose, nullptr, choice.line};
         if (choice.camera_from_station) picture.camera_from_station = *choice.camera_from_station;
         if (choice.run)
-          picture.camera_from_station =
-              sessions::loadRun(*choice.run).iterations.back()->camera_from_station;
+          picture.camera_from_station = sessions::loadRun(*choice.run).lastPose();
         if (other_case) {
           picture.loaded_case = sessions::loadCase(*other_case);
-          picture.camera_from_station = inOtherCamera(*other_case, shown->source, pose);
+          picture.camera_from_station = *sessions::linkOfRig(shown->source, *other_case) * pose;
         }
         sessions::RenderTrace render;
         const Status status = sessions::renderScene(picture.loaded_case->source.camera,

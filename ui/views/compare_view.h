@@ -35,6 +35,12 @@ class CompareView : public QWidget {
   void showRun(const std::string& digest);
   /// The onboard run of the case, or nullptr: not there.
   void setOnboardRun(ViewState::SnapshotPtr run);
+  /// Shows the canvas with the onboard run, if there is one.
+  void showOnboardRun();
+
+ Q_SIGNALS:
+  /// Another thing is chosen; whether it is the onboard run.
+  void chosen(bool onboard_run);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -48,6 +54,7 @@ class CompareView : public QWidget {
     std::optional<Pose> camera_from_station;
     std::optional<sessions::RunRecord> run;
     std::string case_id;  ///< of another camera
+    bool onboard = false;
   };
   /// What is shown of a choice.
   struct Picture {
@@ -59,6 +66,8 @@ class CompareView : public QWidget {
 
   std::vector<Choice> choicesNow() const;
   void fill();
+  template <class Wanted>
+  void choose(const Wanted& wanted);
   void order();
   void take(const Picture& picture);
   void follow(ImageView& follower, const ImageView& leader);

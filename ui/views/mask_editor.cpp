@@ -182,6 +182,11 @@ bool MaskEditor::pressKey(int key) {
 }
 
 bool MaskEditor::eventFilter(QObject* watched, QEvent* event) {
+  if (tool_ != MaskTool::kNone && event->type() == QEvent::ShortcutOverride &&
+      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+    event->accept();  // while a run could be stopped by the same key
+    return true;
+  }
   if (tool_ != MaskTool::kNone && event->type() == QEvent::KeyPress &&
       pressKey(static_cast<QKeyEvent*>(event)->key()))
     return true;

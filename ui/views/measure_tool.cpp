@@ -79,9 +79,13 @@ QString MeasureTool::text() const {
 }
 
 bool MeasureTool::eventFilter(QObject* watched, QEvent* event) {
-  if (active_ && event->type() == QEvent::KeyPress &&
+  const bool override = event->type() == QEvent::ShortcutOverride;
+  if (active_ && (override || event->type() == QEvent::KeyPress) &&
       static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
-    from_ ? clear() : setActive(false);
+    if (override)
+      event->accept();  // while a run could be stopped by the same key
+    else
+      from_ ? clear() : setActive(false);
     return true;
   }
   return QObject::eventFilter(watched, event);
@@ -97,16 +101,7 @@ void MeasureTool::paint(QPainter& painter) const {
     painter.drawLine(from, to);
     for (const QPointF& end : {from, to}) paintTicks(painter, end, 2.0, kTick);
   }
-  const QString written = text();
-  const QFontMetricsF metrics(painter.font());
-  const QRectF box(to + QPointF(12.0, 12.0),
-                   QSizeF(metrics.horizontalAdvance(written) + 12.0, metrics.height() + 6.0));
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(QColor(kDarkTheme.overlay));
-  painter.drawRoundedRect(box, kRadius, kRadius);
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QColor(kOverlayText));
-  painter.drawText(box, Qt::AlignCenter, written);
+  paintNote(painter, to + QPointF(12.0, 12.0), text());
   painter.setRenderHint(QPainter::Antialiasing, false);
 }
 

@@ -6,6 +6,7 @@
 
 #include <QtWidgets>
 
+#include "ui/style/tokens.h"
 #include "ui/views/line_painter.h"
 
 namespace boresight::ui {
@@ -238,6 +239,21 @@ void paintOutline(QPainter& painter, const QPolygonF& outline, const QColor& col
 }
 
 }  // namespace
+
+QSizeF noteSize(const QPainter& painter, const QString& text) {
+  const QFontMetricsF metrics(painter.font());
+  return {metrics.horizontalAdvance(text) + 16.0, metrics.height() + 8.0};
+}
+
+void paintNote(QPainter& painter, const QPointF& top_left, const QString& text) {
+  const QRectF box(top_left, noteSize(painter, text));
+  painter.setPen(QColor(kDarkTheme.overlay_line));
+  painter.setBrush(QColor(kDarkTheme.overlay));
+  painter.drawRoundedRect(box, kRadius, kRadius);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QColor(kOverlayText));
+  painter.drawText(box, Qt::AlignCenter, text);
+}
 
 void paintPreview(QPainter& painter, const ViewTransform& transform, const ToolPreview& preview) {
   if (preview.points.empty()) return;

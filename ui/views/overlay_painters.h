@@ -35,6 +35,10 @@ void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& ma
 /// Distance on the widget from a place to what is drawn of the mark.
 double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget);
 
+/// The size of a note over the image, and the note: a dark rounded box with one line of text.
+QSizeF noteSize(const QPainter& painter, const QString& text);
+void paintNote(QPainter& painter, const QPointF& top_left, const QString& text);
+
 /// What a tool is about to do, drawn over the image while a gesture is under way: a brush's track,
 /// or a polygon's outline.
 struct ToolPreview {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/workspaces/job_controller.h"
+#include "ui/window/job_controller.h"
+
+#include <QShortcut>
 
 #include "sessions/review/checks.h"
 #include "ui/models/text.h"
@@ -13,7 +15,11 @@ namespace boresight::ui {
 
 JobController::JobController(const WindowParts& parts, ReviewController& review, JobStrip& strip,
                              QObject* parent)
-    : QObject(parent), parts_(parts), review_(review), strip_(strip) {
+    : QObject(parent),
+      parts_(parts),
+      review_(review),
+      strip_(strip),
+      escape_(new QShortcut(Qt::Key_Escape, &strip)) {
   connect(&strip_, &JobStrip::stopRequested, this, &JobController::stop);
   connect(&parts_.run, &RunController::stateChanged, this, &JobController::update);
   connect(&parts_.run, &RunController::snapshotChanged, this, &JobController::update);
@@ -24,6 +30,7 @@ JobController::JobController(const WindowParts& parts, ReviewController& review,
   connect(&parts_.document, &Document::changed, this, &JobController::update);
   connect(&review_, &ReviewController::convergenceChanged, this, &JobController::update);
   connect(&review_, &ReviewController::checksChanged, this, &JobController::update);
+  connect(escape_, &QShortcut::activated, this, &JobController::stop);
   update();
 }
 
@@ -62,20 +69,21 @@ Job JobController::job() const {
   }
   const Job run = runJob();
   if (run.runs || !review_.isConvergenceTestRunning()) return run;
-  Job test{tr("Convergence test"), {}, review_.convergenceSoFar().seeds, sessions::kConvergenceSeeds,
-           std::nullopt, true};
+  Job test{tr("Convergence test"),      {},           review_.convergenceSoFar().seeds,
+           sessions::kConvergenceSeeds, std::nullopt, true};
   return test;
 }
 
 void JobController::update() {
   const Job next = job();
   if (!(next == strip_.job())) strip_.setJob(next);
+  escape_->setEnabled(next.runs);  // else it is the tools' and the panels'
   const Document& document = parts_.document;
-  strip_.setSaved(!document.isOpen()             ? QString()
-                  : document.isUntitled()        ? tr("Not saved yet")
-                  : document.isModified()        ? tr("Changes not saved")
-                  : !document.isEditable()       ? tr("Read only")
-                                                 : tr("Saved"));
+  strip_.setSaved(!document.isOpen()       ? QString()
+                  : document.isUntitled()  ? tr("Not saved yet")
+                  : document.isModified()  ? tr("Changes not saved")
+                  : !document.isEditable() ? tr("Read only")
+                                           : tr("Saved"));
 }
 
 void JobController::stop() {

@@ -7,6 +7,8 @@
 #include "ui/window/window_parts.h"
 #include "ui/workspaces/job_strip.h"
 
+class QShortcut;
+
 namespace boresight::ui {
 
 class ReviewController;
@@ -30,6 +32,7 @@ class JobController : public QObject {
   WindowParts parts_;
   ReviewController& review_;
   JobStrip& strip_;
+  QShortcut* escape_;
 };
 
 }  // namespace boresight::ui

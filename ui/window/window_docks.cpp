@@ -8,6 +8,7 @@
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/panels/cases_panel.h"
+#include "ui/panels/close_ups_panel.h"
 #include "ui/panels/configuration_panel.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/hypotheses_panel.h"
@@ -90,6 +91,8 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
   add(QStringLiteral("review"), windowText("Review"), &review);
   add(QStringLiteral("queue"), windowText("Queue"), &queue);
   add(QStringLiteral("inputs"), windowText("Inputs"), &inputs);
+  add(QStringLiteral("closeUps"), windowText("Close-ups"),
+      new CloseUpsPanel(image, parts.state));
   add(QStringLiteral("result"), windowText("Result"), new ResultPanel(parts.state));
   add(QStringLiteral("remedies"), windowText("What may help"), &remedies);
   add(QStringLiteral("onboard"), windowText("Onboard"),
@@ -106,7 +109,12 @@ void WindowDocks::linkViews(const WindowParts& parts) {
   QObject::connect(&image, &ImagePanel::stationPlaceHovered, &scene, &SceneView::showStationPlace);
   QObject::connect(&scene, &SceneView::stationPlaceHovered, &image, &ImagePanel::showStationPlace);
   image.tools().addAction(&gizmo.action());
-  image.setBeside(&compare);
+  auto* beside = new CanvasFrame(compare);
+  compare.show();  // as soon as its frame is
+  image.setBeside(beside);
+  QObject::connect(&compare, &CompareView::chosen, beside, [beside](bool onboard_run) {
+    beside->setSource(onboard_run ? CanvasSource::kOnboard : CanvasSource::kOnly);
+  });
   QObject::connect(&parts.onboard, &OnboardController::changed, &compare,
                    [this, &onboard = parts.onboard] {
                      compare.setOnboardRun(onboard.review() ? onboard.review()->replay : nullptr);

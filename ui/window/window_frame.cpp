@@ -9,6 +9,7 @@
 #include "ui/state/document.h"
 #include "ui/style/icons.h"
 #include "ui/style/theme.h"
+#include "ui/views/compare_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/layers_panel.h"
 #include "ui/window/case_controller.h"
@@ -19,7 +20,7 @@
 #include "ui/workspaces/drawer_bar.h"
 #include "ui/workspaces/job_strip.h"
 #include "ui/workspaces/run_bar.h"
-#include "ui/workspaces/start_page.h"
+#include "ui/window/start_page.h"
 #include "ui/workspaces/top_bar.h"
 #include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
@@ -167,6 +168,18 @@ void WindowFrame::arrange() {
   docks_.canvas.setSource(parts_.onboard.showsOnboard() ? CanvasSource::kOnboard
                           : compares                    ? CanvasSource::kGround
                                                         : CanvasSource::kOnly);
+  putOnboardBeside(compares && !narrow && !parts_.onboard.showsOnboard());
+}
+
+/// Both runs are in view where there is room; a canvas that the operator closes stays closed until
+/// the workspace is entered again.
+void WindowFrame::putOnboardBeside(bool wanted) {
+  if (wanted == onboard_beside_) return;
+  onboard_beside_ = wanted;
+  if (wanted)
+    docks_.compare.showOnboardRun();
+  else
+    docks_.image.showBeside(false);
 }
 
 }  // namespace boresight::ui

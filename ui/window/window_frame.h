@@ -48,6 +48,7 @@ class WindowFrame : public QObject {
   void build();
   void connectAll();
   void switchTheme();
+  void putOnboardBeside(bool wanted);
 
   QMainWindow& window_;
   QMainWindow& body_;
@@ -64,6 +65,7 @@ class WindowFrame : public QObject {
   RunBar* run_bar_ = nullptr;
   DrawerBar* drawers_ = nullptr;
   JobStrip* jobs_ = nullptr;
+  bool onboard_beside_ = false;
 };
 
 }  // namespace boresight::ui

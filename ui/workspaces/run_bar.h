@@ -3,6 +3,9 @@
 
 #include <QFrame>
 #include <QList>
+#include <QPointF>
+#include <QVector>
+#include <QWidget>
 
 class QAction;
 class QHBoxLayout;
@@ -13,6 +16,25 @@ namespace boresight::ui {
 
 class RunScrubber;
 class ViewState;
+
+/// How far each iteration of the shown run moved the pose: a line with a dot an iteration, on a
+/// logarithmic scale; the shown iteration's dot is filled.
+class CorrectionLine : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit CorrectionLine(ViewState& state);
+
+  QSize sizeHint() const override { return {120, 32}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  QVector<QPointF> places() const;
+
+  ViewState& state_;
+};
 
 /// Below the canvas: buttons of the run, and the scrubber through its iterations and stages.
 class RunBar : public QFrame {
@@ -35,6 +57,7 @@ class RunBar : public QFrame {
   QList<QToolButton*> run_buttons_;
   RunScrubber* scrubber_ = nullptr;
   QLabel* correction_ = nullptr;
+  CorrectionLine* corrections_ = nullptr;
   bool narrow_ = false;
 };
 

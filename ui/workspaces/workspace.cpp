@@ -13,7 +13,7 @@ namespace {
 constexpr Qt::DockWidgetArea kLeft = Qt::LeftDockWidgetArea;
 constexpr Qt::DockWidgetArea kRight = Qt::RightDockWidgetArea;
 constexpr Qt::DockWidgetArea kBottom = Qt::BottomDockWidgetArea;
-constexpr int kTableDrawer = 160;    // height
+constexpr int kTableDrawer = 160;  // height
 constexpr int kIterationsTable = 150;
 constexpr int kAnnotationTable = 220;
 
@@ -28,9 +28,11 @@ std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
       {QT_TRANSLATE_NOOP("Workspace", "Run"),
        QT_TRANSLATE_NOOP("Workspace", "Run the case and watch how the pose is found"),
        true,
-       {{"scene", kRight, kWide.run_side, nullptr, 3}, {"result", kRight, kWide.run_side, nullptr, 2}},
+       {{"scene", kRight, kWide.run_side, nullptr, 3},
+        {"closeUps", kRight, kWide.run_side, nullptr, 3},
+        {"result", kRight, kWide.run_side, nullptr, 2}},
        {},
-       {"scene", "result"}},
+       {"scene", "closeUps", "result"}},
       {QT_TRANSLATE_NOOP("Workspace", "Diagnose"),
        QT_TRANSLATE_NOOP("Workspace", "Find out why a run failed, and what helps"),
        true,

@@ -6,6 +6,7 @@
 #include "tests/ui/window_test.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/views/measure_tool.h"
 #include "ui/window/main_window.h"
 #include "ui/window/shortcut_sheet.h"
 
@@ -147,6 +148,21 @@ TEST_F(MainWindowTest, StopEndsRunAllDuringACase) {
   ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
   QTest::qWait(100);
   EXPECT_TRUE(window_.document().session().runs.empty());
+}
+
+TEST_F(MainWindowTest, EscapeStopsWhatRunsUnlessAToolHasIt) {
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
+  QTest::keyClick(&window_, Qt::Key_Escape);
+  EXPECT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+  auto& canvas = find<ImageView>("imageView");
+  window_.image().measure().setActive(true);
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
+  QTest::keyClick(&canvas, Qt::Key_Escape);
+  EXPECT_FALSE(canvas.toolActive()) << "the ruler is put away first";
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
 }
 
 TEST_F(MainWindowTest, AnotherCaseCanBeLookedAtDuringRunAll) {

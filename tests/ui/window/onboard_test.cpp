@@ -129,6 +129,27 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
   EXPECT_FALSE(window_.state().snapshot()->replayed) << "a removed record is not shown";
 }
 
+TEST_F(OnboardTest, WideWindowShowsBothRunsSideBySide) {
+  openExample();
+  window_.resize(1920, 1080);
+  runOnTheGround();
+  drop(write(onboardRecord()));
+  window_.workspaces().show(Workspace::kOnboard);
+  ASSERT_TRUE(rests());
+  auto& canvas = find<QWidget>("compareView");
+  EXPECT_TRUE(canvas.isVisible());
+  EXPECT_EQ(find<QComboBox>("compareWith").currentText(), QStringLiteral("Onboard run"));
+  const QWidget* frame = canvas.parentWidget()->parentWidget();
+  EXPECT_EQ(frame->property("source").toString(), QStringLiteral("onboard"));
+  window_.workspaces().show(Workspace::kReview);
+  EXPECT_FALSE(canvas.isVisible());
+  window_.workspaces().show(Workspace::kOnboard);
+  EXPECT_TRUE(canvas.isVisible());
+  window_.resize(1280, 800);
+  QApplication::processEvents();
+  EXPECT_FALSE(canvas.isVisible()) << "there the two are blinked";
+}
+
 TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
   openExample();
   runOnTheGround();

@@ -2,6 +2,9 @@
 #include "ui/workspaces/workspaces.h"
 
 #include "tests/ui/window_test.h"
+#include "ui/panels/close_ups_panel.h"
+#include "ui/run/run_controller.h"
+#include "ui/views/image_view.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/case_strip.h"
 #include "ui/workspaces/job_strip.h"
@@ -50,7 +53,7 @@ TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
     std::vector<const char*> hidden;
   };
   const Expected all[] = {
-      {Workspace::kRun, {"scene", "result"}, {"queue", "inspector", "annotation"}},
+      {Workspace::kRun, {"scene", "closeUps", "result"}, {"queue", "inspector", "annotation"}},
       {Workspace::kDiagnose, {"inspector", "iterations", "remedies"}, {"queue", "review", "scene"}},
       {Workspace::kAnnotate, {"scene", "annotation"}, {"queue", "review", "inspector"}},
       {Workspace::kReview, {"queue", "review"}, {"configuration", "annotation", "scene"}},
@@ -64,6 +67,26 @@ TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
     for (const char* dock : each.hidden)
       EXPECT_FALSE(shows(dock)) << workspaceInfo(each.workspace).name << ": " << dock;
   }
+}
+
+TEST_F(WorkspacesTest, CloseUpsShowTheRefinedPose_AndAClickShowsThePlaceOnTheCanvas) {
+  openExample();
+  resize(1920, 1080);
+  const auto close_ups = window_.findChildren<CloseUpView*>();
+  ASSERT_EQ(close_ups.size(), 4);
+  EXPECT_FALSE(close_ups[0]->place());
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
+  for (CloseUpView* each : close_ups) {
+    ASSERT_TRUE(each->place());
+    EXPECT_LT(each->place()->distance_px, 1.0) << each->place()->name;
+    EXPECT_GE(each->height(), each->minimumSizeHint().height());
+  }
+  QTest::mouseClick(close_ups[3], Qt::LeftButton);
+  const auto& canvas = find<ImageView>("imageView");
+  EXPECT_GE(canvas.transform().scale(), 4.0);
+  const QPointF middle = canvas.transform().toPixel(QRectF(canvas.rect()).center());
+  EXPECT_LT((middle - pointOf(close_ups[3]->place()->center_px)).manhattanLength(), 3.0);
 }
 
 TEST_F(WorkspacesTest, NarrowDiagnose_OpensOneDrawerAtATime) {
