@@ -36,6 +36,7 @@ const std::vector<std::vector<std::string>> kFloors = {
     {"ui/panels"},
     {"ui/annotation", "ui/review"},
     {"ui/scene"},
+    {"ui/workspaces"},
     {"ui/window"},
     {"app/flight"},
     {"app", "app/python"},
@@ -49,11 +50,9 @@ std::size_t floorOf(const std::string& folder) {
   return static_cast<std::size_t>(found - kFloors.begin());
 }
 
-/// "sessions/io" of "sessions/io/labels/image_label.h", "core" of whatever is in core/. The
-/// workspaces are parts of the window.
+/// "sessions/io" of "sessions/io/labels/image_label.h", "core" of whatever is in core/.
 std::string folderOf(const std::string& file) {
   if (file.starts_with("core/")) return "core";
-  if (file.starts_with("ui/workspaces/")) return "ui/window";
   const std::size_t top = file.find('/');
   const std::size_t second = file.find('/', top + 1);
   return file.substr(0, second == std::string::npos ? top : second);

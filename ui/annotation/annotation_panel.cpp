@@ -346,6 +346,9 @@ void AnnotationPanel::connectTools() {
 
 void AnnotationPanel::buildTable() {
   setUpTable(*ui_.annotations, filter_);
+  // The others do not fit beside the figures of the solution; the header's menu has them.
+  for (int column = AnnotationsModel::kWithout_mm; column < model_.columnCount(); ++column)
+    ui_.annotations->setColumnHidden(column, true);
   ui_.annotations->installEventFilter(this);
   ui_.annotations->setEditTriggers(QAbstractItemView::DoubleClicked |
                                    QAbstractItemView::EditKeyPressed);

@@ -44,6 +44,50 @@ void showTableMenu(QTableView& table, const QPoint& at) {
   menu.exec(table.viewport()->mapToGlobal(at));
 }
 
+QString hiddenColumnsKey(const QTableView& table) {
+  return QStringLiteral("tables/%1/hidden").arg(table.objectName());
+}
+
+void rememberColumns(const QTableView& table) {
+  QStringList hidden;
+  for (int column = 0; column < table.horizontalHeader()->count(); ++column)
+    if (table.isColumnHidden(column)) hidden << QString::number(column);
+  QSettings().setValue(hiddenColumnsKey(table), hidden);
+}
+
+/// As the operator left them; without a choice the panel's own stays.
+void restoreColumns(QTableView& table) {
+  const QSettings settings;
+  const QString key = hiddenColumnsKey(table);
+  if (table.objectName().isEmpty() || !settings.contains(key)) return;
+  const QStringList hidden = settings.value(key).toStringList();
+  const int count = table.horizontalHeader()->count();
+  if (hidden.size() >= count) return;  // of another version
+  for (int column = 0; column < count; ++column)
+    table.setColumnHidden(column, hidden.contains(QString::number(column)));
+}
+
+/// Columns on and off; one always stays.
+void showColumnsMenu(QTableView& table, const QPoint& at) {
+  QHeaderView& header = *table.horizontalHeader();
+  const bool one_left = header.count() - header.hiddenSectionCount() == 1;
+  QMenu menu(&table);
+  for (int column = 0; column < header.count(); ++column) {
+    const bool shown = !table.isColumnHidden(column);
+    const QString name = table.model()->headerData(column, Qt::Horizontal).toString().simplified();
+    QAction* action = menu.addAction(name.isEmpty() ? QString::number(column + 1) : name);
+    action->setCheckable(true);
+    action->setChecked(shown);
+    action->setEnabled(!(shown && one_left));
+    QObject::connect(action, &QAction::toggled, &table, [&table, column](bool on) {
+      table.setColumnHidden(column, !on);
+      if (on) table.resizeColumnToContents(column);
+      rememberColumns(table);
+    });
+  }
+  menu.exec(header.mapToGlobal(at));
+}
+
 }  // namespace
 
 void styleTable(QTableView& table) {
@@ -58,6 +102,11 @@ void styleTable(QTableView& table) {
   table.verticalHeader()->hide();
   table.verticalHeader()->setDefaultSectionSize(table.fontMetrics().height() + 6);
   table.horizontalHeader()->setHighlightSections(false);
+  table.horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
+  QObject::connect(table.horizontalHeader(), &QWidget::customContextMenuRequested, &table,
+                   [&table](const QPoint& at) { showColumnsMenu(table, at); });
+  // When the panel has hidden what it hides at first.
+  QMetaObject::invokeMethod(&table, [&table] { restoreColumns(table); }, Qt::QueuedConnection);
   if (table.contextMenuPolicy() != Qt::DefaultContextMenu) return;  // it has a menu of its own
   table.setContextMenuPolicy(Qt::CustomContextMenu);
   QObject::connect(&table, &QWidget::customContextMenuRequested, &table,

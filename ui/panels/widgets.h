@@ -20,7 +20,7 @@ class QToolButton;
 namespace boresight::ui {
 
 /// How all tables look: whole rows, one at a time, no row numbers, compact, columns as wide as what
-/// they hold.
+/// they hold. A menu of the header hides columns and shows them, which is remembered.
 void styleTable(QTableView& table);
 /// The same for a table of a model, which it is given.
 void setUpTable(QTableView& table, QAbstractItemModel& model);

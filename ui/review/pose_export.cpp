@@ -34,9 +34,10 @@ QString inSessionFolder(const Document& document, const QString& name) {
   // Sessions without a name lie in a folder that file dialogs do not list.
   const bool hidden = document.isUntitled() || !document.isOpen();
   const std::filesystem::path folder =
-      hidden ? std::filesystem::path(
-                   QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation).toStdString())
-             : document.file().parent_path();
+      hidden
+          ? std::filesystem::path(
+                QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation).toStdString())
+          : document.file().parent_path();
   return fromText((folder / name.toStdString()).string());
 }
 

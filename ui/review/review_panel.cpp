@@ -208,7 +208,6 @@ void LimitsDialog::showSettings() {
 
 namespace {
 
-constexpr int kShownDigits = 8;  // of a digest
 constexpr int kReasonColumn_px = 560;  // width of the panel from which it fits
 
 int rank(CheckState state) {
@@ -386,8 +385,7 @@ void ReviewPanel::showSources() {
   const QSignalBlocker blocked(ui_.judged);
   ui_.judged->clear();
   if (controller_.hasRun())
-    ui_.judged->addItem(tr("Run %1").arg(fromText(controller_.runDigest()).left(kShownDigits)),
-                        static_cast<int>(PoseSource::kRun));
+    ui_.judged->addItem(tr("Last run"), static_cast<int>(PoseSource::kRun));
   if (controller_.hasAnnotations())
     ui_.judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
   if (ui_.judged->count() == 0) ui_.judged->addItem(tr("No pose"));

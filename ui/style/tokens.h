@@ -133,26 +133,18 @@ inline constexpr QRgb kSceneSeed = 0xB87900;
 inline constexpr QRgb kScenePose = 0x0072B2;
 inline constexpr QRgb kSceneRejected = 0xC21E8E;
 
-/// The frame of what the spacecraft computed, and of what was run on the ground.
-inline constexpr QRgb kOnboardFrame = 0xE69F00;
-inline constexpr QRgb kGroundFrame = 0x8A929B;
+/// Widths of the frame of what the spacecraft computed, and of what was run on the ground.
 inline constexpr int kOnboardFrame_px = 6;
 inline constexpr int kGroundFrame_px = 4;
 
 // Sizes in device-independent pixels.
-inline constexpr int kGrid = 4;  ///< spacings are 4, 8 or 16
 inline constexpr int kTopBarHeight = 40;
 inline constexpr int kVerdictHeight = 48;
 inline constexpr int kPanelHeadHeight = 32;
-inline constexpr int kTableRowHeight = 28;
-inline constexpr int kMarkRowHeight = 20;
-inline constexpr int kCheckRowHeight = 26;
 inline constexpr int kJobStripHeight = 28;
-inline constexpr int kScrubberHeight = 72;
 inline constexpr int kDrawerHandleHeight = 32;
 inline constexpr int kButtonHeight = 32;
 inline constexpr int kSmallButtonHeight = 28;
-inline constexpr int kFieldHeight = 28;
 inline constexpr int kIcon = 16;
 inline constexpr int kToolIcon = 18;
 inline constexpr double kIconStroke = 1.4;

@@ -10,7 +10,6 @@ class QToolBar;
 namespace boresight::ui {
 
 class ImageView;
-class LayerLegend;
 
 /// What lies over the image as children of it: the strip of tools, what is shown (upper right), the
 /// zoom (lower right). Keeps them in their corners.

@@ -24,7 +24,7 @@
 #include "ui/views/image_view.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/main_window.h"
-#include "ui/workspaces/image_share.h"
+#include "ui/window/image_share.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {

@@ -20,11 +20,11 @@
 #include "ui/window/window_docks.h"
 #include "ui/window/window_frame.h"
 #include "ui/window/window_menus.h"
-#include "ui/workspaces/job_controller.h"
+#include "ui/window/job_controller.h"
 #include "ui/workspaces/remedies_panel.h"
 #include "ui/workspaces/run_bar.h"
 #include "ui/workspaces/verdict_bar.h"
-#include "ui/workspaces/verdict_controller.h"
+#include "ui/window/verdict_controller.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {

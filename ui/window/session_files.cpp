@@ -7,9 +7,10 @@
 
 #include <QtWidgets>
 
+#include "sessions/io/mesh_file.h"
 #include "sessions/io/scene_mesh.h"
-#include "sessions/session/session_document.h"
 #include "sessions/session/input_check.h"
+#include "sessions/session/session_document.h"
 #include "sessions/session/session_of_results.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/review/pose_export.h"
@@ -53,18 +54,9 @@ std::filesystem::path sessionFileName(std::filesystem::path file) {
   return file;
 }
 
-namespace {
-
-double metresOf(const char* unit) {
-  const std::string_view name = unit;
-  return name == "mm" ? 1e-3 : name == "cm" ? 1e-2 : name == "in" ? 0.0254 : name == "ft" ? 0.3048 : 1.0;
-}
-
-}  // namespace
-
 QString meshUnitText(const char* unit, const std::optional<double>& extent) {
   if (!extent) return QString::fromLatin1(unit);
-  const double size_mm = 1e3 * metresOf(unit) * *extent;
+  const double size_mm = 1e3 * sessions::metresPerUnit(unit).value_or(1.0) * *extent;
   return QObject::tr("%1: %2 mm across").arg(QString::fromLatin1(unit)).arg(size_mm, 0, 'g', 3);
 }
 
@@ -264,8 +256,8 @@ void SessionFiles::takeCase(sessions::SessionCase session_case) {
   Document& document = parts_.document;
   const bool alone = makes_new_session_ || !document.isEditable();
   if (alone && document.isEditable() && !mayLeave()) return;
-  const sessions::Session session = sessions::withCase(
-      alone ? sessions::Session() : document.session(), std::move(session_case));
+  const sessions::Session session =
+      sessions::withCase(alone ? sessions::Session() : document.session(), std::move(session_case));
   if (alone) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {
@@ -300,9 +292,9 @@ bool SessionFiles::saveAs() {
   const QString name = document.isUntitled() || !document.isOpen()
                            ? tr("session.boresight.json")
                            : text(document.file().filename());
-  const QString chosen =
-      QFileDialog::getSaveFileName(&window_, tr("Save the session"), inSessionFolder(document, name),
-                                   tr("Sessions (*.boresight.json)"));
+  const QString chosen = QFileDialog::getSaveFileName(&window_, tr("Save the session"),
+                                                      inSessionFolder(document, name),
+                                                      tr("Sessions (*.boresight.json)"));
   if (chosen.isEmpty()) return false;
   const std::filesystem::path file = sessionFileName(path(chosen));
   // The dialog has asked about the name without the suffix.
@@ -365,9 +357,8 @@ void SessionFiles::offerRecovery() {
   if (!document.recovery()) return;
   const sessions::Recovery& recovery = **document.recovery();
   const QString time = QString::fromStdString(recovery.time);
-  const QString changes = recovery.edits.size() == 1
-                              ? tr("1 change")
-                              : tr("%1 changes").arg(recovery.edits.size());
+  const QString changes =
+      recovery.edits.size() == 1 ? tr("1 change") : tr("%1 changes").arg(recovery.edits.size());
   QMessageBox box(QMessageBox::Question, tr("Boresight"),
                   tr("Recover unsaved work of %1 from %2 (%3)?")
                       .arg(text(document.file().filename()), time, changes),

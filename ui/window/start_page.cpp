@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/workspaces/start_page.h"
+#include "ui/window/start_page.h"
 
 #include <QtWidgets>
 
@@ -22,8 +22,10 @@ struct SlotText {
   const char* question;
 };
 constexpr SlotText kSlotTexts[StartPage::kSlotCount] = {
-    {Icon::kImage, QT_TR_NOOP("Image"), QT_TR_NOOP("png, jpg, tif, or with a VICAR, PDS3 or PDS4 label")},
-    {Icon::kCamera, QT_TR_NOOP("Camera"), QT_TR_NOOP("json or cahvor; an image's label may have it")},
+    {Icon::kImage, QT_TR_NOOP("Image"),
+     QT_TR_NOOP("png, jpg, tif, or with a VICAR, PDS3 or PDS4 label")},
+    {Icon::kCamera, QT_TR_NOOP("Camera"),
+     QT_TR_NOOP("json or cahvor; an image's label may have it")},
     {Icon::kCube, QT_TR_NOOP("Mesh"), QT_TR_NOOP("ply, obj, stl, gltf or glb")},
     {Icon::kTarget, QT_TR_NOOP("Seed"),
      QT_TR_NOOP("A pose (json): where is the camera, roughly? Annotations can give it later.")},
@@ -75,8 +77,8 @@ StartPage::StartPage(SessionFiles& files, Document& document, QWidget* parent)
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(24, 16, 24, 16);
   column->setSpacing(16);
-  column->addWidget(heading(
-      tr("New case"), tr("Drop files anywhere in the window; each goes to its slot.")));
+  column->addWidget(
+      heading(tr("New case"), tr("Drop files anywhere in the window; each goes to its slot.")));
   column->addWidget(buildSlots());
   auto* halves = new QHBoxLayout;
   halves->setSpacing(24);
@@ -174,9 +176,12 @@ void StartPage::showSlots() {
   showSlot(kImage, !files.one.image.empty(), name(files.one.image),
            files.one.image.empty() ? question(kImage) : QString());
   const bool labelled = files.one.camera.empty() && files.hasCamera();
-  const QString remark = files.label_camera_remark ? fromText(*files.label_camera_remark) : QString();
+  const QString remark =
+      files.label_camera_remark ? fromText(*files.label_camera_remark) : QString();
   showSlot(kCamera, files.hasCamera(), labelled ? tr("the image's label") : name(files.one.camera),
-           files.hasCamera() ? QString() : remark.isEmpty() ? question(kCamera) : remark);
+           files.hasCamera()  ? QString()
+           : remark.isEmpty() ? question(kCamera)
+                              : remark);
   const bool has_mesh = !files.one.parts.empty();
   showSlot(kMesh, has_mesh, has_mesh ? name(files.one.parts.front().mesh) : QString(),
            has_mesh ? QString() : question(kMesh));
@@ -190,9 +195,9 @@ void StartPage::showSlots() {
 void StartPage::showUnits() {
   const DroppedFiles& files = files_.collected();
   const bool asks = !files.one.parts.empty() && files_.meshExtent().has_value();
-  const QString key = asks ? QString::number(*files_.meshExtent()) +
-                                 fromText(files.one.parts.front().mesh_unit)
-                           : QString();
+  const QString key =
+      asks ? QString::number(*files_.meshExtent()) + fromText(files.one.parts.front().mesh_unit)
+           : QString();
   if (key == shown_units_) return;
   shown_units_ = key;
   empty(*units_);
@@ -211,7 +216,8 @@ QWidget* StartPage::buildExamples() {
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(8);
-  column->addWidget(heading(tr("Examples"), tr("ready to run; the shipped files stay as they are")));
+  column->addWidget(
+      heading(tr("Examples"), tr("ready to run; the shipped files stay as they are")));
   auto* frame = card();
   auto* rows = new QVBoxLayout(frame);
   rows->setContentsMargins(12, 8, 12, 8);
@@ -220,8 +226,8 @@ QWidget* StartPage::buildExamples() {
     const std::filesystem::path folder = sessions::examplesFolder();
     const std::filesystem::path stations = folder / "stations";
     rows->addWidget(exampleRow(tr("Bit carousel and orbiting sample"),
-                               tr("2 images; the runs converge"),
-                               folder / "example.boresight.json", stations / "bc" / "image.png"));
+                               tr("2 images; the runs converge"), folder / "example.boresight.json",
+                               stations / "bc" / "image.png"));
     rows->addWidget(exampleRow(tr("Turned seed"), tr("1 image; the run fails, with remedies"),
                                folder / "turned.boresight.json", stations / "os" / "image.png"));
     rows->addWidget(exampleRow(tr("Annotated"), tr("13 corners are marked; their pose is solved"),
@@ -312,14 +318,20 @@ void StartPage::showRecent() {
     open->setAutoRaise(true);
     open->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     open->setIcon(iconOf(Icon::kFolder, &Theme::text2));
-    open->setText(tr("%1    %2").arg(info.fileName(), QLocale().toString(info.lastModified(), QLocale::ShortFormat)));
+    open->setText(
+        tr("%1    %2")
+            .arg(info.fileName(), QLocale().toString(info.lastModified(), QLocale::ShortFormat)));
     open->setToolTip(file);
-    connect(open, &QToolButton::clicked, this, [this, file] {
-      if (files_.mayLeave()) files_.open(file.toStdString());
-    }, Qt::QueuedConnection);
+    connect(
+        open, &QToolButton::clicked, this,
+        [this, file] {
+          if (files_.mayLeave()) files_.open(file.toStdString());
+        },
+        Qt::QueuedConnection);
     recent_->addWidget(open);
   }
-  if (files.isEmpty()) recent_->addWidget(caption(tr("Sessions that you open or save are listed here.")));
+  if (files.isEmpty())
+    recent_->addWidget(caption(tr("Sessions that you open or save are listed here.")));
 }
 
 /// A session without a name that no program has open.

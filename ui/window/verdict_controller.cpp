@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/workspaces/verdict_controller.h"
+#include "ui/window/verdict_controller.h"
 
 #include <algorithm>
 
@@ -33,7 +33,8 @@ QString decisionText(const sessions::ReviewStatus& status) {
   QString text = VerdictController::tr("by %1, %2 UTC.").arg(fromText(decision.by), time);
   if (status.awaits_approval) text += VerdictController::tr(" A second person must approve.");
   if (status.state == sessions::ReviewState::kRejected && !decision.comment.empty())
-    text = VerdictController::tr("by %1: %2").arg(fromText(decision.by), fromText(decision.comment));
+    text =
+        VerdictController::tr("by %1: %2").arg(fromText(decision.by), fromText(decision.comment));
   return text;
 }
 
@@ -83,7 +84,8 @@ AnnotationSituation VerdictController::annotationSituation() const {
   const AnnotationController& annotation = parts_.annotation;
   AnnotationSituation situation;
   const auto count = [](const auto& pairs) {
-    return static_cast<int>(std::ranges::count_if(pairs, [](const auto& pair) { return pair.used(); }));
+    return static_cast<int>(
+        std::ranges::count_if(pairs, [](const auto& pair) { return pair.used(); }));
   };
   situation.pairs = count(annotation.annotations().points) + count(annotation.annotations().lines);
   situation.has_pose = annotation.solvedPose().has_value();
@@ -124,7 +126,8 @@ Situation VerdictController::situation() const {
   if (const auto* shown = shownCase(parts_.document, parts_.state))
     situation.has_seed = shown->has_seed;
   situation.load_problem = parts_.cases.loadProblem();
-  if (!id.isEmpty()) situation.file_problem = findings_.adviceFor(id).section(QLatin1Char('\n'), 0, 0);
+  if (!id.isEmpty())
+    situation.file_problem = findings_.adviceFor(id).section(QLatin1Char('\n'), 0, 0);
   situation.run = parts_.run.state();
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
   situation.trace = parts_.state.snapshot();

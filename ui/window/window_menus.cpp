@@ -240,8 +240,8 @@ void WindowMenus::fillWorkspaces() {
   auto* group = new QActionGroup(ui_.viewMenu);
   for (int i = 0; i < kWorkspaceCount; ++i) {
     const auto workspace = static_cast<Workspace>(i);
-    auto* each = new QAction(QCoreApplication::translate("Workspace", workspaceInfo(workspace).name),
-                             ui_.viewMenu);
+    auto* each = new QAction(
+        QCoreApplication::translate("Workspace", workspaceInfo(workspace).name), ui_.viewMenu);
     each->setShortcut(QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1)));
     each->setStatusTip(QCoreApplication::translate("Workspace", workspaceInfo(workspace).help));
     each->setCheckable(true);

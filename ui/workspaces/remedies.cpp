@@ -14,7 +14,8 @@ constexpr Remedy kFarther = {
     Step::kUncertainty,
     QT_TR_NOOP("Arrows agree but end at window borders: the seed is farther off than stated")};
 constexpr Remedy kMasked = {
-    Step::kMask, QT_TR_NOOP("Part of the station is hidden, or edges are everywhere: print, shadows")};
+    Step::kMask,
+    QT_TR_NOOP("Part of the station is hidden, or edges are everywhere: print, shadows")};
 constexpr Remedy kMarks = {Step::kAnnotate,
                            QT_TR_NOOP("Nothing is known of the pose: four points give a seed")};
 constexpr Remedy kSheet = {Step::kInputs,

@@ -47,8 +47,9 @@ QWidget* RemediesPanel::rowOf(const Remedy& remedy) {
   button->setProperty("step", static_cast<int>(remedy.step));
   button->setMinimumWidth(kButtonHeight * 5);
   // Queued: the step may replace this very row.
-  connect(button, &QPushButton::clicked, this,
-          [this, step = remedy.step] { Q_EMIT stepRequested(step); }, Qt::QueuedConnection);
+  connect(
+      button, &QPushButton::clicked, this,
+      [this, step = remedy.step] { Q_EMIT stepRequested(step); }, Qt::QueuedConnection);
   line->addWidget(cause, 1);
   line->addWidget(button);
   return row;
@@ -63,8 +64,9 @@ void RemediesPanel::showRun() {
   status_->showRun(run.get());
   shown_ = run ? remediesFor(*run) : std::vector<Remedy>();
   if (shown_.empty()) {
-    auto* label = new QLabel(run && run->converged() ? tr("The run converged: nothing to mend.")
-                                                     : tr("Remedies stand here after a run failed."));
+    auto* label =
+        new QLabel(run && run->converged() ? tr("The run converged: no remedies needed.")
+                                           : tr("Remedies are listed here after a failed run."));
     label->setProperty("caption", true);
     label->setWordWrap(true);
     rows_->addWidget(label);

@@ -35,10 +35,11 @@ QString progressText(const sessions::LocalizationTrace* trace) {
   if (!trace->last_under_way) return tr("Iteration %1 is complete.").arg(number);
   const Stage reached = trace->iterations.back()->reached;
   const bool refines = trace->iterations.back()->kind == IterationKind::kRefine;
-  const Stage next = reached == Stage::kRender
-                         ? (refines ? Stage::kRefine : Stage::kTemplates)
-                         : static_cast<Stage>(static_cast<int>(reached) + 1);
-  return tr("Iteration %1: %2 done; next, %3.").arg(number).arg(stageName(reached), stageName(next));
+  const Stage next = reached == Stage::kRender ? (refines ? Stage::kRefine : Stage::kTemplates)
+                                               : static_cast<Stage>(static_cast<int>(reached) + 1);
+  return tr("Iteration %1: %2 done; next, %3.")
+      .arg(number)
+      .arg(stageName(reached), stageName(next));
 }
 
 Verdict ofFiles(const FilesSituation& files) {
@@ -58,8 +59,8 @@ Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
   Verdict verdict;
   verdict.icon = Icon::kPencil;
   const QString pairs = annotation.pairs == 1 ? tr("1 pair") : tr("%1 pairs").arg(annotation.pairs);
-  verdict.head = annotation.rms_px ? tr("%1, rms %2 px").arg(pairs, numberText(*annotation.rms_px, 2))
-                                   : pairs;
+  verdict.head =
+      annotation.rms_px ? tr("%1, rms %2 px").arg(pairs, numberText(*annotation.rms_px, 2)) : pairs;
   if (!annotation.bad_pair.isEmpty()) {
     verdict.tone = VerdictTone::kCaution;
     verdict.icon = Icon::kWarning;
@@ -92,9 +93,10 @@ Verdict ofOnboard(const Situation& situation) {
   const bool good = comparison.verdict != sessions::RunVerdict::kDifferent;
   verdict.tone = good ? VerdictTone::kGood : VerdictTone::kBad;
   verdict.icon = good ? Icon::kCheck : Icon::kCross;
-  verdict.head = comparison.verdict == sessions::RunVerdict::kEqual          ? tr("Agrees bit for bit.")
-                 : comparison.verdict == sessions::RunVerdict::kWithinLimits ? tr("Agrees within limits.")
-                                                                             : tr("Differs.");
+  verdict.head = comparison.verdict == sessions::RunVerdict::kEqual ? tr("Agrees bit for bit.")
+                 : comparison.verdict == sessions::RunVerdict::kWithinLimits
+                     ? tr("Agrees within limits.")
+                     : tr("Differs.");
   if (comparison.verdict != sessions::RunVerdict::kEqual)
     verdict.sentence = fromText(sessions::verdictText(comparison));
   verdict.step = comparison.first ? Step::kFirstDifference : Step::kNextCase;
@@ -125,15 +127,18 @@ std::optional<Verdict> ofReview(const Situation& situation) {
     verdict.plain = true;
     return verdict;
   }
-  if (!review.current) return std::nullopt;
+  // A failed run has remedies, not checks to pass.
+  if (!review.current || (situation.trace && !situation.trace->converged())) return std::nullopt;
   QStringList open;
   if (review.failed > 0)
     open << (review.failed == 1 ? tr("1 check failed") : tr("%1 checks failed").arg(review.failed));
-  if (!review.tested) open << tr("the convergence test has not run: a competing pose is not excluded");
+  if (!review.tested)
+    open << tr("the convergence test has not run: a competing pose is not excluded");
   verdict.tone = VerdictTone::kCaution;
   verdict.icon = Icon::kWarning;
   verdict.head = tr("Converged; not yet validated");
-  verdict.sentence = open.isEmpty() ? tr("All checks passed.") : open.join(tr("; ")) + QLatin1Char('.');
+  verdict.sentence =
+      open.isEmpty() ? tr("All checks passed.") : open.join(tr("; ")) + QLatin1Char('.');
   verdict.sentence[0] = verdict.sentence[0].toUpper();
   verdict.step = review.tested ? Step::kNone : Step::kConvergenceTest;
   return verdict;
@@ -168,7 +173,8 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
   if (situation.run == RunState::kWorking || situation.in_batch) {
     verdict.icon = Icon::kRing;
     verdict.head = tr("Running.");
-    verdict.sentence = progressText(situation.run == RunState::kWorking ? situation.trace.get() : nullptr);
+    verdict.sentence =
+        progressText(situation.run == RunState::kWorking ? situation.trace.get() : nullptr);
     verdict.step = Step::kStop;
     verdict.plain = true;
     return verdict;

@@ -10,17 +10,18 @@ namespace {
 
 constexpr int kOthersWide = 2;    // buttons next to the action
 constexpr int kOthersNarrow = 1;  // the rest is behind "..."
+constexpr int kElideStep = 20;    // px by which a sentence is shortened until it fits
 
 const char* toneName(VerdictTone tone) {
-  return tone == VerdictTone::kGood  ? "good"
-         : tone == VerdictTone::kBad ? "bad"
+  return tone == VerdictTone::kGood      ? "good"
+         : tone == VerdictTone::kBad     ? "bad"
          : tone == VerdictTone::kCaution ? "caution"
                                          : "plain";
 }
 
 QRgb Theme::*colorOf(VerdictTone tone) {
-  return tone == VerdictTone::kGood  ? &Theme::success_text
-         : tone == VerdictTone::kBad ? &Theme::failure_text
+  return tone == VerdictTone::kGood      ? &Theme::success_text
+         : tone == VerdictTone::kBad     ? &Theme::failure_text
          : tone == VerdictTone::kCaution ? &Theme::warning_text
                                          : &Theme::accent;
 }
@@ -44,6 +45,7 @@ VerdictBar::VerdictBar(QWidget* parent)
   setFixedHeight(kVerdictHeight);
   sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   sentence_->setTextFormat(Qt::PlainText);
+  sentence_->setWordWrap(true);
   head_->setTextFormat(Qt::PlainText);
   badge_->setIcon(iconOf(Icon::kWarning, &Theme::warning_text));
   more_->setText(QStringLiteral("…"));
@@ -78,8 +80,8 @@ void VerdictBar::setVerdict(const Verdict& verdict) {
   action_->setText(verdict.step_text.isEmpty() ? textOf(verdict.step) : verdict.step_text);
   action_->setToolTip(tr("%1 (Ctrl+Enter)").arg(helpOf(verdict.step)));
   action_->setProperty("primary", !verdict.plain);
-  action_->setIcon(iconOf(stepInfo(verdict.step).icon,
-                          verdict.plain ? &Theme::text : &Theme::on_accent));
+  action_->setIcon(
+      iconOf(stepInfo(verdict.step).icon, verdict.plain ? &Theme::text : &Theme::on_accent));
   setAccessibleName(text());
   showOthers();
   for (QWidget* each : std::initializer_list<QWidget*>{this, head_, action_}) {
@@ -90,7 +92,8 @@ void VerdictBar::setVerdict(const Verdict& verdict) {
 }
 
 QString VerdictBar::text() const {
-  return verdict_.sentence.isEmpty() ? verdict_.head : verdict_.head + QLatin1Char(' ') + verdict_.sentence;
+  return verdict_.sentence.isEmpty() ? verdict_.head
+                                     : verdict_.head + QLatin1Char(' ') + verdict_.sentence;
 }
 
 void VerdictBar::showOthers() {
@@ -127,11 +130,17 @@ void VerdictBar::setWarnings(const QStringList& sentences) {
   elide();
 }
 
-/// The whole sentence is in the tool tip.
+/// The bar has room for two lines; a longer sentence is whole in the tool tip.
 void VerdictBar::elide() {
   layout()->activate();
-  const QString shown =
-      sentence_->fontMetrics().elidedText(verdict_.sentence, Qt::ElideRight, sentence_->width());
+  const QFontMetrics metrics = sentence_->fontMetrics();
+  const auto fits = [&](const QString& text) {
+    const QRect line(0, 0, sentence_->width(), 1);
+    return metrics.boundingRect(line, Qt::TextWordWrap, text).height() <= 2 * metrics.lineSpacing();
+  };
+  QString shown = verdict_.sentence;
+  for (int width = 2 * sentence_->width(); !fits(shown) && width > 0; width -= kElideStep)
+    shown = metrics.elidedText(verdict_.sentence, Qt::ElideRight, width);
   sentence_->setText(shown);
   sentence_->setToolTip(shown == verdict_.sentence ? QString() : verdict_.sentence);
 }

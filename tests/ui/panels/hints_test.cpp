@@ -3,6 +3,7 @@
 #include <QtTest>
 #include <QtWidgets>
 
+#include "tests/ui/window_test.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {
@@ -41,6 +42,31 @@ TEST(EmptyHint, MayLeaveARowThatIsAlwaysThere) {
   EXPECT_TRUE(hint->isVisible());
   model.setStringList({QStringLiteral("seed"), QStringLiteral("1.1")});
   EXPECT_FALSE(hint->isVisible());
+}
+
+TEST(TableColumns, HiddenOnesAreRemembered) {
+  const test::TemporaryFolder folder;
+  const test::OwnSettings settings(folder.path());
+  QStandardItemModel model(2, 3);
+  QTableView table;
+  table.setObjectName(QStringLiteral("rememberedTable"));
+  setUpTable(table, model);
+  table.show();
+  QTimer::singleShot(0, &table, [] {
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    ASSERT_NE(menu, nullptr);
+    menu->actions()[1]->trigger();
+    menu->close();
+  });
+  Q_EMIT table.horizontalHeader()->customContextMenuRequested({5, 5});
+  EXPECT_TRUE(table.isColumnHidden(1));
+  QTableView again;
+  again.setObjectName(table.objectName());
+  setUpTable(again, model);
+  again.setColumnHidden(2, true);  // what this panel hides at first
+  QApplication::processEvents();
+  EXPECT_TRUE(again.isColumnHidden(1));
+  EXPECT_FALSE(again.isColumnHidden(2)) << "the operator's choice counts";
 }
 
 TEST(Banner, HidesWithoutWarnings) {

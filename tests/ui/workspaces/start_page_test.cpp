@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/workspaces/start_page.h"
+#include "ui/window/start_page.h"
 
 #include "tests/ui/window_test.h"
 #include "ui/window/session_files.h"

@@ -150,6 +150,19 @@ TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
   EXPECT_EQ(verdict.step, Step::kNextCase);
 }
 
+/// The headline once called a rejected run converged, as its checks were there.
+TEST(Verdict, ReviewOfAFailedRun_TellsTheFailure) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kReview;
+  situation.trace = ended(LocalizationStatus::kNotSupported);
+  situation.review.current = true;
+  situation.review.failed = 10;
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("Rejected"));
+  EXPECT_EQ(verdict.tone, VerdictTone::kBad);
+  EXPECT_EQ(verdict.step, Step::kWiderSearch);
+}
+
 TEST(Verdict, BadAnnotation_IsSwitchedOff) {
   Situation situation = ready();
   situation.workspace = Workspace::kAnnotate;
