@@ -24,25 +24,68 @@ std::string explanation(const nlohmann::json::exception& error) {
   return text.size() > kMost ? text.substr(0, kMost) + "..." : text;
 }
 
-/// nlohmann keeps the last of several members of one name, and follows any depth.
+/// Refuses what nlohmann's parser takes: it keeps the last of several members of one name, and
+/// follows any depth. A pass of its own, as nlohmann's callback looks at every element of an array
+/// again whenever one of them ends.
+class JsonCheck : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  explicit JsonCheck(const std::filesystem::path& file) : file_(file) {}
+
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(number_integer_t /*value*/) override { return true; }
+  bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+  bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+  bool string(string_t& /*value*/) override { return true; }
+  bool binary(binary_t& /*value*/) override { return true; }
+  bool start_object(std::size_t /*elements*/) override {
+    open();
+    names_.emplace_back();
+    return true;
+  }
+  bool key(string_t& name) override {
+    if (!names_.back().insert(name).second) throw InputError(file_, name, "given twice");
+    return true;
+  }
+  bool end_object() override {
+    names_.pop_back();
+    --depth_;
+    return true;
+  }
+  bool start_array(std::size_t /*elements*/) override {
+    open();
+    return true;
+  }
+  bool end_array() override {
+    --depth_;
+    return true;
+  }
+  /// The parser that makes the values says what is wrong.
+  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                   const nlohmann::json::exception& /*error*/) override {
+    return false;
+  }
+
+ private:
+  void open() {
+    if (depth_ >= kMaxJsonDepth)
+      throw InputError(file_, "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+    ++depth_;
+  }
+
+  const std::filesystem::path& file_;
+  std::size_t depth_ = 0;
+  std::vector<std::set<std::string>> names_;  ///< of the open objects
+};
+
 nlohmann::json parse(const std::filesystem::path& file, std::string_view text) {
   if (text.size() > kMaxJsonBytes)
     throw InputError(
         file, "larger than the limit of " + std::to_string(kMaxJsonBytes / kMegabyte) + " MB");
-  std::vector<std::set<std::string>> names;  // of the open objects
-  using Event = nlohmann::json::parse_event_t;
-  const auto check = [&](int depth, Event event, const nlohmann::json& parsed) {
-    const bool opens = event == Event::object_start || event == Event::array_start;
-    if (opens && depth >= static_cast<int>(kMaxJsonDepth))
-      throw InputError(file, "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
-    if (event == Event::object_start) names.emplace_back();
-    if (event == Event::object_end) names.pop_back();
-    if (event == Event::key && !names.back().insert(parsed.get<std::string>()).second)
-      throw InputError(file, parsed.get<std::string>(), "given twice");
-    return true;
-  };
+  JsonCheck check(file);
+  nlohmann::json::sax_parse(text, &check);
   try {
-    return nlohmann::json::parse(text, check);
+    return nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file, "not JSON: " + explanation(error));
   }

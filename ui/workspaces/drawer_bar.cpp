@@ -24,8 +24,7 @@ void DrawerBar::showWorkspace() {
     delete item;
   }
   const WorkspaceInfo& info = workspaceInfo(workspaces_.current());
-  // Run and Review give all the height to the image; their drawers open by the View menu and keys.
-  const bool useful = workspaces_.isNarrow() && info.drawers.size() > 2;
+  const bool useful = workspaces_.isNarrow() && info.handles;
   setVisible(useful);
   if (!useful) return;
   for (const char* name : info.drawers) {

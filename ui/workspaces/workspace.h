@@ -28,8 +28,11 @@ struct WorkspaceInfo {
   bool has_canvas;
   std::vector<PlacedDock> wide;    ///< from kWideWindow pixels on
   std::vector<PlacedDock> narrow;  ///< below
-  /// Docks that open and close by a button below the canvas of a narrow window, one at a time.
+  /// Docks of which a narrow window shows one at a time.
   std::vector<const char*> drawers;
+  /// Whether buttons below the canvas open them there; else the side pane's button does, and the
+  /// image has all the height.
+  bool handles = false;
 };
 
 const WorkspaceInfo& workspaceInfo(Workspace workspace);

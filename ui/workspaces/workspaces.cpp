@@ -83,7 +83,7 @@ void Workspaces::windowResized() {
   if (!first) state() = body_.saveState(kStateVersion);
   narrow_ = narrow;
   bringUp();
-  if (!first) Q_EMIT changed(current_);
+  Q_EMIT changed(current_);
 }
 
 void Workspaces::arrange() {
