@@ -55,6 +55,10 @@ void CaseArguments::addTo(CLI::App& command) {
       ->expected(2)
       ->check(CLI::Range(0, 65535))
       ->type_name("BLACK WHITE");
+  command
+      .add_option("--bayer", bayer,
+                  "The samples are a mosaic of colours, whose first two lines begin like this")
+      ->check(CLI::IsMember({"rggb", "bggr", "grbg", "gbrg"}));
 }
 
 void CaseArguments::addEndEffectorTo(CLI::App& command) {
@@ -103,6 +107,7 @@ sessions::CaseFiles CaseArguments::files() const {
     if (levels[0] >= levels[1]) throw CLI::ValidationError("--levels", "black must be below white");
     files.eight_bit.levels = sessions::GrayLevels{levels[0], levels[1]};
   }
+  if (!bayer.empty()) files.eight_bit.bayer = sessions::bayerPatternNamed(bayer);
   files.camera = camera;
   files.transforms.assign(frames.files.begin(), frames.files.end());
   files.parts.resize(1);

@@ -19,6 +19,7 @@ struct CaseArguments {
   double feature_size_m = 0.0;
   int bit_depth = 0;
   std::vector<int> levels;
+  std::string bayer;
   std::vector<double> uncertainty, end_effector_m, requirement;
   std::string pivot;
 

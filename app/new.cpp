@@ -45,9 +45,10 @@ void NewArguments::addTo(CLI::App& command) {
       ->check(numberIn(0.0, sessions::kMaxScaleSigma))
       ->type_name("S");
   CLI::Option* from_image = command.get_option("--image")->excludes(from_dataset);
-  for (const char* name : {"--camera", "--frames", "--mesh", "--mesh-unit", "--seed", "--truth",
-                           "--ignore", "--id", "--bit-depth", "--levels", "--feature-size",
-                           "--mesh-scale-sigma", "--end-effector", "--requirement"})
+  for (const char* name :
+       {"--camera", "--frames", "--mesh", "--mesh-unit", "--seed", "--truth", "--ignore", "--id",
+        "--bit-depth", "--levels", "--bayer", "--feature-size", "--mesh-scale-sigma",
+        "--end-effector", "--requirement"})
     command.get_option(name)->needs(from_image);
   addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
   dataset.addTo(command);

@@ -22,8 +22,9 @@ void ProblemArguments::addTo(CLI::App& command) {
   addEndEffectorTo(command);
   addFile(command, "--dataset", dataset, "dataset.json with the case (replaces the files above)");
   command.add_option("--case", case_id, "Case of the dataset")->type_name("ID");
-  for (const char* name : {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore",
-                           "--uncertainty", "--pivot", "--bit-depth", "--levels", "--end-effector"})
+  for (const char* name :
+       {"--image", "--camera", "--mesh", "--seed", "--mesh-unit", "--ignore", "--uncertainty",
+        "--pivot", "--bit-depth", "--levels", "--bayer", "--end-effector"})
     command.get_option(name)->excludes("--dataset");
   command.get_option("--dataset")->needs("--case");
   command.get_option("--case")->needs("--dataset");

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/errors.h"
@@ -50,6 +51,35 @@ FileSamples decode(const std::filesystem::path& file) {
   decoded.sample_bits = labelled.sample_bits;
   decoded.sha256 = labelled.sha256;
   return decoded;
+}
+
+/// OpenCV names a pattern by its second line.
+int demosaicCode(BayerPattern pattern) {
+  switch (pattern) {
+    case BayerPattern::kRggb:
+      return cv::COLOR_BayerBG2BGR_EA;
+    case BayerPattern::kBggr:
+      return cv::COLOR_BayerRG2BGR_EA;
+    case BayerPattern::kGrbg:
+      return cv::COLOR_BayerGB2BGR_EA;
+    case BayerPattern::kGbrg:
+      break;
+  }
+  return cv::COLOR_BayerGR2BGR_EA;
+}
+
+constexpr int kSmallestMosaic_px = 4;  // a pixel is interpolated from the two lines round it
+
+void demosaic(const std::filesystem::path& file, BayerPattern pattern, cv::Mat& pixels) {
+  if (pixels.channels() != 1)
+    throw InputError(
+        file, "bayer",
+        "the image has " + std::to_string(pixels.channels()) + " channels; a mosaic has one");
+  if (pixels.cols < kSmallestMosaic_px || pixels.rows < kSmallestMosaic_px)
+    throw InputError(file, "bayer", sizeText(pixels.cols, pixels.rows) + " px are too few");
+  cv::Mat color;
+  cv::cvtColor(pixels, color, demosaicCode(pattern));
+  pixels = color;
 }
 
 std::uint32_t grayValue(const std::uint16_t* pixel, int channels) {
@@ -135,6 +165,9 @@ std::string depthText(const GrayImage& gray) {
 
 std::string ruleText(const GrayImage& gray, const ImageReadOptions& options) {
   std::string text;
+  if (options.bayer)
+    text += std::string("mosaic ") + kBayerPatternNames[static_cast<std::size_t>(*options.bayer)] +
+            " interpolated edge-aware; ";
   if (gray.channels == 2 || gray.channels == 4) text += "alpha dropped; ";
   if (gray.channels >= 3) text += "luma (9798 R + 19235 G + 3735 B + 16384) >> 15; ";
   if (options.levels)
@@ -174,6 +207,10 @@ void takeLabel(const LabelSamples& labelled, const ImageReadOptions& options, Gr
   gray.channels = labelled.bands;
   gray.label = labelled.label;
   gray.notes = labelled.label->flags;
+  const std::string& mosaic = labelled.label->bayer_pattern;
+  if (!mosaic.empty() && !options.bayer)
+    gray.notes.push_back("the pixels are a mosaic of colours (" + mosaic +
+                         "): state its pattern with --bayer, or convert it before matching");
   if (labelled.quantized && options.bit_depth && *options.bit_depth != 16)
     throw InputError(gray.file, "bit_depth",
                      std::to_string(*options.bit_depth) +
@@ -200,8 +237,16 @@ std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n) {
   return table;
 }
 
-ImageSamples readSamples(const std::filesystem::path& file) {
-  const FileSamples decoded = decode(file);
+std::optional<BayerPattern> bayerPatternNamed(std::string_view name) {
+  const auto found = std::find(std::begin(kBayerPatternNames), std::end(kBayerPatternNames), name);
+  if (found == std::end(kBayerPatternNames)) return std::nullopt;
+  return static_cast<BayerPattern>(found - std::begin(kBayerPatternNames));
+}
+
+ImageSamples readSamples(const std::filesystem::path& file,
+                         const std::optional<BayerPattern>& bayer) {
+  FileSamples decoded = decode(file);
+  if (bayer) demosaic(file, *bayer, decoded.pixels);
   const cv::Mat& image = decoded.pixels;
   ImageSamples samples;
   samples.width = image.cols;
@@ -226,7 +271,8 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
     throw InputError(file, "bit_depth", std::to_string(*options.bit_depth) + " is outside 1 .. 16");
   if (options.levels && !options.table.empty())
     throw InputError(file, "levels", "cannot be combined with a table");
-  const FileSamples decoded = decode(file);
+  FileSamples decoded = decode(file);
+  if (options.bayer) demosaic(file, *options.bayer, decoded.pixels);
   const cv::Mat& image = decoded.pixels;
   GrayImage gray;
   gray.file = file;
@@ -241,9 +287,9 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
     if (!decoded.labelled->rule.empty()) gray.rule = decoded.labelled->rule + "; ";
   } else {
     gray.container = imageContainerName(decoded.container);
-    gray.channels = image.channels();
     gray.notes = decoded.notes;
   }
+  if (!decoded.labelled || options.bayer) gray.channels = image.channels();
   requireDepth(file, gray);
   gray.pixels.resize(image.total());
   const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, options);

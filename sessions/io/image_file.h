@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/image.h"
@@ -29,6 +30,12 @@ struct GrayLevels {
   bool operator==(const GrayLevels&) const = default;
 };
 
+/// Colours of a mosaic's first two lines, two pixels each.
+enum class BayerPattern { kRggb, kBggr, kGrbg, kGbrg };
+inline constexpr const char* kBayerPatternNames[] = {"rggb", "bggr", "grbg", "gbrg"};
+/// By its name; nothing for another word.
+std::optional<BayerPattern> bayerPatternNamed(std::string_view name);
+
 struct ImageReadOptions {
   /// Bits that the samples use, 1 .. 16, from a label or asked for; without it, those of the file
   /// (8 or 16).
@@ -37,6 +44,8 @@ struct ImageReadOptions {
   std::vector<std::uint8_t> table = {};
   /// The table given by two numbers; not together with `table`.
   std::optional<GrayLevels> levels = {};
+  /// The samples are such a mosaic: their colours are interpolated first (OpenCV, edge-aware).
+  std::optional<BayerPattern> bayer = {};
 
   bool operator==(const ImageReadOptions&) const = default;
 };
@@ -94,7 +103,8 @@ struct ImageSamples {
 };
 
 /// Reads what readImage reads and refuses what it refuses, but for the depth.
-ImageSamples readSamples(const std::filesystem::path& file);
+ImageSamples readSamples(const std::filesystem::path& file,
+                         const std::optional<BayerPattern>& bayer = {});
 
 /// The 8-bit values of the samples 0 .. 2^n - 1 by levels with 0 <= black < white <= 2^n - 1:
 /// floor((v - black) * 255 / (white - black) + 0.5), in integers.

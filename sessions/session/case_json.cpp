@@ -18,8 +18,8 @@ namespace {
 constexpr double kMaxCoordinate_px = 1e6;
 constexpr auto kSide_px = integerIn(1, kMaxImageSide_px);
 constexpr auto kStroke = choiceOf<StrokeKind>("brush", "polygon", "saturation");
-constexpr auto kOrigin = choiceOf<TransformSource>("unstated", "telemetry", "calibration",
-                                                   "label", "commanded");
+constexpr auto kOrigin =
+    choiceOf<TransformSource>("unstated", "telemetry", "calibration", "label", "commanded");
 constexpr auto kFrame = jsonCodec<FrameName>(&readFrameName);
 constexpr auto kCamera =
     jsonCodec<CameraFile>([](const JsonReader& json) { return readCameraFile(json); });
@@ -53,6 +53,7 @@ ordered_json eightBitJson(const ImageReadOptions& options) {
     json["black"] = options.levels->black;
     json["white"] = options.levels->white;
   }
+  if (options.bayer) json["bayer"] = kBayerPatternNames[static_cast<std::size_t>(*options.bayer)];
   return json;
 }
 
@@ -60,6 +61,8 @@ ImageReadOptions readEightBit(const JsonReader& json) {
   ImageReadOptions options;
   if (const auto depth = json.find("bit_depth"))
     options.bit_depth = static_cast<int>(depth->integer(1, 16));
+  if (const auto bayer = json.find("bayer"))
+    options.bayer = bayerPatternNamed(bayer->choice({"rggb", "bggr", "grbg", "gbrg"}));
   const std::string rule = json.at("rule").choice({"linear", "levels", "table"});
   if (rule != "table" && json.has("table"))
     json.failMember("table", "given although the rule is " + rule);

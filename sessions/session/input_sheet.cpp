@@ -161,9 +161,9 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
                      (session_case.has_seed ? "; the view is " + fixedText(view_width_mm, 1) +
                                                   " mm wide at its distance"
                                             : ""));
-  add("seed", session_case.has_seed ? fixedText(seed_distance_m, 4) +
-                                          " m from the camera to the station's middle"
-                                    : "none");
+  add("seed", session_case.has_seed
+                  ? fixedText(seed_distance_m, 4) + " m from the camera to the station's middle"
+                  : "none");
   if (loaded.ignore)
     add("ignored", std::to_string(loaded.ignore->ignored_count) + " px, " +
                        fixedText(100.0 * static_cast<double>(loaded.ignore->ignored_count) /
@@ -257,9 +257,10 @@ ImageSheet imageSheet(const GrayImage& image) {
         {"image_bit_depth",
          "the samples have 16 bits, but the used bits are not stated: state the bit depth"});
   if (looksLikeMosaic(image.view()))
-    sheet.flags.push_back(
-        {"image_mosaic",
-         "the pixels look like a Bayer mosaic: convert to gray or colour before matching"});
+    sheet.flags.push_back({"image_mosaic",
+                           "the pixels look like a Bayer mosaic: state its pattern (whs new "
+                           "--bayer), or convert to gray "
+                           "before matching"});
   return sheet;
 }
 

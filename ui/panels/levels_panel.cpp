@@ -123,6 +123,7 @@ void LevelsPanel::showConversion() {
 
 sessions::ImageReadOptions LevelsPanel::chosenConversion() const {
   sessions::ImageReadOptions chosen;
+  if (current_) chosen.bayer = current_->bayer;
   chosen.bit_depth = ui_.conversionBits->value();
   if (ui_.conversionKind->currentIndex() == kTable) return *current_;
   // What the label states need not be stated again; other images have labels of their own.

@@ -80,8 +80,8 @@ struct ReadSamples {
 };
 
 ReadSamples readFor(const sessions::ImageInput& input) {
-  auto samples =
-      std::make_shared<const sessions::ImageSamples>(sessions::readSamples(input.source.file));
+  auto samples = std::make_shared<const sessions::ImageSamples>(
+      sessions::readSamples(input.source.file, input.eight_bit.bayer));
   if (samples->file_sha256 != input.source.sha256)
     throw sessions::InputError(
         input.source.file,

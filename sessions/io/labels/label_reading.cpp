@@ -381,9 +381,6 @@ LabelReading readLabelTree(LabelFormat format, const json& tree, const json& vic
   readCamera(source, vicar_label, label);
   label.frames = labelFrames(format, tree, label.flags);
   addPictureFlags(source, picture, label.flags);
-  if (!label.bayer_pattern.empty())
-    label.flags.push_back("the pixels are a mosaic of colours (" + label.bayer_pattern +
-                          "): convert to gray or colour before matching");
   if (!reading.derived_type.empty())
     label.flags.push_back("the label calls this a " + reading.derived_type +
                           ", not an image of the scene");

@@ -189,6 +189,68 @@ TEST_F(ReadImage, GivesTheSamplesThatBecomeEightBit) {
   }
 }
 
+/// Smooth colours, blue, green and red, of 12 bits.
+cv::Mat smoothColors() {
+  cv::Mat image(40, 60, CV_16UC3);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      image.at<cv::Vec3w>(y, x) = cv::Vec3w(static_cast<std::uint16_t>(300 + 20 * x),
+                                            static_cast<std::uint16_t>(3800 - 30 * y),
+                                            static_cast<std::uint16_t>(1000 + 15 * x + 40 * y));
+  return image;
+}
+
+/// What a sensor below such a mosaic sees; the letters are the colours of a 2 x 2 block.
+cv::Mat mosaicOf(const cv::Mat& colors, const std::string& block) {
+  cv::Mat mosaic(colors.size(), CV_16UC1);
+  for (int y = 0; y < colors.rows; ++y)
+    for (int x = 0; x < colors.cols; ++x) {
+      const char letter = block[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
+      mosaic.at<std::uint16_t>(y, x) = colors.at<cv::Vec3w>(y, x)[letter == 'b'   ? 0
+                                                                  : letter == 'g' ? 1
+                                                                                  : 2];
+    }
+  return mosaic;
+}
+
+/// Largest difference of the gray values from those of the colours, but for a border.
+int farthestFrom(const cv::Mat& colors, const GrayImage& gray) {
+  cv::Mat luma;
+  cv::cvtColor(colors, luma, cv::COLOR_BGR2GRAY);
+  int most = 0;
+  for (int y = 2; y < luma.rows - 2; ++y)
+    for (int x = 2; x < luma.cols - 2; ++x)
+      most =
+          std::max(most, std::abs(gray.view().at(x, y) - byRule(luma.at<std::uint16_t>(y, x), 12)));
+  return most;
+}
+
+TEST_F(ReadImage, InterpolatesTheColoursOfAMosaicByItsPatternAlone) {
+  const cv::Mat colors = smoothColors();
+  for (std::size_t made = 0; made < std::size(kBayerPatternNames); ++made) {
+    const Bytes file = encoded(mosaicOf(colors, kBayerPatternNames[made]), ".png");
+    for (std::size_t stated = 0; stated < std::size(kBayerPatternNames); ++stated) {
+      ImageReadOptions options{12};
+      options.bayer = static_cast<BayerPattern>(stated);
+      const GrayImage gray = read(file, options);
+      const int off = farthestFrom(colors, gray);
+      EXPECT_EQ(off <= 1, made == stated)
+          << kBayerPatternNames[made] << " as " << kBayerPatternNames[stated] << ": " << off;
+      EXPECT_EQ(gray.channels, 3);
+      EXPECT_THAT(gray.rule, HasSubstr(kBayerPatternNames[stated]));
+    }
+  }
+}
+
+TEST_F(ReadImage, RefusesColoursAndTinyImagesAsAMosaic) {
+  ImageReadOptions options;
+  options.bayer = bayerPatternNamed("grbg");
+  ASSERT_EQ(options.bayer, BayerPattern::kGrbg);
+  EXPECT_FALSE(bayerPatternNamed("rgb"));
+  EXPECT_THAT(error(encoded(randomImage(CV_8UC3), ".png"), options), HasSubstr("a mosaic has one"));
+  EXPECT_THAT(error(encoded(randomImage(CV_8UC1, 3, 9), ".png"), options), HasSubstr("too few"));
+}
+
 TEST_F(ReadImage, TakesLumaOfSixteenBitColourBeforeScaling) {
   const cv::Mat source = randomImage(CV_16UC3);
   cv::Mat luma;

@@ -99,6 +99,8 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
   session_case.image.height = 1 + static_cast<int>(random.below(4000));
   session_case.image.pixels_sha256 = randomSha256(random);
   if (coin(random)) session_case.image.eight_bit.bit_depth = 1 + static_cast<int>(random.below(8));
+  if (coin(random))
+    session_case.image.eight_bit.bayer = static_cast<sessions::BayerPattern>(random.below(4));
   if (session_case.image.eight_bit.bit_depth && coin(random))
     for (int i = 0; i < 1 << *session_case.image.eight_bit.bit_depth; ++i)
       session_case.image.eight_bit.table.push_back(static_cast<std::uint8_t>(random.below(256)));
