@@ -79,6 +79,25 @@ void requireSize(const LabelFiles& files, std::string_view label, const char* ke
   }
 }
 
+/// VICAR's default is BSQ, but GDAL reads no image whose label leaves ORG out: it is written behind
+/// LBLSIZE, in place of the padding at the label's end.
+void stateOrganization(LabelFiles& files, std::string_view label) {
+  constexpr std::string_view kDefault = " ORG='BSQ'";
+  if (textAfter(label, "ORG")) return;
+  const std::size_t padding =
+      label.size() - 1 - label.find_last_not_of(std::string_view(" \0", 2), label.size() - 1);
+  if (padding < kDefault.size())
+    throw InputError(files.file, "ORG", "is missing, and the label has no room for its default");
+  if (files.rewritten.empty()) files.rewritten = files.parts.front().bytes;
+  const auto word = textAfter(label, "LBLSIZE").value_or(label);
+  const auto at = static_cast<std::ptrdiff_t>(word.data() - label.data()) +
+                  static_cast<std::ptrdiff_t>(firstWord(word).size());
+  const auto begin = files.rewritten.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(label.size() - kDefault.size());
+  std::copy_backward(begin + at, end, end + static_cast<std::ptrdiff_t>(kDefault.size()));
+  std::copy(kDefault.begin(), kDefault.end(), begin + at);
+}
+
 constexpr std::int64_t kMostBytesOfSample = 8;
 constexpr std::int64_t kMostPrefix = kMaxImageSide_px * kMostBytesOfSample;
 
@@ -99,6 +118,7 @@ void readVicarLabel(LabelFiles& files) {
   requireSize(files, label, "NLB", 0, kMaxImageSide_px);
   requireSize(files, label, "RECSIZE", 1, kMostPrefix + kMaxImageSide_px * kMostBytesOfSample);
   rewriteExponents(files, label, '\'');
+  stateOrganization(files, label);
 }
 
 /// Up to the line END.

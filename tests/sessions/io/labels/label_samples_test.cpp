@@ -96,6 +96,20 @@ TEST(LabelSamples, VicarOfEveryKindIsReadAsWritten) {
       }
 }
 
+TEST(LabelSamples, VicarWithoutAnOrganizationIsBandSequential) {
+  const TemporaryFolder folder;
+  VicarFile vicar;
+  vicar.store = Store::kHalf;
+  vicar.items = "TASK='TEST'  USER='me'  GAIN=1.5D-03  ";
+  const Raster raster = Raster::counting(13, 9);
+  const std::string whole = textOf(vicar.bytes(raster));
+  const auto stated = readSamples(folder.write("stated.vic", whole));
+  const auto silent =
+      readSamples(folder.write("silent.vic", altered(whole, "ORG='BSQ'", "         ")));
+  EXPECT_EQ(silent.width, 13);
+  EXPECT_EQ(silent.values, stated.values);
+}
+
 TEST(LabelSamples, ThreeBandsBecomeLumaInTheOrderRedGreenBlue) {
   const TemporaryFolder folder;
   Random random(11);
