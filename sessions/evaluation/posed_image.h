@@ -2,11 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 
 namespace boresight::sessions {
+
+/// A point of the station and where an image shows it.
+struct SeenPoint {
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
 
 /// What other programs' formats know of a solved image.
 struct PosedImage {
@@ -16,6 +23,7 @@ struct PosedImage {
   Pose camera_from_station;
   /// Review status of the pose for formats with remarks. One line.
   std::string remark = {};
+  std::vector<SeenPoint> points = {};  ///< annotated ones, for formats with points
 };
 
 }  // namespace boresight::sessions

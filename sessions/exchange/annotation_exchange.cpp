@@ -108,11 +108,9 @@ ExchangeCamera exchangeCamera(const SessionCase& session_case) {
   const Camera own = prepared(session_case);
   if (!isCahvFamily(own.model)) return {own, ""};
   try {
-    const FittedCamera fitted =
-        fitCamera(own, CameraModel::kBrownConrady,
-                  session_case.has_seed
-                      ? session_case.camera_from_station_seed.translation_m.norm()
-                      : 1.0);
+    const FittedCamera fitted = fitCamera(
+        own, CameraModel::kBrownConrady,
+        session_case.has_seed ? session_case.camera_from_station_seed.translation_m.norm() : 1.0);
     return {fitted.camera, std::string("its ") + cameraModelName(own.model) +
                                " camera is written as brown_conrady, " + fitText(fitted)};
   } catch (const std::runtime_error& error) {
@@ -188,6 +186,16 @@ const SessionCase* caseOfImage(const Session& session, const fs::path& file,
   return found.empty() ? nullptr : found[0];
 }
 
+/// Those that are switched on, where both sides are marked.
+std::vector<SeenPoint> annotatedPoints(const Session& session, const std::string& case_id) {
+  std::vector<SeenPoint> points;
+  const auto found = session.annotations.find(case_id);
+  if (found == session.annotations.end()) return points;
+  for (const PointPair& pair : found->second->points)
+    if (pair.used()) points.push_back({*pair.point_in_station_m, *pair.pixel});
+  return points;
+}
+
 }  // namespace
 
 CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
@@ -258,7 +266,8 @@ ExportReport exportColmap(const Session& session, const fs::path& folder, const 
     const std::string remark = remarkOf(session, pose);
     images.push_back(
         {static_cast<int>(place) + 1, names[place], camera.camera, pose.camera_from_station,
-         remark + (remark.empty() || camera.remark.empty() ? "" : "; ") + camera.remark});
+         remark + (remark.empty() || camera.remark.empty() ? "" : "; ") + camera.remark,
+         annotatedPoints(session, pose.case_id)});
     if (!camera.remark.empty()) notes.push_back("case " + pose.case_id + ": " + camera.remark);
   }
   writeFolderAtomically(folder, [&](const fs::path& to) { writeColmapText(to, images); });

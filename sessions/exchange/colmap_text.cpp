@@ -2,6 +2,7 @@
 #include "sessions/exchange/colmap_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -73,13 +74,66 @@ std::string cameraLine(int id, const Camera& camera) {
   return line + "\n";
 }
 
-std::string imageLines(const PosedImage& image, int camera_id) {
+/// The points of all images, numbered from 1 in the order in which they are met.
+class ColmapPoints {
+ public:
+  /// The second line of an image: pixel and number of each of its points.
+  std::string lineOf(const PosedImage& image) {
+    std::string line;
+    for (std::size_t i = 0; i < image.points.size(); ++i) {
+      const SeenPoint& seen = image.points[i];
+      line += (i > 0 ? " " : "") + numberText(seen.pixel.x() + kPixelOrigin) + " " +
+              numberText(seen.pixel.y() + kPixelOrigin) + " " +
+              std::to_string(note(image, seen, i));
+    }
+    return line + "\n";
+  }
+
+  /// points3D.txt: place, gray, mean distance from where the poses have the point (px), images.
+  std::string text() const {
+    std::string text = "# POINT3D_ID X Y Z R G B ERROR, then IMAGE_ID POINT2D_IDX of its images\n";
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      text += std::to_string(i + 1);
+      for (const double value : points_[i].place_m) text += " " + numberText(value);
+      text += " 128 128 128 " + numberText(points_[i].distances_px / points_[i].images) +
+              points_[i].track + "\n";
+    }
+    return text;
+  }
+
+ private:
+  struct Point {
+    std::array<double, 3> place_m;
+    double distances_px = 0.0;  ///< sum over the images
+    int images = 0;
+    std::string track;
+  };
+
+  std::size_t note(const PosedImage& image, const SeenPoint& seen, std::size_t index) {
+    const std::array<double, 3> place = {seen.point_in_station_m.x(), seen.point_in_station_m.y(),
+                                         seen.point_in_station_m.z()};
+    const auto [found, is_new] = numbers_.emplace(place, points_.size() + 1);
+    if (is_new) points_.push_back({place, 0.0, 0, ""});
+    Point& point = points_[found->second - 1];
+    Eigen::Vector2d projected;
+    if (project(image.camera, image.camera_from_station * seen.point_in_station_m, projected))
+      point.distances_px += (projected - seen.pixel).norm();
+    ++point.images;
+    point.track += " " + std::to_string(image.id) + " " + std::to_string(index);
+    return found->second;
+  }
+
+  std::map<std::array<double, 3>, std::size_t> numbers_;
+  std::vector<Point> points_;
+};
+
+std::string imageLine(const PosedImage& image, int camera_id) {
   const Eigen::Quaterniond& q = image.camera_from_station.rotation;
   const Eigen::Vector3d& t = image.camera_from_station.translation_m;
   std::string line = std::to_string(image.id);
   for (const double value : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()})
     line += " " + numberText(value);
-  return line + " " + std::to_string(camera_id) + " " + image.name + "\n\n";
+  return line + " " + std::to_string(camera_id) + " " + image.name + "\n";
 }
 
 /// The words of a line, and what to say of it.
@@ -213,6 +267,7 @@ PosedImage readImageLine(Line& line, const std::map<int, Camera>& cameras) {
 void writeColmapText(const std::filesystem::path& folder, std::span<const PosedImage> images) {
   std::vector<Camera> cameras;
   std::set<int> ids;
+  ColmapPoints points;
   std::string image_text = "# IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then its points\n";
   for (const PosedImage& image : images)
     if (!image.remark.empty())
@@ -230,15 +285,15 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
                             "undistort the image, the pose stays");
     auto at = std::find(cameras.begin(), cameras.end(), image.camera);
     if (at == cameras.end()) at = cameras.insert(cameras.end(), image.camera);
-    image_text += imageLines(image, static_cast<int>(at - cameras.begin()) + 1);
+    image_text += imageLine(image, static_cast<int>(at - cameras.begin()) + 1);
+    image_text += points.lineOf(image);
   }
   std::string camera_text = "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS\n";
   for (std::size_t i = 0; i < cameras.size(); ++i)
     camera_text += cameraLine(static_cast<int>(i) + 1, cameras[i]);
   writeFileAtomically(folder / "cameras.txt", camera_text);
   writeFileAtomically(folder / "images.txt", image_text);
-  // COLMAP does not open a model without this file.
-  writeFileAtomically(folder / "points3D.txt", "# no points\n");
+  writeFileAtomically(folder / "points3D.txt", points.text());
 }
 
 std::vector<PosedImage> readColmapText(const std::filesystem::path& folder) {

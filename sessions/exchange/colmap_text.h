@@ -9,15 +9,16 @@
 
 namespace boresight::sessions {
 
-/// Writes cameras.txt, images.txt and a points3D.txt without points of a COLMAP text model
-/// (colmap.github.io/format.html) into a folder: PINHOLE, OPENCV, FULL_OPENCV or OPENCV_FISHEYE,
+/// Writes cameras.txt, images.txt and points3D.txt of a COLMAP text model
+/// (colmap.github.io/format.html) into a folder: points that several images show at the same place
+/// of the station are one point; PINHOLE, OPENCV, FULL_OPENCV or OPENCV_FISHEYE,
 /// one camera for all images that share its numbers. COLMAP's top-left pixel has its centre at
 /// (0.5, 0.5): cx and cy are written half a pixel larger. Remarks are comments at the beginning of
 /// images.txt. Its world is our station. OutputError; also for an id that is given twice or is not
 /// positive, and a name with line breaks or none.
 void writeColmapText(const std::filesystem::path& folder, std::span<const PosedImage> images);
 
-/// Reads them back, and what COLMAP itself wrote with these models or SIMPLE_PINHOLE,
+/// Reads them back but for the points, and what COLMAP itself wrote with these models or SIMPLE_PINHOLE,
 /// SIMPLE_RADIAL, RADIAL, SIMPLE_FISHEYE, FISHEYE, SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE, or a
 /// THIN_PRISM_FISHEYE whose tangential and prism terms are 0. Poses and distortion come back bit by
 /// bit, cx and cy to the last bit but one. InputError; for COLMAP's other models it says what to

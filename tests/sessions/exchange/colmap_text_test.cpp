@@ -57,6 +57,31 @@ TEST(ColmapText, IsWhatColmapReads) {
   EXPECT_THAT(folder.read("images.txt"), HasSubstr("\n7 1 0 0 0 0.5 0.25 2 1 a.png\n\n"));
 }
 
+TEST(ColmapText, PointsOfSeveralImagesAreOnePointWithATrack) {
+  const TemporaryFolder folder;
+  std::vector<PosedImage> images(2);
+  const Eigen::Vector3d shared(0.0, 0.0, 0.0);
+  const Eigen::Vector3d own(0.1, 0.0, 0.0);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    images[i].id = static_cast<int>(3 + i);
+    images[i].name = std::to_string(i) + ".png";
+    images[i].camera = preparedCamera(CameraModel::kPinhole, {});
+    images[i].camera_from_station.translation_m = {0.0, 0.0, 1.0};
+  }
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(project(images[0].camera, {0.0, 0.0, 1.0}, pixel));
+  images[0].points = {{own, {10.0, 20.0}}, {shared, pixel + Eigen::Vector2d(0.5, 0.0)}};
+  images[1].points = {{shared, pixel}};
+  writeColmapText(folder / "", images);
+  EXPECT_THAT(folder.read("images.txt"), HasSubstr(" 1 0.png\n10.5 20.5 1 "));
+  const std::string points = folder.read("points3D.txt");
+  EXPECT_THAT(points, HasSubstr("\n2 0 0 0 128 128 128 0.25 3 1 4 0\n")) << points;
+  EXPECT_THAT(points, HasSubstr("\n1 0.1 0 0 128 128 128 "));
+  const auto read = readColmapText(folder / "");
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[1].name, "1.png");
+}
+
 TEST(ColmapText, ReadsSimplerModelsAndPoints) {
   const TemporaryFolder folder;
   folder.write("cameras.txt", "# a comment\n2 RADIAL 100 80 90 50 40 0.01 -0.002\n\n");
