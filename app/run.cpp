@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <iostream>
 
+#include "app/case_arguments.h"
 #include "app/commands.h"
 #include "sessions/io/errors.h"
 #include "sessions/session/case_run.h"
+#include "sessions/session/stated_inputs.h"
 #include "sessions/session/views_run.h"
 #include "sessions/text/plain_text.h"
 
@@ -15,6 +17,7 @@ struct RunArguments {
   std::string session;
   std::vector<std::string> cases;
   std::string again;
+  CaseArguments stated;  ///< of it --end-effector, --requirement and --frames
   bool recover = false;
   bool views = false;
 };
@@ -80,12 +83,26 @@ int runAgain(const sessions::SessionDocument& document, const std::string& begin
   return same ? kDone : kNotConverged;
 }
 
+/// An edit of the cases, as if made in the window.
+void takeStated(sessions::SessionDocument& document, const std::vector<std::string>& case_ids,
+                const CaseArguments& arguments) {
+  const sessions::CaseFiles files = arguments.files();
+  const sessions::StatedInputs stated{files.camera_from_end_effector, files.requirement,
+                                      sessions::readFrameTransforms(arguments.frames.files)};
+  if (stated.empty()) return;
+  sessions::Session next = document.session();
+  for (const std::string& id : case_ids) next = sessions::withStated(next, id, stated);
+  document.apply(next, "State end effector, requirement, frames");
+}
+
 int runSession(const RunArguments& arguments) {
   sessions::SessionDocument document = openToEdit(arguments.session, arguments.recover);
   if (!arguments.again.empty()) return runAgain(document, arguments.again);
+  const std::vector<std::string> case_ids = selectedCases(document, arguments.cases);
+  takeStated(document, case_ids, arguments.stated);
   int exit_code = kDone;
   std::vector<std::string> led;
-  for (const std::string& id : selectedCases(document, arguments.cases)) {
+  for (const std::string& id : case_ids) {
     const bool together =
         arguments.views &&
         (!arguments.cases.empty() || !sessions::otherViews(document.session(), id).empty());
@@ -124,6 +141,11 @@ void addRun(CLI::App& app, int& exit_code) {
                  "Run each case together with the other views of its rig as one pose; the first "
                  "case of a rig gives seed and uncertainty")
       ->excludes("--again");
+  arguments->stated.addEndEffectorTo(*command);
+  arguments->stated.addRequirementTo(*command);
+  arguments->stated.frames.addTo(*command);
+  for (const char* name : {"--end-effector", "--requirement", "--frames"})
+    command->get_option(name)->excludes("--again");
   command->add_flag("--recover", arguments->recover,
                     "Recover edits that a killed program left in the session's journal");
 }

@@ -49,6 +49,22 @@ TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
               HasSubstr("has no rig"));
 }
 
+TEST(WhsRun, EndEffectorAndRequirementAreStatedAsAnEdit) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "one.boresight.json";
+  sessions::writeSessionFile(file, sessions::makeSession(kDataset));
+  const std::string id = sessions::readSessionFile(file).session.cases[0]->id;
+  runWhs({"run", file, "--case", id, "--end-effector", "0", "0.01", "0.4", "--requirement", "0.5",
+          "0.6", "0.3"},
+         0);
+  const Session session = sessions::readSessionFile(file).session;
+  EXPECT_EQ(session.cases[0]->camera_from_end_effector->translation_m,
+            Eigen::Vector3d(0.0, 0.01, 0.4));
+  EXPECT_EQ(session.cases[0]->requirement->lateral_mm, 0.6);
+  EXPECT_NE(session.cases[1]->requirement, session.cases[0]->requirement) << "not asked for";
+  runWhs({"run", file, "--again", session.runs[0].digest, "--requirement", "1"}, 2);
+}
+
 TEST(WhsNew, RefusesWhatIsIncompleteOrThere) {
   const TemporaryFolder folder;
   const std::string file = folder.write("s.json", "mine");

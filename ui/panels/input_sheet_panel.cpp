@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/input_sheet_panel.h"
 
+#include <cmath>
+
 #include <QtWidgets>
 
 #include "sessions/session/input_sigmas.h"
@@ -11,6 +13,15 @@ namespace boresight::ui {
 namespace {
 
 constexpr double kPercent = 100.0;
+constexpr double kMost_mm = 100'000.0;
+constexpr double kLeastRequirement = 1e-6;
+
+void setUpBox(QDoubleSpinBox* box, double least, double most, double value, const QString& unit) {
+  box->setDecimals(3);
+  box->setRange(least, most);
+  box->setSuffix(QLatin1Char(' ') + unit);
+  box->setValue(value);
+}
 
 }  // namespace
 
@@ -43,6 +54,49 @@ std::optional<sessions::CalibrationSigma> InputSigmasDialog::calibrationSigma() 
   return sessions::CalibrationSigma{ui_.focal->value() / kPercent, ui_.principalPoint->value()};
 }
 
+JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)
+    : QDialog(parent),
+      former_end_effector_(one.camera_from_end_effector.value_or(Pose())),
+      former_requirement_(one.requirement.value_or(sessions::Requirement())) {
+  ui_.setupUi(this);
+  const Eigen::Vector3d place_mm = 1e3 * former_end_effector_.translation_m;
+  ui_.endEffectorStated->setChecked(one.camera_from_end_effector.has_value());
+  setUpBox(ui_.endEffectorX, -kMost_mm, kMost_mm, place_mm.x(), tr("mm"));
+  setUpBox(ui_.endEffectorY, -kMost_mm, kMost_mm, place_mm.y(), tr("mm"));
+  setUpBox(ui_.endEffectorZ, -kMost_mm, kMost_mm, place_mm.z(), tr("mm"));
+  const sessions::Requirement& former = former_requirement_;
+  ui_.requirementStated->setChecked(former.normal_mm || former.lateral_mm || former.rotation_deg);
+  setUpBox(ui_.normal, kLeastRequirement, kMost_mm, former.normal_mm.value_or(0.4), tr("mm"));
+  setUpBox(ui_.lateral, kLeastRequirement, kMost_mm, former.lateral_mm.value_or(0.4), tr("mm"));
+  setUpBox(ui_.rotation, kLeastRequirement, 180.0, former.rotation_deg.value_or(0.25), tr("deg"));
+  connect(ui_.buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+}
+
+std::optional<Pose> JudgementDialog::cameraFromEndEffector() const {
+  if (!ui_.endEffectorStated->isChecked()) return std::nullopt;
+  Pose stated = former_end_effector_;
+  const QDoubleSpinBox* boxes[] = {ui_.endEffectorX, ui_.endEffectorY, ui_.endEffectorZ};
+  for (int axis = 0; axis < 3; ++axis) {
+    // What is only shown rounded stays as it was.
+    const double value_m = 1e-3 * boxes[axis]->value();
+    if (std::abs(value_m - stated.translation_m[axis]) > 0.5e-6)
+      stated.translation_m[axis] = value_m;
+  }
+  return stated;
+}
+
+std::optional<sessions::Requirement> JudgementDialog::requirement() const {
+  sessions::Requirement stated;
+  stated.projection_px = former_requirement_.projection_px;
+  if (ui_.requirementStated->isChecked()) {
+    stated.normal_mm = ui_.normal->value();
+    stated.lateral_mm = ui_.lateral->value();
+    stated.rotation_deg = ui_.rotation->value();
+  }
+  return stated == sessions::Requirement() ? std::nullopt : std::optional(stated);
+}
+
 InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
   ui_.setupUi(this);
   styleTable(*ui_.sheet);
@@ -57,6 +111,7 @@ InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
   ui_.sheet->setContextMenuPolicy(Qt::ActionsContextMenu);
   connect(copy, &QAction::triggered, this, &InputSheetPanel::copyChosen);
   connect(ui_.inputSigmas, &QPushButton::clicked, this, &InputSheetPanel::sigmasRequested);
+  connect(ui_.judgement, &QPushButton::clicked, this, &InputSheetPanel::judgementRequested);
   setSheet(std::nullopt);
 }
 
@@ -73,6 +128,7 @@ void InputSheetPanel::showFlags(const std::vector<sessions::RedFlag>& flags) {
 
 void InputSheetPanel::setSheet(const std::optional<sessions::InputSheet>& sheet) {
   ui_.inputSigmas->setEnabled(sheet.has_value());
+  ui_.judgement->setEnabled(sheet.has_value());
   if (!sheet) {
     ui_.flags->setText(tr("No case is open."));
     ui_.sheet->setRowCount(0);

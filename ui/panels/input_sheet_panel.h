@@ -8,6 +8,7 @@
 
 #include "ui_input_sheet_panel.h"
 #include "ui_input_sigmas_dialog.h"
+#include "ui_judgement_dialog.h"
 
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/session.h"
@@ -29,6 +30,24 @@ class InputSigmasDialog : public QDialog {
   Ui::InputSigmasDialog ui_;
 };
 
+/// Asks where a pose is judged and what errors it may have.
+class JudgementDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  JudgementDialog(const sessions::SessionCase& session_case, QWidget* parent);
+
+  /// With the orientation that it had; nothing: poses are judged at the camera.
+  std::optional<Pose> cameraFromEndEffector() const;
+  /// A requirement in pixels stays.
+  std::optional<sessions::Requirement> requirement() const;
+
+ private:
+  Pose former_end_effector_;
+  sessions::Requirement former_requirement_;
+  Ui::JudgementDialog ui_;
+};
+
 /// What the inputs of the case are, in figures with units; what is probably wrong comes first, in
 /// plain sentences. Ctrl+C copies the chosen lines. A button asks for what no image tells.
 class InputSheetPanel : public QWidget {
@@ -45,6 +64,8 @@ class InputSheetPanel : public QWidget {
  Q_SIGNALS:
   /// The operator asks to state the uncertainty of mesh and camera.
   void sigmasRequested();
+  /// The same for end effector and requirement.
+  void judgementRequested();
 
  private:
   void showFlags(const std::vector<sessions::RedFlag>& flags);

@@ -76,6 +76,7 @@ PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObje
   linkPoses();
   parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showInputs);
   connect(&docks_.inputs, &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
+  connect(&docks_.inputs, &InputSheetPanel::judgementRequested, this, &PanelLinks::askForJudgement);
 }
 
 void PanelLinks::linkCases() {
@@ -132,9 +133,7 @@ void PanelLinks::linkPoses() {
 void PanelLinks::showCases() {
   const auto& batch = parts_.cases.batch();
   const bool working = parts_.run.state() == RunState::kWorking || batch;
-  const QString running = batch     ? batch->case_id
-                          : working ? parts_.cases.caseId()
-                                    : QString();
+  const QString running = batch ? batch->case_id : working ? parts_.cases.caseId() : QString();
   std::vector<CaseRow> rows =
       caseRows(parts_.document.session(), running, parts_.document.file(), stale_runs_);
   details_->fill(rows);
@@ -185,6 +184,20 @@ void PanelLinks::askForSigmas() {
       sessions::withInputSigmas(parts_.document.session(), id, dialog.meshScaleSigma(),
                                 dialog.calibrationSigma()),
       tr("State the uncertainty of mesh and camera of %1").arg(fromText(id)));
+}
+
+void PanelLinks::askForJudgement() {
+  const sessions::SessionCase* session_case = shownCase(parts_.document, parts_.state);
+  if (!session_case) return;
+  const std::string id = session_case->id;
+  JudgementDialog dialog(*session_case, docks_.inputs.window());
+  if (dialog.exec() != QDialog::Accepted) return;
+  const auto state = [&dialog](sessions::SessionCase& changed) {
+    changed.camera_from_end_effector = dialog.cameraFromEndEffector();
+    changed.requirement = dialog.requirement();
+  };
+  parts_.document.edit(sessions::withChanged(parts_.document.session(), id, state),
+                       tr("State end effector and requirement of %1").arg(fromText(id)));
 }
 
 void PanelLinks::showJudgement() {

@@ -61,6 +61,7 @@ class PanelLinks : public QObject {
   void showConfiguration();
   void showInputs();
   void askForSigmas();
+  void askForJudgement();
   void showJudgement();
   void showNudgedPose();
 

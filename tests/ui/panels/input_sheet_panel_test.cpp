@@ -68,6 +68,26 @@ TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
   EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
 }
 
+TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
+  sessions::SessionCase session_case;
+  session_case.requirement.emplace().projection_px = 5.0;
+  const Pose exact{Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0), {0.0, 1.0 / 3.0, 0.39}};
+  session_case.camera_from_end_effector = exact;
+  JudgementDialog dialog(session_case, nullptr);
+  EXPECT_EQ(dialog.cameraFromEndEffector(), exact) << "unchanged to the bit";
+  EXPECT_EQ(dialog.requirement(), session_case.requirement);
+  dialog.findChild<QDoubleSpinBox*>(QStringLiteral("endEffectorZ"))->setValue(410.0);
+  EXPECT_NEAR(dialog.cameraFromEndEffector()->translation_m.z(), 0.41, 1e-12);
+  EXPECT_EQ(dialog.cameraFromEndEffector()->translation_m.y(), 1.0 / 3.0);
+  EXPECT_EQ(dialog.cameraFromEndEffector()->rotation.w(), 0.8);
+  dialog.findChild<QGroupBox*>(QStringLiteral("requirementStated"))->setChecked(true);
+  ASSERT_TRUE(dialog.requirement());
+  EXPECT_EQ(dialog.requirement()->lateral_mm, 0.4);
+  EXPECT_EQ(dialog.requirement()->projection_px, 5.0);
+  dialog.findChild<QGroupBox*>(QStringLiteral("endEffectorStated"))->setChecked(false);
+  EXPECT_FALSE(dialog.cameraFromEndEffector());
+}
+
 TEST_F(InputSheetPanelTest, CopiesWhatIsChosen) {
   panel_.setSheet(someSheet());
   auto* table = panel_.findChild<QTableWidget*>();

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a person states of a case after it was made.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessions/session/session.h"
+
+namespace boresight::sessions {
+
+/// Where poses are judged and by what, and how frames are joined. What is nothing stays as it is.
+struct StatedInputs {
+  std::optional<Pose> camera_from_end_effector;
+  std::optional<Requirement> requirement;
+  /// Added; one between the same two frames takes the place of the former one.
+  std::vector<FrameTransform> frames;
+
+  bool empty() const { return !camera_from_end_effector && !requirement && frames.empty(); }
+};
+
+/// The same session with these inputs of a case. Transforms that join CAMERA and END_EFFECTOR
+/// give the end effector where it is not stated itself. InputError when there is no such case, and
+/// when a transform closes a loop.
+Session withStated(const Session& session, const std::string& case_id, const StatedInputs& stated);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/stated_inputs.h"
+
+#include <gtest/gtest.h>
+
+#include "sessions/io/errors.h"
+#include "sessions/io/frame_tree.h"
+
+namespace boresight::sessions {
+namespace {
+
+Session oneCase() {
+  Session session;
+  SessionCase session_case;
+  session_case.id = "a";
+  session_case.requirement.emplace().lateral_mm = 1.0;
+  session.cases.push_back(session_case);
+  return session;
+}
+
+FrameTransform shift(const FrameName& target, const FrameName& source, double x_m) {
+  FrameTransform transform;
+  transform.target = target;
+  transform.source = source;
+  transform.target_from_source.translation_m = {x_m, 0.0, 0.0};
+  transform.comment = "test";
+  transform.file = "/folder/t.json";
+  return transform;
+}
+
+const FrameName kArm{"ARM_BASE", {}};
+
+TEST(StatedInputs, WhatIsNotStatedStays) {
+  StatedInputs stated;
+  EXPECT_TRUE(stated.empty());
+  EXPECT_TRUE(withStated(oneCase(), "a", stated) == oneCase());
+  stated.camera_from_end_effector.emplace().translation_m = {0.0, 0.0, 0.3};
+  const Session next = withStated(oneCase(), "a", stated);
+  EXPECT_EQ(next.cases[0]->camera_from_end_effector, stated.camera_from_end_effector);
+  EXPECT_EQ(next.cases[0]->requirement, oneCase().cases[0]->requirement);
+  EXPECT_THROW((void)withStated(oneCase(), "b", stated), InputError);
+}
+
+TEST(StatedInputs, TransformsGiveTheEndEffectorAndReplaceFormerOnes) {
+  StatedInputs stated;
+  stated.frames = {shift(kCameraFrame, kEndEffectorFrame, 0.1)};
+  Session session = withStated(oneCase(), "a", stated);
+  EXPECT_NEAR(session.cases[0]->camera_from_end_effector->translation_m.x(), 0.1, 1e-12);
+  EXPECT_EQ(session.cases[0]->frames[0].file, "t.json");
+  // The other way round is the same two frames.
+  stated.frames = {shift(kEndEffectorFrame, kCameraFrame, -0.4)};
+  session = withStated(session, "a", stated);
+  EXPECT_EQ(session.cases[0]->frames.size(), 1u);
+  EXPECT_NEAR(session.cases[0]->camera_from_end_effector->translation_m.x(), 0.4, 1e-12);
+}
+
+TEST(StatedInputs, LoopIsRefused) {
+  StatedInputs stated;
+  stated.frames = {shift(kCameraFrame, kEndEffectorFrame, 0.1),
+                   shift(kArm, kEndEffectorFrame, 0.2), shift(kArm, kCameraFrame, 0.7)};
+  EXPECT_THROW((void)withStated(oneCase(), "a", stated), InputError);
+}
+
+}  // namespace
+}  // namespace boresight::sessions
