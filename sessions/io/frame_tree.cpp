@@ -110,6 +110,44 @@ std::vector<FrameName> FrameTree::frames() const {
   return frames;
 }
 
+namespace {
+
+FrameRow rowBelow(const FrameLink& link, int parent) {
+  FrameRow row{link.from(), parent, *link.transform, link.to_from_from, std::nullopt};
+  if (link.transform->covariance) row.sigma = sigmasOf(link.covariance);
+  return row;
+}
+
+/// Appends the frames that hang on the last row and, below them, on each other.
+void addBelow(const std::vector<FrameTransform>& transforms, std::vector<FrameRow>& rows) {
+  for (std::size_t at = rows.size() - 1; at < rows.size(); ++at)
+    for (const FrameTransform& transform : transforms) {
+      const FrameName& frame = rows[at].frame;
+      if (transform.target != frame && transform.source != frame) continue;
+      const FrameLink link = linkOf(transform, transform.source == frame);
+      const bool known = std::any_of(rows.begin(), rows.end(), [&link](const FrameRow& row) {
+        return row.frame == link.from();
+      });
+      if (!known) rows.push_back(rowBelow(link, static_cast<int>(at)));
+    }
+}
+
+}  // namespace
+
+std::vector<FrameRow> frameRows(const FrameTree& tree) {
+  std::vector<FrameName> tops = tree.frames();
+  tops.insert(tops.begin(), kCameraFrame);
+  std::vector<FrameRow> rows;
+  for (const FrameName& top : tops) {
+    const bool known = std::any_of(rows.begin(), rows.end(),
+                                   [&top](const FrameRow& row) { return row.frame == top; });
+    if (known) continue;
+    rows.push_back({top, -1, std::nullopt, {}, std::nullopt});
+    addBelow(tree.transforms(), rows);
+  }
+  return rows;
+}
+
 FrameTree frameTree(const std::optional<CameraReference>& reference,
                     std::span<const FrameTransform> transforms) {
   std::vector<FrameTransform> all;

@@ -60,6 +60,20 @@ class FrameTree {
   std::vector<FrameTransform> transforms_;
 };
 
+/// A frame of a tree below the frame that it hangs on.
+struct FrameRow {
+  FrameName frame;
+  int parent = -1;  ///< row, before this one; -1: CAMERA, or a frame that nothing joins with it
+  /// That joins the two, in either direction; nothing at the top.
+  std::optional<FrameTransform> transform;
+  Pose parent_from_frame;
+  std::optional<Vector6d> sigma;  ///< (rad, m) per axis of the parent; nothing: exact
+};
+
+/// All frames of a tree: CAMERA and what hangs on it, then what is not joined with it. Parents come
+/// first.
+std::vector<FrameRow> frameRows(const FrameTree& tree);
+
 /// The tree of the transforms and of a camera model that is given in a named frame.
 FrameTree frameTree(const std::optional<CameraReference>& reference,
                     std::span<const FrameTransform> transforms);

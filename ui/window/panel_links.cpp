@@ -9,10 +9,12 @@
 
 #include "sessions/session/input_sheet.h"
 #include "sessions/session/input_sigmas.h"
+#include "sessions/session/stated_inputs.h"
 #include "ui/annotation/annotation_panel.h"
 #include "ui/models/text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/configuration_panel.h"
+#include "ui/panels/frames_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/nudge_gizmo.h"
 #include "ui/panels/pose_panel.h"
@@ -74,6 +76,7 @@ PanelLinks::PanelLinks(const WindowParts& parts, const WindowDocks& docks, QObje
   linkCases();
   linkConfiguration();
   linkPoses();
+  linkFrames();
   parts_.state.onChange(ViewChange::kCase, this, &PanelLinks::showInputs);
   connect(&docks_.inputs, &InputSheetPanel::sigmasRequested, this, &PanelLinks::askForSigmas);
   connect(&docks_.inputs, &InputSheetPanel::judgementRequested, this, &PanelLinks::askForJudgement);
@@ -198,6 +201,38 @@ void PanelLinks::askForJudgement() {
   };
   parts_.document.edit(sessions::withChanged(parts_.document.session(), id, state),
                        tr("State end effector and requirement of %1").arg(fromText(id)));
+}
+
+void PanelLinks::linkFrames() {
+  connect(&docks_.frames, &FramesPanel::addRequested, this, &PanelLinks::addFrames);
+  connect(&docks_.frames, &FramesPanel::removeRequested, this,
+          [this](const sessions::FrameTransform& transform) {
+            const sessions::SessionCase* shown = shownCase(parts_.document, parts_.state);
+            if (!shown) return;
+            const auto remove = [&transform](sessions::SessionCase& changed) {
+              std::erase(changed.frames, transform);
+            };
+            parts_.document.edit(
+                sessions::withChanged(parts_.document.session(), shown->id, remove),
+                tr("Remove %1 of %2").arg(fromText(transform.comment), fromText(shown->id)));
+          });
+}
+
+void PanelLinks::addFrames() {
+  const sessions::SessionCase* shown = shownCase(parts_.document, parts_.state);
+  if (!shown) return;
+  const QString file =
+      QFileDialog::getOpenFileName(docks_.frames.window(), tr("Add transforms between frames"), {},
+                                   tr("Transforms (*.json);;All files (*)"));
+  if (file.isEmpty()) return;
+  try {
+    sessions::StatedInputs stated;
+    stated.frames = sessions::readFrameTransforms(std::filesystem::path(file.toStdString()));
+    parts_.document.edit(sessions::withStated(parts_.document.session(), shown->id, stated),
+                         tr("Add frames to %1").arg(fromText(shown->id)));
+  } catch (const std::exception& error) {
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+  }
 }
 
 void PanelLinks::showJudgement() {

@@ -62,6 +62,8 @@ class PanelLinks : public QObject {
   void showInputs();
   void askForSigmas();
   void askForJudgement();
+  void linkFrames();
+  void addFrames();
   void showJudgement();
   void showNudgedPose();
 

@@ -10,6 +10,7 @@
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/close_ups_panel.h"
 #include "ui/panels/configuration_panel.h"
+#include "ui/panels/frames_panel.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/hypotheses_panel.h"
 #include "ui/panels/input_sheet_panel.h"
@@ -48,6 +49,7 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
       cases(*new CasesPanel),
       configuration(*new ConfigurationPanel(parts.state)),
       inputs(*new InputSheetPanel),
+      frames(*new FramesPanel(parts.state)),
       poses(*new PosePanel(parts.state)),
       mask_editor(*new MaskEditor(image.view(), &image)),
       mask(*new MaskPanel(mask_editor)),
@@ -93,6 +95,7 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
   add(QStringLiteral("inputs"), windowText("Inputs"), &inputs);
   add(QStringLiteral("closeUps"), windowText("Close-ups"),
       new CloseUpsPanel(image, parts.state));
+  add(QStringLiteral("frames"), windowText("Frames"), &frames);
   add(QStringLiteral("result"), windowText("Result"), new ResultPanel(parts.state));
   add(QStringLiteral("remedies"), windowText("What may help"), &remedies);
   add(QStringLiteral("onboard"), windowText("Onboard"),

@@ -19,6 +19,7 @@ class CanvasFrame;
 class CasesPanel;
 class CompareView;
 class ConfigurationPanel;
+class FramesPanel;
 class ImageAnnotation;
 class ImagePanel;
 class InputSheetPanel;
@@ -46,6 +47,7 @@ class WindowDocks {
   CasesPanel& cases;
   ConfigurationPanel& configuration;
   InputSheetPanel& inputs;
+  FramesPanel& frames;
   PosePanel& poses;
   MaskEditor& mask_editor;
   MaskPanel& mask;

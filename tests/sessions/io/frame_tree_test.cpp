@@ -63,14 +63,15 @@ TEST(FrameTree, Chain_IsTheProductOfMatrices) {
     const Pose camera_from_tool = randomPose(random);
     const Pose base_from_tool = randomPose(random);
     const Pose base_from_site = randomPose(random);
-    const FrameTree tree({transformOf(kBase, kEndEffectorFrame, base_from_tool),
-                          transformOf(kSite, kBase, base_from_site.inverse()),
-                          transformOf(kEndEffectorFrame, kCameraFrame, camera_from_tool.inverse())});
+    const FrameTree tree(
+        {transformOf(kBase, kEndEffectorFrame, base_from_tool),
+         transformOf(kSite, kBase, base_from_site.inverse()),
+         transformOf(kEndEffectorFrame, kCameraFrame, camera_from_tool.inverse())});
     const auto chain = tree.chain(kCameraFrame, kSite);
     ASSERT_TRUE(chain);
     EXPECT_EQ(chain->path(), "CAMERA - END_EFFECTOR - ARM_BASE - SITE_FRAME (3)");
-    const Eigen::Matrix4d expected = matrixOf(camera_from_tool) *
-                                     matrixOf(base_from_tool).inverse() * matrixOf(base_from_site);
+    const Eigen::Matrix4d expected =
+        matrixOf(camera_from_tool) * matrixOf(base_from_tool).inverse() * matrixOf(base_from_site);
     EXPECT_LT((matrixOf(chain->a_from_b) - expected).norm(), 1e-12);
     const auto back = tree.chain(kSite, kCameraFrame);
     ASSERT_TRUE(back);
@@ -171,10 +172,44 @@ TEST(FramesFile, Sigma_HoldsAtTheOriginOfTheSource) {
       p.y(), -p.x(), 0, 0, 0, 1;
   const Eigen::Matrix3d shift = at_source * covariance * at_source.transpose();
   EXPECT_LT((shift.diagonal().cwiseSqrt() - Eigen::Vector3d(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
-  EXPECT_LT((covariance.diagonal().head<3>().cwiseSqrt() - Eigen::Vector3d(4e-3, 5e-3, 6e-3)).norm(),
-            1e-15);
+  EXPECT_LT(
+      (covariance.diagonal().head<3>().cwiseSqrt() - Eigen::Vector3d(4e-3, 5e-3, 6e-3)).norm(),
+      1e-15);
   // At the target's origin it does.
   EXPECT_NEAR(std::sqrt(covariance(4, 4)), std::hypot(2e-3, 0.5 * 6e-3), 1e-12);
+}
+
+TEST(FrameRows, HangOnTheCameraAndParentsComeFirst) {
+  const FrameName arm{"ARM_BASE", {}};
+  const FrameName lone{"SITE", {1}};
+  const FrameName other{"SITE", {2}};
+  FrameTransform hand_eye;
+  hand_eye.target = kEndEffectorFrame;  // stated the other way round
+  hand_eye.source = kCameraFrame;
+  hand_eye.target_from_source.translation_m = {0.0, 0.0, -0.4};
+  hand_eye.covariance = 1e-6 * Matrix6d::Identity();
+  hand_eye.comment = "hand-eye";
+  FrameTransform telemetry;
+  telemetry.target = arm;
+  telemetry.source = kEndEffectorFrame;
+  telemetry.comment = "telemetry";
+  FrameTransform sites;
+  sites.target = lone;
+  sites.source = other;
+  const auto rows = frameRows(FrameTree({telemetry, sites, hand_eye}));
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0].frame, kCameraFrame);
+  EXPECT_EQ(rows[1].frame, kEndEffectorFrame);
+  EXPECT_EQ(rows[1].parent, 0);
+  EXPECT_NEAR(rows[1].parent_from_frame.translation_m.z(), 0.4, 1e-12);
+  ASSERT_TRUE(rows[1].sigma);
+  EXPECT_NEAR((*rows[1].sigma)[2], 1e-3, 1e-12);
+  EXPECT_EQ(rows[2].frame, arm);
+  EXPECT_EQ(rows[2].parent, 1);
+  EXPECT_FALSE(rows[2].sigma);
+  EXPECT_EQ(rows[3].parent, -1) << "not joined with the camera";
+  EXPECT_EQ(rows[4].parent, 3);
+  EXPECT_EQ(frameRows(FrameTree()).size(), 1u);
 }
 
 }  // namespace
