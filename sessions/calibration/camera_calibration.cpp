@@ -209,4 +209,26 @@ CameraCalibration calibrateCamera(const Camera& camera, std::span<const Calibrat
   return result;
 }
 
+CameraCalibration calibrateCameraOf(const Session& session, const std::string& case_id,
+                                    ObservationSource source, const FreeParameters& free) {
+  const Camera camera = knownCase(session, case_id).camera;
+  Session same = session;
+  same.cases.eraseIf([&camera](const auto& other) { return !(other->camera == camera); });
+  return calibrateCamera(camera, observationsOf(same, source), free);
+}
+
+Session withCalibration(const Session& session, const std::string& case_id,
+                        const CameraCalibration& calibration) {
+  const Camera former = knownCase(session, case_id).camera;
+  Session next = session;
+  for (const auto& session_case : session.cases) {
+    if (!(session_case->camera == former)) continue;
+    SessionCase changed = *session_case;
+    changed.camera = calibration.camera;
+    if (const auto sigma = calibration.sigma()) changed.calibration_sigma = sigma;
+    next = withCase(next, std::move(changed));
+  }
+  return next;
+}
+
 }  // namespace boresight::sessions

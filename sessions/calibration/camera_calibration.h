@@ -48,4 +48,14 @@ struct CameraCalibration {
 CameraCalibration calibrateCamera(const Camera& camera, std::span<const CalibrationView> views,
                                   const FreeParameters& free);
 
+/// Calibrates the camera of a case from all cases of the session that have the same camera.
+/// InputError for a case that does not exist; else as above.
+CameraCalibration calibrateCameraOf(const Session& session, const std::string& case_id,
+                                    ObservationSource source, const FreeParameters& free);
+
+/// The same session with the adjusted camera and its sigmas in all cases that have the camera of
+/// this one.
+Session withCalibration(const Session& session, const std::string& case_id,
+                        const CameraCalibration& calibration);
+
 }  // namespace boresight::sessions

@@ -7,6 +7,7 @@
 #include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/image_annotation.h"
 #include "ui/annotation/station_snapper.h"
+#include "ui/panels/calibration_panel.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/close_ups_panel.h"
 #include "ui/panels/configuration_panel.h"
@@ -96,6 +97,8 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
   add(QStringLiteral("closeUps"), windowText("Close-ups"),
       new CloseUpsPanel(image, parts.state));
   add(QStringLiteral("frames"), windowText("Frames"), &frames);
+  add(QStringLiteral("calibration"), windowText("Calibration"),
+      new CalibrationPanel(parts.document, parts.state, parts.tasks));
   add(QStringLiteral("result"), windowText("Result"), new ResultPanel(parts.state));
   add(QStringLiteral("remedies"), windowText("What may help"), &remedies);
   add(QStringLiteral("onboard"), windowText("Onboard"),

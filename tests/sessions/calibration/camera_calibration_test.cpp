@@ -125,6 +125,28 @@ TEST(CameraCalibration, WhatTheImagesCannotDetermineIsNamed) {
   EXPECT_FALSE(result.sigma());
 }
 
+TEST(CameraCalibration, IsUsedForTheCasesOfTheCamera) {
+  Session session;
+  for (const char* id : {"a", "b", "c"}) {
+    SessionCase session_case;
+    session_case.id = id;
+    session_case.camera = trueCamera();
+    if (session_case.id == "b") session_case.camera.fx = 1000.0;
+    session.cases.push_back(session_case);
+  }
+  Random random = randomFor("CameraCalibration.Used");
+  const CameraCalibration calibration =
+      calibrateCamera(trueCamera(), viewsOf(trueCamera(), 8, 0.3, random), {});
+  const Session next = withCalibration(session, "a", calibration);
+  EXPECT_TRUE(next.cases[0]->camera == calibration.camera);
+  EXPECT_TRUE(next.cases[0]->calibration_sigma);
+  EXPECT_TRUE(next.cases[1]->camera == session.cases[1]->camera);
+  EXPECT_TRUE(next.cases[2]->camera == calibration.camera);
+  EXPECT_THROW((void)calibrateCameraOf(session, "a", ObservationSource::kAnnotations, {}),
+               std::invalid_argument)
+      << "nothing is annotated";
+}
+
 TEST(CameraCalibration, TooLittleIsRefused) {
   Random random = randomFor("CameraCalibration.Refused");
   const Camera camera = trueCamera();

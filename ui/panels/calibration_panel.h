@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <QWidget>
+
+#include "ui_calibration_panel.h"
+
+#include "sessions/calibration/camera_calibration.h"
+
+namespace boresight::ui {
+
+class Document;
+class TaskRunner;
+class ViewState;
+
+/// Calibrates the shown case's camera from all cases that have it; the result can become the
+/// camera of these cases.
+class CalibrationPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  CalibrationPanel(Document& document, ViewState& state, TaskRunner& tasks,
+                   QWidget* parent = nullptr);
+
+ private:
+  void calibrate();
+  void take(const std::string& case_id, const sessions::CameraCalibration& calibration);
+  void use();
+  void forget(const QString& reason);
+
+  Document& document_;
+  ViewState& state_;
+  TaskRunner& tasks_;
+  std::optional<sessions::CameraCalibration> calibration_;
+  std::string case_id_;  ///< whose camera it is
+  Ui::CalibrationPanel ui_;
+};
+
+}  // namespace boresight::ui
