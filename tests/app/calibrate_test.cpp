@@ -47,7 +47,7 @@ class Calibrate : public testing::Test {
       telemetry.covariance = 1e-8 * Matrix6d::Identity();
       telemetry.comment = "posture " + std::to_string(i);
       session_case.frames = {telemetry};
-      session.cases[i] = sessions::SharedValue<SessionCase>(session_case);
+      session.cases[i] = session_case;
     }
     for (std::size_t i = 0; i < camera_from_station.size(); ++i) {
       run.camera_from_station = camera_from_station[i];
@@ -87,7 +87,7 @@ TEST_F(Calibrate, RefusesWhatCannotBeCalibratedInOneSentence) {
   Session two_cameras = sessionOf(2);
   SessionCase other = *two_cameras.cases[1];
   other.camera.fx *= 1.1;
-  two_cameras.cases[1] = sessions::SharedValue<SessionCase>(other);
+  two_cameras.cases[1] = other;
   sessions::writeSessionFile(file_, two_cameras);
   run = runWhs({"calibrate", file_}, 3);
   EXPECT_EQ(run.errorLines(), 1) << run.err;

@@ -38,7 +38,7 @@ inline sessions::Session sessionOf(int count) {
   for (int i = 0; i < count; ++i) {
     sessions::SessionCase session_case = first;
     session_case.id = "c" + std::to_string(i);
-    session.cases.push_back(sessions::SharedValue<SessionCase>(session_case));
+    session.cases.push_back(session_case);
   }
   return session;
 }
