@@ -80,7 +80,26 @@ void ContourEvidenceMeter::create(std::size_t pixels, Arena& arena) {
   places_ = arena.allocate<EvidencePlace>(kMaxPlaces);
 }
 
-ContourEvidence ContourEvidenceMeter::measure(const DirectedEdges& edges, double size_px) {
+void ContourEvidenceMeter::begin(const DirectedEdges& edges) {
+  edges_ = &edges;
+  known_ = 0;
+}
+
+/// Distances to the edges of a direction.
+std::span<const std::uint8_t> ContourEvidenceMeter::distanceTo(int direction) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(edges_->width) * static_cast<std::size_t>(edges_->height);
+  const bool keeps = kEdgeDirections * pixels <= distance_.size();
+  const std::size_t first = keeps ? static_cast<std::size_t>(direction) * pixels : 0;
+  const std::span<std::uint8_t> distance = distance_.subspan(first, pixels);
+  const unsigned bit = 1U << direction;
+  if ((known_ & bit) == 0) distanceToDirection(*edges_, direction, distance);
+  if (keeps) known_ |= bit;
+  return distance;
+}
+
+ContourEvidence ContourEvidenceMeter::measure(double size_px) {
+  const DirectedEdges& edges = *edges_;
   ContourEvidence evidence;
   const auto places = places_.first(static_cast<std::size_t>(count_));
   std::int64_t sum_x = 0;
@@ -91,12 +110,12 @@ ContourEvidence ContourEvidenceMeter::measure(const DirectedEdges& edges, double
   }
   const std::int64_t count = std::max(count_, 1);
   for (int direction = 0; direction < kEdgeDirections; ++direction) {
-    distanceToDirection(edges, direction, distance_);
+    const std::span<const std::uint8_t> distance = distanceTo(direction);
     for (const EvidencePlace& place : places) {
       if (place.direction != direction || place.x < 0 || place.y < 0 || place.x >= edges.width ||
           place.y >= edges.height || edges.at(place.x, place.y) == DirectedEdges::kUnseen)
         continue;
-      const double nats = evidenceOfPlace_nats(place, edges, distance_, kEvidenceWindow * size_px);
+      const double nats = evidenceOfPlace_nats(place, edges, distance, kEvidenceWindow * size_px);
       const auto quadrant = static_cast<std::size_t>((place.x * count > sum_x ? 1 : 0) +
                                                      (place.y * count > sum_y ? 2 : 0));
       evidence.edges_nats += nats;

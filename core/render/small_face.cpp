@@ -32,20 +32,15 @@ class SmallFace {
   SmallFace(const CameraScene& scene, std::int32_t face, RasterBand& band)
       : scene_(scene), band_(band), face_(face) {}
 
-  bool covers(std::size_t at) {
-    return prepare() && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]);
-  }
-  /// The same for a face with one pixel, without further tests.
-  bool coversOnly(std::size_t at) {
-    return insideFace(scene_, face_, band_.ray_x[at], band_.ray_y[at]) && prepare();
-  }
-
-  void put(std::size_t at) {
+  /// Draws a pixel that the face may cover; `inside`: surely does.
+  void visit(std::size_t at, bool inside) {
     const std::int32_t owner = band_.face[at];
-    if (owner < 0) return take(at);
-    if (owner != owner_) meet(owner);
-    if (relation_ == Relation::kNearer) return take(at);
-    if (relation_ == Relation::kUnclear) contest(at);
+    if (owner >= 0 && owner != owner_) meet(owner);
+    const Relation relation = owner < 0 ? Relation::kNearer : relation_;
+    // Whether a hidden pixel is covered makes no difference.
+    if (relation == Relation::kFarther || !(inside || covers(at))) return;
+    if (relation == Relation::kNearer) return take(at);
+    contest(at);
   }
 
  private:
@@ -56,9 +51,20 @@ class SmallFace {
     band_.inverse_depth[at] = RasterBand::kUnknownDepth;
   }
 
-  bool prepare() {
-    if (!prepared_) visible_ = prepareFace(scene_, face_, drawn_);
-    prepared_ = true;
+  /// By the exact edges. The plane of a face that covers no pixel is not needed.
+  bool covers(std::size_t at) {
+    return hasArea() && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]) && isVisible();
+  }
+
+  bool hasArea() {
+    if (!edges_known_) has_area_ = prepareEdges(scene_, face_, drawn_);
+    edges_known_ = true;
+    return has_area_;
+  }
+
+  bool isVisible() {
+    if (!plane_known_) visible_ = preparePlane(scene_, face_, drawn_);
+    plane_known_ = true;
     return visible_;
   }
 
@@ -76,7 +82,8 @@ class SmallFace {
   /// Neither is clearly nearer: as the rasterizer compares.
   void contest(std::size_t at) {
     float inverse_depth = 0.0F;
-    if (!prepare() || !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
+    if (!hasArea() || !isVisible() ||
+        !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
       return;
     if (band_.inverse_depth[at] == RasterBand::kUnknownDepth) {
       if (!owner_prepared_) owner_visible_ = prepareFace(scene_, owner_, owner_drawn_);
@@ -97,7 +104,9 @@ class SmallFace {
   std::int32_t face_;
   std::int32_t owner_ = -1;  ///< the face tested last
   Relation relation_ = Relation::kUnclear;
-  bool prepared_ = false;
+  bool edges_known_ = false;
+  bool has_area_ = false;
+  bool plane_known_ = false;
   bool visible_ = false;
   bool depth_known_ = false;
   bool owner_prepared_ = false;
@@ -106,6 +115,49 @@ class SmallFace {
   DrawnFace drawn_;
   DrawnFace owner_drawn_;
 };
+
+/// A row of pixels and the values of a face's lines at its first one.
+struct FixedRow {
+  std::size_t first;  ///< entry of the band
+  int count;
+  int ab, bc;
+  int ab_per_px, bc_per_px;
+  int tolerance;
+};
+
+/// A row of a face so thin that its lines' values may all be within the tolerance.
+void drawThinRow(const FixedFace& fixed, const FixedRow& row, SmallFace& small) {
+  int ab = row.ab;
+  int bc = row.bc;
+  for (int i = 0; i < row.count; ++i, ab += row.ab_per_px, bc += row.bc_per_px) {
+    const int located = FixedFace::locate(ab, bc, fixed.area2() - ab - bc, row.tolerance);
+    if (located >= 0) small.visit(row.first + static_cast<std::size_t>(i), located > 0);
+  }
+}
+
+/// A row of a face whose area is more than three tolerances, so that the values of its lines cannot
+/// all be within the tolerance on the outer side: outside, one is below -tolerance; surely inside,
+/// all are above the tolerance. Values of a face seen from inside have the other sign.
+void drawClearRow(const FixedFace& fixed, const FixedRow& row, SmallFace& small) {
+  const int sign = fixed.area2() < 0 ? -1 : 1;
+  const int ab_per_px = sign * row.ab_per_px;
+  const int bc_per_px = sign * row.bc_per_px;
+  const int ca_per_px = -ab_per_px - bc_per_px;
+  const int surely = 2 * row.tolerance + 1;
+  int ab = sign * row.ab + row.tolerance;
+  int bc = sign * row.bc + row.tolerance;
+  int ca = sign * (fixed.area2() - row.ab - row.bc) + row.tolerance;
+  bool entered = false;
+  for (int i = 0; i < row.count; ++i, ab += ab_per_px, bc += bc_per_px, ca += ca_per_px) {
+    if ((ab | bc | ca) >= 0) {
+      entered = true;
+      const bool inside = ((ab - surely) | (bc - surely) | (ca - surely)) >= 0;
+      small.visit(row.first + static_cast<std::size_t>(i), inside);
+    } else if (entered) {
+      return;  // a face is convex
+    }
+  }
+}
 
 }  // namespace
 
@@ -125,7 +177,6 @@ void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& b
                         scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])],
                         scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])]);
   PixelBox box = this->box(fixed);
-  const bool single = box.x_first == box.x_last && box.y_first == box.y_last;
   const int top = band.first_y - scale_.middle_y;
   box.x_first = std::max(box.x_first, band.x_begin - scale_.middle_x);
   box.x_last = std::min(box.x_last, band.x_end - 1 - scale_.middle_x);
@@ -135,19 +186,20 @@ void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& b
 
   SmallFace small(scene, face, band);
   const int steps = scale_.steps();
-  const int tolerance = this->tolerance(fixed);
-  const int area2 = fixed.area2();
-  const int ab_per_px = -(fixed.b_y - fixed.a_y) * steps;
-  const int bc_per_px = -(fixed.c_y - fixed.b_y) * steps;
+  FixedRow row;
+  row.count = box.x_last - box.x_first + 1;
+  row.ab_per_px = -(fixed.b_y - fixed.a_y) * steps;
+  row.bc_per_px = -(fixed.c_y - fixed.b_y) * steps;
+  row.tolerance = tolerance(fixed);
+  const bool clear = std::abs(fixed.area2()) > 3 * row.tolerance;
   for (int y = box.y_first; y <= box.y_last; ++y) {
-    int ab = fixed.lineAb(box.x_first * steps, y * steps);
-    int bc = fixed.lineBc(box.x_first * steps, y * steps);
-    std::size_t at = band.index(box.x_first + scale_.middle_x, y - top + 1);
-    for (int x = box.x_first; x <= box.x_last; ++x, ++at, ab += ab_per_px, bc += bc_per_px) {
-      const int located = FixedFace::locate(ab, bc, area2 - ab - bc, tolerance);
-      if (located < 0) continue;
-      if (located > 0 || (single ? small.coversOnly(at) : small.covers(at))) small.put(at);
-    }
+    row.first = band.index(box.x_first + scale_.middle_x, y - top + 1);
+    row.ab = fixed.lineAb(box.x_first * steps, y * steps);
+    row.bc = fixed.lineBc(box.x_first * steps, y * steps);
+    if (clear)
+      drawClearRow(fixed, row, small);
+    else
+      drawThinRow(fixed, row, small);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -76,59 +77,136 @@ struct Channels {
   }
 };
 
-/// Sum of bytes, eight at a time.
-std::int32_t sumOf(const std::uint8_t* bytes, int count) {
-  constexpr std::uint64_t kEven = 0x00ff00ff00ff00ffU;
-  constexpr int kWord = sizeof(std::uint64_t);
-  constexpr int kMostBytes = 128 * kWord;  // that four lanes of 16 bits hold
-  std::int32_t sum = 0;
-  while (count >= kWord) {
-    const int words = std::min(count, kMostBytes) / kWord;
-    count -= words * kWord;
-    std::uint64_t lanes = 0;
-    for (int i = 0; i < words; ++i, bytes += kWord) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes, kWord);
-      lanes += (word & kEven) + ((word >> 8) & kEven);
-    }
-    for (; lanes != 0; lanes >>= 16) sum += static_cast<std::int32_t>(lanes & 0xffff);
-  }
-  for (int i = 0; i < count; ++i) sum += bytes[i];
-  return sum;
-}
-
 template <int kCount>
 using Sums = std::array<std::int64_t, static_cast<std::size_t>(kCount)>;
 
-/// Sums over block x block pixels from a place on, bilinear, in units of 2^-16.
+/// A block of block x block pixels from a place on, bilinear: its last row and column of pixels
+/// count as far as the block reaches into them, its first ones as far as they are inside.
+struct Block {
+  int x, y;                  ///< its first pixel
+  std::int32_t right, down;  ///< weights of the last column and row, in units of 2^-kWeightBits
+  int size;                  ///< px; it touches one column and one row more
+
+  Block(double x_px, double y_px, int size_px)
+      : x(static_cast<int>(x_px)), y(static_cast<int>(y_px)), size(size_px) {
+    right = static_cast<std::int32_t>((x_px - x) * (1 << kWeightBits));
+    down = static_cast<std::int32_t>((y_px - y) * (1 << kWeightBits));
+  }
+  std::int32_t left() const { return (1 << kWeightBits) - right; }
+  std::int32_t up() const { return (1 << kWeightBits) - down; }
+};
+
+/// Sums over a block, in units of 2^-16.
 template <int kCount>
-Sums<kCount> blockSums(const Channels& image, double x_px, double y_px, int block) {
-  const int x = static_cast<int>(x_px);
-  const int y = static_cast<int>(y_px);
-  const auto right = static_cast<std::int32_t>((x_px - x) * (1 << kWeightBits));
-  const auto down = static_cast<std::int32_t>((y_px - y) * (1 << kWeightBits));
-  const std::int32_t left = (1 << kWeightBits) - right;
-  const std::int32_t up = (1 << kWeightBits) - down;
+Sums<kCount> blockSums(const Channels& image, const Block& block) {
   Sums<kCount> sums{};
-  for (int row = 0; row <= block; ++row) {
-    const std::uint8_t* pixel = image.at<kCount>(x, y + row);
+  for (int row = 0; row <= block.size; ++row) {
+    const std::uint8_t* pixel = image.at<kCount>(block.x, block.y + row);
     std::array<std::int32_t, static_cast<std::size_t>(kCount)> inner{};
-    if constexpr (kCount == 1) {
-      inner[0] = sumOf(pixel + 1, block - 1);
-    } else {
-      for (int i = 1; i < block; ++i)
-        for (int k = 0; k < kCount; ++k)
-          inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
-    }
-    const std::int32_t weight = row == 0 ? up : row == block ? down : (1 << kWeightBits);
+    for (int i = 1; i < block.size; ++i)
+      for (int k = 0; k < kCount; ++k) inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
+    const std::int32_t weight = row == 0            ? block.up()
+                                : row == block.size ? block.down
+                                                    : (1 << kWeightBits);
     for (int k = 0; k < kCount; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      const std::int64_t along = left * pixel[k] + (std::int64_t{inner[at]} << kWeightBits) +
-                                 right * pixel[block * kCount + k];
+      const std::int64_t along = block.left() * pixel[k] +
+                                 (std::int64_t{inner[at]} << kWeightBits) +
+                                 block.right * pixel[block.size * kCount + k];
       sums[at] += along * weight;
     }
   }
   return sums;
+}
+
+/// Sums of the bytes of 16 neighbouring columns, each in 16 bits: those of the even and of the odd
+/// bytes of two words.
+class ColumnSums {
+ public:
+  static constexpr int kColumns = 16;
+  /// Rows whose sum fits.
+  static constexpr int kMostRows = 256;
+
+  /// Adds a row; `factor` times the bytes of all rows must fit.
+  void add(const std::uint8_t* row, std::uint64_t factor = 1) {
+    std::uint64_t word[2];
+    std::memcpy(word, row, sizeof(word));
+    for (int k = 0; k < 2; ++k) {
+      even_[k] += (word[k] & kBytes) * factor;
+      odd_[k] += ((word[k] >> 8) & kBytes) * factor;
+    }
+  }
+  /// Adds rows.
+  void add(const std::uint8_t* row, std::ptrdiff_t stride, int rows) {
+    for (int i = 0; i < rows; ++i, row += stride) add(row);
+  }
+  /// Sum of one column.
+  std::int64_t at(int column) const {
+    const int byte = std::endian::native == std::endian::little ? column % 8 : 7 - column % 8;
+    const std::uint64_t sums = byte % 2 == 0 ? even_[column / 8] : odd_[column / 8];
+    return static_cast<std::int64_t>((sums >> (8 * (byte - byte % 2))) & 0xffff);
+  }
+  /// Sum of columns first .. end - 1.
+  std::int64_t sum(int first, int end) const {
+    std::uint64_t sum = 0;
+    for (int k = 0; k < 2; ++k) {
+      const std::uint64_t bytes = bytesWithin(first - 8 * k, end - 8 * k);
+      const std::uint64_t even = even_[k] & ((bytes & kBytes) * 0x101);
+      const std::uint64_t odd = odd_[k] & (((bytes >> 8) & kBytes) * 0x101);
+      sum += (even & kWords) + ((even >> 16) & kWords) + (odd & kWords) + ((odd >> 16) & kWords);
+    }
+    return static_cast<std::int64_t>((sum & 0xffffffff) + (sum >> 32));
+  }
+
+ private:
+  static constexpr std::uint64_t kBytes = 0x00ff00ff00ff00ffU;
+  static constexpr std::uint64_t kWords = 0x0000ffff0000ffffU;
+
+  /// The bytes first .. end - 1 of a word, in the order of memory.
+  static std::uint64_t bytesWithin(int first, int end) {
+    const auto from = [](int byte) -> std::uint64_t {
+      if (byte <= 0) return ~std::uint64_t{0};
+      if (byte >= 8) return 0;
+      return std::endian::native == std::endian::little ? ~std::uint64_t{0} << (8 * byte)
+                                                        : ~std::uint64_t{0} >> (8 * byte);
+    };
+    return from(first) & ~from(end);
+  }
+
+  std::uint64_t even_[2] = {};
+  std::uint64_t odd_[2] = {};
+};
+
+/// blockSums() of a gray image of at least ColumnSums::kColumns columns, for blocks of at most
+/// ColumnSums::kMostRows: whole columns are summed first, 16 at a time.
+std::int64_t blockSumByColumns(const Channels& image, int width, const Block& block) {
+  std::int64_t sum = 0;
+  for (int first = 0; first <= block.size; first += ColumnSums::kColumns) {
+    const int end = std::min(first + ColumnSums::kColumns, block.size + 1);
+    // Columns are read within the row.
+    const int begin = std::min(first, width - ColumnSums::kColumns - block.x);
+    const std::uint8_t* const top = image.at<1>(block.x + begin, block.y);
+    const std::uint8_t* const bottom = top + image.stride * block.size;
+    ColumnSums inner;
+    inner.add(top + image.stride, image.stride, block.size - 1);
+    ColumnSums outer;  // the weights of both rows add up to one pixel
+    outer.add(top, static_cast<std::uint64_t>(block.up()));
+    outer.add(bottom, static_cast<std::uint64_t>(block.down));
+    const auto weighted = [](std::int64_t of_inner, std::int64_t of_outer) {
+      return (of_inner << kWeightBits) + of_outer;
+    };
+    sum += weighted(inner.sum(first - begin, end - begin), outer.sum(first - begin, end - begin))
+           << kWeightBits;
+    if (first == 0) sum -= block.right * weighted(inner.at(-begin), outer.at(-begin));
+    const int last = block.size - begin;
+    if (end == block.size + 1) sum -= block.left() * weighted(inner.at(last), outer.at(last));
+  }
+  return sum;
+}
+
+/// Whether blockSumByColumns() applies to an image.
+bool sumsByColumns(const SearchProblem& problem, int block) {
+  return problem.image.width >= ColumnSums::kColumns && block <= ColumnSums::kMostRows;
 }
 
 template <int kCount>
@@ -138,6 +216,7 @@ void fillRows(const SearchProblem& problem, const Channels& image, const FacingV
   const int block = std::max(1, static_cast<int>(1.0 / view.pixels_per_px + 0.5));
   const double half = 0.5 * (block - 1);
   const std::size_t channel = output.seen.size();
+  const bool by_columns = sumsByColumns(problem, block);
   for (int y = first; y < end; ++y) {
     for (int x = 0; x < output.width; ++x) {
       const auto at = static_cast<std::size_t>(y * output.width + x);
@@ -153,7 +232,12 @@ void fillRows(const SearchProblem& problem, const Channels& image, const FacingV
       if (!(left >= 0.0 && top >= 0.0 && left + block < problem.image.width &&
             top + block < problem.image.height))
         continue;
-      const Sums<kCount> sums = blockSums<kCount>(image, left, top, block);
+      const Block covered(left, top, block);
+      Sums<kCount> sums;
+      if (kCount == 1 && by_columns)
+        sums[0] = blockSumByColumns(image, problem.image.width, covered);
+      else
+        sums = blockSums<kCount>(image, covered);
       for (int k = 0; k < kCount; ++k)
         output.value[static_cast<std::size_t>(k) * channel + at] = static_cast<std::uint8_t>(
             (sums[static_cast<std::size_t>(k)] >> (2 * kWeightBits)) / (block * block));
