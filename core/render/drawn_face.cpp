@@ -18,6 +18,12 @@ bool ownsLine(const Eigen::Vector3d& edge) {
   return edge.z() > 0.0;
 }
 
+/// Whether a triangle has an area seen from the camera: as faceEdges() decides.
+bool hasArea(const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2) {
+  const double determinant = dotProduct(crossProduct(v0, v1), v2);
+  return determinant > 0.0 || determinant < 0.0;
+}
+
 }  // namespace
 
 bool prepareEdges(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
@@ -38,7 +44,7 @@ bool preparePlane(const CameraScene& scene, std::int32_t face, DrawnFace& drawn)
   const Eigen::Vector3d& v2 = scene.vertex(face, 2);
   const double z_min = std::min({v0.z(), v1.z(), v2.z()});
   const double z_max = std::max({v0.z(), v1.z(), v2.z()});
-  if (!(z_max >= CameraScene::kNearPlane_m)) return false;
+  if (!(z_max >= CameraScene::kNearPlane_m) || !hasArea(v0, v1, v2)) return false;
   const Eigen::Vector3d side1 = v1 - v0;
   const Eigen::Vector3d side2 = v2 - v0;
   const Eigen::Vector3d normal = crossProduct(side1, side2);

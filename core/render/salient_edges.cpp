@@ -60,6 +60,11 @@ std::int8_t rounded8(double value) {
   return static_cast<std::int8_t>(floorClamped(value + 0.5, -127, 127));
 }
 
+/// Whether no edge separates two faces, background and pixels without a ray included: most pairs.
+bool isPlain(const CameraScene& scene, std::int32_t face, std::int32_t other) {
+  return face >= 0 && other >= 0 && scene.continues(face, other);
+}
+
 /// Order among the candidates of several pairs for one pixel.
 bool preferred(const EdgePixel& a, const EdgePixel& b) {
   if (a.depth_m != b.depth_m) return a.depth_m < b.depth_m;
@@ -243,8 +248,7 @@ void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x
   const bool border = face_p < 0 || face_q < 0;
   Difference difference;
   if (border ? face_p == RasterBand::kInvalid || face_q == RasterBand::kInvalid
-             : context.scene.continues(face_p, face_q) ||
-                   !surfacesDiffer(context, at_p, at_q, difference))
+             : !surfacesDiffer(context, at_p, at_q, difference))
     return;
   const Sample p{x_p, row_p, face_p, band.ray(x_p, row_p)};
   const Sample q{x_q, row_q, face_q, band.ray(x_q, row_q)};
@@ -319,6 +323,10 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
   pixel.face = is_own ? own.face : crossing.face;
   pixel.depth_m = depthOf(context, own, marked, between(p.ray, q.ray, crossing.s), pixel.face);
   if (!(pixel.depth_m > 0.0F)) return;
+  EdgePixel& slot = candidates_[static_cast<std::size_t>((y & 1) * stride_ + marked.x)];
+  BitImage& edges = context.output.edges;
+  const bool is_marked = edges.get(marked.x, y);
+  if (is_marked && pixel.depth_m > slot.depth_m) return;  // not preferred, whatever follows
 
   // Without a line to differentiate: across the pair.
   const double towards_q = crossing.nearer_is_p ? 1.0 : -1.0;
@@ -351,9 +359,7 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
   pixel.normal_y = rounded8(normal_y * 127.0);
   pixel.offset = rounded8(distance_px * 100.0);
 
-  EdgePixel& slot = candidates_[static_cast<std::size_t>((y & 1) * stride_ + marked.x)];
-  BitImage& edges = context.output.edges;
-  if (!edges.get(marked.x, y) || preferred(pixel, slot)) slot = pixel;
+  if (!is_marked || preferred(pixel, slot)) slot = pixel;
   edges.set(marked.x, y);
 }
 
@@ -374,7 +380,8 @@ void SalientEdges::compareWithin(const Context& context, int row, int x_first, i
     unsigned bits = matched;
     for (; differing != 0; differing &= differing - 1) {
       const int i = std::countr_zero(differing);
-      comparePair(context, x + i, row, x + i + 1, row);
+      if (!isPlain(scene, face[x + i], face[x + i + 1]))
+        comparePair(context, x + i, row, x + i + 1, row);
       matched = isMatched(face[x + i + 1]);
       const unsigned after = ~0U << (i + 1);
       bits = (bits & ~after) | (matched & after);
@@ -392,7 +399,8 @@ void SalientEdges::compareBelow(const Context& context, int row, int x_first, in
     unsigned differing = differingFaces(face + x, below + x, std::min(kRun_px, x_last + 1 - x));
     for (; differing != 0; differing &= differing - 1) {
       const int at = x + std::countr_zero(differing);
-      comparePair(context, at, row, at, row + 1);
+      if (!isPlain(context.scene, face[at], below[at]))
+        comparePair(context, at, row, at, row + 1);
     }
   }
 }

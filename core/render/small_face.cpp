@@ -53,13 +53,9 @@ class SmallFace {
 
   /// By the exact edges. The plane of a face that covers no pixel is not needed.
   bool covers(std::size_t at) {
-    return hasArea() && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]) && isVisible();
-  }
-
-  bool hasArea() {
     if (!edges_known_) has_area_ = prepareEdges(scene_, face_, drawn_);
     edges_known_ = true;
-    return has_area_;
+    return has_area_ && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]) && isVisible();
   }
 
   bool isVisible() {
@@ -82,11 +78,11 @@ class SmallFace {
   /// Neither is clearly nearer: as the rasterizer compares.
   void contest(std::size_t at) {
     float inverse_depth = 0.0F;
-    if (!hasArea() || !isVisible() ||
+    if (!isVisible() ||
         !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
       return;
     if (band_.inverse_depth[at] == RasterBand::kUnknownDepth) {
-      if (!owner_prepared_) owner_visible_ = prepareFace(scene_, owner_, owner_drawn_);
+      if (!owner_prepared_) owner_visible_ = preparePlane(scene_, owner_, owner_drawn_);
       owner_prepared_ = true;
       float known = 0.0F;
       if (owner_visible_ && inverseDepthOn(owner_drawn_, band_.ray_x[at], band_.ray_y[at], known))
@@ -116,46 +112,68 @@ class SmallFace {
   DrawnFace owner_drawn_;
 };
 
-/// A row of pixels and the values of a face's lines at its first one.
-struct FixedRow {
+/// The value of a line of a face at a pixel, and its steps to the next pixel and row.
+struct LineValue {
+  int value;
+  int per_px;
+  int per_row;
+};
+
+/// The pixels of a face's box, and its lines at the first one; the third value follows from the
+/// area.
+struct FixedArea {
   std::size_t first;  ///< entry of the band
-  int count;
-  int ab, bc;
-  int ab_per_px, bc_per_px;
+  std::size_t stride;
+  int columns, rows;
+  LineValue ab, bc;
+  int area2;
   int tolerance;
 };
 
-/// A row of a face so thin that its lines' values may all be within the tolerance.
-void drawThinRow(const FixedFace& fixed, const FixedRow& row, SmallFace& small) {
-  int ab = row.ab;
-  int bc = row.bc;
-  for (int i = 0; i < row.count; ++i, ab += row.ab_per_px, bc += row.bc_per_px) {
-    const int located = FixedFace::locate(ab, bc, fixed.area2() - ab - bc, row.tolerance);
-    if (located >= 0) small.visit(row.first + static_cast<std::size_t>(i), located > 0);
+/// Draws a face so thin that its lines' values may all be within the tolerance.
+void drawThin(const FixedArea& area, SmallFace& small) {
+  for (int row = 0; row < area.rows; ++row) {
+    const std::size_t first = area.first + static_cast<std::size_t>(row) * area.stride;
+    int ab = area.ab.value + row * area.ab.per_row;
+    int bc = area.bc.value + row * area.bc.per_row;
+    for (int i = 0; i < area.columns; ++i, ab += area.ab.per_px, bc += area.bc.per_px) {
+      const int located = FixedFace::locate(ab, bc, area.area2 - ab - bc, area.tolerance);
+      if (located >= 0) small.visit(first + static_cast<std::size_t>(i), located > 0);
+    }
   }
 }
 
-/// A row of a face whose area is more than three tolerances, so that the values of its lines cannot
+/// Draws a face whose area is more than three tolerances, so that the values of its lines cannot
 /// all be within the tolerance on the outer side: outside, one is below -tolerance; surely inside,
 /// all are above the tolerance. Values of a face seen from inside have the other sign.
-void drawClearRow(const FixedFace& fixed, const FixedRow& row, SmallFace& small) {
-  const int sign = fixed.area2() < 0 ? -1 : 1;
-  const int ab_per_px = sign * row.ab_per_px;
-  const int bc_per_px = sign * row.bc_per_px;
+void drawClear(const FixedArea& area, SmallFace& small) {
+  const int sign = area.area2 < 0 ? -1 : 1;
+  const int ab_per_px = sign * area.ab.per_px;
+  const int bc_per_px = sign * area.bc.per_px;
   const int ca_per_px = -ab_per_px - bc_per_px;
-  const int surely = 2 * row.tolerance + 1;
-  int ab = sign * row.ab + row.tolerance;
-  int bc = sign * row.bc + row.tolerance;
-  int ca = sign * (fixed.area2() - row.ab - row.bc) + row.tolerance;
-  bool entered = false;
-  for (int i = 0; i < row.count; ++i, ab += ab_per_px, bc += bc_per_px, ca += ca_per_px) {
-    if ((ab | bc | ca) >= 0) {
-      entered = true;
-      const bool inside = ((ab - surely) | (bc - surely) | (ca - surely)) >= 0;
-      small.visit(row.first + static_cast<std::size_t>(i), inside);
-    } else if (entered) {
-      return;  // a face is convex
-    }
+  const int surely = 2 * area.tolerance + 1;
+  int row_ab = sign * area.ab.value + area.tolerance;
+  int row_bc = sign * area.bc.value + area.tolerance;
+  const int sum = sign * area.area2 + 3 * area.tolerance;
+  std::size_t first = area.first;
+  for (int row = 0; row < area.rows; ++row, first += area.stride) {
+    int ab = row_ab;
+    int bc = row_bc;
+    int ca = sum - ab - bc;
+    const std::size_t end = first + static_cast<std::size_t>(area.columns);
+    std::size_t at = first;
+    const auto isOutside = [&] { return (ab | bc | ca) < 0; };
+    const auto next = [&] {
+      ++at;
+      ab += ab_per_px;
+      bc += bc_per_px;
+      ca += ca_per_px;
+    };
+    while (at < end && isOutside()) next();
+    for (; at < end && !isOutside(); next())  // a face is convex
+      small.visit(at, ((ab - surely) | (bc - surely) | (ca - surely)) >= 0);
+    row_ab += sign * area.ab.per_row;
+    row_bc += sign * area.bc.per_row;
   }
 }
 
@@ -186,21 +204,21 @@ void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& b
 
   SmallFace small(scene, face, band);
   const int steps = scale_.steps();
-  FixedRow row;
-  row.count = box.x_last - box.x_first + 1;
-  row.ab_per_px = -(fixed.b_y - fixed.a_y) * steps;
-  row.bc_per_px = -(fixed.c_y - fixed.b_y) * steps;
-  row.tolerance = tolerance(fixed);
-  const bool clear = std::abs(fixed.area2()) > 3 * row.tolerance;
-  for (int y = box.y_first; y <= box.y_last; ++y) {
-    row.first = band.index(box.x_first + scale_.middle_x, y - top + 1);
-    row.ab = fixed.lineAb(box.x_first * steps, y * steps);
-    row.bc = fixed.lineBc(box.x_first * steps, y * steps);
-    if (clear)
-      drawClearRow(fixed, row, small);
-    else
-      drawThinRow(fixed, row, small);
-  }
+  const int x = box.x_first * steps;
+  const int y = box.y_first * steps;
+  const FixedArea area{
+      band.index(box.x_first + scale_.middle_x, box.y_first - top + 1),
+      static_cast<std::size_t>(band.stride),
+      box.x_last - box.x_first + 1,
+      box.y_last - box.y_first + 1,
+      {fixed.lineAb(x, y), -(fixed.b_y - fixed.a_y) * steps, (fixed.b_x - fixed.a_x) * steps},
+      {fixed.lineBc(x, y), -(fixed.c_y - fixed.b_y) * steps, (fixed.c_x - fixed.b_x) * steps},
+      fixed.area2(),
+      tolerance(fixed)};
+  if (std::abs(area.area2) > 3 * area.tolerance)
+    drawClear(area, small);
+  else
+    drawThin(area, small);
 }
 
 void resolveDepths(const CameraScene& scene, RasterBand& band) {

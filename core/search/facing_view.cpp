@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace boresight {
 namespace {
@@ -119,94 +117,69 @@ Sums<kCount> blockSums(const Channels& image, const Block& block) {
   return sums;
 }
 
-/// Sums of the bytes of 16 neighbouring columns, each in 16 bits: those of the even and of the odd
-/// bytes of two words.
-class ColumnSums {
- public:
-  static constexpr int kColumns = 16;
-  /// Rows whose sum fits.
-  static constexpr int kMostRows = 256;
+/// A value for each of some neighbouring columns: as many as fit two vectors of 16 bytes.
+constexpr int kColumns = 16;
+using Columns = std::array<std::int16_t, kColumns>;
+/// Rows whose sums fit.
+constexpr int kMostRows = 128;
 
-  /// Adds a row; `factor` times the bytes of all rows must fit.
-  void add(const std::uint8_t* row, std::uint64_t factor = 1) {
-    std::uint64_t word[2];
-    std::memcpy(word, row, sizeof(word));
-    for (int k = 0; k < 2; ++k) {
-      even_[k] += (word[k] & kBytes) * factor;
-      odd_[k] += ((word[k] >> 8) & kBytes) * factor;
-    }
-  }
-  /// Adds rows.
-  void add(const std::uint8_t* row, std::ptrdiff_t stride, int rows) {
-    for (int i = 0; i < rows; ++i, row += stride) add(row);
-  }
-  /// Sum of one column.
-  std::int64_t at(int column) const {
-    const int byte = std::endian::native == std::endian::little ? column % 8 : 7 - column % 8;
-    const std::uint64_t sums = byte % 2 == 0 ? even_[column / 8] : odd_[column / 8];
-    return static_cast<std::int64_t>((sums >> (8 * (byte - byte % 2))) & 0xffff);
-  }
-  /// Sum of columns first .. end - 1.
-  std::int64_t sum(int first, int end) const {
-    std::uint64_t sum = 0;
-    for (int k = 0; k < 2; ++k) {
-      const std::uint64_t bytes = bytesWithin(first - 8 * k, end - 8 * k);
-      const std::uint64_t even = even_[k] & ((bytes & kBytes) * 0x101);
-      const std::uint64_t odd = odd_[k] & (((bytes >> 8) & kBytes) * 0x101);
-      sum += (even & kWords) + ((even >> 16) & kWords) + (odd & kWords) + ((odd >> 16) & kWords);
-    }
-    return static_cast<std::int64_t>((sum & 0xffffffff) + (sum >> 32));
-  }
+/// Sums of the columns over rows. The same holds for it.
+[[gnu::noinline]] Columns columnSums(const std::uint8_t* row, std::ptrdiff_t stride, int rows) {
+  std::uint16_t sum[kColumns] = {};
+  for (int i = 0; i < rows; ++i, row += stride)
+    for (int k = 0; k < kColumns; ++k) sum[k] = static_cast<std::uint16_t>(sum[k] + row[k]);
+  Columns sums;
+  for (int k = 0; k < kColumns; ++k)
+    sums[static_cast<std::size_t>(k)] = static_cast<std::int16_t>(sum[k]);
+  return sums;
+}
 
- private:
-  static constexpr std::uint64_t kBytes = 0x00ff00ff00ff00ffU;
-  static constexpr std::uint64_t kWords = 0x0000ffff0000ffffU;
+/// Inlined, it becomes 16 single products.
+[[gnu::noinline]] std::int32_t dotProduct(const Columns& a, const Columns& b) {
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < kColumns; ++k) sum += a[k] * b[k];
+  return sum;
+}
 
-  /// The bytes first .. end - 1 of a word, in the order of memory.
-  static std::uint64_t bytesWithin(int first, int end) {
-    const auto from = [](int byte) -> std::uint64_t {
-      if (byte <= 0) return ~std::uint64_t{0};
-      if (byte >= 8) return 0;
-      return std::endian::native == std::endian::little ? ~std::uint64_t{0} << (8 * byte)
-                                                        : ~std::uint64_t{0} >> (8 * byte);
-    };
-    return from(first) & ~from(end);
-  }
+/// Weights of a block's columns from `begin` on, of which columns first .. end - 1 count.
+[[gnu::noinline]] Columns columnWeights(const Block& block, int begin, int first, int end) {
+  static constexpr Columns kPlace = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const auto from = static_cast<std::int16_t>(first - begin);
+  const auto to = static_cast<std::int16_t>(end - begin);
+  Columns weights;
+  for (std::size_t k = 0; k < kColumns; ++k)
+    weights[k] = (kPlace[k] >= from) & (kPlace[k] < to) ? 1 << kWeightBits : 0;
+  const auto weightOf = [&](int column) -> std::int16_t& {
+    return weights[static_cast<std::size_t>(column - begin)];
+  };
+  if (first == 0) weightOf(0) = static_cast<std::int16_t>(block.left());
+  if (end == block.size + 1) weightOf(block.size) = static_cast<std::int16_t>(block.right);
+  return weights;
+}
 
-  std::uint64_t even_[2] = {};
-  std::uint64_t odd_[2] = {};
-};
-
-/// blockSums() of a gray image of at least ColumnSums::kColumns columns, for blocks of at most
-/// ColumnSums::kMostRows: whole columns are summed first, 16 at a time.
+/// blockSums() of a gray image of at least kColumns columns, for blocks of less than kMostRows:
+/// whole columns are summed first, many at a time.
 std::int64_t blockSumByColumns(const Channels& image, int width, const Block& block) {
   std::int64_t sum = 0;
-  for (int first = 0; first <= block.size; first += ColumnSums::kColumns) {
-    const int end = std::min(first + ColumnSums::kColumns, block.size + 1);
-    // Columns are read within the row.
-    const int begin = std::min(first, width - ColumnSums::kColumns - block.x);
+  for (int first = 0; first <= block.size; first += kColumns) {
+    const int end = std::min(first + kColumns, block.size + 1);
+    const int begin = std::min(first, width - kColumns - block.x);  // read within the row
+    const Columns weights = columnWeights(block, begin, first, end);
     const std::uint8_t* const top = image.at<1>(block.x + begin, block.y);
     const std::uint8_t* const bottom = top + image.stride * block.size;
-    ColumnSums inner;
-    inner.add(top + image.stride, image.stride, block.size - 1);
-    ColumnSums outer;  // the weights of both rows add up to one pixel
-    outer.add(top, static_cast<std::uint64_t>(block.up()));
-    outer.add(bottom, static_cast<std::uint64_t>(block.down));
-    const auto weighted = [](std::int64_t of_inner, std::int64_t of_outer) {
-      return (of_inner << kWeightBits) + of_outer;
+    const auto alongRow = [&](const std::uint8_t* row) {
+      return std::int64_t{dotProduct(weights, columnSums(row, 0, 1))};
     };
-    sum += weighted(inner.sum(first - begin, end - begin), outer.sum(first - begin, end - begin))
-           << kWeightBits;
-    if (first == 0) sum -= block.right * weighted(inner.at(-begin), outer.at(-begin));
-    const int last = block.size - begin;
-    if (end == block.size + 1) sum -= block.left() * weighted(inner.at(last), outer.at(last));
+    const Columns inner = columnSums(top + image.stride, image.stride, block.size - 1);
+    sum += (std::int64_t{dotProduct(weights, inner)} << kWeightBits) + block.up() * alongRow(top) +
+           block.down * alongRow(bottom);
   }
   return sum;
 }
 
 /// Whether blockSumByColumns() applies to an image.
 bool sumsByColumns(const SearchProblem& problem, int block) {
-  return problem.image.width >= ColumnSums::kColumns && block <= ColumnSums::kMostRows;
+  return problem.image.width >= kColumns && block < kMostRows;
 }
 
 template <int kCount>
