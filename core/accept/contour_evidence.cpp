@@ -2,6 +2,7 @@
 #include "core/accept/contour_evidence.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -19,13 +20,18 @@ constexpr Shares kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
 constexpr double kTrusted = 0.6;  ///< share of a right pose's edges that the image shows
 constexpr int kSamples = 12;      ///< of the window, along each side
 
-/// Interval of each distance.
-constexpr std::array<std::uint8_t, 256> kIntervalOf = [] {
-  std::array<std::uint8_t, 256> intervals{};
-  for (int distance = 0; distance < 256; ++distance)
+/// Interval of each distance, as a count of one in 16 bits of a word for all intervals.
+constexpr int kCountBits = 16;
+static_assert(kIntervals * kCountBits == 64 && kSamples * kSamples < 1 << kCountBits);
+constexpr std::array<std::uint64_t, 256> kCountOf = [] {
+  std::array<std::uint64_t, 256> counts{};
+  for (int distance = 0; distance < 256; ++distance) {
+    int interval = 0;
     for (const int up_to : kUpTo)
-      if (distance > up_to) ++intervals[static_cast<std::size_t>(distance)];
-  return intervals;
+      if (distance > up_to) ++interval;
+    counts[static_cast<std::size_t>(distance)] = std::uint64_t{1} << (kCountBits * interval);
+  }
+  return counts;
 }();
 
 /// Shares of the intervals around a place; one count more in each, so that none is 0.
@@ -35,20 +41,23 @@ Shares sharesAround(const EvidencePlace& place, const DirectedEdges& edges,
   for (int i = 0; i < kSamples; ++i)
     offset[static_cast<std::size_t>(i)] =
         static_cast<int>(std::floor(window_px * ((i + 0.5) / kSamples - 0.5)));
-  std::array<int, kIntervals> count{};
-  int all = 0;
+  std::uint64_t counts = 0;
   for (const int down : offset) {
     const int y = place.y + down;
     if (y < 0 || y >= edges.height) continue;
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(edges.width);
     for (const int right : offset) {
       const int x = place.x + right;
-      if (x < 0 || x >= edges.width) continue;
+      if (static_cast<unsigned>(x) >= static_cast<unsigned>(edges.width)) continue;
       const std::size_t at = row + static_cast<std::size_t>(x);
-      if (edges.direction[at] == DirectedEdges::kUnseen) continue;
-      ++count[kIntervalOf[distance[at]]];
-      ++all;
+      if (edges.direction[at] != DirectedEdges::kUnseen) counts += kCountOf[distance[at]];
     }
+  }
+  std::array<int, kIntervals> count{};
+  int all = 0;
+  for (std::size_t k = 0; k < kIntervals; ++k) {
+    count[k] = static_cast<int>(counts >> (kCountBits * k) & ((1U << kCountBits) - 1));
+    all += count[k];
   }
   Shares shares{};
   for (std::size_t k = 0; k < kIntervals; ++k)
@@ -63,8 +72,9 @@ double meanOf(double sum, std::int32_t count) { return count > 0 ? sum / count :
 double evidenceOfPlace_nats(const EvidencePlace& place, const DirectedEdges& edges,
                             std::span<const std::uint8_t> distance, double window_px) {
   const Shares around = sharesAround(place, edges, distance, window_px);
-  const std::size_t k =
-      kIntervalOf[distance[static_cast<std::size_t>(place.y * edges.width + place.x)]];
+  const std::uint64_t count =
+      kCountOf[distance[static_cast<std::size_t>(place.y * edges.width + place.x)]];
+  const auto k = static_cast<std::size_t>(std::countr_zero(count) / kCountBits);
   return log((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
 }
 

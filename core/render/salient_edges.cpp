@@ -122,8 +122,6 @@ bool SalientEdges::crossBorder(const Context& context, const Sample& p, const Sa
 bool SalientEdges::crossSurfaces(const Context& context, const Sample& p, const Sample& q,
                                  const Difference& difference, Crossing& crossing) {
   const CameraScene& scene = context.scene;
-  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
-  const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
   crossing.nearer_is_p = difference.nearer_is_p;
   const SurfaceEnd end_p = traceSurface(scene, planes_, p.face, p.ray, q.ray, q.face);
   SurfaceEnd end_q;
@@ -144,7 +142,8 @@ bool SalientEdges::crossSurfaces(const Context& context, const Sample& p, const 
   crossing.edge_of = end_p.reached ? end_p.face : end_q.face;
   crossing.edge = end_p.reached ? end_p.edge : end_q.edge;
   // Both faces contain the line; the plane of the flatter one is better known next to it.
-  crossing.nearer_is_p = flatter(plane_p, plane_q);
+  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
+  crossing.nearer_is_p = flatter(plane_p, planes_.get(scene, q.face));
   if (!crossing.nearer_is_p) crossing.line = -crossing.line;
   crossing.face = crossing.nearer_is_p ? p.face : q.face;
   return scene.part(crossing.face).match;
@@ -323,10 +322,6 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
   pixel.face = is_own ? own.face : crossing.face;
   pixel.depth_m = depthOf(context, own, marked, between(p.ray, q.ray, crossing.s), pixel.face);
   if (!(pixel.depth_m > 0.0F)) return;
-  EdgePixel& slot = candidates_[static_cast<std::size_t>((y & 1) * stride_ + marked.x)];
-  BitImage& edges = context.output.edges;
-  const bool is_marked = edges.get(marked.x, y);
-  if (is_marked && pixel.depth_m > slot.depth_m) return;  // not preferred, whatever follows
 
   // Without a line to differentiate: across the pair.
   const double towards_q = crossing.nearer_is_p ? 1.0 : -1.0;
@@ -359,7 +354,9 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
   pixel.normal_y = rounded8(normal_y * 127.0);
   pixel.offset = rounded8(distance_px * 100.0);
 
-  if (!is_marked || preferred(pixel, slot)) slot = pixel;
+  EdgePixel& slot = candidates_[static_cast<std::size_t>((y & 1) * stride_ + marked.x)];
+  BitImage& edges = context.output.edges;
+  if (!edges.get(marked.x, y) || preferred(pixel, slot)) slot = pixel;
   edges.set(marked.x, y);
 }
 
