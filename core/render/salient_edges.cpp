@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "core/render/rounding.h"
 
@@ -20,6 +21,25 @@ constexpr double kGrazing = 0.15;
 /// Pixels that are compared together; a run does not straddle the words of a bit image.
 constexpr int kRun_px = 16;
 
+/// Whether the faces of a whole run are equal, two at a time.
+inline bool equalRuns(const std::int32_t* a, const std::int32_t* b) {
+  std::uint64_t differing = 0;
+  for (int i = 0; i < kRun_px; i += 2) {
+    std::uint64_t two_a = 0;
+    std::uint64_t two_b = 0;
+    std::memcpy(&two_a, a + i, sizeof two_a);
+    std::memcpy(&two_b, b + i, sizeof two_b);
+    differing |= two_a ^ two_b;
+  }
+  return differing == 0;
+}
+
+/// Whether each pair of a run differs. Inlined, it becomes 16 single comparisons.
+[[gnu::noinline]] void compareRun(const std::int32_t* __restrict a, const std::int32_t* __restrict b,
+                                  std::uint8_t* __restrict differs) {
+  for (int i = 0; i < kRun_px; ++i) differs[i] = a[i] != b[i] ? 1 : 0;
+}
+
 /// One bit for each of up to 16 pixels whose faces in `a` and `b` differ: most do not, which is
 /// seen of all at once.
 inline unsigned differingFaces(const std::int32_t* a, const std::int32_t* b, int count) {
@@ -28,8 +48,9 @@ inline unsigned differingFaces(const std::int32_t* a, const std::int32_t* b, int
     for (int i = 0; i < count; ++i) differing |= static_cast<unsigned>(a[i] != b[i]) << i;
     return differing;
   }
+  if (equalRuns(a, b)) return 0;
   std::uint8_t differs[kRun_px];
-  for (int i = 0; i < kRun_px; ++i) differs[i] = a[i] != b[i] ? 1 : 0;
+  compareRun(a, b, differs);
   for (int half = 0; half < 2; ++half) {
     const std::uint8_t* of = differs + 8 * half;
     std::uint64_t bytes = 0;

@@ -206,6 +206,14 @@ void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& b
   const int steps = scale_.steps();
   const int x = box.x_first * steps;
   const int y = box.y_first * steps;
+  if (box.x_first == box.x_last && box.y_first == box.y_last) {
+    const int located = FixedFace::locate(fixed.lineAb(x, y), fixed.lineBc(x, y),
+                                          fixed.area2() - fixed.lineAb(x, y) - fixed.lineBc(x, y),
+                                          tolerance(fixed));
+    const std::size_t at = band.index(box.x_first + scale_.middle_x, box.y_first - top + 1);
+    if (located >= 0) small.visit(at, located > 0);
+    return;
+  }
   const FixedArea area{
       band.index(box.x_first + scale_.middle_x, box.y_first - top + 1),
       static_cast<std::size_t>(band.stride),
