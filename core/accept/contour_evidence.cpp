@@ -20,7 +20,7 @@ constexpr Shares kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
 constexpr double kTrusted = 0.6;  ///< share of a right pose's edges that the image shows
 constexpr int kSamples = 12;      ///< of the window, along each side
 
-/// Interval of each distance, as a count of one in 16 bits of a word for all intervals.
+/// Interval of each distance, as a count of 1 in its 16 bits of a word: one addition counts.
 constexpr int kCountBits = 16;
 static_assert(kIntervals * kCountBits == 64 && kSamples * kSamples < 1 << kCountBits);
 constexpr std::array<std::uint64_t, 256> kCountOf = [] {

@@ -16,8 +16,8 @@ std::uint32_t bigEndian32(const std::uint8_t* bytes) {
          (static_cast<std::uint32_t>(bytes[2]) << 8) | static_cast<std::uint32_t>(bytes[3]);
 }
 
-/// The names of FIPS 180-4, Sec. 4.1.2. Sums of rotations rotate what they have so far, in
-/// place, to the same bits.
+/// The names of FIPS 180-4, Sec. 4.1.2. Sums of rotations are nested: the inner sum
+/// is rotated again, to the same bits.
 std::uint32_t bigSigma0(std::uint32_t x) {
   return std::rotr(x ^ std::rotr(x ^ std::rotr(x, 9), 11), 2);
 }
@@ -35,16 +35,16 @@ std::uint32_t choose(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 }
 
 /// A round whose new values replace d and h; `term` is the round's constant plus its word. The
-/// majority of a, b and c is b where a and b or b and c agree: `b_or_c` is where b and c differ, and
-/// becomes where a and b differ, which the next round needs.
+/// majority of a, b and c is b unless b differs from both. `bc_differ` holds the bits in which b
+/// and c differ; afterwards those in which a and b do, the next round's b and c.
 inline void mix(std::uint32_t a, std::uint32_t b, std::uint32_t& d, std::uint32_t e,
-                std::uint32_t f, std::uint32_t g, std::uint32_t& h, std::uint32_t& b_or_c,
+                std::uint32_t f, std::uint32_t g, std::uint32_t& h, std::uint32_t& bc_differ,
                 std::uint32_t term) {
   h += bigSigma1(e) + choose(e, f, g) + term;
   d += h;
-  const std::uint32_t a_or_b = a ^ b;
-  h += bigSigma0(a) + (b ^ (a_or_b & b_or_c));
-  b_or_c = a_or_b;
+  const std::uint32_t ab_differ = a ^ b;
+  h += bigSigma0(a) + (b ^ (ab_differ & bc_differ));
+  bc_differ = ab_differ;
 }
 
 /// The part of words 16 .. 31 that depends on words 0 .. 16 only, several at a time. Inlined, the
@@ -74,17 +74,17 @@ void sha256Plain(Sha256State& state, const std::uint8_t* blocks, std::size_t cou
     // Eight rounds at a time: the names rotate instead of the values.
     Sha256State change = state;
     auto& [a, b, c, d, e, f, g, h] = change;
-    std::uint32_t b_or_c = b ^ c;
+    std::uint32_t bc_differ = b ^ c;
     for (std::size_t i = 0; i < 64; i += 8) {
       const std::uint32_t* term = &w[i];
-      mix(a, b, d, e, f, g, h, b_or_c, term[0]);
-      mix(h, a, c, d, e, f, g, b_or_c, term[1]);
-      mix(g, h, b, c, d, e, f, b_or_c, term[2]);
-      mix(f, g, a, b, c, d, e, b_or_c, term[3]);
-      mix(e, f, h, a, b, c, d, b_or_c, term[4]);
-      mix(d, e, g, h, a, b, c, b_or_c, term[5]);
-      mix(c, d, f, g, h, a, b, b_or_c, term[6]);
-      mix(b, c, e, f, g, h, a, b_or_c, term[7]);
+      mix(a, b, d, e, f, g, h, bc_differ, term[0]);
+      mix(h, a, c, d, e, f, g, bc_differ, term[1]);
+      mix(g, h, b, c, d, e, f, bc_differ, term[2]);
+      mix(f, g, a, b, c, d, e, bc_differ, term[3]);
+      mix(e, f, h, a, b, c, d, bc_differ, term[4]);
+      mix(d, e, g, h, a, b, c, bc_differ, term[5]);
+      mix(c, d, f, g, h, a, b, bc_differ, term[6]);
+      mix(b, c, e, f, g, h, a, bc_differ, term[7]);
     }
     for (std::size_t i = 0; i < 8; ++i) state[i] += change[i];
   }

@@ -51,7 +51,7 @@ void sumBlock(const GaussianKernel& kernel, const std::uint8_t* const* above,
   }
 }
 
-/// The radius of the default sigma. With all taps in one loop, sums stay in registers.
+/// Radius of the default sigma. With a fixed number of taps, sums stay in registers.
 constexpr int kUsualRadius = 5;
 
 /// sumBlock() for this radius.

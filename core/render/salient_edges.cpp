@@ -35,7 +35,8 @@ inline bool equalRuns(const std::int32_t* a, const std::int32_t* b) {
 }
 
 /// Whether each pair of a run differs. Inlined, it becomes 16 single comparisons.
-[[gnu::noinline]] void compareRun(const std::int32_t* __restrict a, const std::int32_t* __restrict b,
+[[gnu::noinline]] void compareRun(const std::int32_t* __restrict a,
+                                  const std::int32_t* __restrict b,
                                   std::uint8_t* __restrict differs) {
   for (int i = 0; i < kRun_px; ++i) differs[i] = a[i] != b[i] ? 1 : 0;
 }
@@ -81,7 +82,7 @@ std::int8_t rounded8(double value) {
   return static_cast<std::int8_t>(floorClamped(value + 0.5, -127, 127));
 }
 
-/// Whether no edge separates two faces, background and pixels without a ray included: most pairs.
+/// Whether both pixels show faces of one smooth surface, as most pairs do.
 bool isPlain(const CameraScene& scene, std::int32_t face, std::int32_t other) {
   return face >= 0 && other >= 0 && scene.continues(face, other);
 }
@@ -417,8 +418,7 @@ void SalientEdges::compareBelow(const Context& context, int row, int x_first, in
     unsigned differing = differingFaces(face + x, below + x, std::min(kRun_px, x_last + 1 - x));
     for (; differing != 0; differing &= differing - 1) {
       const int at = x + std::countr_zero(differing);
-      if (!isPlain(context.scene, face[at], below[at]))
-        comparePair(context, at, row, at, row + 1);
+      if (!isPlain(context.scene, face[at], below[at])) comparePair(context, at, row, at, row + 1);
     }
   }
 }

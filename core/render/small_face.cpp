@@ -78,8 +78,7 @@ class SmallFace {
   /// Neither is clearly nearer: as the rasterizer compares.
   void contest(std::size_t at) {
     float inverse_depth = 0.0F;
-    if (!isVisible() ||
-        !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
+    if (!isVisible() || !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
       return;
     if (band_.inverse_depth[at] == RasterBand::kUnknownDepth) {
       if (!owner_prepared_) owner_visible_ = preparePlane(scene_, owner_, owner_drawn_);

@@ -78,8 +78,8 @@ struct Channels {
 template <int kCount>
 using Sums = std::array<std::int64_t, static_cast<std::size_t>(kCount)>;
 
-/// A block of block x block pixels from a place on, bilinear: its last row and column of pixels
-/// count as far as the block reaches into them, its first ones as far as they are inside.
+/// A square block of the image from a place on, bilinear: pixels of its first and last rows and
+/// columns count by the share that the block covers.
 struct Block {
   int x, y;                  ///< its first pixel
   std::int32_t right, down;  ///< weights of the last column and row, in units of 2^-kWeightBits
@@ -123,7 +123,8 @@ using Columns = std::array<std::int16_t, kColumns>;
 /// Rows whose sums fit.
 constexpr int kMostRows = 128;
 
-/// Sums of the columns over rows. The same holds for it.
+/// Sums of the columns over rows. This function and the next two stay vector code only when they
+/// are not inlined.
 [[gnu::noinline]] Columns columnSums(const std::uint8_t* row, std::ptrdiff_t stride, int rows) {
   std::uint16_t sum[kColumns] = {};
   for (int i = 0; i < rows; ++i, row += stride)
@@ -134,7 +135,7 @@ constexpr int kMostRows = 128;
   return sums;
 }
 
-/// Inlined, it becomes 16 single products.
+/// Sum of the products of all columns.
 [[gnu::noinline]] std::int32_t dotProduct(const Columns& a, const Columns& b) {
   std::int32_t sum = 0;
   for (std::size_t k = 0; k < kColumns; ++k) sum += a[k] * b[k];
