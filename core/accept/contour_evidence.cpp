@@ -2,6 +2,7 @@
 #include "core/accept/contour_evidence.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/base/math.h"
@@ -19,13 +20,18 @@ constexpr Shares kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
 constexpr double kTrusted = 0.6;  ///< share of a right pose's edges that the image shows
 constexpr int kSamples = 12;      ///< of the window, along each side
 
-/// Interval of each distance.
-constexpr std::array<std::uint8_t, 256> kIntervalOf = [] {
-  std::array<std::uint8_t, 256> intervals{};
-  for (int distance = 0; distance < 256; ++distance)
+/// Interval of each distance, as a count of 1 in its 16 bits of a word: one addition counts.
+constexpr int kCountBits = 16;
+static_assert(kIntervals * kCountBits == 64 && kSamples * kSamples < 1 << kCountBits);
+constexpr std::array<std::uint64_t, 256> kCountOf = [] {
+  std::array<std::uint64_t, 256> counts{};
+  for (int distance = 0; distance < 256; ++distance) {
+    int interval = 0;
     for (const int up_to : kUpTo)
-      if (distance > up_to) ++intervals[static_cast<std::size_t>(distance)];
-  return intervals;
+      if (distance > up_to) ++interval;
+    counts[static_cast<std::size_t>(distance)] = std::uint64_t{1} << (kCountBits * interval);
+  }
+  return counts;
 }();
 
 /// Shares of the intervals around a place; one count more in each, so that none is 0.
@@ -35,20 +41,23 @@ Shares sharesAround(const EvidencePlace& place, const DirectedEdges& edges,
   for (int i = 0; i < kSamples; ++i)
     offset[static_cast<std::size_t>(i)] =
         static_cast<int>(std::floor(window_px * ((i + 0.5) / kSamples - 0.5)));
-  std::array<int, kIntervals> count{};
-  int all = 0;
+  std::uint64_t counts = 0;
   for (const int down : offset) {
     const int y = place.y + down;
     if (y < 0 || y >= edges.height) continue;
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(edges.width);
     for (const int right : offset) {
       const int x = place.x + right;
-      if (x < 0 || x >= edges.width) continue;
+      if (static_cast<unsigned>(x) >= static_cast<unsigned>(edges.width)) continue;
       const std::size_t at = row + static_cast<std::size_t>(x);
-      if (edges.direction[at] == DirectedEdges::kUnseen) continue;
-      ++count[kIntervalOf[distance[at]]];
-      ++all;
+      if (edges.direction[at] != DirectedEdges::kUnseen) counts += kCountOf[distance[at]];
     }
+  }
+  std::array<int, kIntervals> count{};
+  int all = 0;
+  for (std::size_t k = 0; k < kIntervals; ++k) {
+    count[k] = static_cast<int>(counts >> (kCountBits * k) & ((1U << kCountBits) - 1));
+    all += count[k];
   }
   Shares shares{};
   for (std::size_t k = 0; k < kIntervals; ++k)
@@ -63,8 +72,9 @@ double meanOf(double sum, std::int32_t count) { return count > 0 ? sum / count :
 double evidenceOfPlace_nats(const EvidencePlace& place, const DirectedEdges& edges,
                             std::span<const std::uint8_t> distance, double window_px) {
   const Shares around = sharesAround(place, edges, distance, window_px);
-  const std::size_t k =
-      kIntervalOf[distance[static_cast<std::size_t>(place.y * edges.width + place.x)]];
+  const std::uint64_t count =
+      kCountOf[distance[static_cast<std::size_t>(place.y * edges.width + place.x)]];
+  const auto k = static_cast<std::size_t>(std::countr_zero(count) / kCountBits);
   return log((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
 }
 
@@ -80,7 +90,26 @@ void ContourEvidenceMeter::create(std::size_t pixels, Arena& arena) {
   places_ = arena.allocate<EvidencePlace>(kMaxPlaces);
 }
 
-ContourEvidence ContourEvidenceMeter::measure(const DirectedEdges& edges, double size_px) {
+void ContourEvidenceMeter::begin(const DirectedEdges& edges) {
+  edges_ = &edges;
+  known_ = 0;
+}
+
+/// Distances to the edges of a direction.
+std::span<const std::uint8_t> ContourEvidenceMeter::distanceTo(int direction) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(edges_->width) * static_cast<std::size_t>(edges_->height);
+  const bool keeps = kEdgeDirections * pixels <= distance_.size();
+  const std::size_t first = keeps ? static_cast<std::size_t>(direction) * pixels : 0;
+  const std::span<std::uint8_t> distance = distance_.subspan(first, pixels);
+  const unsigned bit = 1U << direction;
+  if ((known_ & bit) == 0) distanceToDirection(*edges_, direction, distance);
+  if (keeps) known_ |= bit;
+  return distance;
+}
+
+ContourEvidence ContourEvidenceMeter::measure(double size_px) {
+  const DirectedEdges& edges = *edges_;
   ContourEvidence evidence;
   const auto places = places_.first(static_cast<std::size_t>(count_));
   std::int64_t sum_x = 0;
@@ -91,12 +120,12 @@ ContourEvidence ContourEvidenceMeter::measure(const DirectedEdges& edges, double
   }
   const std::int64_t count = std::max(count_, 1);
   for (int direction = 0; direction < kEdgeDirections; ++direction) {
-    distanceToDirection(edges, direction, distance_);
+    const std::span<const std::uint8_t> distance = distanceTo(direction);
     for (const EvidencePlace& place : places) {
       if (place.direction != direction || place.x < 0 || place.y < 0 || place.x >= edges.width ||
           place.y >= edges.height || edges.at(place.x, place.y) == DirectedEdges::kUnseen)
         continue;
-      const double nats = evidenceOfPlace_nats(place, edges, distance_, kEvidenceWindow * size_px);
+      const double nats = evidenceOfPlace_nats(place, edges, distance, kEvidenceWindow * size_px);
       const auto quadrant = static_cast<std::size_t>((place.x * count > sum_x ? 1 : 0) +
                                                      (place.y * count > sum_y ? 2 : 0));
       evidence.edges_nats += nats;

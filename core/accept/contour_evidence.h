@@ -50,20 +50,27 @@ class ContourEvidenceMeter {
  public:
   static constexpr int kMaxPlaces = 1500;  ///< at a time
 
-  /// Takes memory for images of up to `pixels` from `arena`.
+  /// Takes memory for images of up to `pixels` from `arena`. Of images of up to an eighth as many,
+  /// distances are computed once for all measurements.
   void create(std::size_t pixels, Arena& arena);
+  /// Begins with the edges of another image, or after the memory was used otherwise.
+  void begin(const DirectedEdges& edges);
   /// Removes all places.
   void clear() { count_ = 0; }
   /// Adds a place; those beyond kMaxPlaces are left out.
   void add(const EvidencePlace& place) {
     if (count_ < kMaxPlaces) places_[static_cast<std::size_t>(count_++)] = place;
   }
-  /// `size_px`: the object's longer side in this image. Places outside the image and on unknown
+  /// `size_px`: the object's longer side in the image. Places outside the image and on unknown
   /// pixels do not count.
-  ContourEvidence measure(const DirectedEdges& edges, double size_px);
+  ContourEvidence measure(double size_px);
 
  private:
+  std::span<const std::uint8_t> distanceTo(int direction);
+
+  const DirectedEdges* edges_ = nullptr;
   std::span<std::uint8_t> distance_;
+  unsigned known_ = 0;  ///< bit i: the distances to edges of direction i are kept
   std::span<EvidencePlace> places_;
   int count_ = 0;
 };

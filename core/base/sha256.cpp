@@ -16,33 +16,50 @@ std::uint32_t bigEndian32(const std::uint8_t* bytes) {
          (static_cast<std::uint32_t>(bytes[2]) << 8) | static_cast<std::uint32_t>(bytes[3]);
 }
 
-/// The names of FIPS 180-4, Sec. 4.1.2.
+/// The names of FIPS 180-4, Sec. 4.1.2. Sums of rotations are nested: the inner sum
+/// is rotated again, to the same bits.
 std::uint32_t bigSigma0(std::uint32_t x) {
-  return std::rotr(x, 2) ^ std::rotr(x, 13) ^ std::rotr(x, 22);
+  return std::rotr(x ^ std::rotr(x ^ std::rotr(x, 9), 11), 2);
 }
 std::uint32_t bigSigma1(std::uint32_t x) {
-  return std::rotr(x, 6) ^ std::rotr(x, 11) ^ std::rotr(x, 25);
+  return std::rotr(x ^ std::rotr(x ^ std::rotr(x, 14), 5), 6);
 }
 std::uint32_t smallSigma0(std::uint32_t x) { return std::rotr(x, 7) ^ std::rotr(x, 18) ^ (x >> 3); }
 std::uint32_t smallSigma1(std::uint32_t x) {
-  return std::rotr(x, 17) ^ std::rotr(x, 19) ^ (x >> 10);
+  return std::rotr(x ^ std::rotr(x, 2), 17) ^ (x >> 10);
 }
 
-/// Both save an operation over the standard's own form and are equal to it bit by bit.
+/// Saves an operation over the standard's own form and is equal to it bit by bit.
 std::uint32_t choose(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return z ^ (x & (y ^ z));
 }
-std::uint32_t majority(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  return (x & y) | (z & (x | y));
-}
 
-/// A round whose new values replace d and h; `term` is the round's constant plus its word.
-inline void mix(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t& d,
-                std::uint32_t e, std::uint32_t f, std::uint32_t g, std::uint32_t& h,
+/// A round whose new values replace d and h; `term` is the round's constant plus its word. The
+/// majority of a, b and c is b unless b differs from both. `bc_differ` holds the bits in which b
+/// and c differ; afterwards those in which a and b do, the next round's b and c.
+inline void mix(std::uint32_t a, std::uint32_t b, std::uint32_t& d, std::uint32_t e,
+                std::uint32_t f, std::uint32_t g, std::uint32_t& h, std::uint32_t& bc_differ,
                 std::uint32_t term) {
   h += bigSigma1(e) + choose(e, f, g) + term;
   d += h;
-  h += bigSigma0(a) + majority(a, b, c);
+  const std::uint32_t ab_differ = a ^ b;
+  h += bigSigma0(a) + (b ^ (ab_differ & bc_differ));
+  bc_differ = ab_differ;
+}
+
+/// The part of words 16 .. 31 that depends on words 0 .. 16 only, several at a time. Inlined, the
+/// promise that the rows do not overlap gets lost, and with it the vector code.
+[[gnu::noinline]] void addSigma0(const std::uint32_t* __restrict w, std::uint32_t* __restrict sum) {
+  for (std::size_t i = 0; i < 16; ++i) sum[i] = w[i] + smallSigma0(w[i + 1]);
+}
+
+/// Words 16 .. 31 from words 0 .. 15.
+void expand(std::uint32_t* w) {
+  std::uint32_t old[16];
+  addSigma0(w, old);
+  for (std::size_t i = 0; i < 15; ++i) w[i + 16] = old[i] + w[i + 9] + smallSigma1(w[i + 14]);
+  // Only the last word depends on the first new one.
+  w[31] = w[15] + smallSigma0(w[16]) + w[24] + smallSigma1(w[29]);
 }
 
 }  // namespace
@@ -52,23 +69,22 @@ void sha256Plain(Sha256State& state, const std::uint8_t* blocks, std::size_t cou
     const std::uint8_t* block = blocks + 64 * n;
     std::array<std::uint32_t, 64> w{};
     for (std::size_t i = 0; i < 16; ++i) w[i] = bigEndian32(block + 4 * i);
-    for (std::size_t i = 16; i < 64; ++i) {
-      w[i] = w[i - 16] + smallSigma0(w[i - 15]) + w[i - 7] + smallSigma1(w[i - 2]);
-    }
+    for (std::size_t i = 0; i < 48; i += 16) expand(&w[i]);
+    for (std::size_t i = 0; i < 64; ++i) w[i] += kSha256Constants[i];
     // Eight rounds at a time: the names rotate instead of the values.
     Sha256State change = state;
     auto& [a, b, c, d, e, f, g, h] = change;
+    std::uint32_t bc_differ = b ^ c;
     for (std::size_t i = 0; i < 64; i += 8) {
-      const std::uint32_t* k = &kSha256Constants[i];
-      const std::uint32_t* word = &w[i];
-      mix(a, b, c, d, e, f, g, h, k[0] + word[0]);
-      mix(h, a, b, c, d, e, f, g, k[1] + word[1]);
-      mix(g, h, a, b, c, d, e, f, k[2] + word[2]);
-      mix(f, g, h, a, b, c, d, e, k[3] + word[3]);
-      mix(e, f, g, h, a, b, c, d, k[4] + word[4]);
-      mix(d, e, f, g, h, a, b, c, k[5] + word[5]);
-      mix(c, d, e, f, g, h, a, b, k[6] + word[6]);
-      mix(b, c, d, e, f, g, h, a, k[7] + word[7]);
+      const std::uint32_t* term = &w[i];
+      mix(a, b, d, e, f, g, h, bc_differ, term[0]);
+      mix(h, a, c, d, e, f, g, bc_differ, term[1]);
+      mix(g, h, b, c, d, e, f, bc_differ, term[2]);
+      mix(f, g, a, b, c, d, e, bc_differ, term[3]);
+      mix(e, f, h, a, b, c, d, bc_differ, term[4]);
+      mix(d, e, g, h, a, b, c, bc_differ, term[5]);
+      mix(c, d, f, g, h, a, b, bc_differ, term[6]);
+      mix(b, c, e, f, g, h, a, bc_differ, term[7]);
     }
     for (std::size_t i = 0; i < 8; ++i) state[i] += change[i];
   }

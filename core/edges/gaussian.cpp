@@ -51,6 +51,44 @@ void sumBlock(const GaussianKernel& kernel, const std::uint8_t* const* above,
   }
 }
 
+/// Radius of the default sigma. With a fixed number of taps, sums stay in registers.
+constexpr int kUsualRadius = 5;
+
+/// sumBlock() for this radius.
+[[gnu::noinline]] void sumUsualBlock(const GaussianKernel& kernel, const std::uint8_t* const* above,
+                                     const std::uint8_t* const* below, int x,
+                                     std::uint16_t* __restrict high,
+                                     std::uint16_t* __restrict low) {
+  const std::uint8_t* a[kUsualRadius + 1];
+  const std::uint8_t* b[kUsualRadius + 1];
+  std::uint16_t weight[kUsualRadius + 1];
+  for (int k = 0; k <= kUsualRadius; ++k) {
+    a[k] = above[k] + x;
+    b[k] = below[k] + x;
+    weight[k] = kernel.weight[static_cast<std::size_t>(k)];
+  }
+  for (int i = 0; i < kRowBlock; ++i) {
+    auto sum = static_cast<std::uint16_t>(weight[0] * a[0][i]);
+    for (int k = 1; k <= kUsualRadius; ++k)
+      sum = static_cast<std::uint16_t>(sum + weight[k] * (a[k][i] + b[k][i]));
+    high[i] = static_cast<std::uint16_t>(sum >> 8);
+    low[i] = static_cast<std::uint16_t>(sum & 0xFF);
+  }
+}
+
+/// sumAlongRow() for this radius.
+[[gnu::noinline]] void sumAlongUsualRow(const GaussianKernel& kernel, const std::uint16_t* row,
+                                        std::uint16_t* __restrict sum) {
+  std::uint16_t weight[kUsualRadius + 1];
+  for (int k = 0; k <= kUsualRadius; ++k) weight[k] = kernel.weight[static_cast<std::size_t>(k)];
+  for (int i = 0; i < kRowBlock; ++i) {
+    auto at = static_cast<std::uint16_t>(weight[0] * row[i]);
+    for (int k = 1; k <= kUsualRadius; ++k)
+      at = static_cast<std::uint16_t>(at + weight[k] * (row[i - k] + row[i + k]));
+    sum[i] = at;
+  }
+}
+
 /// The same along a row of 16-bit values in [0, 255], `row` at the first centre.
 void sumAlongRow(const GaussianKernel& kernel, const std::uint16_t* row,
                  std::uint16_t* __restrict sum) {
@@ -134,11 +172,12 @@ void SmoothedRows::row(int y, const Equalizer& source, std::uint8_t* out) {
     source.row(loaded_, slot(loaded_));
   sumColumns(y);
   mirrorSides();
+  const auto sum = kernel_.radius == kUsualRadius ? sumAlongUsualRow : sumAlongRow;
   for (int x = 0; x < width_; x += kRowBlock) {
     std::uint16_t high[kRowBlock];
     std::uint16_t low[kRowBlock];
-    sumAlongRow(kernel_, high_.data() + kMargin + x, high);
-    sumAlongRow(kernel_, low_.data() + kMargin + x, low);
+    sum(kernel_, high_.data() + kMargin + x, high);
+    sum(kernel_, low_.data() + kMargin + x, low);
     roundBlock(high, low, out + x);
   }
 }
@@ -151,9 +190,10 @@ void SmoothedRows::sumColumns(int y) {
     above[static_cast<std::size_t>(k)] = slot(reflect101(y - distance, height_));
     below[static_cast<std::size_t>(k)] = slot(reflect101(y + distance, height_));
   }
+  const auto sum = kernel_.radius == kUsualRadius ? sumUsualBlock : sumBlock;
   for (int x = 0; x < width_; x += kRowBlock)
-    sumBlock(kernel_, above.data(), below.data(), x, high_.data() + kMargin + x,
-             low_.data() + kMargin + x);
+    sum(kernel_, above.data(), below.data(), x, high_.data() + kMargin + x,
+        low_.data() + kMargin + x);
 }
 
 /// All columns are summed in the same way, so mirroring the sums equals mirroring the pixels.

@@ -304,11 +304,7 @@ bool facePlane(const CameraScene& scene, std::int32_t face, Eigen::Vector3d& pla
   const Eigen::Vector3d& v0 = scene.vertex(face, 0);
   const Eigen::Vector3d& v1 = scene.vertex(face, 1);
   const Eigen::Vector3d& v2 = scene.vertex(face, 2);
-  const Eigen::Vector3d normal = crossProduct(v1 - v0, v2 - v0);
-  const double inverse = 1.0 / dotProduct(normal, v0);
-  if (!(std::abs(inverse) < 1e300)) return false;
-  plane = normal * inverse;
-  return true;
+  return planeOf(crossProduct(v1 - v0, v2 - v0), v0, plane);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -141,6 +142,16 @@ inline double dotProduct(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 /// (homogeneous rasterization: Olano & Greer, "Triangle Scan Conversion using 2D Homogeneous
 /// Coordinates", 1997). False when the triangle has no area seen from the camera.
 [[nodiscard]] bool faceEdges(const CameraScene& scene, std::int32_t face, Eigen::Vector3d edge[3]);
+
+/// The plane through a point with a normal of any length, as 1/z = plane . ray. False when the
+/// camera's centre lies in it.
+[[nodiscard]] inline bool planeOf(const Eigen::Vector3d& normal, const Eigen::Vector3d& point,
+                                  Eigen::Vector3d& plane) {
+  const double inverse = 1.0 / dotProduct(normal, point);
+  if (!(std::abs(inverse) < 1e300)) return false;
+  plane = normal * inverse;
+  return true;
+}
 
 /// The plane of a face as 1/z = plane . ray; it points away from the camera, so -plane / |plane| is
 /// the face's unit normal on the camera's side, and 1 / |plane| its distance in metres. False when

@@ -18,31 +18,42 @@ bool ownsLine(const Eigen::Vector3d& edge) {
   return edge.z() > 0.0;
 }
 
+/// Whether a triangle has an area seen from the camera: as faceEdges() decides.
+bool hasArea(const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::Vector3d& v2) {
+  const double determinant = dotProduct(crossProduct(v0, v1), v2);
+  return determinant > 0.0 || determinant < 0.0;
+}
+
 }  // namespace
 
-bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
+bool prepareEdges(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
   Eigen::Vector3d edge[3];
-  Eigen::Vector3d plane;
-  if (!faceEdges(scene, face, edge) || !facePlane(scene, face, plane)) return false;
+  if (!faceEdges(scene, face, edge)) return false;
   for (int i = 0; i < 3; ++i) {
     drawn.a[i] = edge[i].x();
     drawn.b[i] = edge[i].y();
     drawn.c[i] = edge[i].z();
     drawn.limit[i] = ownsLine(edge[i]) ? 0.0 : std::numeric_limits<double>::denorm_min();
   }
-  drawn.plane_x = plane.x();
-  drawn.plane_y = plane.y();
-  drawn.plane_1 = plane.z();
+  return true;
+}
+
+bool preparePlane(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
   const Eigen::Vector3d& v0 = scene.vertex(face, 0);
   const Eigen::Vector3d& v1 = scene.vertex(face, 1);
   const Eigen::Vector3d& v2 = scene.vertex(face, 2);
   const double z_min = std::min({v0.z(), v1.z(), v2.z()});
   const double z_max = std::max({v0.z(), v1.z(), v2.z()});
-  if (!(z_max >= CameraScene::kNearPlane_m)) return false;
-  // Within a face 1/z stays in a range; the plane of a sliver is too uncertain.
+  if (!(z_max >= CameraScene::kNearPlane_m) || !hasArea(v0, v1, v2)) return false;
   const Eigen::Vector3d side1 = v1 - v0;
   const Eigen::Vector3d side2 = v2 - v0;
   const Eigen::Vector3d normal = crossProduct(side1, side2);
+  Eigen::Vector3d plane;
+  if (!planeOf(normal, v0, plane)) return false;
+  drawn.plane_x = plane.x();
+  drawn.plane_y = plane.y();
+  drawn.plane_1 = plane.z();
+  // Within a face 1/z stays in a range; the plane of a sliver is too uncertain.
   const double length2 = std::max(dotProduct(side1, side1), dotProduct(side2, side2));
   const bool crosses_near_plane = !(z_min > CameraScene::kNearPlane_m);
   drawn.clamped =
@@ -56,14 +67,8 @@ bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) 
   return true;
 }
 
-bool insideFace(const CameraScene& scene, std::int32_t face, double ray_x, double ray_y) {
-  Eigen::Vector3d edge[3];
-  if (!faceEdges(scene, face, edge)) return false;
-  for (int i = 0; i < 3; ++i) {
-    const double value = edge[i].x() * ray_x + (edge[i].y() * ray_y + edge[i].z());
-    if (!(value > 0.0 || (value == 0.0 && ownsLine(edge[i])))) return false;
-  }
-  return true;
+bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
+  return prepareEdges(scene, face, drawn) && preparePlane(scene, face, drawn);
 }
 
 }  // namespace boresight

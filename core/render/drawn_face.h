@@ -27,7 +27,11 @@ struct DrawnFace {
   }
 };
 
-/// Sets up all members except `slack`. False when the face is invisible.
+/// Sets up the edges, but for their `slack`. False when the face has no area seen from the camera.
+[[nodiscard]] bool prepareEdges(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
+/// Sets up all other members. False when the face is invisible, as one without area is.
+[[nodiscard]] bool preparePlane(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
+/// Both. False when the face is invisible.
 [[nodiscard]] bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
 
 /// Whether a ray passes inside all three edges. Rows of the rasterizer compute the same terms in
@@ -37,11 +41,6 @@ struct DrawnFace {
     if (!(drawn.a[i] * ray_x + (drawn.b[i] * ray_y + drawn.c[i]) >= drawn.limit[i])) return false;
   return true;
 }
-
-/// Whether the ray (x/z, y/z, 1) passes inside all three edges: what the rasterizer computes with a
-/// prepared face, for one ray.
-[[nodiscard]] bool insideFace(const CameraScene& scene, std::int32_t face, double ray_x,
-                              double ray_y);
 
 /// 1/z where the ray meets the face's plane, rounded as it is compared; false where the near plane
 /// cuts the face off.

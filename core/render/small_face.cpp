@@ -32,20 +32,15 @@ class SmallFace {
   SmallFace(const CameraScene& scene, std::int32_t face, RasterBand& band)
       : scene_(scene), band_(band), face_(face) {}
 
-  bool covers(std::size_t at) {
-    return prepare() && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]);
-  }
-  /// The same for a face with one pixel, without further tests.
-  bool coversOnly(std::size_t at) {
-    return insideFace(scene_, face_, band_.ray_x[at], band_.ray_y[at]) && prepare();
-  }
-
-  void put(std::size_t at) {
+  /// Draws a pixel that the face may cover; `inside`: surely does.
+  void visit(std::size_t at, bool inside) {
     const std::int32_t owner = band_.face[at];
-    if (owner < 0) return take(at);
-    if (owner != owner_) meet(owner);
-    if (relation_ == Relation::kNearer) return take(at);
-    if (relation_ == Relation::kUnclear) contest(at);
+    if (owner >= 0 && owner != owner_) meet(owner);
+    const Relation relation = owner < 0 ? Relation::kNearer : relation_;
+    // Whether a hidden pixel is covered makes no difference.
+    if (relation == Relation::kFarther || !(inside || covers(at))) return;
+    if (relation == Relation::kNearer) return take(at);
+    contest(at);
   }
 
  private:
@@ -56,9 +51,16 @@ class SmallFace {
     band_.inverse_depth[at] = RasterBand::kUnknownDepth;
   }
 
-  bool prepare() {
-    if (!prepared_) visible_ = prepareFace(scene_, face_, drawn_);
-    prepared_ = true;
+  /// By the exact edges. The plane of a face that covers no pixel is not needed.
+  bool covers(std::size_t at) {
+    if (!edges_known_) has_area_ = prepareEdges(scene_, face_, drawn_);
+    edges_known_ = true;
+    return has_area_ && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]) && isVisible();
+  }
+
+  bool isVisible() {
+    if (!plane_known_) visible_ = preparePlane(scene_, face_, drawn_);
+    plane_known_ = true;
     return visible_;
   }
 
@@ -76,10 +78,10 @@ class SmallFace {
   /// Neither is clearly nearer: as the rasterizer compares.
   void contest(std::size_t at) {
     float inverse_depth = 0.0F;
-    if (!prepare() || !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
+    if (!isVisible() || !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
       return;
     if (band_.inverse_depth[at] == RasterBand::kUnknownDepth) {
-      if (!owner_prepared_) owner_visible_ = prepareFace(scene_, owner_, owner_drawn_);
+      if (!owner_prepared_) owner_visible_ = preparePlane(scene_, owner_, owner_drawn_);
       owner_prepared_ = true;
       float known = 0.0F;
       if (owner_visible_ && inverseDepthOn(owner_drawn_, band_.ray_x[at], band_.ray_y[at], known))
@@ -97,7 +99,9 @@ class SmallFace {
   std::int32_t face_;
   std::int32_t owner_ = -1;  ///< the face tested last
   Relation relation_ = Relation::kUnclear;
-  bool prepared_ = false;
+  bool edges_known_ = false;
+  bool has_area_ = false;
+  bool plane_known_ = false;
   bool visible_ = false;
   bool depth_known_ = false;
   bool owner_prepared_ = false;
@@ -106,6 +110,71 @@ class SmallFace {
   DrawnFace drawn_;
   DrawnFace owner_drawn_;
 };
+
+/// The value of a line of a face at a pixel, and its steps to the next pixel and row.
+struct LineValue {
+  int value;
+  int per_px;
+  int per_row;
+};
+
+/// The pixels of a face's box, and its lines at the first one; the third value follows from the
+/// area.
+struct FixedArea {
+  std::size_t first;  ///< entry of the band
+  std::size_t stride;
+  int columns, rows;
+  LineValue ab, bc;
+  int area2;
+  int tolerance;
+};
+
+/// Draws a face so thin that its lines' values may all be within the tolerance.
+void drawThin(const FixedArea& area, SmallFace& small) {
+  for (int row = 0; row < area.rows; ++row) {
+    const std::size_t first = area.first + static_cast<std::size_t>(row) * area.stride;
+    int ab = area.ab.value + row * area.ab.per_row;
+    int bc = area.bc.value + row * area.bc.per_row;
+    for (int i = 0; i < area.columns; ++i, ab += area.ab.per_px, bc += area.bc.per_px) {
+      const int located = FixedFace::locate(ab, bc, area.area2 - ab - bc, area.tolerance);
+      if (located >= 0) small.visit(first + static_cast<std::size_t>(i), located > 0);
+    }
+  }
+}
+
+/// Draws a face whose area is more than three tolerances, so that the values of its lines cannot
+/// all be within the tolerance on the outer side: outside, one is below -tolerance; surely inside,
+/// all are above the tolerance. Values of a face seen from inside have the other sign.
+void drawClear(const FixedArea& area, SmallFace& small) {
+  const int sign = area.area2 < 0 ? -1 : 1;
+  const int ab_per_px = sign * area.ab.per_px;
+  const int bc_per_px = sign * area.bc.per_px;
+  const int ca_per_px = -ab_per_px - bc_per_px;
+  const int surely = 2 * area.tolerance + 1;
+  int row_ab = sign * area.ab.value + area.tolerance;
+  int row_bc = sign * area.bc.value + area.tolerance;
+  const int sum = sign * area.area2 + 3 * area.tolerance;
+  std::size_t first = area.first;
+  for (int row = 0; row < area.rows; ++row, first += area.stride) {
+    int ab = row_ab;
+    int bc = row_bc;
+    int ca = sum - ab - bc;
+    const std::size_t end = first + static_cast<std::size_t>(area.columns);
+    std::size_t at = first;
+    const auto isOutside = [&] { return (ab | bc | ca) < 0; };
+    const auto next = [&] {
+      ++at;
+      ab += ab_per_px;
+      bc += bc_per_px;
+      ca += ca_per_px;
+    };
+    while (at < end && isOutside()) next();
+    for (; at < end && !isOutside(); next())  // a face is convex
+      small.visit(at, ((ab - surely) | (bc - surely) | (ca - surely)) >= 0);
+    row_ab += sign * area.ab.per_row;
+    row_bc += sign * area.bc.per_row;
+  }
+}
 
 }  // namespace
 
@@ -125,7 +194,6 @@ void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& b
                         scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])],
                         scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])]);
   PixelBox box = this->box(fixed);
-  const bool single = box.x_first == box.x_last && box.y_first == box.y_last;
   const int top = band.first_y - scale_.middle_y;
   box.x_first = std::max(box.x_first, band.x_begin - scale_.middle_x);
   box.x_last = std::min(box.x_last, band.x_end - 1 - scale_.middle_x);
@@ -135,20 +203,29 @@ void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& b
 
   SmallFace small(scene, face, band);
   const int steps = scale_.steps();
-  const int tolerance = this->tolerance(fixed);
-  const int area2 = fixed.area2();
-  const int ab_per_px = -(fixed.b_y - fixed.a_y) * steps;
-  const int bc_per_px = -(fixed.c_y - fixed.b_y) * steps;
-  for (int y = box.y_first; y <= box.y_last; ++y) {
-    int ab = fixed.lineAb(box.x_first * steps, y * steps);
-    int bc = fixed.lineBc(box.x_first * steps, y * steps);
-    std::size_t at = band.index(box.x_first + scale_.middle_x, y - top + 1);
-    for (int x = box.x_first; x <= box.x_last; ++x, ++at, ab += ab_per_px, bc += bc_per_px) {
-      const int located = FixedFace::locate(ab, bc, area2 - ab - bc, tolerance);
-      if (located < 0) continue;
-      if (located > 0 || (single ? small.coversOnly(at) : small.covers(at))) small.put(at);
-    }
+  const int x = box.x_first * steps;
+  const int y = box.y_first * steps;
+  if (box.x_first == box.x_last && box.y_first == box.y_last) {
+    const int located = FixedFace::locate(fixed.lineAb(x, y), fixed.lineBc(x, y),
+                                          fixed.area2() - fixed.lineAb(x, y) - fixed.lineBc(x, y),
+                                          tolerance(fixed));
+    const std::size_t at = band.index(box.x_first + scale_.middle_x, box.y_first - top + 1);
+    if (located >= 0) small.visit(at, located > 0);
+    return;
   }
+  const FixedArea area{
+      band.index(box.x_first + scale_.middle_x, box.y_first - top + 1),
+      static_cast<std::size_t>(band.stride),
+      box.x_last - box.x_first + 1,
+      box.y_last - box.y_first + 1,
+      {fixed.lineAb(x, y), -(fixed.b_y - fixed.a_y) * steps, (fixed.b_x - fixed.a_x) * steps},
+      {fixed.lineBc(x, y), -(fixed.c_y - fixed.b_y) * steps, (fixed.c_x - fixed.b_x) * steps},
+      fixed.area2(),
+      tolerance(fixed)};
+  if (std::abs(area.area2) > 3 * area.tolerance)
+    drawClear(area, small);
+  else
+    drawThin(area, small);
 }
 
 void resolveDepths(const CameraScene& scene, RasterBand& band) {

@@ -105,6 +105,7 @@ void PlaneCache::clear() {
 }
 
 void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry) {
+  entry = Entry();  // the same for a face without a plane, whatever the entry held
   entry.face = face;
   entry.valid = facePlane(scene, trustedFace(scene, face), entry.plane);
   const double norm2 = dotProduct(entry.plane, entry.plane);
@@ -114,9 +115,6 @@ void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry)
 SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,
                         const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
                         std::int32_t target) {
-  PlaneCache::Entry plane = planes.get(scene, start);
-  const PlaneCache::Entry first_plane = plane;
-  const PlaneCache::Entry last_plane = target >= 0 ? planes.get(scene, target) : first_plane;
   SurfaceEnd end;
   end.face = start;
   SurfaceEnd turn;
@@ -141,17 +139,18 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
       end.reached = true;
       break;
     }
+    const PlaneCache::Entry plane = planes.get(scene, end.face);
     const PlaneCache::Entry next_plane = planes.get(scene, next);
     if (!next_plane.valid ||
         normalsDiffer(plane, next_plane, scene.cos_normal_threshold[scene.partIndex(end.face)]))
       break;
     if (target >= 0 && !turn.ends &&
-        nearness(next_plane, last_plane) > nearness(next_plane, first_plane))
+        nearness(next_plane, planes.get(scene, target)) >
+            nearness(next_plane, planes.get(scene, start)))
       turn = end;
     entered_through = edgeTowards(scene, next, end.face);
     if (entered_through < 0) break;
     end.face = next;
-    plane = next_plane;
   }
   return end;
 }

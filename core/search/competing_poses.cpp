@@ -65,7 +65,9 @@ Status CompetingPoseTest::create(int channels, Arena& arena) {
   // A render is measured before places are compared.
   const std::size_t start = arena.mark();
   if (refinement_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
-  meter_.create(kPixels, arena);
+  // The hypotheses of the first view are measured one after the other.
+  constexpr auto kFirst_px = static_cast<std::size_t>(SlideSums::kMaxView_px);
+  meter_.create(std::max(kPixels, kEdgeDirections * kFirst_px * kFirst_px), arena);
   const std::size_t measured = arena.mark();
   arena.rewind(start);
   slides_.create(arena);  // used before
@@ -94,6 +96,7 @@ bool CompetingPoseTest::step() {
   switch (phase_) {
     case Phase::kView:
       if (view_edges_.step()) {
+        meter_.begin(view_edges_.edges());
         const bool finds = purpose_ == Purpose::kFound || purpose_ == Purpose::kFoundAgain;
         if (!finds) current_ = view_edges_.inView(promising_[competitor_]);
         beginRender(finds ? view_edges_.inView(found_) : current_, purpose_);
@@ -200,6 +203,7 @@ void CompetingPoseTest::takeFound() {
 /// Lists the slid hypotheses.
 void CompetingPoseTest::stepSlides() {
   if (!slides_.step()) return;
+  meter_.begin(view_edges_.edges());  // its memory was used
   const double depth_m = (current_ * problem_.scene.centre()).z();
   for (const Eigen::Vector2i& slide_px : slides_.slides_px()) {
     Pose slid = current_;
@@ -252,7 +256,7 @@ void CompetingPoseTest::nextPromising() {
 double CompetingPoseTest::rankOfRender() {
   meter_.clear();
   addPlaces(render_, meter_);
-  const ContourEvidence evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
+  const ContourEvidence evidence = meter_.measure(view_edges_.view().span_px);
   return evidence.strongest_nats() + 0.5 * evidence.weakest_nats();
 }
 

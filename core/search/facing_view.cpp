@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace boresight {
 namespace {
@@ -76,59 +75,112 @@ struct Channels {
   }
 };
 
-/// Sum of bytes, eight at a time.
-std::int32_t sumOf(const std::uint8_t* bytes, int count) {
-  constexpr std::uint64_t kEven = 0x00ff00ff00ff00ffU;
-  constexpr int kWord = sizeof(std::uint64_t);
-  constexpr int kMostBytes = 128 * kWord;  // that four lanes of 16 bits hold
-  std::int32_t sum = 0;
-  while (count >= kWord) {
-    const int words = std::min(count, kMostBytes) / kWord;
-    count -= words * kWord;
-    std::uint64_t lanes = 0;
-    for (int i = 0; i < words; ++i, bytes += kWord) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes, kWord);
-      lanes += (word & kEven) + ((word >> 8) & kEven);
-    }
-    for (; lanes != 0; lanes >>= 16) sum += static_cast<std::int32_t>(lanes & 0xffff);
-  }
-  for (int i = 0; i < count; ++i) sum += bytes[i];
-  return sum;
-}
-
 template <int kCount>
 using Sums = std::array<std::int64_t, static_cast<std::size_t>(kCount)>;
 
-/// Sums over block x block pixels from a place on, bilinear, in units of 2^-16.
+/// A square block of the image from a place on, bilinear: pixels of its first and last rows and
+/// columns count by the share that the block covers.
+struct Block {
+  int x, y;                  ///< its first pixel
+  std::int32_t right, down;  ///< weights of the last column and row, in units of 2^-kWeightBits
+  int size;                  ///< px; it touches one column and one row more
+
+  Block(double x_px, double y_px, int size_px)
+      : x(static_cast<int>(x_px)), y(static_cast<int>(y_px)), size(size_px) {
+    right = static_cast<std::int32_t>((x_px - x) * (1 << kWeightBits));
+    down = static_cast<std::int32_t>((y_px - y) * (1 << kWeightBits));
+  }
+  std::int32_t left() const { return (1 << kWeightBits) - right; }
+  std::int32_t up() const { return (1 << kWeightBits) - down; }
+};
+
+/// Sums over a block, in units of 2^-16.
 template <int kCount>
-Sums<kCount> blockSums(const Channels& image, double x_px, double y_px, int block) {
-  const int x = static_cast<int>(x_px);
-  const int y = static_cast<int>(y_px);
-  const auto right = static_cast<std::int32_t>((x_px - x) * (1 << kWeightBits));
-  const auto down = static_cast<std::int32_t>((y_px - y) * (1 << kWeightBits));
-  const std::int32_t left = (1 << kWeightBits) - right;
-  const std::int32_t up = (1 << kWeightBits) - down;
+Sums<kCount> blockSums(const Channels& image, const Block& block) {
   Sums<kCount> sums{};
-  for (int row = 0; row <= block; ++row) {
-    const std::uint8_t* pixel = image.at<kCount>(x, y + row);
+  for (int row = 0; row <= block.size; ++row) {
+    const std::uint8_t* pixel = image.at<kCount>(block.x, block.y + row);
     std::array<std::int32_t, static_cast<std::size_t>(kCount)> inner{};
-    if constexpr (kCount == 1) {
-      inner[0] = sumOf(pixel + 1, block - 1);
-    } else {
-      for (int i = 1; i < block; ++i)
-        for (int k = 0; k < kCount; ++k)
-          inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
-    }
-    const std::int32_t weight = row == 0 ? up : row == block ? down : (1 << kWeightBits);
+    for (int i = 1; i < block.size; ++i)
+      for (int k = 0; k < kCount; ++k) inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
+    const std::int32_t weight = row == 0            ? block.up()
+                                : row == block.size ? block.down
+                                                    : (1 << kWeightBits);
     for (int k = 0; k < kCount; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      const std::int64_t along = left * pixel[k] + (std::int64_t{inner[at]} << kWeightBits) +
-                                 right * pixel[block * kCount + k];
+      const std::int64_t along = block.left() * pixel[k] +
+                                 (std::int64_t{inner[at]} << kWeightBits) +
+                                 block.right * pixel[block.size * kCount + k];
       sums[at] += along * weight;
     }
   }
   return sums;
+}
+
+/// A value for each of some neighbouring columns: as many as fit two vectors of 16 bytes.
+constexpr int kColumns = 16;
+using Columns = std::array<std::int16_t, kColumns>;
+/// Rows whose sums fit.
+constexpr int kMostRows = 128;
+
+/// Sums of the columns over rows. This function and the next two stay vector code only when they
+/// are not inlined.
+[[gnu::noinline]] Columns columnSums(const std::uint8_t* row, std::ptrdiff_t stride, int rows) {
+  std::uint16_t sum[kColumns] = {};
+  for (int i = 0; i < rows; ++i, row += stride)
+    for (int k = 0; k < kColumns; ++k) sum[k] = static_cast<std::uint16_t>(sum[k] + row[k]);
+  Columns sums;
+  for (int k = 0; k < kColumns; ++k)
+    sums[static_cast<std::size_t>(k)] = static_cast<std::int16_t>(sum[k]);
+  return sums;
+}
+
+/// Sum of the products of all columns.
+[[gnu::noinline]] std::int32_t dotProduct(const Columns& a, const Columns& b) {
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < kColumns; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+/// Weights of a block's columns from `begin` on, of which columns first .. end - 1 count.
+[[gnu::noinline]] Columns columnWeights(const Block& block, int begin, int first, int end) {
+  static constexpr Columns kPlace = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const auto from = static_cast<std::int16_t>(first - begin);
+  const auto to = static_cast<std::int16_t>(end - begin);
+  Columns weights;
+  for (std::size_t k = 0; k < kColumns; ++k)
+    weights[k] = (kPlace[k] >= from) & (kPlace[k] < to) ? 1 << kWeightBits : 0;
+  const auto weightOf = [&](int column) -> std::int16_t& {
+    return weights[static_cast<std::size_t>(column - begin)];
+  };
+  if (first == 0) weightOf(0) = static_cast<std::int16_t>(block.left());
+  if (end == block.size + 1) weightOf(block.size) = static_cast<std::int16_t>(block.right);
+  return weights;
+}
+
+/// blockSums() of a gray image of at least kColumns columns, for blocks of less than kMostRows:
+/// whole columns are summed first, many at a time.
+std::int64_t blockSumByColumns(const Channels& image, int width, const Block& block) {
+  std::int64_t sum = 0;
+  for (int first = 0; first <= block.size; first += kColumns) {
+    const int end = std::min(first + kColumns, block.size + 1);
+    const int begin = std::min(first, width - kColumns - block.x);  // read within the row
+    const Columns weights = columnWeights(block, begin, first, end);
+    const std::uint8_t* const top = image.at<1>(block.x + begin, block.y);
+    const std::uint8_t* const bottom = top + image.stride * block.size;
+    const auto alongRow = [&](const std::uint8_t* row) {
+      return std::int64_t{dotProduct(weights, columnSums(row, 0, 1))};
+    };
+    const Columns inner = columnSums(top + image.stride, image.stride, block.size - 1);
+    sum += (std::int64_t{dotProduct(weights, inner)} << kWeightBits) + block.up() * alongRow(top) +
+           block.down * alongRow(bottom);
+  }
+  return sum;
+}
+
+/// Whether blockSumByColumns() applies to an image.
+bool sumsByColumns(const SearchProblem& problem, int block) {
+  return problem.image.width >= kColumns && block < kMostRows;
 }
 
 template <int kCount>
@@ -138,6 +190,7 @@ void fillRows(const SearchProblem& problem, const Channels& image, const FacingV
   const int block = std::max(1, static_cast<int>(1.0 / view.pixels_per_px + 0.5));
   const double half = 0.5 * (block - 1);
   const std::size_t channel = output.seen.size();
+  const bool by_columns = sumsByColumns(problem, block);
   for (int y = first; y < end; ++y) {
     for (int x = 0; x < output.width; ++x) {
       const auto at = static_cast<std::size_t>(y * output.width + x);
@@ -153,7 +206,12 @@ void fillRows(const SearchProblem& problem, const Channels& image, const FacingV
       if (!(left >= 0.0 && top >= 0.0 && left + block < problem.image.width &&
             top + block < problem.image.height))
         continue;
-      const Sums<kCount> sums = blockSums<kCount>(image, left, top, block);
+      const Block covered(left, top, block);
+      Sums<kCount> sums;
+      if (kCount == 1 && by_columns)
+        sums[0] = blockSumByColumns(image, problem.image.width, covered);
+      else
+        sums = blockSums<kCount>(image, covered);
       for (int k = 0; k < kCount; ++k)
         output.value[static_cast<std::size_t>(k) * channel + at] = static_cast<std::uint8_t>(
             (sums[static_cast<std::size_t>(k)] >> (2 * kWeightBits)) / (block * block));

@@ -65,9 +65,10 @@ bool PoseEvidence::begin(const SearchProblem& problem, const EdgeRender& render)
 
 bool PoseEvidence::step() {
   if (!view_edges_.step()) return false;
+  meter_.begin(view_edges_.edges());
   meter_.clear();
   addPlacesOfRender();
-  evidence_ = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
+  evidence_ = meter_.measure(view_edges_.view().span_px);
   return true;
 }
 

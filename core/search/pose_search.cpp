@@ -65,7 +65,9 @@ Status PoseSearch::create(int channels, Arena& arena) {
   const std::size_t end = arena.mark();
   arena.rewind(start);
   if (refinement_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
-  meter_.create(kPixels, arena);
+  // The poses of the search's view are measured one after the other.
+  constexpr auto kSearched_px = static_cast<std::size_t>(SlideSums::kMaxView_px);
+  meter_.create(std::max(kPixels, kEdgeDirections * kSearched_px * kSearched_px), arena);
   arena.rewind(std::max({end_of_view, end, arena.mark()}));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
@@ -89,6 +91,7 @@ bool PoseSearch::step() {
       return !beginNext();
     case Phase::kView:
       if (!view_edges_.step()) return false;
+      meter_.begin(view_edges_.edges());
       view_from_station_ = view_edges_.inView(current_.camera_from_station);
       phase_ = Phase::kRender;
       rendering_ = false;
@@ -107,6 +110,7 @@ bool PoseSearch::step() {
 
 /// The poses of the search, for the first round.
 void PoseSearch::takeFound() {
+  meter_.begin(view_edges_.edges());
   waiting_count_ = 0;
   for (const SearchCandidate& found : search_.candidates()) {
     PoseCandidate& candidate = waiting_[static_cast<std::size_t>(waiting_count_++)];
@@ -262,7 +266,7 @@ bool PoseSearch::refine() {
 bool PoseSearch::measure() {
   meter_.clear();
   addPlaces(render_, meter_);
-  current_.evidence = meter_.measure(view_edges_.edges(), view_edges_.view().span_px);
+  current_.evidence = meter_.measure(view_edges_.view().span_px);
   return keep();
 }
 

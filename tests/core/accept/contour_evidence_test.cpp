@@ -43,7 +43,8 @@ class ContourEvidenceTest : public testing::Test {
       meter_.add({static_cast<std::int16_t>(x + shift_px), static_cast<std::int16_t>(y + shift_px),
                   static_cast<std::uint8_t>((d + turned) % kEdgeDirections), true});
     });
-    return meter_.measure(edges_, 80.0);
+    meter_.begin(edges_);
+    return meter_.measure(80.0);
   }
 
   std::vector<std::uint8_t> direction_;
@@ -101,7 +102,8 @@ TEST_F(ContourEvidenceTest, UnknownPixels_DoNotCount) {
 
 TEST_F(ContourEvidenceTest, NoPlaces_GiveZero) {
   meter_.clear();
-  const ContourEvidence evidence = meter_.measure(edges_, 80.0);
+  meter_.begin(edges_);
+  const ContourEvidence evidence = meter_.measure(80.0);
   EXPECT_EQ(evidence.places, 0);
   EXPECT_EQ(evidence.strongest_nats(), 0.0);
   EXPECT_EQ(evidence.weakest_nats(), 0.0);
