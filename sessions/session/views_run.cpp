@@ -34,6 +34,7 @@ View viewOf(const LoadedCase& loaded) {
   view.image = loaded.image.view();
   view.ignore = loaded.ignore ? &loaded.ignore_bits : nullptr;
   view.camera = loaded.source.camera;
+  view.mesh = loaded.scene.view();
   view.camera_from_rig = loaded.source.rig->camera_from_rig;
   return view;
 }
@@ -71,7 +72,6 @@ ViewsProblem LoadedViews::problem() const {
   const LocalizationProblem first = cases.front()->problem();
   ViewsProblem views_problem;
   views_problem.views = views;
-  views_problem.mesh = first.mesh;
   views_problem.rig_from_station_seed = rigSeed(cases.front()->source);
   views_problem.uncertainty = first.uncertainty;
   views_problem.end_effector_in_camera_m = first.end_effector_in_camera_m;
