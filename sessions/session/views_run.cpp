@@ -12,10 +12,12 @@
 namespace boresight::sessions {
 namespace {
 
-/// The same meshes in the same places, whatever their files are called.
+/// The same meshes in the same places and states, whatever they and their files are called. Each
+/// case places the parts of named frames by its own transforms.
 bool sameStation(const SessionCase& a, const SessionCase& b) {
   const auto same = [](const MeshInput& mesh_input, MeshInput other) {
     other.source.mesh = mesh_input.source.mesh;
+    other.source.name = mesh_input.source.name;
     return mesh_input == other;
   };
   return a.feature_size_m == b.feature_size_m &&
