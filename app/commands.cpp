@@ -232,7 +232,28 @@ std::size_t OptionArguments::memoryLimit() const {
   return profileName() == kFlightProfile ? sessions::kFlightMemoryBytes : 0;
 }
 
+namespace {
+
+/// CLI::ValidationError.
+std::vector<sessions::PartChange> partChanges(const std::vector<std::string>& texts) {
+  std::vector<sessions::PartChange> changes;
+  for (const std::string& text : texts) {
+    const std::size_t sign = text.rfind('=');
+    if (sign == std::string::npos || sign == 0)
+      throw CLI::ValidationError("--part", "\"" + text + "\" is not NAME=STATE, e.g. lid=off");
+    changes.push_back({text.substr(0, sign), text.substr(sign + 1)});
+  }
+  return changes;
+}
+
+}  // namespace
+
 void DatasetArguments::addTo(CLI::App& command) {
+  command
+      .add_option("--part", parts,
+                  std::string("State of a part of the station in all cases, e.g. lid=off: ") +
+                      sessions::kStateChanges)
+      ->type_name("NAME=STATE");
   const char* group = "Of a BOP folder";
   command
       .add_option("--split", selection.split,
@@ -276,7 +297,7 @@ sessions::Dataset DatasetArguments::open() const {
   sessions::BopSelection chosen = selection;
   setUncertainty(uncertainty, chosen.uncertainty);
   if (pivot == "camera") chosen.uncertainty.pivot = sessions::UncertaintyPivot::kCamera;
-  return sessions::openDataset(path, chosen);
+  return sessions::withPartStates(sessions::openDataset(path, chosen), partChanges(parts));
 }
 
 namespace {

@@ -138,9 +138,10 @@ struct DatasetArguments {
   sessions::BopSelection selection;  ///< but for uncertainty and pivot
   std::vector<double> uncertainty;
   std::string pivot;
+  std::vector<std::string> parts;  ///< NAME=STATE
 
-  /// --split, --scene, --obj, --sensor, --every-instance, --uncertainty and --pivot. The path's own
-  /// option is the caller's.
+  /// --part, --split, --scene, --obj, --sensor, --every-instance, --uncertainty and --pivot. The
+  /// path's own option is the caller's.
   void addTo(CLI::App& command);
   /// InputError; CLI::ValidationError when a choice is given for what is no folder.
   sessions::Dataset open() const;

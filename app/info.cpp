@@ -94,12 +94,14 @@ void describeDataset(const sessions::Dataset& dataset) {
        countText(dataset.cameras.size(), "camera"));
   std::map<std::string, std::size_t> cases_of;
   for (const sessions::Case& dataset_case : dataset.cases) ++cases_of[dataset_case.station];
-  for (const auto& [id, station] : dataset.stations)
+  for (const auto& [id, station] : dataset.stations) {
     line("station " + id + ": " + countText(cases_of[id], "case") + ", " +
          countText(station.parts.size(), "part") +
          (station.feature_size_m ? ", feature size " + millimetresText(*station.feature_size_m)
                                  : "") +
          symmetryText(station.symmetries));
+    for (const sessions::PartSource& part : station.parts) line("  part " + partText(part));
+  }
   for (const auto& [id, camera] : dataset.cameras) {
     line("camera " + id + ":");
     sessions::CameraFile described{camera};

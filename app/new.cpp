@@ -52,6 +52,7 @@ void NewArguments::addTo(CLI::App& command) {
     command.get_option(name)->needs(from_image);
   addFile(command, "--record", record, "Onboard record (run.whsr) of the session's one case");
   dataset.addTo(command);
+  command.get_option("--part")->needs(from_dataset);
   addFile(command, "--out", out, "Session file to create, e.g. sol12.boresight.json")->required();
 }
 

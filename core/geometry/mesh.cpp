@@ -85,9 +85,21 @@ void joinPairs(std::span<Side> sides, std::span<std::array<std::int32_t, 3>> nei
   }
 }
 
-bool validThresholds(const ScenePart& part) {
+bool isValid(const ScenePart& part) {
   return part.normal_threshold_rad >= 0.0 && isFinite(part.normal_threshold_rad) &&
-         part.depth_threshold_m >= 0.0 && isFinite(part.depth_threshold_m);
+         part.depth_threshold_m >= 0.0 && isFinite(part.depth_threshold_m) &&
+         !(part.fixed_to_camera && part.match);
+}
+
+/// Whether no face mixes vertices of the two frames, given valid indices.
+bool framesAreApart(const MeshView& mesh) {
+  const std::size_t first_in_camera = firstVertexInCamera(mesh);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (mesh.parts[mesh.part_of_face[f]].fixed_to_camera) continue;
+    for (const std::int32_t vertex : mesh.faces[f].vertex)
+      if (static_cast<std::size_t>(vertex) >= first_in_camera) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -100,7 +112,7 @@ Status validateMesh(const MeshView& mesh) {
   if (mesh.parts.empty() || mesh.part_of_face.size() != mesh.faces.size())
     return Status::kInvalidMesh;
   for (const ScenePart& part : mesh.parts)
-    if (!validThresholds(part)) return Status::kInvalidMesh;
+    if (!isValid(part)) return Status::kInvalidMesh;
   for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m)
     if (!isFinite(static_cast<double>(vertex.x())) || !isFinite(static_cast<double>(vertex.y())) ||
         !isFinite(static_cast<double>(vertex.z())))
@@ -111,7 +123,17 @@ Status validateMesh(const MeshView& mesh) {
         return Status::kInvalidMesh;
   for (const std::uint16_t part : mesh.part_of_face)
     if (part >= mesh.parts.size()) return Status::kInvalidMesh;
-  return Status::kOk;
+  return framesAreApart(mesh) ? Status::kOk : Status::kInvalidMesh;
+}
+
+std::size_t firstVertexInCamera(const MeshView& mesh) {
+  std::size_t first = mesh.vertices_in_station_m.size();
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!mesh.parts[mesh.part_of_face[f]].fixed_to_camera) continue;
+    for (const std::int32_t vertex : mesh.faces[f].vertex)
+      first = std::min(first, static_cast<std::size_t>(vertex));
+  }
+  return first;
 }
 
 Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdjacency& adjacency) {

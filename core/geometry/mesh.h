@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -24,23 +25,37 @@ struct ScenePart {
   /// Surfaces this much apart in depth have an edge between them.
   double depth_threshold_m = 0.005;
   bool match = true;  ///< false: occludes, yields neither edges nor mask nor templates
+  /// The part does not move with the station: its vertices are in the camera frame. Never matched.
+  bool fixed_to_camera = false;
 
   bool operator==(const ScenePart&) const = default;
 };
 
+/// A part's role as one byte of hashes and files: 0 occludes, 1 matched, 2 fixed to the camera.
+constexpr std::uint8_t roleByte(const ScenePart& part) {
+  if (part.fixed_to_camera) return 2;
+  return part.match ? 1 : 0;
+}
+
 /// The scene, owned by the caller: welded vertices in the station frame (metres), faces, and the
 /// part of each face. Single precision is 3e-8 m at 0.5 m, far below any edge's accuracy.
 struct MeshView {
-  std::span<const Eigen::Vector3f> vertices_in_station_m;  ///< metres
+  /// Metres. The vertices of parts fixed to the camera come last, and are in the camera frame.
+  std::span<const Eigen::Vector3f> vertices_in_station_m;
   std::span<const Face> faces;                             ///< triangles
   std::span<const std::uint16_t> part_of_face;             ///< index into parts, one per face
   std::span<const ScenePart> parts;                        ///< at least one
 };
 
 /// kInvalidMesh when there are no faces, an index is out of range, a coordinate or threshold is not
-/// finite (or a threshold negative), or the part of a face does not exist. Degenerate faces (zero
-/// area) are allowed and never rendered.
+/// finite (or a threshold negative), the part of a face does not exist, or a part fixed to the
+/// camera is matched or has vertices before those of another part. Degenerate faces (zero area) are
+/// allowed and never rendered.
 Status validateMesh(const MeshView& mesh);
+
+/// Index of the first vertex in the camera frame: the least of the parts fixed to the camera; the
+/// number of vertices where there are none.
+std::size_t firstVertexInCamera(const MeshView& mesh);
 
 /// Per face the face on the other side of edge i (vertex i to vertex (i + 1) % 3), or -1 at a
 /// border or where more than two faces meet. Faces with a repeated vertex have no neighbours.

@@ -14,7 +14,7 @@ struct LocalizationProblem {
   ColorView color;                   ///< of the same pixels; may be without data
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
-  MeshView mesh;                     ///< the scene, station frame
+  MeshView mesh;                     ///< the scene
   Pose camera_from_station_seed;     ///< where the search begins
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
   /// Fixed to the camera; its centre when no end effector is known. For CorrectionPoint::kEndEffector.

@@ -70,7 +70,7 @@ void writeMesh(const MeshView& mesh, ByteWriter& writer) {
   for (const ScenePart& part : mesh.parts) {
     writer.f64(part.normal_threshold_rad);
     writer.f64(part.depth_threshold_m);
-    writer.u8(part.match ? 1 : 0);
+    writer.u8(roleByte(part));
   }
   writer.u32(static_cast<std::uint32_t>(mesh.vertices_in_station_m.size()));
   for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
@@ -194,9 +194,10 @@ ProblemFault readParts(ByteReader& reader, Arena& arena, MeshView& mesh) {
   for (ScenePart& part : parts) {
     part.normal_threshold_rad = reader.f64();
     part.depth_threshold_m = reader.f64();
-    const std::uint8_t match = reader.u8();
-    if (match > 1) return ProblemFault::kMesh;
-    part.match = match == 1;
+    const std::uint8_t role = reader.u8();
+    if (role > 2) return ProblemFault::kMesh;
+    part.match = role == 1;
+    part.fixed_to_camera = role == 2;
   }
   mesh.parts = parts;
   return ProblemFault::kNone;

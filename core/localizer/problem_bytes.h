@@ -39,12 +39,12 @@ void writeOptions(const LocalizerOptions& options, ByteWriter& writer);
 ///     seed camera_from_station: f64 quaternion w x y z, f64 translation x y z (m)
 ///     uncertainty: 3 f64 translation (m), 3 f64 rotation (rad), 3 f64 pivot in camera (m)
 ///     3 f64 end effector in camera (m)
-///     u32 parts, each: f64 normal threshold (rad), f64 depth threshold (m), u8 match
-///     u32 vertices, each: 3 f32 in station (m)
+///     u32 parts, each: f64 normal threshold (rad), f64 depth threshold (m), u8 role (roleByte)
+///     u32 vertices, each: 3 f32 in station (m); in camera, of parts fixed to it, which come last
 ///     u32 faces, each: 3 i32 vertices, u16 part
 ///     u8 ignore: 1 when there is a mask, then its words (u64) row by row
 ///     32 bytes SHA-256 of all before
-inline constexpr std::uint32_t kProblemVersion = 2;
+inline constexpr std::uint32_t kProblemVersion = 3;
 
 /// Faults of an encoded problem, in the order of the checks.
 enum class ProblemFault : std::uint8_t {

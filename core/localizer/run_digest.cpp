@@ -100,7 +100,7 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   for (const ScenePart& part : mesh.parts) {
     writer.f64(part.normal_threshold_rad);
     writer.f64(part.depth_threshold_m);
-    writer.u8(part.match ? 1 : 0);
+    writer.u8(roleByte(part));
   }
   digestPose(problem.camera_from_station_seed, writer);
   digestVector(problem.uncertainty.translation_m, writer);

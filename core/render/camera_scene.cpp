@@ -56,6 +56,38 @@ PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::in
   return bounds;
 }
 
+BoundingBox boxOf(std::span<const Eigen::Vector3f> vertices_m) {
+  BoundingBox box;
+  if (vertices_m.empty()) return box;
+  Eigen::Vector3f low = vertices_m.front();
+  Eigen::Vector3f high = low;
+  for (const Eigen::Vector3f& vertex : vertices_m)
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], vertex[k]);
+      high[k] = std::max(high[k], vertex[k]);
+    }
+  box.minimum_m = low.cast<double>();
+  box.maximum_m = high.cast<double>();
+  return box;
+}
+
+/// Bounds of the depths (z) of a box seen from a pose.
+struct DepthBounds {
+  double low_m = 0.0;
+  double high_m = 0.0;
+};
+
+DepthBounds depthsOf(const BoundingBox& box, const Pose& camera_from_box) {
+  const Eigen::Matrix3d r = camera_from_box.matrix();
+  DepthBounds depths;
+  depths.low_m = depths.high_m = camera_from_box.translation_m.z();
+  for (int k = 0; k < 3; ++k) {
+    depths.low_m += std::min(r(2, k) * box.minimum_m[k], r(2, k) * box.maximum_m[k]);
+    depths.high_m += std::max(r(2, k) * box.minimum_m[k], r(2, k) * box.maximum_m[k]);
+  }
+  return depths;
+}
+
 }  // namespace
 
 Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency, Arena& kept,
@@ -77,23 +109,13 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
     scene.cos_normal_threshold[i] = cos(std::clamp(mesh.parts[i].normal_threshold_rad, 0.0, kPi));
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) scene.setFlags(i);
-  scene.measureBox();
+  scene.first_in_camera = firstVertexInCamera(mesh);
+  scene.station_box = boxOf(mesh.vertices_in_station_m.first(scene.first_in_camera));
+  scene.camera_box = boxOf(mesh.vertices_in_station_m.subspan(scene.first_in_camera));
   return Status::kOk;
 }
 
-void CameraScene::measureBox() {
-  Eigen::Vector3f low = mesh.vertices_in_station_m.front();
-  Eigen::Vector3f high = low;
-  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m)
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], vertex[k]);
-      high[k] = std::max(high[k], vertex[k]);
-    }
-  minimum_m = low.cast<double>();
-  maximum_m = high.cast<double>();
-}
-
-/// Outer normal of a face in the station frame, not of unit length.
+/// Outer normal of a face in its part's frame, not of unit length.
 Eigen::Vector3d CameraScene::outerNormal(std::size_t face) const {
   Eigen::Vector3d corner[3];
   for (std::size_t i = 0; i < 3; ++i)
@@ -105,7 +127,7 @@ Eigen::Vector3d CameraScene::outerNormal(std::size_t face) const {
 /// Vertices are known to single precision. The normal of a face whose altitude is below some thirty
 /// times that is noise.
 bool CameraScene::normalIsKnown(std::size_t face, const Eigen::Vector3d& normal) const {
-  constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the station frame
+  constexpr double kAltitude = 2e-6;  // relative to the coordinates' size in the part's frame
   Eigen::Vector3d corner[3];
   double size = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -160,8 +182,9 @@ void CameraScene::orient(std::int32_t face) {
   setFrontFacing(face, dotProduct(normal, v0) < 0.0);
 }
 
-void CameraScene::begin(const Pose& camera_from_station, const RayGrid& rays) {
+void CameraScene::begin(const Pose& camera_from_station, const RayGrid& rays, const Pose& turn) {
   const Camera& camera = rays.camera();
+  view_from_camera = turn;
   // The middle is a pixel's centre, and a node's spacing beyond the image still has a place.
   scale.middle_x = camera.width / 2;
   scale.middle_y = camera.height / 2;
@@ -170,17 +193,16 @@ void CameraScene::begin(const Pose& camera_from_station, const RayGrid& rays) {
   while (scale.shift < kMostShift && (reach_px << (scale.shift + 1)) < FixedScale::kLimit)
     ++scale.shift;
 
-  const Eigen::Matrix3d r = camera_from_station.matrix();
-  double low_m = camera_from_station.translation_m.z();
-  double high_m = low_m;
-  for (int k = 0; k < 3; ++k) {
-    low_m += std::min(r(2, k) * minimum_m[k], r(2, k) * maximum_m[k]);
-    high_m += std::max(r(2, k) * minimum_m[k], r(2, k) * maximum_m[k]);
+  DepthBounds depths = depthsOf(station_box, camera_from_station);
+  if (first_in_camera < mesh.vertices_in_station_m.size()) {
+    const DepthBounds of_camera = depthsOf(camera_box, view_from_camera);
+    depths.low_m = std::min(depths.low_m, of_camera.low_m);
+    depths.high_m = std::max(depths.high_m, of_camera.high_m);
   }
-  scale.low_m = low_m;
-  scale.per_m = kDeepest / std::max(high_m - low_m, kThinnest_m);
+  scale.low_m = depths.low_m;
+  scale.per_m = kDeepest / std::max(depths.high_m - depths.low_m, kThinnest_m);
   // One step for the rounding of each, and single precision of 1/z many times over.
-  scale.gap = 2 + ceilClamped(1e-6 * std::abs(high_m) * scale.per_m, 0, 1 << 17);
+  scale.gap = 2 + ceilClamped(1e-6 * std::abs(depths.high_m) * scale.per_m, 0, 1 << 17);
 }
 
 namespace {
@@ -218,7 +240,15 @@ void moveToPupil(const Camera& camera, std::size_t count, VertexBlock& block) {
 
 void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
                             std::size_t last) {
-  const Eigen::Matrix3d r = camera_from_station.matrix();
+  transformBy(camera_from_station, rays, first, std::min(last, first_in_camera));
+  transformBy(view_from_camera, rays, std::max(first, first_in_camera), last);
+  if (!rays.level()) projectDistorted(rays.camera(), first, last);
+}
+
+/// `pose` is camera_from_station, or view_from_camera of vertices fixed to the camera.
+void CameraScene::transformBy(const Pose& pose, const RayGrid& rays, std::size_t first,
+                              std::size_t last) {
+  const Eigen::Matrix3d r = pose.matrix();
   VertexBlock block = {};
   double steps_of_depth[kBlock];
   for (std::size_t begin = first; begin < last; begin += kBlock) {
@@ -227,7 +257,7 @@ void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays
       const Eigen::Vector3f& p = mesh.vertices_in_station_m[begin + i];
       for (int k = 0; k < 3; ++k) block.station[k][i] = static_cast<double>(p[k]);
     }
-    rotate(r, camera_from_station.translation_m, block);
+    rotate(r, pose.translation_m, block);
     if (pupilMoves(rays.camera())) moveToPupil(rays.camera(), count, block);
     for (std::size_t i = 0; i < kBlock; ++i)
       steps_of_depth[i] = clamped((block.camera[2][i] - scale.low_m) * scale.per_m, 0.0, kDeepest);
@@ -239,7 +269,6 @@ void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays
       projectPinhole(rays.camera(), block.camera[0], block.camera[1], block.camera[2],
                      vertex_px.subspan(begin, count));
   }
-  if (!rays.level()) projectDistorted(rays.camera(), first, last);
 }
 
 void CameraScene::projectPinhole(const Camera& camera, const double* x_m, const double* y_m,

@@ -47,11 +47,13 @@ struct CameraScene {
   /// Surfaces nearer than this are not rendered: no camera is in focus there.
   static constexpr double kNearPlane_m = 0.01;
 
-  MeshView mesh;                                        ///< not owned
-  MeshAdjacency adjacency;                              ///< of the mesh
-  Eigen::Vector3d minimum_m = Eigen::Vector3d::Zero();  ///< box of all vertices, station frame
-  Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();  ///< the other corner of it
-  std::span<Eigen::Vector3d> vertex_in_camera_m;        ///< one per vertex of the mesh
+  MeshView mesh;                                  ///< not owned
+  MeshAdjacency adjacency;                        ///< of the mesh
+  std::size_t first_in_camera = 0;                ///< vertices from here on are fixed to the camera
+  BoundingBox station_box;                        ///< of the vertices before, station frame
+  BoundingBox camera_box;                         ///< of the others, camera frame
+  Pose view_from_camera;                          ///< of the current render
+  std::span<Eigen::Vector3d> vertex_in_camera_m;  ///< one per vertex of the mesh
   std::span<FixedPixel> vertex_px;                      ///< of each
   std::span<std::uint16_t> vertex_depth;                ///< floor((z - low_m) per_m)
   FixedScale scale;                                     ///< of pixels and depths
@@ -70,8 +72,9 @@ struct CameraScene {
   static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, Arena& kept,
                        Arena& scratch, CameraScene& scene);
 
-  /// Chooses the scale for a render; before `transform`.
-  void begin(const Pose& camera_from_station, const RayGrid& rays);
+  /// Chooses the scale for a render; before `transform`. Where the rays are those of a view turned
+  /// from the camera, `camera_from_station` is the view's pose, and `turn` is view_from_camera.
+  void begin(const Pose& camera_from_station, const RayGrid& rays, const Pose& turn = Pose());
   /// Vertices first .. last - 1 into the camera frame.
   void transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
                  std::size_t last);
@@ -117,7 +120,7 @@ struct CameraScene {
   }
 
  private:
-  void measureBox();
+  void transformBy(const Pose& pose, const RayGrid& rays, std::size_t first, std::size_t last);
   void projectPinhole(const Camera& camera, const double* x_m, const double* y_m, const double* z_m,
                       std::span<FixedPixel> pixels) const;
   void projectDistorted(const Camera& camera, std::size_t first, std::size_t last);

@@ -133,7 +133,7 @@ void EdgeRenderer::createWorkers(int workers, int max_pixels, const RenderOption
 }
 
 Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
-                           const SurfaceRender& surfaces) {
+                           const SurfaceRender& surfaces, const Pose& view_from_camera) {
   phase_ = Phase::kIdle;
   const Camera& camera = rays.camera();
   if (!camera_from_station.isFinite()) return Status::kInvalidPose;
@@ -150,7 +150,7 @@ Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station,
   rays_ = &rays;
   output_ = &output;
   surfaces_ = surfaces;
-  scene_.begin(camera_from_station, rays);
+  scene_.begin(camera_from_station, rays, view_from_camera);
   bins_.begin(scene_, rays, band_rows_, plain_, std::max(tasksOf(Phase::kFaces), 1));
   enter(Phase::kVertices);
   return Status::kOk;

@@ -88,8 +88,10 @@ class EdgeRenderer {
   void drawPlainly(bool plain) { plain_ = plain; }
   /// Starts one render; `rays` must be those of the camera of this level. Rays and output must
   /// outlive the steps. kInvalidPose, kInvalidImage when the output or the renderer is too small.
+  /// In a view that is turned from the camera, the rays and the pose are the view's, and
+  /// `view_from_camera` places the parts that are fixed to the camera.
   Status begin(const RayGrid& rays, const Pose& camera_from_station, EdgeRender& output,
-               const SurfaceRender& surfaces = {});
+               const SurfaceRender& surfaces = {}, const Pose& view_from_camera = Pose());
   /// One slice: some thousand vertices or faces, or a band; `done` when the render is complete.
   /// kCapacityExceeded when max_edge_pixels is not enough, kTooManyLayers when a band has more than
   /// BandPainter::kMostLayers: the rows before are valid, `done` set.

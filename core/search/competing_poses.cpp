@@ -138,7 +138,8 @@ void CompetingPoseTest::beginRender(const Pose& view_from_station, Purpose purpo
 void CompetingPoseTest::stepRender() {
   bool complete = false;
   const Status status = rendering_ ? renderer_->stepWhole(complete)
-                                   : renderer_->begin(view_edges_.rays(), current_, render_);
+                                   : renderer_->begin(view_edges_.rays(), current_, render_, {},
+                                                      view_edges_.view().view_from_camera);
   rendering_ = status == Status::kOk && !complete;
   if (rendering_) return;
   if (status == Status::kOk)

@@ -176,7 +176,8 @@ bool ObjectSearch::stepRender() {
   bool complete = false;
   Status status = Status::kOk;
   if (!rendering_)
-    status = renderer_->begin(view_edges_->rays(), renderedPose(), *render_);
+    status = renderer_->begin(view_edges_->rays(), renderedPose(), *render_, {},
+                              view_edges_->view().view_from_camera);
   else
     status = renderer_->stepWhole(complete);
   rendering_ = status == Status::kOk && !complete;

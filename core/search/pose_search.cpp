@@ -222,7 +222,8 @@ bool PoseSearch::stepRender() {
   bool complete = false;
   Status status = Status::kOk;
   if (!rendering_)
-    status = renderer_->begin(view_edges_.rays(), view_from_station_, render_);
+    status = renderer_->begin(view_edges_.rays(), view_from_station_, render_, {},
+                              view_edges_.view().view_from_camera);
   else
     status = renderer_->stepWhole(complete);
   rendering_ = status == Status::kOk && !complete;

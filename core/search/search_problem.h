@@ -14,7 +14,7 @@ struct SearchProblem {
   ColorView color;                   ///< of the same pixels; may be without data
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; may be nullptr
   Camera camera;                     ///< prepared
-  MeshView mesh;                     ///< station frame
+  MeshView mesh;                     ///< the scene
   BoundingBox scene;                 ///< of the matched parts
   Pose camera_from_station_seed;     ///< centre of the searched range
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed

@@ -72,7 +72,7 @@ Status ViewsLocalizer::requiredBytes(const ViewsProblem& problem, const Localize
     view_problem.image = view.image;
     view_problem.ignore = view.ignore;
     view_problem.camera = view.camera;
-    view_problem.mesh = problem.mesh;
+    view_problem.mesh = view.mesh;
     std::size_t own = 0;
     const Status sized =
         boresight::requiredBytes(sizeOf(view_problem), options, workers, own, kernels);
@@ -88,7 +88,7 @@ LocalizationProblem ViewsLocalizer::problemOf(std::size_t index) const {
   view_problem.image = view.image;
   view_problem.ignore = view.ignore;
   view_problem.camera = view.camera;
-  view_problem.mesh = problem_.mesh;
+  view_problem.mesh = view.mesh;
   view_problem.camera_from_station_seed =
       inCamera(view.camera_from_rig, problem_.rig_from_station_seed);
   view_problem.uncertainty = problem_.uncertainty;

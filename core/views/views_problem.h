@@ -24,14 +24,15 @@ struct View {
   ImageView image;                   ///< 8-bit gray, of the camera's size
   const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
-  Pose camera_from_rig;              ///< mounting of the camera
+  /// The scene: the same in all views, but for the poses of parts that are fixed to the camera.
+  MeshView mesh;
+  Pose camera_from_rig;  ///< mounting of the camera
 };
 
 /// Several views of one station, solved for the one pose that they share. Everything is the
 /// caller's and must outlive the run.
 struct ViewsProblem {
   std::span<const View> views;  ///< 1 ... kMaxViews; the first one leads
-  MeshView mesh;                ///< the scene, station frame
   Pose rig_from_station_seed;   ///< where the search begins
   /// Per axis of the *first* view's seed camera frame, its pivot in it, as with a single view.
   SeedUncertainty uncertainty;

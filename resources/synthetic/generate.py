@@ -41,6 +41,8 @@ def arguments():
     for name, text in (("far", "far standoff, 1.05 to 1.30 m"), ("hard", "hard cases")):
         add("--" + name, type=float, nargs="?", const=1.0, default=0.0, metavar="SHARE",
             help=f"share of shots with {text} (without a number: all)")
+    add("--state", action="store_true",
+        help="a lid and a gripper in half of the pictures; needs --pairs 0")
     add("--seeds", type=int, default=1, metavar="N",
         help="seeds of each picture; a further one is a case ID-s001, ... (default 1)")
     add("--size", type=int, default=plan.SIDE_px, metavar="PX",
@@ -50,6 +52,8 @@ def arguments():
     options.stations = options.stations.split(",")
     if min(options.cases, options.jobs, options.seeds) < 1 or options.size < 64:
         parser.error("--cases, --jobs and --seeds must be at least 1, --size at least 64")
+    if options.state and (options.pairs > 0.0 or not set(options.stations) <= {"bc", "os"}):
+        parser.error("--state is of bc and os, with --pairs 0")
     if not set(options.stations) <= set(plan.STATIONS):
         parser.error("--stations knows " + ", ".join(plan.STATIONS))
     return options
@@ -58,6 +62,8 @@ def arguments():
 def claim(options):
     """Refuses to mix two sets in one folder, and clears what a killed run left."""
     drawn = {k: getattr(options, k) for k in ("seed", "pairs", "far", "hard", "size")}
+    if options.state:
+        drawn["state"] = True
     file = options.out / "generator.json"
     if file.exists():
         known = json.loads(file.read_text())
@@ -103,7 +109,8 @@ def make_meshes(options):
 def unfinished_shots(options):
     """The plans that lack pictures, the stations in turn so that an early stop has both."""
     plans = [plan.shots(options.seed, station, options.cases, options.pairs, options.far,
-                        options.hard, options.size) for station in options.stations]
+                        options.hard, options.size, options.state)
+             for station in options.stations]
     longest = max(len(p) for p in plans)
     turn = [p[i] for i in range(longest) for p in plans if i < len(p)]
     done = {p.stem for p in (options.out / "cases").glob("*.json")}

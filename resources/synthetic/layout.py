@@ -5,6 +5,7 @@ import json
 import os
 
 import plan
+from scene.lattice import canister_sleeves
 
 BOP_DEPTH_MM = 0.05
 
@@ -36,7 +37,7 @@ def dataset(root, known, seeds=1):
     cameras = {r["frame"]["camera"]: r["frame"]["camera_parameters"] for r in known}
     return {"format": "boresight-dataset", "version": 1,
             "requirement": {"normal_mm": 0.4, "lateral_mm": 0.4, "rotation_deg": 0.25},
-            "stations": {name: _station(root, name) for name in stations},
+            "stations": {name: _station(root, name, known) for name in stations},
             "cameras": dict(sorted(cameras.items())),
             "cases": [case for r in known for case in _cases(r, seeds)]}
 
@@ -49,9 +50,32 @@ def parts_of(root, station):
             for p in parts]
 
 
-def _station(root, name):
+def equipment(station):
+    """What a drawn state switches on: parts of dataset.json that are off."""
+    made = {"gripper": {"mesh": f"{station}/gripper.ply", "frame": "CAMERA", "role": "occludes"}}
+    if station == "bc":
+        made["lid"] = {"mesh": "bc/lid.ply"}
+    if station == "os":
+        for i, (x, y) in enumerate(canister_sleeves().values()):
+            made[f"tube_{i:02d}"] = {"mesh": "os/seated_tube.ply", "frame_from_mesh": [
+                [1, 0, 0, 1e-3 * x], [0, 1, 0, 1e-3 * y], [0, 0, 1, 0], [0, 0, 0, 1]]}
+    return [{"name": name, "mesh_unit": "m", "present": False, **part}
+            for name, part in made.items()]
+
+
+def state_of(record):
+    """The parts that a picture shows, as `state` of its case."""
+    drawn = record["plan"]["state"]
+    filled = record["plan"]["filled_sleeves"] if record["plan"]["station"] == "os" else []
+    return {name: "on" for name in [*drawn, *(f"tube_{i:02d}" for i in filled)]}
+
+
+def _station(root, name, known):
     values = plan.STATIONS[name]
-    made = {"parts": parts_of(root, name), "feature_size_m": values["feature_size_m"],
+    parts = parts_of(root, name)
+    if any("state" in r["plan"] for r in known if r["plan"]["station"] == name):
+        parts += equipment(name)
+    made = {"parts": parts, "feature_size_m": values["feature_size_m"],
             "uncertainty": values["declared"],
             "camera_from_end_effector": plan.camera_from_end_effector(name)}
     return made | {k: values[k] for k in ("symmetries",) if k in values}
@@ -69,6 +93,8 @@ def _case(record):
     uncertainty = plan.declared_uncertainty(station, frame["tags"])
     if uncertainty is not plan.STATIONS[station]["declared"]:
         made["uncertainty"] = uncertainty
+    if "state" in record["plan"]:
+        made["state"] = state_of(record)
     if "requirement" in plan.STATIONS[station]:
         made["requirement"] = plan.STATIONS[station]["requirement"]
     return made

@@ -346,7 +346,14 @@ def _sleeve_tags(sleeve):
     return [] if sleeve is None else ["sleeve_rim" if is_at_rim(sleeve) else "sleeve_inner"]
 
 
-def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px):
+def _state(seed, station, number):
+    """What a picture with a drawn state shows, drawn apart from everything else."""
+    draw = random.Random(f"{seed}/{station}/{number}/state")
+    equipment = ["gripper"] + (["lid"] if station == "bc" else [])
+    return [name for name in equipment if draw.random() < 0.5]
+
+
+def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px, state=False):
     """Plans of all shots of a station: one picture each, or two of the pair taken at once."""
     made, number = [], 0
     while number < cases:
@@ -371,6 +378,9 @@ def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px):
                                  multiply(RIGHT_FROM_LEFT, seed_left), side_px))
             frames[1]["camera_from_end_effector"] = multiply(RIGHT_FROM_LEFT,
                                                              camera_from_end_effector(station))
+        if state:
+            plan["state"] = _state(seed, drawn_as, number)
+            tags += ["state_" + part for part in plan["state"]]
         for frame, eye in zip(frames, ("left", "right") if is_pair else ("",)):
             frame["tags"] = tags + (["stereo_" + eye] if eye else [])
             if is_pair:

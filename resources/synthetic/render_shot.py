@@ -24,7 +24,7 @@ import numpy as np
 
 from imaging import cameras, meshes, pixels
 from plan import BOP_OBJECTS
-from scene import assembly, materials, stations
+from scene import assembly, equipment, materials, stations
 
 SAMPLES = 3
 GLASS_SAMPLES, GLASS_BOUNCES, GLASS_CLAMP = 64, 16, 0.7
@@ -282,6 +282,8 @@ def make_shot(plan_path, root):
 def make_meshes(root):
     for station in BOP_OBJECTS:
         solids, _ = stations.build(station, False, random.Random(0))
+        if station in ("bc", "os"):
+            meshes.write_alone(station, equipment.files(station, stations.Builder(False)), root)
         meshes.write(station, solids, {name: materials.albedo(name) for name in solids}, root)
 
 

@@ -97,6 +97,7 @@ Eigen::Vector3d MeshSnapper::vertex(std::int32_t index) const {
 void MeshSnapper::collectEdges() {
   std::map<Ends, std::vector<std::size_t>> faces_of_edge;
   for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    if (mesh_.parts[mesh_.part_of_face[f]].fixed_to_camera) continue;  // no place on the station
     const auto& corner = mesh_.faces[f].vertex;
     for (std::size_t i = 0; i < 3; ++i) {
       const Ends ends = {std::min(corner[i], corner[(i + 1) % 3]),

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <future>
-#include <map>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -72,9 +72,33 @@ void requireNames(const Dataset& dataset, const BatchOptions& options) {
       throw InputError(dataset.file, "stations", "there is no station \"" + id + "\"");
 }
 
-StationScene loadScene(const Station& station, const std::optional<MirrorAxis>& mirror) {
+/// What the scene of a case is made of; cases with the same share it.
+struct SceneInputs {
+  std::string station;
+  std::vector<PartSource> parts;  ///< placed
+
+  bool operator==(const SceneInputs&) const = default;
+};
+
+/// Another station's parts have the state of their station.
+SceneInputs sceneInputs(const Dataset& dataset, const Case& dataset_case,
+                        const std::string& mesh_of) {
+  Case posed = dataset_case;
+  if (!mesh_of.empty()) {
+    posed.station = mesh_of;
+    posed.part_states.clear();
+  }
+  SceneInputs inputs{posed.station, {}};
+  const FrameTree frames = framesOf(dataset, posed);
+  for (const PartSource& part : partsOf(dataset, posed))
+    if (part.state.used()) inputs.parts.push_back(placedPart(part, frames));
+  return inputs;
+}
+
+StationScene loadScene(const SceneInputs& inputs, const Station& station,
+                       const std::optional<MirrorAxis>& mirror) {
   StationScene loaded;
-  loaded.scene = readStationScene(station);
+  loaded.scene = readScene(inputs.parts);
   if (mirror) loaded.scene = mirrored(std::move(loaded.scene), *mirror);
   loaded.matched_vertices = matchedVertices(loaded.scene.view());
   loaded.symmetries = station.symmetries;
@@ -109,7 +133,6 @@ class Batch {
   const Dataset& dataset_;
   const BatchOptions& options_;
   const BatchProgress& progress_;
-  std::map<std::string, Shared<StationScene>> scenes_;
   std::vector<std::unique_ptr<CaseWork>> cases_;
   std::vector<Item> items_;
   Methods methods_;
@@ -122,18 +145,23 @@ class Batch {
 Batch::Batch(const Dataset& dataset, const BatchOptions& options,
              const std::vector<PlannedRun>& plan, const BatchProgress& progress)
     : dataset_(dataset), options_(options), progress_(progress), methods_(options.method_setup) {
+  std::vector<std::pair<SceneInputs, Shared<StationScene>>> scenes;
   for (const PlannedRun& planned : plan) {
     if (cases_.empty() || cases_.back()->input != planned.input) {
       auto work = std::make_unique<CaseWork>();
       work->input = planned.input;
       work->dataset_index = planned.dataset_index;
-      const std::string& mesh = options.mesh_of.empty() ? planned.input->station : options.mesh_of;
-      work->mesh_station = &dataset.stations.at(mesh);
-      Shared<StationScene>& scene = scenes_[mesh];
-      if (!scene.valid())
-        scene = shared(
-            [this, station = work->mesh_station] { return loadScene(*station, options_.mirror); });
-      work->scene = scene;
+      const SceneInputs inputs = sceneInputs(dataset, *planned.input, options.mesh_of);
+      work->mesh_station = &dataset.stations.at(inputs.station);
+      auto known = std::find_if(scenes.begin(), scenes.end(),
+                                [&](const auto& scene) { return scene.first == inputs; });
+      if (known == scenes.end()) {
+        scenes.emplace_back(inputs, shared([this, inputs, station = work->mesh_station] {
+                              return loadScene(inputs, *station, options_.mirror);
+                            }));
+        known = std::prev(scenes.end());
+      }
+      work->scene = known->second;
       work->image = shared([this, &one = *planned.input] {
         return CaseImage{readCaseImage(dataset_, one), readCaseMask(dataset_, one)};
       });
@@ -168,7 +196,10 @@ void Batch::workUntilDone(const std::stop_token& stop) {
     if (index >= items_.size()) return;
     const Item& item = items_[index];
     const RunResult result = runItem(item, stop);
-    if (--item.work->runs_left == 0) item.work->image = {};
+    if (--item.work->runs_left == 0) {
+      item.work->image = {};
+      item.work->scene = {};
+    }
     if (!stop.stop_requested()) finish(result);
   }
 }
@@ -260,9 +291,14 @@ SceneMesh mirrored(SceneMesh scene, MirrorAxis axis) {
   const auto index = static_cast<Eigen::Index>(axis);
   const float twice_middle_m =
       static_cast<float>(2.0 * matchedBounds(scene.view()).centre()[index]);
-  for (Eigen::Vector3f& vertex : scene.vertices_in_station_m)
+  const std::size_t first_in_camera = firstVertexInCamera(scene.view());
+  for (std::size_t i = 0; i < first_in_camera; ++i) {
+    Eigen::Vector3f& vertex = scene.vertices_in_station_m[i];
     vertex[index] = twice_middle_m - vertex[index];
-  for (Face& face : scene.faces) std::swap(face.vertex[1], face.vertex[2]);
+  }
+  for (std::size_t f = 0; f < scene.faces.size(); ++f)
+    if (!scene.parts[scene.part_of_face[f]].fixed_to_camera)
+      std::swap(scene.faces[f].vertex[1], scene.faces[f].vertex[2]);
   return scene;
 }
 

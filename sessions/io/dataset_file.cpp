@@ -64,13 +64,20 @@ PartSource readPart(const JsonReader& json, Dataset& dataset) {
     json.failMember("mesh_unit",
                     std::string("missing: ") + meshFormatName(*format) + " carries no unit");
   }
-  if (const auto transform = json.find("station_from_mesh"))
-    source.station_from_mesh = readNotedTransform(*transform, dataset);
+  if (const auto name = json.find("name")) source.name = name->nonEmptyText();
+  if (const auto frame = json.find("frame")) source.frame = readPartFrame(*frame);
+  if (const auto transform = json.find("frame_from_mesh"))
+    source.frame_from_mesh = readNotedTransform(*transform, dataset);
+  if (const auto transform = json.find("station_from_mesh")) {
+    if (source.frame != kStationFrame || json.has("frame_from_mesh"))
+      transform->fail("cannot be combined with 'frame' or 'frame_from_mesh': use only the latter");
+    source.frame_from_mesh = readNotedTransform(*transform, dataset);
+  }
   if (const auto threshold = json.find("normal_threshold_deg"))
-    source.part.normal_threshold_rad = threshold->number(0.1, 180.0) * kDegree_rad;
+    source.normal_threshold_rad = threshold->number(0.1, 180.0) * kDegree_rad;
   if (const auto threshold = json.find("depth_threshold_m"))
-    source.part.depth_threshold_m = threshold->number(1e-6, 1000.0);
-  if (const auto match = json.find("match")) source.part.match = match->boolean();
+    source.depth_threshold_m = threshold->number(1e-6, 1000.0);
+  source.state = readPartState(json);
   if (const auto albedo = json.find("albedo")) source.albedo = albedo->number(0.0, 1.0);
   return source;
 }
@@ -79,13 +86,17 @@ std::vector<PartSource> readParts(const JsonReader& json, Dataset& dataset) {
   const auto parts = json.find("parts");
   if (!parts) {
     const PartSource only = readPart(json, dataset);
-    if (!only.part.match) json.failMember("match", "the station's only part must be matched");
+    if (!only.state.matched())
+      json.failMember(json.has("match") ? "match" : "role",
+                      "the station's only part must be matched");
     return {only};
   }
   if (json.has("mesh")) json.failMember("mesh", "cannot be combined with 'parts'");
   std::vector<PartSource> all;
   for (const JsonReader& part : parts->elements()) all.push_back(readPart(part, dataset));
-  const auto matched = [](const PartSource& source) { return source.part.match; };
+  const auto matched = [](const PartSource& source) {
+    return source.state.role == PartRole::kMatched;
+  };
   if (all.empty()) parts->fail("is empty");
   if (std::none_of(all.begin(), all.end(), matched)) parts->fail("no part is to be matched");
   return all;
@@ -188,6 +199,36 @@ std::string readCaseCamera(const JsonReader& json, const Case& dataset_case, Dat
   return id;
 }
 
+/// `state` of a case: the states of parts by their names, where they differ from the station's.
+void readState(const JsonReader& json, const Station& station, Case& dataset_case) {
+  std::vector<PartState> states;
+  for (const PartSource& part : station.parts) states.push_back(part.state);
+  for (const auto& [name, change] : json.members()) {
+    const std::size_t part = partOfName(station.parts, name, json.file(), json.place());
+    const auto state = changedState(states[part], change.text());
+    if (!state) change.fail(std::string("is not one of ") + kStateChanges);
+    states[part] = *state;
+  }
+  dataset_case.part_states = std::move(states);
+}
+
+/// Refuses parts that have no place in the scene of a case, and a scene without a matched part.
+void requireScene(const JsonReader& json, const Dataset& dataset, const Case& dataset_case,
+                  const JsonReader& stations) {
+  const std::vector<PartSource> parts = partsOf(dataset, dataset_case);
+  if (!anyMatched(parts)) json.fail("no part of its station is matched: check 'state' and 'present'");
+  const auto moves = [](const PartSource& part) { return part.frame != kStationFrame; };
+  if (std::none_of(parts.begin(), parts.end(), moves)) return;
+  const FrameTree frames = framesOf(dataset, dataset_case);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const PartConcern concern = partConcern(parts[i], frames);
+    if (concern.member.empty()) continue;
+    const JsonReader station = stations.at(dataset_case.station);
+    const JsonReader part = station.has("parts") ? station.at("parts").elements()[i] : station;
+    part.failMember(concern.member, concern.reason);
+  }
+}
+
 Case readCase(const JsonReader& json, Dataset& dataset) {
   Case dataset_case;
   dataset_case.id = json.at("id").nonEmptyText();
@@ -196,7 +237,9 @@ Case readCase(const JsonReader& json, Dataset& dataset) {
   dataset_case.camera = readCaseCamera(json, dataset_case, dataset);
   if (const auto ignore = json.find("ignore")) dataset_case.ignore = ignore->path();
   readPoses(json, dataset_case, dataset);
-  readOverrides(json, dataset.stations.at(dataset_case.station), dataset_case, dataset);
+  const Station& station = dataset.stations.at(dataset_case.station);
+  readOverrides(json, station, dataset_case, dataset);
+  if (const auto state = json.find("state")) readState(*state, station, dataset_case);
   if (const auto tags = json.find("tags"))
     for (const JsonReader& tag : tags->elements()) dataset_case.tags.push_back(tag.nonEmptyText());
   return dataset_case;
@@ -220,6 +263,7 @@ Dataset readMembers(const JsonReader& json) {
     dataset.cases.push_back(readCase(item, dataset));
     if (!ids.insert(dataset.cases.back().id).second)
       item.failMember("id", "'" + dataset.cases.back().id + "' is given twice");
+    requireScene(item, dataset, dataset.cases.back(), json.at("stations"));
   }
   return dataset;
 }
@@ -263,6 +307,55 @@ Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad) {
   turn.rotation = rotationExp(angle_rad * symmetry.axis);
   turn.translation_m = symmetry.point_m - turn.rotation * symmetry.point_m;
   return turn;
+}
+
+FrameTree framesOf(const Dataset& dataset, const Case& dataset_case) {
+  std::optional<CameraReference> reference;
+  if (const auto known = dataset.camera_references.find(dataset_case.camera);
+      known != dataset.camera_references.end())
+    reference = known->second;
+  return frameTree(reference, dataset.transforms);
+}
+
+std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case) {
+  std::vector<PartSource> parts = dataset.stations.at(dataset_case.station).parts;
+  for (std::size_t i = 0; i < dataset_case.part_states.size(); ++i)
+    parts[i].state = dataset_case.part_states[i];
+  return parts;
+}
+
+Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes) {
+  for (const PartChange& change : changes) {
+    bool known = false;
+    for (auto& [id, station] : dataset.stations) {
+      const std::string place = "stations." + id + ".parts";
+      const auto named = [&](const PartSource& part) { return partName(part) == change.part; };
+      if (std::none_of(station.parts.begin(), station.parts.end(), named)) continue;
+      known = true;
+      const std::size_t part = partOfName(station.parts, change.part, dataset.file, place);
+      const auto set = [&](PartState& state) {
+        const auto changed = changedState(state, change.state);
+        if (!changed)
+          throw InputError(dataset.file, place,
+                           "'" + change.state + "' is not one of " + kStateChanges);
+        state = *changed;
+      };
+      set(station.parts[part].state);
+      for (Case& dataset_case : dataset.cases)
+        if (dataset_case.station == id && !dataset_case.part_states.empty())
+          set(dataset_case.part_states[part]);
+    }
+    if (!known)
+      throw InputError(dataset.file, "stations", "no station has a part '" + change.part + "'");
+    dataset.sha256 = sha256Text(dataset.sha256 + change.part + "=" + change.state);
+  }
+  for (const Case& dataset_case : dataset.cases) {
+    const std::vector<PartSource> parts = partsOf(dataset, dataset_case);
+    if (!anyMatched(parts))
+      throw InputError(dataset.file, "cases." + dataset_case.id, "no part of its station is matched");
+    for (const PartSource& part : parts) (void)placedPart(part, framesOf(dataset, dataset_case));
+  }
+  return dataset;
 }
 
 bool Case::hasTag(const std::string& tag) const {
@@ -330,5 +423,9 @@ std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& datas
 }
 
 SceneMesh readStationScene(const Station& station) { return readScene(station.parts); }
+
+SceneMesh readCaseScene(const Dataset& dataset, const Case& dataset_case) {
+  return readScene(partsOf(dataset, dataset_case), framesOf(dataset, dataset_case));
+}
 
 }  // namespace boresight::sessions

@@ -99,6 +99,7 @@ struct Case {
   std::optional<DeclaredUncertainty> uncertainty;
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
+  std::vector<PartState> part_states = {};  ///< one per part of the station; empty: the station's
   std::optional<BopKey> bop = {};
 
   bool hasTag(const std::string& tag) const;
@@ -136,7 +137,23 @@ nlohmann::ordered_json toJson(const Requirement& requirement);
 GrayImage readCaseImage(const Dataset& dataset, const Case& dataset_case);
 /// Nothing when the case has no mask.
 std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& dataset_case);
-/// The scene of a station; several cases share it.
+/// The scene of a station in its own state, all of whose parts are placed in STATION or CAMERA.
 SceneMesh readStationScene(const Station& station);
+
+/// The frames that a case's poses and parts may be given in.
+FrameTree framesOf(const Dataset& dataset, const Case& dataset_case);
+/// The parts of a case's station in the state that they have in the case.
+std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case);
+/// The scene of a case.
+SceneMesh readCaseScene(const Dataset& dataset, const Case& dataset_case);
+
+/// A change of a part's state, as changedState knows them.
+struct PartChange {
+  std::string part;  ///< its name
+  std::string state;
+};
+/// The dataset with these changes in all cases whose station has the part. Its hash is another one:
+/// results of different states are not mixed. InputError.
+Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes);
 
 }  // namespace boresight::sessions

@@ -14,9 +14,19 @@ bool isIdentity(const Pose& pose) {
          pose.translation_m == Eigen::Vector3d::Zero();
 }
 
+/// `part` is placed.
+ScenePart scenePartOf(const PartSource& part) {
+  ScenePart scene_part;
+  scene_part.normal_threshold_rad = part.normal_threshold_rad;
+  scene_part.depth_threshold_m = part.depth_threshold_m;
+  scene_part.match = part.state.matched();
+  scene_part.fixed_to_camera = part.frame == kCameraFrame;
+  return scene_part;
+}
+
 }  // namespace
 
-void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
+void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
              const ScenePart& part, double albedo) {
   const std::filesystem::path& file = mesh.info.file;
   const std::size_t first = scene.vertices_in_station_m.size();
@@ -27,12 +37,12 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
   require(scene.faces.size() + mesh.faces.size(), kMaxMeshFaces, "faces of the station");
   require(scene.parts.size() + 1, std::numeric_limits<std::uint16_t>::max(), "parts");
   // Without a transform the coordinates keep their bits.
-  const bool in_place = isIdentity(station_from_mesh);
+  const bool in_place = isIdentity(frame_from_mesh);
   for (const Eigen::Vector3f& vertex : mesh.vertices_m)
     scene.vertices_in_station_m.push_back(
         in_place
             ? vertex
-            : Eigen::Vector3f((station_from_mesh * vertex.cast<double>().eval()).cast<float>()));
+            : Eigen::Vector3f((frame_from_mesh * vertex.cast<double>().eval()).cast<float>()));
   for (const Face& face : mesh.faces) {
     Face moved = face;
     for (std::int32_t& index : moved.vertex) index += static_cast<std::int32_t>(first);
@@ -44,19 +54,36 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
   scene.albedo_of_part.push_back(albedo);
 }
 
-SceneMesh readScene(std::span<const PartSource> parts, const PartCheck& check) {
+MeshView stationView(const SceneMesh& scene) {
+  MeshView view = scene.view();
+  const auto moves = [&view](std::uint16_t part) { return view.parts[part].fixed_to_camera; };
+  const auto end = std::find_if(view.part_of_face.begin(), view.part_of_face.end(), moves);
+  const auto faces = static_cast<std::size_t>(end - view.part_of_face.begin());
+  view.vertices_in_station_m = view.vertices_in_station_m.first(firstVertexInCamera(view));
+  view.faces = view.faces.first(faces);
+  view.part_of_face = view.part_of_face.first(faces);
+  return view;
+}
+
+SceneMesh readScene(std::span<const PartSource> parts, const FrameTree& frames,
+                    const PartCheck& check) {
   SceneMesh scene;
-  for (const PartSource& source : parts) {
-    const MeshFiles files = readMeshFiles(source.mesh);
-    if (check) check(scene.parts.size(), files.sha256);
-    addPart(scene, readMesh(files, source.mesh_unit), source.station_from_mesh, source.part,
-            source.albedo.value_or(1.0));
+  std::vector<PartSource> placed(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (parts[i].state.used()) placed[i] = placedPart(parts[i], frames);
+  for (const FrameName& frame : {kStationFrame, kCameraFrame}) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const PartSource& part = placed[i];
+      if (!parts[i].state.used() || part.frame != frame) continue;
+      const MeshFiles files = readMeshFiles(part.mesh);
+      if (check) check(i, files.sha256);
+      addPart(scene, readMesh(files, part.mesh_unit), part.frame_from_mesh, scenePartOf(part),
+              part.albedo.value_or(1.0));
+    }
   }
-  const bool any_matched = std::any_of(parts.begin(), parts.end(),
-                                       [](const PartSource& source) { return source.part.match; });
-  if (!any_matched)
-    throw InputError(parts.empty() ? "(station)" : parts.front().mesh, "match",
-                     "no part of the station is to be matched");
+  if (!anyMatched(parts))
+    throw InputError(parts.empty() ? "(station)" : parts.front().mesh, "role",
+                     "no part of the station is matched");
   return scene;
 }
 

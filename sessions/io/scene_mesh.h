@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,22 +14,13 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "sessions/io/mesh_file.h"
+#include "sessions/io/part_source.h"
 
 namespace boresight::sessions {
 
-/// One part of a station as files describe it; the mesh is read when the scene is.
-struct PartSource {
-  std::filesystem::path mesh;
-  std::string mesh_unit;  ///< "" where the format carries its unit
-  Pose station_from_mesh;
-  ScenePart part;
-  std::optional<double> albedo;  ///< mean reflectance, 0 .. 1; 1 where not stated
-
-  bool operator==(const PartSource&) const = default;
-};
-
-/// Several meshes in one station frame: what stands behind the core's MeshView.
+/// The parts that are used, as the core's MeshView needs them: those fixed to the camera last.
 struct SceneMesh {
+  /// Of parts fixed to the camera: in the camera frame.
   std::vector<Eigen::Vector3f> vertices_in_station_m;
   std::vector<Face> faces;
   std::vector<std::uint16_t> part_of_face;
@@ -41,16 +31,23 @@ struct SceneMesh {
   MeshView view() const { return {vertices_in_station_m, faces, part_of_face, parts}; }
 };
 
-/// Appends a mesh as a new part. InputError beyond the limits of one mesh in all, or 65535 parts.
-void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& station_from_mesh,
+/// The scene without the parts that are fixed to the camera: what stays in place in the station
+/// frame. Points into `scene`.
+MeshView stationView(const SceneMesh& scene);
+
+/// Appends a mesh as a new part; `frame_from_mesh` leads to the station frame, or to the camera
+/// frame of a part that is fixed to the camera, after which no other part may follow. InputError
+/// beyond the limits of one mesh in all, or 65535 parts.
+void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
              const ScenePart& part, double albedo = 1.0);
 
-/// Throws to refuse a part, of whose files this is the SHA-256.
+/// Throws to refuse a part (its index in the list), of whose files this is the SHA-256.
 using PartCheck = std::function<void(std::size_t part, const std::string& sha256)>;
 
-/// Reads all parts; `check`, if any, is called before a part is parsed. InputError, also when no
-/// part is to be matched.
-SceneMesh readScene(std::span<const PartSource> parts, const PartCheck& check = {});
+/// Reads the parts that are used; `check`, if any, is called before a part is parsed. InputError,
+/// also when no part is matched, or a frame is not joined.
+SceneMesh readScene(std::span<const PartSource> parts, const FrameTree& frames = {},
+                    const PartCheck& check = {});
 
 /// Vertices of the faces of matched parts, each once: what projection errors are averaged over.
 std::vector<Eigen::Vector3f> matchedVertices(const MeshView& mesh);

@@ -228,7 +228,10 @@ double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
   for (const MeshInput& part : session_case.parts)
     row("mesh", part.source.mesh.filename().string() + " in " +
                     (part.source.mesh_unit.empty() ? "its own unit" : part.source.mesh_unit) +
-                    ", " + part.sha256.substr(0, 16));
+                    ", " + part.sha256.substr(0, 16) +
+                    (part.source.state == PartState() && part.source.frame == kStationFrame
+                         ? ""
+                         : "; " + partText(part.source)));
   const InputSigmas sigmas(session_case);
   row("known to", "scale " + meshScaleText(sigmas) + "; calibration " + calibrationText(sigmas));
   if (session_case.ignore || !session_case.ignore_strokes.empty()) row("ignored pixels", "a mask");

@@ -137,11 +137,15 @@ ordered_json chainJson(const HandedPose& pose, const SessionCase& session_case,
   chain.push_back(linkJson("camera_from_station_seed", session_case.camera_from_station_seed,
                            "the case's seed, as given"));
   for (const MeshInput& part : session_case.parts)
-    chain.push_back(
-        linkJson("station_from_mesh", part.source.station_from_mesh,
-                 part.source.mesh.filename().string() + ", sha256 " + part.sha256 +
-                     (part.source.mesh_unit.empty() ? ", in its own unit"
-                                                    : ", in " + part.source.mesh_unit)));
+    if (part.source.state.used())
+      chain.push_back(linkJson(
+          part.source.frame == kStationFrame ? "station_from_mesh" : "frame_from_mesh",
+          part.source.frame_from_mesh,
+          part.source.mesh.filename().string() + ", sha256 " + part.sha256 +
+              (part.source.mesh_unit.empty() ? ", in its own unit" : ", in " + part.source.mesh_unit) +
+              (part.source.frame == kStationFrame
+                   ? ""
+                   : ", in " + frameText(part.source.frame) + ", occludes only")));
   if (session_case.rig)
     chain.push_back(linkJson("camera_from_rig", session_case.rig->camera_from_rig,
                              "rig '" + session_case.rig->id + "'"));

@@ -65,7 +65,7 @@ RecordInputs::Hash sceneHash(const MeshView& mesh) {
   for (const ScenePart& part : mesh.parts) {
     writer.f64(part.normal_threshold_rad);
     writer.f64(part.depth_threshold_m);
-    writer.u8(part.match ? 1 : 0);
+    writer.u8(roleByte(part));
   }
   writer.u32(static_cast<std::uint32_t>(mesh.vertices_in_station_m.size()));
   for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m)

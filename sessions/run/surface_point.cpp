@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace boresight::sessions {
 namespace {
@@ -18,6 +18,10 @@ std::array<Eigen::Vector3d, 3> corners(const MeshView& mesh, std::int32_t face) 
     return mesh.vertices_in_station_m[static_cast<std::size_t>(vertex[i])].cast<double>();
   };
   return {at(0), at(1), at(2)};
+}
+
+bool isFixedToCamera(const MeshView& mesh, std::int32_t face) {
+  return mesh.parts[mesh.part_of_face[static_cast<std::size_t>(face)]].fixed_to_camera;
 }
 
 /// Distance along the ray in lengths of `direction`, or a negative number (Moeller and Trumbore
@@ -61,13 +65,13 @@ bool meets(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
 
 }  // namespace
 
-FaceTree::FaceTree(const MeshView& mesh) : mesh_(mesh), order_(mesh.faces.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
-  std::vector<Eigen::Vector3d> middle_m;
-  middle_m.reserve(order_.size());
-  for (const std::int32_t face : order_) {
+FaceTree::FaceTree(const MeshView& mesh) : mesh_(mesh) {
+  std::vector<Eigen::Vector3d> middle_m(mesh.faces.size());
+  for (std::int32_t face = 0; face < static_cast<std::int32_t>(mesh.faces.size()); ++face) {
+    if (isFixedToCamera(mesh, face)) continue;
     const auto corner = corners(mesh_, face);
-    middle_m.emplace_back((corner[0] + corner[1] + corner[2]) / 3.0);
+    order_.push_back(face);
+    middle_m[static_cast<std::size_t>(face)] = (corner[0] + corner[1] + corner[2]) / 3.0;
   }
   nodes_.push_back({{}, 0, static_cast<std::int32_t>(order_.size()), -1});
   fit(nodes_.front());
@@ -136,11 +140,18 @@ std::optional<SurfacePoint> surfacePointAt(const Camera& camera, const MeshView&
   const Eigen::Vector3d direction =
       station_from_camera.rotation * ray.direction;  // z = 1 in the camera
   std::optional<SurfacePoint> nearest;
+  double nearest_of_camera_m = std::numeric_limits<double>::infinity();
   for (std::int32_t face = 0; face < static_cast<std::int32_t>(mesh.faces.size()); ++face) {
+    if (isFixedToCamera(mesh, face)) {
+      const double depth_m = distanceToFace(ray.origin_m, ray.direction, corners(mesh, face));
+      if (depth_m > 0.0) nearest_of_camera_m = std::min(nearest_of_camera_m, depth_m);
+      continue;
+    }
     const double depth_m = distanceToFace(origin, direction, corners(mesh, face));
     if (depth_m <= 0.0 || (nearest && depth_m >= nearest->depth_m)) continue;
     nearest = SurfacePoint{origin + depth_m * direction, depth_m, face};
   }
+  if (nearest && nearest_of_camera_m < nearest->depth_m) return std::nullopt;
   return nearest;
 }
 

@@ -107,7 +107,7 @@ CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::
                                              bool together, bool robust) {
   CaseAnnotations annotations = caseAnnotations(session, case_id, together);
   const SessionCase& session_case = *session.findCase(case_id);
-  const SceneMesh scene = readKnownScene(session_case.parts);
+  const SceneMesh scene = readKnownScene(session_case);
   return solveCaseAnnotations(std::move(annotations), annotationsGuess(session_case),
                               boxCorners(matchedBounds(scene.view())), robust);
 }

@@ -21,6 +21,9 @@ constexpr auto kStroke = choiceOf<StrokeKind>("brush", "polygon", "saturation");
 constexpr auto kOrigin =
     choiceOf<TransformSource>("unstated", "telemetry", "calibration", "label", "commanded");
 constexpr auto kFrame = jsonCodec<FrameName>(&readFrameName);
+constexpr auto kPartFrame = Codec{&partFrameJson, &readPartFrame};
+constexpr auto kRole =
+    choiceOf<PartRole>(kPartRoleNames[0], kPartRoleNames[1], kPartRoleNames[2]);
 constexpr auto kCamera =
     jsonCodec<CameraFile>([](const JsonReader& json) { return readCameraFile(json); });
 constexpr auto kUncertainty = jsonCodec<DeclaredUncertainty>(&readUncertainty);
@@ -120,13 +123,23 @@ void fields(Archive& archive, Self& part) {
   archive.path("file", part.source.mesh);
   archive.field("sha256", part.sha256, kSha256);
   archive.optional("mesh_unit", part.source.mesh_unit, kNonEmptyText);
-  archive.optional("station_from_mesh", part.source.station_from_mesh, kExactPose);
-  auto& thresholds = part.source.part;
-  archive.field("normal_threshold_rad", thresholds.normal_threshold_rad, numberIn(1e-3, 3.15));
-  archive.field("depth_threshold_m", thresholds.depth_threshold_m, numberIn(1e-6, 1000.0));
-  archive.field("match", thresholds.match, kFlag);
+  archive.optional("name", part.source.name, kNonEmptyText);
+  if (Archive::kReads || part.source.frame != kStationFrame)
+    archive.defaulted("frame", part.source.frame, kPartFrame);
+  archive.optional("frame_from_mesh", part.source.frame_from_mesh, kExactPose);
+  archive.field("normal_threshold_rad", part.source.normal_threshold_rad, numberIn(1e-3, 3.15));
+  archive.field("depth_threshold_m", part.source.depth_threshold_m, numberIn(1e-6, 1000.0));
   archive.optional("albedo", part.source.albedo, numberIn(0.0, 1.0));
-  if constexpr (Archive::kReads) requireMesh(archive.json(), part.source);
+  if constexpr (Archive::kReads) {
+    part.source.state = readPartState(archive.json());
+    // As older files call it.
+    if (!archive.json().has("frame_from_mesh"))
+      archive.optional("station_from_mesh", part.source.frame_from_mesh, kExactPose);
+    requireMesh(archive.json(), part.source);
+  } else {
+    archive.field("role", part.source.state.role, kRole);
+    if (!part.source.state.present) archive.field("present", false, kFlag);
+  }
 }
 
 template <class Archive, ConstOr<MaskStroke> Self>
@@ -177,6 +190,20 @@ void fields(Archive& archive, Self& rig) {
   archive.field("camera_from_rig", rig.camera_from_rig, kExactPose);
 }
 
+namespace {
+
+/// Refuses parts that have no place in the scene, and a scene without a matched part.
+void requireScene(const JsonReader& json, const SessionCase& session_case) {
+  const std::vector<PartSource> parts = partsOf(session_case);
+  if (!anyMatched(parts)) json.failMember("parts", "no part is to be matched");
+  const FrameTree frames = framesOf(session_case);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (const PartConcern concern = partConcern(parts[i], frames); !concern.member.empty())
+      json.at("parts").elements()[i].failMember(concern.member, concern.reason);
+}
+
+}  // namespace
+
 template <class Archive, ConstOr<SessionCase> Self>
 void fields(Archive& archive, Self& self) {
   archive.field("id", self.id, kNonEmptyText);
@@ -211,9 +238,7 @@ void fields(Archive& archive, Self& self) {
     self.calibration_sigma = camera.calibration_sigma;
     self.has_seed = seed.has_value();
     self.camera_from_station_seed = seed.value_or(Pose());
-    if (std::none_of(self.parts.begin(), self.parts.end(),
-                     [](const MeshInput& part) { return part.source.part.match; }))
-      archive.json().failMember("parts", "no part is to be matched");
+    requireScene(archive.json(), self);
   }
 }
 
@@ -221,6 +246,30 @@ ordered_json toJson(const SessionCase& session_case, const PathWriter& path) {
   return fieldsJson(session_case, &path);
 }
 SessionCase readSessionCase(const JsonReader& json) { return readFields<SessionCase>(json); }
+
+/// The parts that a run is given, in the members of version 1 of session files: fingerprints of
+/// cases without later members stay as they are.
+ordered_json fingerprintParts(const SessionCase& session_case) {
+  const FrameTree frames = framesOf(session_case);
+  ordered_json json = ordered_json::array();
+  for (const MeshInput& input : session_case.parts) {
+    if (!input.source.state.used()) continue;
+    const bool placeable = partConcern(input.source, frames).member.empty();
+    const PartSource part = placeable ? placedPart(input.source, frames) : input.source;
+    ordered_json& entry = json.emplace_back();
+    entry["file"] = PathWriter("/")("/");  // where the file is makes no difference
+    entry["sha256"] = input.sha256;
+    if (!part.mesh_unit.empty()) entry["mesh_unit"] = part.mesh_unit;
+    if (part.frame != kStationFrame) entry["frame"] = partFrameJson(part.frame);
+    if (part.frame_from_mesh != Pose())
+      entry["station_from_mesh"] = exactPoseJson(part.frame_from_mesh);
+    entry["normal_threshold_rad"] = part.normal_threshold_rad;
+    entry["depth_threshold_m"] = part.depth_threshold_m;
+    entry["match"] = part.state.matched();
+    if (part.albedo) entry["albedo"] = *part.albedo;
+  }
+  return json;
+}
 
 ordered_json toJson(const FrameTransform& transform) { return fieldsJson(transform); }
 

@@ -27,15 +27,6 @@ std::optional<int> numberOf(const fs::path& image) {
   return number;
 }
 
-bool samePart(const MeshInput& a, const MeshInput& b) {
-  return a.sha256 == b.sha256 && a.source.mesh_unit == b.source.mesh_unit &&
-         a.source.station_from_mesh == b.source.station_from_mesh;
-}
-
-bool sameParts(const SessionCase& a, const SessionCase& b) {
-  return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), samePart);
-}
-
 }  // namespace
 
 std::vector<std::string> imageNames(const Session& session) {
@@ -68,7 +59,7 @@ std::vector<int> stationNumbers(const Session& session) {
   for (const auto& session_case : session.cases) {
     const auto same = std::find_if(
         stations.begin(), stations.end(),
-        [&session_case](const SessionCase* other) { return sameParts(*session_case, *other); });
+        [&session_case](const SessionCase* other) { return sameMeshes(*session_case, *other); });
     numbers.push_back(static_cast<int>(same - stations.begin()) + 1);
     if (same == stations.end()) stations.push_back(&*session_case);
   }

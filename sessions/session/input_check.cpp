@@ -244,12 +244,12 @@ GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_
   return read;
 }
 
-SceneMesh readKnownScene(const std::vector<MeshInput>& inputs) {
-  std::vector<PartSource> parts;
-  for (const MeshInput& input : inputs) parts.push_back(input.source);
-  return readScene(parts, [&inputs](std::size_t part, const std::string& sha256) {
-    requireKnown(inputs[part].source.mesh, "its bytes", sha256, inputs[part].sha256);
-  });
+SceneMesh readKnownScene(const SessionCase& session_case) {
+  const auto check = [&session_case](std::size_t part, const std::string& sha256) {
+    const MeshInput& input = session_case.parts[part];
+    requireKnown(input.source.mesh, "its bytes", sha256, input.sha256);
+  };
+  return readScene(partsOf(session_case), framesOf(session_case), check);
 }
 
 void requireKnown(const fs::path& file, const std::string& what, const std::string& found_sha256,

@@ -55,9 +55,9 @@ Session acceptingInputs(const Session& session, const std::string& case_id);
 /// read, or its files are not those that the session knows.
 GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit);
 
-/// Reads the meshes of a case. InputError, also of one whose files are not those that the session
-/// knows: such files are not parsed.
-SceneMesh readKnownScene(const std::vector<MeshInput>& inputs);
+/// Reads the meshes of a case that are in use. InputError, also of one whose files are not those
+/// that the session knows: such files are not parsed.
+SceneMesh readKnownScene(const SessionCase& session_case);
 
 /// InputError naming `what` of the file, unless the hashes are the same.
 void requireKnown(const std::filesystem::path& file, const std::string& what,

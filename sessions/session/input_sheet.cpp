@@ -151,6 +151,7 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
   for (const MeshInfo& info : loaded.scene.infos)
     add("mesh", info.file.filename().string() + ", " + info.format + " in " + info.unit + ", " +
                     fixedText(info.diagonal_m() * 1e3, 1) + " mm across");
+  for (const PartSource& part : partsOf(session_case)) add("part", partText(part));
   const InputSigmas sigmas(session_case);
   add("scale, one sigma", meshScaleText(sigmas));
   add("calibration, one sigma", calibrationText(sigmas) +

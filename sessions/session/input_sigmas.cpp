@@ -49,7 +49,7 @@ Session withInputSigmas(const Session& session, const std::string& case_id,
   Session next = session;
   for (const auto& session_case : session.cases) {
     SessionCase changed = *session_case;
-    if (session_case->parts == chosen->parts) changed.mesh_scale_sigma = mesh_scale_sigma;
+    if (sameMeshes(*session_case, *chosen)) changed.mesh_scale_sigma = mesh_scale_sigma;
     if (session_case->camera == chosen->camera) changed.calibration_sigma = calibration_sigma;
     if (!(changed == *session_case)) next = withCase(next, std::move(changed));
   }

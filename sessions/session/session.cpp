@@ -53,6 +53,21 @@ FrameTree framesOf(const SessionCase& session_case) {
   return frameTree(session_case.camera_reference, session_case.frames);
 }
 
+std::vector<PartSource> partsOf(const SessionCase& session_case) {
+  std::vector<PartSource> parts;
+  for (const MeshInput& part : session_case.parts) parts.push_back(part.source);
+  return parts;
+}
+
+bool sameMeshes(const SessionCase& a, const SessionCase& b) {
+  const auto same = [](const MeshInput& part, const MeshInput& other) {
+    return part.sha256 == other.sha256 && part.source.mesh_unit == other.source.mesh_unit &&
+           part.source.frame == other.source.frame &&
+           part.source.frame_from_mesh == other.source.frame_from_mesh;
+  };
+  return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), same);
+}
+
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance) {
   session_case.camera_from_station_truth = camera_from_station;
@@ -117,6 +132,24 @@ Session withRounds(const Session& session, const std::string& case_id, Annotatio
   return next;
 }
 
+Session withPartState(const Session& session, const std::string& case_id, std::size_t part_index,
+                      const PartState& state) {
+  const SessionCase& session_case = knownCase(session, case_id);
+  const std::string place = "case " + case_id;
+  if (part_index >= session_case.parts.size())
+    throw InputError(place, "parts", "there is no part " + std::to_string(part_index));
+  std::vector<PartSource> parts = partsOf(session_case);
+  parts[part_index].state = state;
+  const PartConcern concern = partConcern(parts[part_index], framesOf(session_case));
+  if (concern.member == "role") throw InputError(place, partName(parts[part_index]), concern.reason);
+  if (!anyMatched(parts))
+    throw InputError(place, partName(parts[part_index]),
+                     "is the only matched part: switch another one on first");
+  return withChanged(session, case_id, [&](SessionCase& changed) {
+    changed.parts[part_index].source.state = state;
+  });
+}
+
 Session withOptions(const Session& session, const std::string& profile,
                     const LocalizerOptions& options) {
   Session next = session;
@@ -150,7 +183,6 @@ std::string inputsDigest(const SessionCase& session_case) {
   SessionCase inputs;
   inputs.image.pixels_sha256 = session_case.image.pixels_sha256;
   inputs.camera = session_case.camera;
-  inputs.parts = session_case.parts;
   inputs.has_seed = session_case.has_seed;
   inputs.camera_from_station_seed = session_case.camera_from_station_seed;
   inputs.uncertainty = session_case.uncertainty;
@@ -158,10 +190,11 @@ std::string inputsDigest(const SessionCase& session_case) {
   inputs.ignore_strokes = session_case.ignore_strokes;
   // Where the files are makes no difference.
   inputs.image.source.file = "/";
-  for (MeshInput& part : inputs.parts) part.source.mesh = "/";
   if (inputs.ignore) inputs.ignore->file = "/";
   for (MaskStroke& stroke : inputs.ignore_strokes) stroke.name.clear();
-  return sha256Text(toJson(inputs, PathWriter("/")).dump());
+  nlohmann::ordered_json json = toJson(inputs, PathWriter("/"));
+  json["parts"] = fingerprintParts(session_case);
+  return sha256Text(json.dump());
 }
 
 bool RerunRecord::operator==(const RerunRecord& other) const {

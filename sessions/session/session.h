@@ -3,6 +3,7 @@
 // the other headers of this folder.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -64,7 +65,8 @@ struct SessionCase {
   Camera camera;
   /// Of the CAHV family: where the camera model's frame is. No input of a run.
   std::optional<CameraReference> camera_reference;
-  std::vector<MeshInput> parts;  ///< at least one that is matched
+  /// At least one is matched; each has a place in the scene by the case's frames.
+  std::vector<MeshInput> parts;
   std::optional<double> feature_size_m;
   /// Relative, one sigma; nothing: kAssumedMeshScaleSigma. No input of a run.
   std::optional<double> mesh_scale_sigma;
@@ -90,7 +92,8 @@ struct SessionCase {
   std::vector<std::string> tags;
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
-  /// Between named frames, without loops (frame_tree.h); `file` is a name alone. No input of a run.
+  /// Between named frames, without loops (frame_tree.h); `file` is a name alone. An input of a run
+  /// only where they place a part.
   std::vector<FrameTransform> frames;
   /// landmarks.json with the station's named points, absolute; may not be there yet. No input of a
   /// run, and annotators add to it: its bytes are not known to the session.
@@ -101,6 +104,11 @@ struct SessionCase {
 
 /// The tree of the case's frames, with that of its camera model.
 FrameTree framesOf(const SessionCase& session_case);
+/// The case's parts, as readScene takes them.
+std::vector<PartSource> partsOf(const SessionCase& session_case);
+
+/// Whether two cases have the same meshes in the same places, whatever their states.
+bool sameMeshes(const SessionCase& a, const SessionCase& b);
 
 /// Gives a case this truth in place of a former one, with all that was said of that.
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,
@@ -168,6 +176,11 @@ Session withAnnotations(const Session& session, const std::string& case_id, Anno
 /// away.
 Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds);
 
+/// The same session with a part of a case in this state. InputError for an unknown case or part, a
+/// matched part that is fixed to the camera, and when no matched part is left.
+Session withPartState(const Session& session, const std::string& case_id, std::size_t part_index,
+                      const PartState& state);
+
 /// The same session with these options, kept as what differs from a profile that exists.
 Session withOptions(const Session& session, const std::string& profile,
                     const LocalizerOptions& options);
@@ -179,8 +192,8 @@ LocalizerOptions sessionOptions(const Session& session, const std::filesystem::p
 LocalizerOptions caseOptions(const Session& session, const SessionCase& session_case,
                              const std::filesystem::path& file);
 
-/// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts, seed, uncertainty;
-/// not names, truth, tags or requirement.
+/// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts in use with their
+/// places, seed, uncertainty; not names, truth, tags or requirement.
 std::string inputsDigest(const SessionCase& session_case);
 
 /// In what a run differs from what would be run now.

@@ -43,6 +43,9 @@ nlohmann::ordered_json toJson(const SessionCase& session_case, const PathWriter&
 /// The reverse, without whether its id is given twice. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 
+/// The parts of a case as its fingerprint (inputsDigest) has them.
+nlohmann::ordered_json fingerprintParts(const SessionCase& session_case);
+
 /// {"target", "source", "target_from_source", "covariance", "origin", "comment", "file", "sha256"}:
 /// the file's name alone, since its numbers are here.
 nlohmann::ordered_json toJson(const FrameTransform& transform);

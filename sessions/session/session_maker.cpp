@@ -94,14 +94,22 @@ ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
   return input;
 }
 
+/// Parts that are switched off are read, too: they can be switched on later.
 std::vector<MeshInput> meshInputs(const std::vector<PartSource>& parts) {
-  const SceneMesh scene = readScene(parts);
   std::vector<MeshInput> inputs;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    inputs.push_back({parts[i], scene.infos[i].file_sha256});
-    inputs.back().source.mesh = wholePath(parts[i].mesh);
+  for (const PartSource& part : parts) {
+    inputs.push_back({part, readMesh(part.mesh, part.mesh_unit).info.file_sha256});
+    inputs.back().source.mesh = wholePath(part.mesh);
   }
   return inputs;
+}
+
+/// InputError for a part without a place in the scene, and without a matched part.
+void requireScene(const SessionCase& session_case, const fs::path& place) {
+  const std::vector<PartSource> parts = partsOf(session_case);
+  if (!anyMatched(parts)) throw InputError(place, "role", "no part of the station is matched");
+  const FrameTree frames = framesOf(session_case);
+  for (const PartSource& part : parts) (void)placedPart(part, frames);
 }
 
 InputFile maskInput(const fs::path& file, const ImageInput& image) {
@@ -125,6 +133,8 @@ SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const Image
       known != dataset.calibration_sigmas.end())
     session_case.calibration_sigma = known->second;
   session_case.parts = parts;
+  for (std::size_t i = 0; i < dataset_case.part_states.size(); ++i)
+    session_case.parts[i].source.state = dataset_case.part_states[i];
   session_case.feature_size_m = dataset.stations.at(dataset_case.station).feature_size_m;
   session_case.mesh_scale_sigma = dataset.stations.at(dataset_case.station).mesh_scale_sigma;
   session_case.camera_from_station_seed = dataset_case.seed_camera_from_station;
@@ -175,6 +185,7 @@ MadeCase makeCase(const CaseFiles& files) {
       frames.transforms.push_back(std::move(transform));
   addLabelFrames(files.image, camera.reference, frames.transforms);
   session_case.frames = keptFrames(frames.transforms);
+  requireScene(session_case, files.parts.empty() ? files.image : files.parts.front().mesh);
   session_case.camera_from_end_effector = files.camera_from_end_effector;
   if (!session_case.camera_from_end_effector)
     session_case.camera_from_end_effector = endEffectorOf(frames);

@@ -12,10 +12,12 @@
 namespace boresight::sessions {
 namespace {
 
-/// The same meshes in the same places, whatever their files are called.
+/// The same meshes in the same places and states, whatever they and their files are called. Each
+/// case places the parts of named frames by its own transforms.
 bool sameStation(const SessionCase& a, const SessionCase& b) {
   const auto same = [](const MeshInput& mesh_input, MeshInput other) {
     other.source.mesh = mesh_input.source.mesh;
+    other.source.name = mesh_input.source.name;
     return mesh_input == other;
   };
   return a.feature_size_m == b.feature_size_m &&
@@ -34,6 +36,7 @@ View viewOf(const LoadedCase& loaded) {
   view.image = loaded.image.view();
   view.ignore = loaded.ignore ? &loaded.ignore_bits : nullptr;
   view.camera = loaded.source.camera;
+  view.mesh = loaded.scene.view();
   view.camera_from_rig = loaded.source.rig->camera_from_rig;
   return view;
 }
@@ -71,7 +74,6 @@ ViewsProblem LoadedViews::problem() const {
   const LocalizationProblem first = cases.front()->problem();
   ViewsProblem views_problem;
   views_problem.views = views;
-  views_problem.mesh = first.mesh;
   views_problem.rig_from_station_seed = rigSeed(cases.front()->source);
   views_problem.uncertainty = first.uncertainty;
   views_problem.end_effector_in_camera_m = first.end_effector_in_camera_m;

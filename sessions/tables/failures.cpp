@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <list>
 #include <map>
 #include <memory>
 #include <utility>
@@ -114,7 +115,18 @@ constexpr double kPixelsPerPoint = 2.5;
 /// Datasets and scenes that several failures share, read once.
 struct Inputs {
   std::map<std::filesystem::path, Dataset> datasets;
-  std::map<std::pair<std::filesystem::path, std::string>, SceneMesh> scenes;
+  /// By placed parts; a list, whose elements stay in place.
+  std::list<std::pair<std::vector<PartSource>, SceneMesh>> scenes;
+
+  const SceneMesh& sceneOf(const Dataset& dataset, const Case& one) {
+    const FrameTree frames = framesOf(dataset, one);
+    std::vector<PartSource> parts;
+    for (const PartSource& part : partsOf(dataset, one))
+      if (part.state.used()) parts.push_back(placedPart(part, frames));
+    for (const auto& [known, scene] : scenes)
+      if (known == parts) return scene;
+    return scenes.emplace_back(parts, readScene(parts)).second;
+  }
 };
 
 template <class Key, class Value, class Read>
@@ -145,9 +157,7 @@ ColorImage pictureOf(const Failure& failure, Inputs& inputs, int width_px, int h
   const Case* one = dataset.findCase(failure.run.case_id);
   if (one == nullptr) throw InputError(failure.dataset, "it has no case " + failure.run.case_id);
   const GrayImage image = readCaseImage(dataset, *one);
-  const SceneMesh& scene = readOnce(inputs.scenes, {failure.dataset, one->station}, [&] {
-    return readStationScene(dataset.stations.at(one->station));
-  });
+  const SceneMesh& scene = inputs.sceneOf(dataset, *one);
   std::vector<Pose> framed = {failure.run.camera_from_station_seed};
   std::vector<OverlayLayer> layers = {
       {"seed", failure.run.camera_from_station_seed, kSeedColor, true}};

@@ -69,6 +69,46 @@ TEST_F(WhsEvaluate, CountsEveryCompletedRunWithAWrongMeshAsFalse) {
   EXPECT_EQ(results[0]["gross_false_positive"], results[0]["completed"]);
 }
 
+TEST_F(WhsEvaluate, StateOfAPart_IsListedAndChanged) {
+  std::filesystem::copy(exampleFolder(), folder_ / "data",
+                        std::filesystem::copy_options::recursive);
+  auto json = nlohmann::json::parse(folder_.read("data/dataset.json"));
+  nlohmann::json& os = json["stations"]["os"];
+  const nlohmann::json model = {{"mesh", os["mesh"]}, {"mesh_unit", "m"}};
+  nlohmann::json gripper = model;
+  gripper.update({{"name", "gripper"}, {"frame", "CAMERA"}, {"role", "occludes"}, {"present", false}});
+  os.erase("mesh");
+  os.erase("mesh_unit");
+  os["parts"] = {model, gripper};
+  const std::string file = folder_.write("data/dataset.json", json.dump());
+  EXPECT_THAT(runWhs({"info", file}, 0).out,
+              AllOf(HasSubstr("part model: matched, fixed to STATION\n"),
+                    HasSubstr("part gripper: occludes, fixed to CAMERA, off")));
+
+  const Arguments few = {"--station", "os", "--set", "loop.max_iterations=1"};
+  runWhs(evaluateArguments(file, few), 0);
+  const std::string off = lines().at(0)["digest"];
+  Arguments on = few;
+  on.insert(on.end(), {"--part", "gripper=on"});
+  EXPECT_THAT(runWhs(evaluateArguments(file, on), 3).err, HasSubstr("belong to another dataset"))
+      << "results of two states are not mixed";
+  std::filesystem::remove(folder_ / "r.sqlite");
+  runWhs(evaluateArguments(file, on), 0);
+  EXPECT_NE(lines().at(0)["digest"], off);
+
+  const std::string session = folder_ / "s.json";
+  runWhs({"new", "--dataset", file, "--case", kOsCase, "--part", "gripper=on", "--out", session}, 0);
+  EXPECT_THAT(runWhs({"info", session}, 0).out,
+              HasSubstr("part: gripper: occludes, fixed to CAMERA\n"));
+  const auto refused = [&](const std::string& part, int exit_code) {
+    return runWhs({"new", "--dataset", file, "--part", part, "--out", folder_ / "t.json"}, exit_code)
+        .err;
+  };
+  EXPECT_THAT(refused("lid=off", 3), HasSubstr("no station has a part 'lid'"));
+  EXPECT_THAT(refused("gripper=matched", 3), HasSubstr("cannot be matched"));
+  EXPECT_THAT(refused("gripper", 2), HasSubstr("is not NAME=STATE"));
+}
+
 TEST_F(WhsEvaluate, ReportsABadCaseAndGoesOn) {
   std::filesystem::copy(exampleFolder(), folder_ / "data",
                         std::filesystem::copy_options::recursive);

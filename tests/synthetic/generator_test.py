@@ -244,6 +244,31 @@ class Plan(unittest.TestCase):
             self.assertNotIn("far", frame["tags"])
             self.assertNotIn("hard", frame["tags"])
 
+    def test_drawn_state_changes_nothing_else(self):
+        for station in ("bc", "os"):
+            plain = plan.shots(3, station, 30, pairs=0.0)
+            drawn = plan.shots(3, station, 30, pairs=0.0, state=True)
+            names = set()
+            for before, after in zip(plain, drawn):
+                state = after.pop("state")
+                names.update(state)
+                for shot in (before, after):
+                    shot["tags"] = [t for t in shot["tags"] if not t.startswith("state_")]
+                    for frame in shot["frames"]:
+                        frame["tags"] = shot["tags"]
+                self.assertEqual(before, after)
+            self.assertEqual(names, {"gripper", "lid"} if station == "bc" else {"gripper"})
+
+    def test_state_names_parts_of_the_station(self):
+        for station in ("bc", "os"):
+            parts = layout.equipment(station)
+            self.assertFalse(any(part["present"] for part in parts))
+            record = {"plan": {"station": station, "filled_sleeves": [0, 5],
+                               "state": ["gripper"] + ["lid"] * (station == "bc")}}
+            state = layout.state_of(record)
+            self.assertLessEqual(set(state), {part["name"] for part in parts})
+            self.assertEqual("tube_05" in state, station == "os")
+
     def test_scaled_camera_sees_the_same(self):
         full, half = plan.camera("left_barrel"), plan.camera("left_barrel", 1024)
         for x in (-0.3, 0.0, 0.2):

@@ -313,10 +313,9 @@ void AnnotationController::setLandmarksFile(const std::filesystem::path& file) {
   const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
   if (!session_case) return;
   landmarks_file_.reset();  // read again, also where only its content has changed
-  const std::vector<sessions::MeshInput> parts = session_case->parts;
   sessions::Session session = document_.session();
   for (const auto& each : document_.session().cases) {
-    if (!(each->parts == parts)) continue;
+    if (!sessions::sameMeshes(*each, *session_case)) continue;
     sessions::SessionCase changed = *each;
     changed.landmarks = file;
     session = sessions::withCase(session, std::move(changed));

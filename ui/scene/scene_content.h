@@ -93,7 +93,8 @@ struct SceneContent {
   double axis_length_m = 0.1;
 
   bool empty() const { return one == nullptr; }
-  MeshView mesh() const { return one ? one->scene.view() : MeshView(); }
+  /// Without parts that are fixed to the camera.
+  MeshView mesh() const { return one ? sessions::stationView(one->scene) : MeshView(); }
 };
 
 /// What the state's cursor points at.

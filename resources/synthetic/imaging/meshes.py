@@ -65,6 +65,12 @@ def write(station, solids, albedos, root):
     _replace(root / station / "parts.json", (json.dumps(parts, indent=1) + "\n").encode())
 
 
+def write_alone(station, solids, root):
+    """STATION/NAME.ply of solids that are not of the station's model."""
+    for name, solid in solids.items():
+        _write_binary(root / station / f"{name}.ply", *joined({name: solid}))
+
+
 def _write_binary(path, vertices, triangles):
     """A PLY file in metres."""
     faces = np.zeros(len(triangles), dtype=[("n", "u1"), ("v", "<i4", 3)])

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from . import materials, stations, surroundings
+from . import equipment, materials, stations, surroundings
 
 STATION_INDEX = 1  # of the pass that tells the station from the rest
 MILLIMETRE = 1e-3
@@ -55,6 +55,7 @@ def build(plan, frames):
         if len(solid.triangles):
             add_object(name, solid, surface(material))
     _add_outside(plan, frames, generator, surface)
+    _add_equipment(plan.get("state", []), frames, surface)
     _add_light(plan)
     return filled
 
@@ -95,6 +96,16 @@ def _add_outside(plan, frames, generator, surface):
     if "hard_occluded" in plan["tags"]:
         place = frames[0].place / MILLIMETRE
         add_object("occluder", surroundings.occluder(place, plan["occluder_reach_mm"], generator), surface("paint"))
+
+
+def _add_equipment(names, frames, surface):
+    if "lid" in names:
+        add_object("lid", equipment.lid(), surface("bracket"), STATION_INDEX)
+    if "gripper" in names:
+        station_from_camera = np.linalg.inv(frames[0].camera_from_station)
+        held = equipment.gripper().placed(station_from_camera[:3, :3],
+                                          station_from_camera[:3, 3] / MILLIMETRE)
+        add_object("gripper", held, surface("paint"))
 
 
 def _add_light(plan):

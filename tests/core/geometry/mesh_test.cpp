@@ -204,6 +204,41 @@ TEST(ValidateMesh, RefusesNumbersThatAreNotFinite) {
   }
 }
 
+/// A tetrahedron of the station and one fixed to the camera.
+OwnedMesh withCameraPart() {
+  OwnedMesh mesh = tetrahedron();
+  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+  mesh.parts.push_back(ScenePart{});
+  mesh.parts[1].match = false;
+  mesh.parts[1].fixed_to_camera = true;
+  for (const auto& corner : {Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(1, 0, 1),
+                             Eigen::Vector3f(0, 1, 1)})
+    mesh.vertices.push_back(corner);
+  mesh.addFace(first, first + 1, first + 2, 1);
+  return mesh;
+}
+
+TEST(ValidateMesh, PartFixedToTheCamera_IsNeverMatchedAndHasTheLastVertices) {
+  OwnedMesh mesh = withCameraPart();
+  EXPECT_EQ(validateMesh(mesh.view()), Status::kOk);
+  EXPECT_EQ(firstVertexInCamera(mesh.view()), 4u);
+  EXPECT_EQ(firstVertexInCamera(tetrahedron().view()), 4u);
+  mesh.parts[1].match = true;
+  EXPECT_EQ(validateMesh(mesh.view()), Status::kInvalidMesh);
+  mesh = withCameraPart();
+  mesh.faces.back().vertex[0] = 3;  // also of the station's faces
+  EXPECT_EQ(validateMesh(mesh.view()), Status::kInvalidMesh);
+  mesh = withCameraPart();
+  mesh.vertices.push_back(mesh.vertices[0]);
+  mesh.faces[0].vertex[0] = static_cast<std::int32_t>(mesh.vertices.size()) - 1;
+  EXPECT_EQ(validateMesh(mesh.view()), Status::kInvalidMesh);
+}
+
+TEST(MatchedBounds, LeavesOutPartsFixedToTheCamera) {
+  EXPECT_EQ(matchedBounds(withCameraPart().view()).maximum_m,
+            matchedBounds(tetrahedron().view()).maximum_m);
+}
+
 TEST(MatchedBounds, CoversVerticesOfMatchedFacesOnly) {
   OwnedMesh mesh;
   mesh.vertices = {{1, 2, 3}, {2, 2, 3}, {1, 4, 5}, {-50, 0, 0}, {0, -60, 0}, {0, 0, 70}};

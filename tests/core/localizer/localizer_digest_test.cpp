@@ -133,6 +133,15 @@ TEST(LocalizerDigest, ChangesWithEveryInput) {
       [](Inputs& i) { i.scene.solid.parts[0].depth_threshold_m *= 1.01; },
       [](Inputs& i) { i.scene.solid.parts[0].normal_threshold_rad *= 1.01; },
       [](Inputs& i) { i.scene.solid.parts.push_back(ScenePart()); },
+      [](Inputs& i) {
+        i.scene.solid.parts.push_back(ScenePart());
+        i.scene.solid.parts[1].match = false;
+      },
+      [](Inputs& i) {
+        i.scene.solid.parts.push_back(ScenePart());
+        i.scene.solid.parts[1].match = false;
+        i.scene.solid.parts[1].fixed_to_camera = true;
+      },
       [](Inputs& i) { std::swap(i.scene.solid.faces[0], i.scene.solid.faces[1]); },
       [](Inputs& i) { i.options.pnp.seed = 2; },
       [](Inputs& i) { i.options.loop.max_iterations = 11; },

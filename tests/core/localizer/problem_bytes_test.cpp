@@ -109,6 +109,19 @@ TEST(ProblemBytes, MaskPartsAndEveryOption_RoundTrip) {
   EXPECT_EQ(encoded(decoded.problem, decoded.options), unusual.bytes());
 }
 
+TEST(ProblemBytes, PartFixedToTheCamera_RoundTrips) {
+  Problem fixed;
+  fixed.scene.solid.parts[1].fixed_to_camera = true;
+  fixed.problem = fixed.scene.problem();
+  Decoded decoded(fixed.bytes());
+  ASSERT_EQ(decoded.fault(), ProblemFault::kNone);
+  EXPECT_TRUE(std::ranges::equal(decoded.problem.mesh.parts, fixed.problem.mesh.parts));
+  fixed.scene.solid.parts[1].match = true;
+  fixed.problem = fixed.scene.problem();
+  EXPECT_TRUE(Decoded(fixed.bytes()).problem.mesh.parts[1].fixed_to_camera);
+  EXPECT_FALSE(Decoded(fixed.bytes()).problem.mesh.parts[1].match);
+}
+
 TEST(ProblemBytes, Header_FollowsTheFormat) {
   const Case scene = stationCase(4);
   const Bytes bytes = encoded(scene.problem(), defaultProfile());

@@ -31,8 +31,9 @@ struct ViewsRun {
 
   ViewsRun(const Case& scene, std::vector<View> given, const LocalizerOptions& options)
       : views(std::move(given)) {
+    for (View& view : views)
+      if (view.mesh.faces.empty()) view.mesh = scene.solid.view();
     problem.views = views;
-    problem.mesh = scene.solid.view();
     problem.rig_from_station_seed = scene.seed;
     problem.uncertainty = scene.uncertainty;
     std::size_t bytes = 0;
@@ -46,7 +47,9 @@ struct ViewsRun {
   }
 };
 
-View viewOf(const Case& scene) { return {scene.picture->view(), nullptr, scene.camera, Pose()}; }
+View viewOf(const Case& scene) {
+  return {scene.picture->view(), nullptr, scene.camera, {}, Pose()};
+}
 
 Pose secondFromRig() { return {rotationExp({0.02, -0.2, 0.03}), {0.09, 0.005, 0.01}}; }
 
@@ -54,7 +57,7 @@ Pose secondFromRig() { return {rotationExp({0.02, -0.2, 0.03}), {0.09, 0.005, 0.
 View secondView(const Case& scene) {
   static const Picture picture =
       takePicture(stationMesh(), pinholeCamera(), secondFromRig() * truthPose());
-  return {picture.view(), nullptr, scene.camera, secondFromRig()};
+  return {picture.view(), nullptr, scene.camera, {}, secondFromRig()};
 }
 
 void expectSamePose(const Pose& first, const Pose& second) {
@@ -269,7 +272,7 @@ TEST(ViewsLocalizer, TurnedSeedBeforeABlackFirstView_IsFoundInTheSecond) {
 
 /// A second picture of a rail.
 View secondRailView(const Case& scene, const Picture& picture) {
-  return {picture.view(), nullptr, scene.camera, secondFromRig()};
+  return {picture.view(), nullptr, scene.camera, {}, secondFromRig()};
 }
 
 TEST(ViewsLocalizer, RepeatedFeaturesWithoutEndsInBothViews_EndAsAmbiguous) {

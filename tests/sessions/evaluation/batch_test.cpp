@@ -85,6 +85,45 @@ TEST(RunBatch, GivesTheSameInTheSameOrderForAnyNumberOfJobs) {
   EXPECT_NE(alone[0].digest, alone[1].digest);
 }
 
+TEST(RunBatch, StateOfACase_DecidesItsScene) {
+  Dataset dataset = exampleDataset();
+  const auto plain = runBatch(dataset, quick(), {});
+  for (auto& [id, station] : dataset.stations) {
+    PartSource held = station.parts.front();
+    held.name = "held";
+    held.frame = kCameraFrame;
+    held.frame_from_mesh.translation_m.z() = 0.3;
+    held.state = {PartRole::kOccludes, false};
+    station.parts.push_back(held);
+  }
+  const auto off = runBatch(dataset, quick(), {});
+  dataset.cases[1].part_states = {PartState(), PartState{PartRole::kOccludes, true}};
+  const auto one_on = runBatch(dataset, quick(), {});
+  const auto all_on = runBatch(withPartStates(dataset, {{"held", "on"}}), quick(), {});
+  ASSERT_EQ(plain.size(), 2u);
+  EXPECT_EQ(off[0].digest, plain[0].digest);
+  EXPECT_EQ(off[1].digest, plain[1].digest);
+  EXPECT_EQ(one_on[0].digest, plain[0].digest);
+  EXPECT_NE(one_on[1].digest, plain[1].digest);
+  EXPECT_NE(all_on[0].digest, plain[0].digest);
+  EXPECT_EQ(all_on[1].digest, one_on[1].digest);
+}
+
+TEST(Mirrored, PartsFixedToTheCamera_StayAsTheyAre) {
+  SceneMesh scene;
+  scene.vertices_in_station_m = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {5, 0, 1}, {6, 0, 1}, {5, 1, 1}};
+  scene.faces = {{{0, 1, 2}}, {{3, 4, 5}}};
+  scene.part_of_face = {0, 1};
+  scene.parts.resize(2);
+  scene.parts[1].match = false;
+  scene.parts[1].fixed_to_camera = true;
+  const SceneMesh turned = mirrored(scene, MirrorAxis::kX);
+  EXPECT_EQ(turned.vertices_in_station_m[0], Eigen::Vector3f(2, 0, 0));
+  EXPECT_EQ(turned.faces[0].vertex, (std::array<std::int32_t, 3>{0, 2, 1}));
+  EXPECT_EQ(turned.vertices_in_station_m[3], scene.vertices_in_station_m[3]);
+  EXPECT_EQ(turned.faces[1].vertex, scene.faces[1].vertex);
+}
+
 TEST(RunBatch, RunsWithinTheMemoryOfOneThread) {
   const test::ExampleCase example("os");
   BatchOptions options;

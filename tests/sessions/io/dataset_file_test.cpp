@@ -89,16 +89,16 @@ TEST_F(ReadDataset, ReadsStationsInBothForms) {
   ASSERT_EQ(bc.parts.size(), 1u);
   EXPECT_EQ(bc.parts[0].mesh, folder_ / "bc/model.ply");
   EXPECT_EQ(bc.parts[0].mesh_unit, "mm");
-  EXPECT_TRUE(bc.parts[0].part.match);
-  EXPECT_EQ(bc.parts[0].part.normal_threshold_rad, ScenePart().normal_threshold_rad);
+  EXPECT_TRUE(bc.parts[0].state.matched());
+  EXPECT_EQ(bc.parts[0].normal_threshold_rad, ScenePart().normal_threshold_rad);
   EXPECT_EQ(bc.feature_size_m, 0.015);
   EXPECT_EQ(bc.camera_from_end_effector->translation_m.z(), 0.39);
   const Station& os = dataset.stations.at("os");
   ASSERT_EQ(os.parts.size(), 2u);
-  EXPECT_EQ(os.parts[0].station_from_mesh.translation_m.z(), 1.5);
-  EXPECT_DOUBLE_EQ(os.parts[0].part.normal_threshold_rad, kPi / 9.0);
-  EXPECT_EQ(os.parts[0].part.depth_threshold_m, 0.002);
-  EXPECT_FALSE(os.parts[1].part.match);
+  EXPECT_EQ(os.parts[0].frame_from_mesh.translation_m.z(), 1.5);
+  EXPECT_DOUBLE_EQ(os.parts[0].normal_threshold_rad, kPi / 9.0);
+  EXPECT_EQ(os.parts[0].depth_threshold_m, 0.002);
+  EXPECT_EQ(os.parts[1].state.role, PartRole::kOccludes);
   EXPECT_EQ(os.parts[1].mesh_unit, "");
   EXPECT_FALSE(os.feature_size_m.has_value());
   EXPECT_EQ(dataset.cameras.at("left").width, 8);
@@ -224,6 +224,104 @@ TEST_F(ReadDataset, NamesWhatIsWrongInSymmetries) {
   EXPECT_THAT(with({{"continuous", {{{"axis", {0, 0, 0}}}}}}),
               HasSubstr("stations.bc.symmetries.continuous[0].axis: has no direction"));
   EXPECT_THAT(with(json::object()), HasSubstr("stations.bc.symmetries: has neither"));
+}
+
+/// The sample with a gripper of station os, and a case that shows both.
+json withGripper() {
+  json d = sampleDataset();
+  d["stations"]["os"]["parts"].push_back({{"mesh", "gripper.ply"},
+                                          {"mesh_unit", "m"},
+                                          {"name", "gripper"},
+                                          {"frame", "CAMERA"},
+                                          {"frame_from_mesh", transform(0.2)},
+                                          {"role", "occludes"},
+                                          {"present", false}});
+  json shown = d["cases"][0];
+  shown["id"] = "c";
+  shown["station"] = "os";
+  shown["state"] = {{"gripper", "on"}, {"tube", "ignored"}};
+  d["cases"].push_back(shown);
+  return d;
+}
+
+TEST_F(ReadDataset, TakesFramesRolesAndStatesOfParts) {
+  const Dataset dataset = read(withGripper());
+  const PartSource& gripper = dataset.stations.at("os").parts[2];
+  EXPECT_EQ(gripper.name, "gripper");
+  EXPECT_EQ(gripper.frame, kCameraFrame);
+  EXPECT_EQ(gripper.frame_from_mesh.translation_m.z(), 0.2);
+  EXPECT_EQ(gripper.state, (PartState{PartRole::kOccludes, false}));
+  EXPECT_EQ(dataset.stations.at("os").parts[0].frame, kStationFrame);
+  const std::vector<PartSource> parts = partsOf(dataset, *dataset.findCase("c"));
+  EXPECT_EQ(parts[1].state, (PartState{PartRole::kIgnored, true}));
+  EXPECT_EQ(parts[2].state, (PartState{PartRole::kOccludes, true}));
+}
+
+TEST_F(ReadDataset, NamesWhatIsWrongInAPart) {
+  const auto with = [this](const char* member, const json& value) {
+    json content = withGripper();
+    content["stations"]["os"]["parts"][2][member] = value;
+    return folder_.message([&] { (void)read(content); });
+  };
+  EXPECT_EQ(with("frame", "WRIST"),
+            "dataset.json: stations.os.parts[2].frame: WRIST is joined to neither CAMERA nor "
+            "STATION: add the transform that joins it (--frames, or transforms of dataset.json)");
+  EXPECT_THAT(with("role", "matched"),
+              HasSubstr("stations.os.parts[2].role: a part that is fixed to the camera cannot"));
+  EXPECT_THAT(with("role", "held"), HasSubstr("stations.os.parts[2].role: 'held' is none of"));
+  EXPECT_THAT(with("match", false), HasSubstr("parts[2].match: cannot be combined with 'role'"));
+  EXPECT_THAT(with("station_from_mesh", transform(1.0)),
+              HasSubstr("parts[2].station_from_mesh: cannot be combined"));
+  EXPECT_THAT(with("fixed_to", "CAMERA"), HasSubstr("parts[2].fixed_to: is not known"));
+}
+
+TEST_F(ReadDataset, NamesWhatIsWrongInAState) {
+  const auto with = [this](const json& state) {
+    json content = withGripper();
+    content["cases"][2]["state"] = state;
+    return folder_.message([&] { (void)read(content); });
+  };
+  EXPECT_EQ(with({{"cap", "off"}}),
+            "dataset.json: cases[2].state: there is no part 'cap'; there are: os, tube, gripper");
+  EXPECT_EQ(with({{"tube", "hidden"}}),
+            "dataset.json: cases[2].state.tube: is not one of off, on, matched, occludes, ignored");
+  EXPECT_THAT(with({{"os", "off"}}), HasSubstr("cases[2]: no part of its station is matched"));
+}
+
+TEST_F(ReadDataset, FrameOfAPart_IsJoinedByTheDatasetsTransforms) {
+  json content = withGripper();
+  content["stations"]["os"]["parts"][2]["frame"] = {{"name", "WRIST"}, {"index", {4}}};
+  content["transforms"] = {"wrist.json"};
+  folder_.write("wrist.json", json({{"format", "boresight-transform"},
+                                    {"version", 1},
+                                    {"target", {{"name", "CAMERA"}}},
+                                    {"source", {{"name", "WRIST"}, {"index", {4}}}},
+                                    {"target_from_source", transform(0.5)},
+                                    {"comment", "by hand"}})
+                                  .dump());
+  const Dataset dataset = read(content);
+  const Case& shown = *dataset.findCase("c");
+  const PartSource placed =
+      placedPart(partsOf(dataset, shown)[2], framesOf(dataset, shown));
+  EXPECT_EQ(placed.frame, kCameraFrame);
+  EXPECT_DOUBLE_EQ(placed.frame_from_mesh.translation_m.z(), 0.7);
+}
+
+TEST_F(ReadDataset, StatesOfAllCases_AreChangedAtOnce) {
+  const Dataset dataset = read(withGripper());
+  const Dataset changed = withPartStates(dataset, {{"gripper", "off"}, {"tube", "matched"}});
+  const std::vector<PartSource> parts = partsOf(changed, *changed.findCase("c"));
+  EXPECT_EQ(parts[1].state, PartState());
+  EXPECT_FALSE(parts[2].state.present);
+  EXPECT_NE(changed.sha256, dataset.sha256);
+  EXPECT_EQ(withPartStates(dataset, {}).sha256, dataset.sha256);
+  const auto message = [&](const PartChange& change) {
+    return folder_.message([&] { (void)withPartStates(dataset, {change}); });
+  };
+  EXPECT_EQ(message({"cap", "off"}), "dataset.json: stations: no station has a part 'cap'");
+  EXPECT_THAT(message({"tube", "hidden"}), HasSubstr("'hidden' is not one of off, on"));
+  EXPECT_THAT(message({"os", "off"}), HasSubstr("cases.c: no part of its station is matched"));
+  EXPECT_THAT(message({"gripper", "matched"}), HasSubstr("cannot be matched"));
 }
 
 TEST_F(ReadDataset, NamesWhatIsWrongInAStation) {

@@ -69,13 +69,60 @@ TEST_F(SceneMeshTest, ReadsPartsFromFiles) {
   const SceneMesh scene = readScene(std::vector<PartSource>{part});
   EXPECT_EQ(scene.faces.size(), 12u);
   EXPECT_EQ(scene.infos.at(0).unit, "cm");
-  part.part.match = false;
+  part.state.role = PartRole::kOccludes;
   EXPECT_EQ(folder_.message([&] { (void)readScene(std::vector<PartSource>{part}); }),
-            "cube.ply: match: no part of the station is to be matched");
+            "cube.ply: role: no part of the station is matched");
   EXPECT_THROW((void)readScene({}), InputError);
   part.mesh = folder_ / "none.ply";
   EXPECT_EQ(folder_.message([&] { (void)readScene(std::vector<PartSource>{part}); }),
             "none.ply: no such file");
+}
+
+TEST_F(SceneMeshTest, PartsFixedToTheCamera_ComeLast) {
+  PartSource gripper;
+  gripper.mesh = folder_ / "cube.ply";
+  gripper.mesh_unit = "m";
+  gripper.frame = kCameraFrame;
+  gripper.frame_from_mesh.translation_m.z() = 0.5;
+  gripper.state.role = PartRole::kOccludes;
+  gripper.albedo = 0.25;
+  PartSource station = gripper;
+  station.frame = kStationFrame;
+  station.frame_from_mesh = Pose();
+  station.state = PartState();
+  std::vector<std::size_t> checked;
+  const SceneMesh scene =
+      readScene(std::vector{gripper, station}, {},
+                [&](std::size_t part, const std::string&) { checked.push_back(part); });
+  EXPECT_EQ(checked, (std::vector<std::size_t>{1, 0}));
+  const MeshView view = scene.view();
+  ASSERT_EQ(validateMesh(view), Status::kOk);
+  EXPECT_TRUE(view.parts[0].match && view.parts[1].fixed_to_camera);
+  EXPECT_EQ(scene.albedo_of_part, (std::vector{0.25, 0.25}));
+  EXPECT_EQ(firstVertexInCamera(view), 8u);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(view.vertices_in_station_m[8 + i], cube_.vertices_m[i] + Eigen::Vector3f(0, 0, 0.5F));
+  EXPECT_EQ(matchedVertices(view).size(), 8u);
+  const MeshView still = stationView(scene);
+  EXPECT_EQ(still.vertices_in_station_m.size(), 8u);
+  EXPECT_EQ(still.faces.size(), 12u);
+  EXPECT_EQ(validateMesh(still), Status::kOk);
+}
+
+TEST_F(SceneMeshTest, PartsThatAreNotUsed_AreNotRead) {
+  PartSource station;
+  station.mesh = folder_ / "cube.ply";
+  station.mesh_unit = "m";
+  PartSource missing = station;
+  missing.mesh = folder_ / "none.ply";
+  for (const PartState& state :
+       {PartState{PartRole::kMatched, false}, PartState{PartRole::kIgnored, true}}) {
+    missing.state = state;
+    EXPECT_EQ(readScene(std::vector{missing, station}).parts.size(), 1u);
+  }
+  station.state.present = false;
+  EXPECT_EQ(folder_.message([&] { (void)readScene(std::vector{station, missing}); }),
+            "cube.ply: role: no part of the station is matched");
 }
 
 TEST_F(SceneMeshTest, SuspectsAWrongUnit) {

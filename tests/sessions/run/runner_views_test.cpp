@@ -26,9 +26,9 @@ class RunnerViewsTest : public testing::Test {
     for (View& view : views_) {
       view.image = localization_problem.image;
       view.camera = localization_problem.camera;
+      view.mesh = localization_problem.mesh;
     }
     problem_.views = views_;
-    problem_.mesh = localization_problem.mesh;
     problem_.rig_from_station_seed = localization_problem.camera_from_station_seed;
     problem_.uncertainty = localization_problem.uncertainty;
   }

@@ -58,6 +58,34 @@ TEST(FaceTree, MeetsTheFaceThatTryingAllOfThemFinds) {
   }
 }
 
+TEST(SurfacePointAt, PartFixedToTheCamera_HidesTheStation) {
+  SceneMesh mesh;  // a wall of the station at z = 0, and a plate 0.2 m ahead of the camera
+  mesh.parts.resize(2);
+  mesh.parts[1].match = false;
+  mesh.parts[1].fixed_to_camera = true;
+  for (const auto& [x, y] : {std::pair(-3.0F, -3.0F), {3.0F, -3.0F}, {0.0F, 3.0F}})
+    mesh.vertices_in_station_m.emplace_back(x, y, 0.0F);
+  for (const auto& [x, y] : {std::pair(0.0F, -0.1F), {0.2F, -0.1F}, {0.0F, 0.1F}})
+    mesh.vertices_in_station_m.emplace_back(x, y, 0.2F);
+  mesh.faces = {{{0, 1, 2}}, {{3, 4, 5}}};
+  mesh.part_of_face = {0, 1};
+  const Camera camera = test::makePinhole(200, 200, 100.0);
+  for (const double distance_m : {0.5, 0.9, 0.1}) {
+    Pose pose;
+    pose.translation_m = {0.1, 0.0, distance_m};
+    const bool hidden = distance_m > 0.2;
+    EXPECT_EQ(surfacePointAt(camera, mesh.view(), pose, {110.0, 99.5}).has_value(), !hidden);
+    const auto beside = surfacePointAt(camera, mesh.view(), pose, {90.0, 99.5});
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->face, 0);
+    EXPECT_NEAR(beside->depth_m, distance_m, 1e-12);
+  }
+  // A tree in the station frame has the station's faces only.
+  const auto hit = FaceTree(mesh.view()).firstHit({0.05, 0.0, 0.5}, {0.0, 0.0, -1.0});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->face, 0);
+}
+
 TEST(FaceTree, LetsNoRaySlipBetweenNeighbours) {
   SceneMesh mesh;  // a square of four triangles about its middle, as a wall at z = 0.3
   mesh.parts.resize(1);

@@ -113,10 +113,16 @@ inline sessions::SessionCase randomCase(Random& random, const std::string& id) {
     sessions::MeshInput part;
     part.source.mesh = randomPath(random, ".ply");
     part.source.mesh_unit = coin(random) ? "m" : "mm";
-    if (coin(random)) part.source.station_from_mesh = randomPose(random);
-    part.source.part.normal_threshold_rad = random.uniform(0.1, 1.0);
-    part.source.part.depth_threshold_m = random.uniform(0.001, 0.1);
-    part.source.part.match = i == 1 || coin(random);
+    if (coin(random)) part.source.name = "part \"q\"";
+    if (coin(random)) part.source.frame_from_mesh = randomPose(random);
+    part.source.normal_threshold_rad = random.uniform(0.1, 1.0);
+    part.source.depth_threshold_m = random.uniform(0.001, 0.1);
+    if (i > 1) {
+      part.source.state.role = static_cast<sessions::PartRole>(random.below(3));
+      part.source.state.present = coin(random);
+      if (part.source.state.role != sessions::PartRole::kMatched && coin(random))
+        part.source.frame = sessions::kCameraFrame;
+    }
     if (coin(random)) part.source.albedo = random.uniform(0.0, 1.0);
     part.sha256 = randomSha256(random);
     session_case.parts.push_back(part);

@@ -55,7 +55,8 @@ TEST(SessionFile, NamesFilesRelativeToItself) {
   sessions::SessionCase session_case = randomCase(random, "a");
   session_case.image.source.file = folder / "images/1.png";
   session_case.parts.resize(1);
-  session_case.parts[0].source.part.match = true;
+  session_case.parts[0].source.state = {};
+  session_case.parts[0].source.frame = sessions::kStationFrame;
   session_case.parts[0].source.mesh = folder.path().parent_path() / "mesh.ply";
   std::filesystem::create_directories(folder / "deep/er");
   sessions::writeSessionFile(folder / "deep/s.json", withCase({}, session_case));
@@ -80,7 +81,8 @@ json goodSession() {
   Random random = randomFor("goodSession");
   sessions::SessionCase session_case = randomCase(random, "bc");
   session_case.parts.resize(1);
-  session_case.parts[0].source.part.match = true;
+  session_case.parts[0].source.state = {};
+  session_case.parts[0].source.frame = sessions::kStationFrame;
   session_case.ignore_strokes = {sessions::MaskStroke()};
   session_case.camera = makePinhole(100, 80, 200.0);
   session_case.image.eight_bit = {};
@@ -173,6 +175,54 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
       {[](json& s) { s["view"]["iteration"] = -2; }, "view.iteration: "},
   };
   for (const auto& [spoil, expected] : spoilt) EXPECT_THAT(message(spoil), HasSubstr(expected));
+}
+
+TEST(SessionFile, PartsOfOlderFiles_AreRead) {
+  const TemporaryFolder folder;
+  json old = goodSession();
+  json& part = old["cases"][0]["parts"][0];
+  const json pose = {{"rotation_wxyz", {0.0, 1.0, 0.0, 0.0}}, {"translation_m", {0.5, 0.0, 0.0}}};
+  for (const char* later : {"role", "frame_from_mesh", "name"}) part.erase(later);
+  part["station_from_mesh"] = pose;
+  part["match"] = true;
+  json occluder = part;
+  occluder["match"] = false;
+  old["cases"][0]["parts"].push_back(occluder);
+  const Session session = sessions::readSessionFile(folder.write("s.json", old.dump())).session;
+  const auto& parts = session.cases[0]->parts;
+  EXPECT_EQ(parts[0].source.state, sessions::PartState());
+  EXPECT_EQ(parts[1].source.state, (sessions::PartState{sessions::PartRole::kOccludes, true}));
+  EXPECT_EQ(parts[0].source.frame_from_mesh.translation_m.x(), 0.5);
+  const json written = json::parse(sessions::sessionText(session, folder / "s.json"));
+  const json& written_part = written["cases"][0]["parts"][1];
+  EXPECT_EQ(written_part["role"], "occludes");
+  EXPECT_EQ(written_part["frame_from_mesh"], pose);
+  EXPECT_FALSE(written_part.contains("match") || written_part.contains("station_from_mesh"));
+}
+
+TEST(SessionFile, PartsThatHaveNoPlaceInTheScene_AreRefused) {
+  const TemporaryFolder folder;
+  const auto message = [&folder](const json& changes) {
+    json value = goodSession();
+    json gripper = value["cases"][0]["parts"][0];
+    gripper.erase("frame");
+    gripper["role"] = "occludes";
+    gripper.update(changes);
+    value["cases"][0]["parts"].push_back(gripper);
+    value["cases"][0].erase("frames");
+    value["cases"][0].erase("camera_reference");
+    const auto file = folder.write("s.json", value.dump());
+    return folder.message([&] { (void)sessions::readSessionFile(file); });
+  };
+  EXPECT_EQ(message({{"frame", "CAMERA"}}), "(nothing)");
+  EXPECT_THAT(message({{"frame", "GRIPPER"}}),
+              HasSubstr("cases[0].parts[1].frame: GRIPPER is joined to neither CAMERA nor STATION: "
+                        "add the transform that joins it"));
+  EXPECT_THAT(message({{"frame", "CAMERA"}, {"role", "matched"}}),
+              HasSubstr("cases[0].parts[1].role: a part that is fixed to the camera cannot be "
+                        "matched"));
+  EXPECT_THAT(message({{"role", "held"}}), HasSubstr("cases[0].parts[1].role: 'held' is none of"));
+  EXPECT_THAT(message({{"match", false}}), HasSubstr("match: cannot be combined with 'role'"));
 }
 
 TEST(SessionFile, FileWithoutRoundsAndLandmarks_IsRead) {

@@ -147,9 +147,11 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.image.pixels_sha256[0] ^= 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].sha256[0] ^= 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.mesh_unit = "mm"; }));
-  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.station_from_mesh.translation_m.x() = 1; }));
-  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.part.normal_threshold_rad *= 2; }));
-  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.part.match = false; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.frame_from_mesh.translation_m.x() = 1; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.normal_threshold_rad *= 2; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.role = sessions::PartRole::kOccludes; }));
+  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.present = false; }));
+  EXPECT_FALSE(changed([](auto& c) { c.parts[0].source.name = "station"; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.albedo = 0.42; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts.push_back(c.parts[0]); }));
   EXPECT_TRUE(changed([](auto& c) { c.camera.fx += 1e-9; }));
@@ -159,6 +161,127 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.ignore = sessions::InputFile{"/m", std::string(64, 'a')}; }));
   EXPECT_TRUE(changed([](auto& c) { c.ignore_strokes.emplace_back(); }));
   EXPECT_TRUE(changed([](auto& c) { c.has_seed = false; }));
+}
+
+/// The digests of the shipped cases before parts had names, frames and states.
+TEST(SessionMaker, DigestsOfCasesWithoutLaterMembers_AreThoseOfEarlierVersions) {
+  const Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+  ASSERT_EQ(session.cases.size(), 2u);
+  EXPECT_EQ(sessions::inputsDigest(*session.cases[0]),
+            "4e00d12e9b2e345ef840c3ba016df34a73b1de8386f343fba095c52f99a33618");
+  EXPECT_EQ(sessions::inputsDigest(*session.cases[1]),
+            "2f2504644b1536f88ea047a97a78a2bba37f5d36a46fc31504ab216ca1e7c1aa");
+}
+
+/// A part of a named frame, joined to the camera by a transform.
+sessions::SessionCase withGripper(sessions::SessionCase session_case, double ahead_m) {
+  sessions::FrameTransform transform;
+  transform.target = sessions::kCameraFrame;
+  transform.source = sessions::kEndEffectorFrame;
+  transform.target_from_source.translation_m.z() = ahead_m;
+  transform.comment = "by hand";
+  transform.file = "frames.json";
+  transform.file_sha256 = std::string(64, 'a');
+  session_case.frames = {transform};
+  sessions::MeshInput gripper = session_case.parts[0];
+  gripper.source.frame = sessions::kEndEffectorFrame;
+  gripper.source.state.role = sessions::PartRole::kOccludes;
+  session_case.parts.push_back(gripper);
+  return session_case;
+}
+
+TEST(SessionMaker, Digest_FollowsThePlaceOfAPartInANamedFrame) {
+  const sessions::SessionCase plain =
+      *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+  sessions::SessionCase near = withGripper(plain, 0.25);
+  const sessions::SessionCase far = withGripper(plain, 0.5);
+  EXPECT_NE(sessions::inputsDigest(near), sessions::inputsDigest(far));
+  // The same place, given in the camera frame.
+  sessions::SessionCase by_hand = near;
+  by_hand.frames.clear();
+  by_hand.parts[1].source.frame = sessions::kCameraFrame;
+  by_hand.parts[1].source.frame_from_mesh.translation_m.z() = 0.25;
+  EXPECT_EQ(sessions::inputsDigest(by_hand), sessions::inputsDigest(near));
+  // A part that the core is not given is no input.
+  for (const sessions::PartState& state :
+       {sessions::PartState{sessions::PartRole::kIgnored, true},
+        sessions::PartState{sessions::PartRole::kOccludes, false}}) {
+    near.parts[1].source.state = state;
+    EXPECT_EQ(sessions::inputsDigest(near), sessions::inputsDigest(plain));
+  }
+}
+
+TEST(SessionMaker, GripperOfANamedFrame_IsLoadedInTheCameraFrame) {
+  const sessions::SessionCase plain =
+      *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+  sessions::SessionCase session_case = withGripper(plain, 0.25);
+  // The seed's chain does not matter: the part moves with the camera.
+  const auto loaded = sessions::loadCase(session_case);
+  const MeshView view = loaded->scene.view();
+  ASSERT_EQ(validateMesh(view), Status::kOk);
+  ASSERT_EQ(view.parts.size(), 2u);
+  EXPECT_TRUE(view.parts[1].fixed_to_camera);
+  const std::size_t first = firstVertexInCamera(view);
+  ASSERT_EQ(2 * first, view.vertices_in_station_m.size());
+  for (std::size_t i = 0; i < first; ++i)
+    EXPECT_NEAR(view.vertices_in_station_m[first + i].z(),
+                view.vertices_in_station_m[i].z() + 0.25F, 1e-6F);
+  session_case.frames.clear();
+  const TemporaryFolder folder;
+  EXPECT_THAT(folder.message([&] { (void)sessions::loadCase(session_case); }),
+              HasSubstr("frame: END_EFFECTOR is joined to neither CAMERA nor STATION"));
+  // A reload sees that only the transform has changed.
+  session_case = withGripper(plain, 0.5);
+  const auto reloaded = sessions::reloadCase(*loaded, session_case);
+  EXPECT_NEAR(reloaded->scene.vertices_in_station_m[first].z(),
+              view.vertices_in_station_m[0].z() + 0.5F, 1e-6F);
+}
+
+TEST(SessionMaker, StatesOfADataset_ReachTheCases) {
+  const TemporaryFolder folder;
+  const auto file = copyOfExamples(folder) / "dataset.json";
+  auto json = nlohmann::json::parse(folder.read("stations/dataset.json"));
+  for (auto& [id, station] : json["stations"].items()) {
+    nlohmann::json station_part = {{"mesh", station["mesh"]}, {"mesh_unit", station["mesh_unit"]}};
+    nlohmann::json lid = station_part;
+    lid["name"] = "lid";
+    lid["role"] = "occludes";
+    lid["present"] = false;
+    station.erase("mesh");
+    station.erase("mesh_unit");
+    station["parts"] = {station_part, lid};
+  }
+  json["cases"][1]["state"] = {{"lid", "on"}};
+  folder.write("stations/dataset.json", json.dump());
+  const Session session = sessions::makeSession(file);
+  EXPECT_FALSE(session.cases[0]->parts[1].source.state.present);
+  EXPECT_EQ(session.cases[1]->parts[1].source.state,
+            (sessions::PartState{sessions::PartRole::kOccludes, true}));
+  EXPECT_EQ(session.cases[0]->parts[1].sha256.size(), 64u) << "also of a part that is off";
+  sessions::writeSessionFile(folder / "s.json", session);
+  EXPECT_TRUE(sessions::readSessionFile(folder / "s.json").session == session);
+}
+
+TEST(WithPartState, ChangesOnePartAndLeavesAMatchedOne) {
+  using sessions::PartRole;
+  using sessions::PartState;
+  const Session session = withCase(
+      {}, withGripper(*sessions::makeSession(exampleFolder() / "dataset.json").cases[0], 0.25));
+  const std::string id = session.cases[0]->id;
+  const Session off = withPartState(session, id, 1, PartState{PartRole::kOccludes, false});
+  EXPECT_FALSE(off.cases[0]->parts[1].source.state.present);
+  EXPECT_EQ(off.cases[0]->parts[0], session.cases[0]->parts[0]);
+  EXPECT_TRUE(withPartState(off, id, 1, {PartRole::kOccludes, true}) == session);
+  const TemporaryFolder folder;
+  const auto message = [&](std::size_t part, const PartState& state) {
+    return folder.message([&] { (void)withPartState(session, id, part, state); });
+  };
+  EXPECT_THAT(message(0, {PartRole::kMatched, false}), HasSubstr("is the only matched part"));
+  EXPECT_THAT(message(0, {PartRole::kIgnored, true}), HasSubstr("is the only matched part"));
+  EXPECT_THAT(message(1, {PartRole::kMatched, true}), HasSubstr("fixed to the camera"));
+  EXPECT_THAT(message(2, {}), HasSubstr("there is no part 2"));
+  EXPECT_THAT(folder.message([&] { (void)withPartState(session, "moon", 0, {}); }),
+              HasSubstr("there is no case 'moon'"));
 }
 
 TEST(SessionMaker, CaseWithoutSeed_IsReadBackAndNotRun) {

@@ -53,9 +53,9 @@ TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   images[1].image = turned.view();
   images[1].camera = other.camera;
   images[1].camera_from_rig = halfTurn();
+  images[0].mesh = images[1].mesh = example.scene.view();
   ViewsProblem problem;
   problem.views = images;
-  problem.mesh = example.scene.view();
   problem.rig_from_station_seed = example.seed.camera_from_station;
   problem.uncertainty = example.problem().uncertainty;
   LocalizerOptions options = defaultProfile();
