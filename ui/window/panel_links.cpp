@@ -17,6 +17,7 @@
 #include "ui/panels/frames_panel.h"
 #include "ui/panels/input_sheet_panel.h"
 #include "ui/panels/nudge_gizmo.h"
+#include "ui/panels/parts_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/queue_panel.h"
@@ -204,6 +205,7 @@ void PanelLinks::askForJudgement() {
 }
 
 void PanelLinks::linkFrames() {
+  connect(&docks_.station_parts, &PartsPanel::failed, this, &PanelLinks::failed);
   connect(&docks_.frames, &FramesPanel::addRequested, this, &PanelLinks::addFrames);
   connect(&docks_.frames, &FramesPanel::removeRequested, this,
           [this](const sessions::FrameTransform& transform) {

@@ -20,6 +20,7 @@
 #include "ui/panels/mask_panel.h"
 #include "ui/panels/match_inspector_panel.h"
 #include "ui/panels/nudge_gizmo.h"
+#include "ui/panels/parts_panel.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/runs_panel.h"
 #include "ui/panels/widgets.h"
@@ -51,6 +52,7 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
       configuration(*new ConfigurationPanel(parts.state)),
       inputs(*new InputSheetPanel),
       frames(*new FramesPanel(parts.state)),
+      station_parts(*new PartsPanel(parts.document, parts.state)),
       poses(*new PosePanel(parts.state)),
       mask_editor(*new MaskEditor(image.view(), &image)),
       mask(*new MaskPanel(mask_editor)),
@@ -94,8 +96,8 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
   add(QStringLiteral("review"), windowText("Review"), &review);
   add(QStringLiteral("queue"), windowText("Queue"), &queue);
   add(QStringLiteral("inputs"), windowText("Inputs"), &inputs);
-  add(QStringLiteral("closeUps"), windowText("Close-ups"),
-      new CloseUpsPanel(image, parts.state));
+  add(QStringLiteral("closeUps"), windowText("Close-ups"), new CloseUpsPanel(image, parts.state));
+  add(QStringLiteral("parts"), windowText("Parts"), &station_parts);
   add(QStringLiteral("frames"), windowText("Frames"), &frames);
   add(QStringLiteral("calibration"), windowText("Calibration"),
       new CalibrationPanel(parts.document, parts.state, parts.tasks));

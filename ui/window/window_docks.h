@@ -28,6 +28,7 @@ class LevelsPanel;
 class MaskEditor;
 class MaskPanel;
 class NudgeGizmo;
+class PartsPanel;
 class PosePanel;
 class QueuePanel;
 class RemediesPanel;
@@ -48,6 +49,7 @@ class WindowDocks {
   ConfigurationPanel& configuration;
   InputSheetPanel& inputs;
   FramesPanel& frames;
+  PartsPanel& station_parts;
   PosePanel& poses;
   MaskEditor& mask_editor;
   MaskPanel& mask;
