@@ -101,7 +101,8 @@ TEST_F(SceneMeshTest, PartsFixedToTheCamera_ComeLast) {
   EXPECT_EQ(scene.albedo_of_part, (std::vector{0.25, 0.25}));
   EXPECT_EQ(firstVertexInCamera(view), 8u);
   for (std::size_t i = 0; i < 8; ++i)
-    EXPECT_EQ(view.vertices_in_station_m[8 + i], cube_.vertices_m[i] + Eigen::Vector3f(0, 0, 0.5F));
+    EXPECT_EQ(view.vertices_in_station_m[8 + i],
+              Eigen::Vector3f(cube_.vertices_m[i] + Eigen::Vector3f(0, 0, 0.5F)));
   EXPECT_EQ(matchedVertices(view).size(), 8u);
   const MeshView still = stationView(scene);
   EXPECT_EQ(still.vertices_in_station_m.size(), 8u);
