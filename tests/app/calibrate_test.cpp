@@ -100,6 +100,8 @@ class Calibrate : public testing::Test {
           arm_from_station * camera_from_station[i].inverse() * camera_from_end_effector;
       telemetry.covariance = 1e-8 * Matrix6d::Identity();
       telemetry.comment = "posture " + std::to_string(i);
+      telemetry.file = "telemetry.json";
+      telemetry.file_sha256 = std::string(64, 'a');
       session_case.frames = {telemetry};
       session.cases[i] = sessions::SharedValue<SessionCase>(session_case);
     }
