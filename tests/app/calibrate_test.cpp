@@ -107,6 +107,7 @@ class Calibrate : public testing::Test {
     }
     for (std::size_t i = 0; i < camera_from_station.size(); ++i) {
       run.camera_from_station = camera_from_station[i];
+      run.digest.back() = static_cast<char>('0' + i);  // each a run of its own
       session = withRun(session, storeRun(session, session.cases[i]->id, run, file_));
     }
     sessions::writeSessionFile(file_, session);
