@@ -93,18 +93,11 @@ CalibrationParameter parameterOf(int index, const Camera& adjusted, const Camera
   return {name, "", adjusted.distortion[at - 3], 0.0, kDistortionScale};
 }
 
-ceres::Problem::Options sharedLoss() {
-  ceres::Problem::Options options;
-  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  return options;
-}
-
 /// The adjustment: unknowns and the problem over them.
 struct Adjustment {
   CameraChange camera{};
   std::vector<PoseChange> poses;
-  ceres::LossFunctionWrapper loss{nullptr, ceres::TAKE_OWNERSHIP};
-  ceres::Problem problem{sharedLoss()};
+  ceres::Problem problem;
   int observations = 0;  ///< scalar ones
 
   Adjustment(const Camera& start, std::span<const CalibrationView> views,
@@ -120,8 +113,8 @@ struct Adjustment {
       for (const PointObservation& observation : views[v].points) {
         using Cost = ceres::NumericDiffCostFunction<Residual, ceres::CENTRAL, 2, kCameraSize, 6>;
         problem.AddResidualBlock(
-            new Cost(new Residual{&start, &views[v].camera_from_station, &observation}), &loss,
-            camera.data(), poses[v].data());
+            new Cost(new Residual{&start, &views[v].camera_from_station, &observation}),
+            new ceres::CauchyLoss(kLossSigmas), camera.data(), poses[v].data());
         observations += observation.normal.isZero(0.0) ? 2 : 1;
       }
   }
@@ -137,9 +130,6 @@ struct Adjustment {
     options.function_tolerance = 1e-12;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
-    // Far from the solution every residual is an outlier, and the robust loss has no slope.
-    ceres::Solve(options, &problem, &summary);
-    loss.Reset(new ceres::CauchyLoss(kLossSigmas), ceres::TAKE_OWNERSHIP);
     ceres::Solve(options, &problem, &summary);
     if (!summary.IsSolutionUsable())
       throw std::runtime_error("the adjustment does not converge; check the observations");

@@ -58,24 +58,18 @@ HandEye calibrateHandEye(std::span<const ArmPosture> postures,
                              postures.front().camera_from_station;
   std::array<double, 6> hand{};
   std::array<double, 6> base{};
-  ceres::LossFunctionWrapper loss(nullptr, ceres::TAKE_OWNERSHIP);
-  ceres::Problem::Options shared_loss;
-  shared_loss.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(shared_loss);
+  ceres::Problem problem;
   using Cost = ceres::NumericDiffCostFunction<ArmResidual, ceres::CENTRAL, 6, 6, 6>;
   for (const ArmPosture& posture : postures)
     problem.AddResidualBlock(
-        new Cost(new ArmResidual{&posture, &camera_from_end_effector_start, &station_start}), &loss,
-        hand.data(), base.data());
+        new Cost(new ArmResidual{&posture, &camera_from_end_effector_start, &station_start}),
+        new ceres::CauchyLoss(kArmLossSigmas), hand.data(), base.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 200;
   options.function_tolerance = 1e-14;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  // Far from the solution every residual is an outlier, and the robust loss has no slope.
-  ceres::Solve(options, &problem, &summary);
-  loss.Reset(new ceres::CauchyLoss(kArmLossSigmas), ceres::TAKE_OWNERSHIP);
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) throw std::runtime_error("the adjustment does not converge");
 

@@ -14,9 +14,9 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/session/rig_links.h"
 #include "ui/models/text.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/pose_comparison.h"
 #include "ui/panels/pose_panel.h"
-#include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 #include "ui/state/document.h"
 

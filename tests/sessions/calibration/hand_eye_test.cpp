@@ -72,7 +72,7 @@ TEST(HandEye, TruthLiesWithinThreeSigma) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares[i], 1.0, 4.0 * std::sqrt(2.0 / kTrials)) << i;
 }
 
-/// Where nothing is known of the camera's place, all residuals are far beyond their sigmas.
+/// Where nothing is known of the place, residuals begin at a hundred sigmas and more.
 TEST(HandEye, IsFoundFromAStartThatIsFarOff) {
   Random random = randomFor("HandEye.Far");
   for (int trial = 0; trial < 20; ++trial) {
