@@ -56,7 +56,8 @@ sessions::CameraCalibration calibrateSession(const std::string& file,
         sessions::calibrateCamera(sharedCamera(session, file), views, freeOf(arguments));
     std::cout << file << ": " << views.size() << " images, rms " << fixedText(calibration.rms_px, 3)
               << " px\n";
-    printParameters(calibration.parameters, calibration.undetermined, calibration.noise_factor);
+    printParameters(calibration.parameters, calibration.undetermined, calibration.noise_factor,
+                    "add images from other distances and turned about the view axis");
     return calibration;
   } catch (const std::invalid_argument& refusal) {
     throw sessions::InputError(file, arguments.from, refusal.what());
@@ -73,7 +74,7 @@ void printDrift(const std::vector<sessions::CameraCalibration>& calibrations,
       const auto& later = calibrations[i].parameters[k];
       const double change = later.value - first.value;
       const double sigma = std::hypot(first.sigma, later.sigma);
-      table.add({files[i], later.name, numberText(change), numberText(sigma),
+      table.add({files[i], later.name, parameterText(change), parameterText(sigma),
                  std::isfinite(sigma) ? fixedText(change / sigma, 1) : "-"});
     }
   std::cout << "drift since " << files.front() << "\n" << table.text();

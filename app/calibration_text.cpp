@@ -8,21 +8,21 @@
 
 namespace boresight::app {
 
-std::string numberText(double value) {
+std::string parameterText(double value) {
   return std::isfinite(value) ? sessions::numberText(std::round(value * 1e9) / 1e9)
                               : "not determined";
 }
 
 void printParameters(const std::vector<sessions::CalibrationParameter>& parameters,
-                     const std::vector<sessions::Undetermined>& undetermined, double noise_factor) {
+                     const std::vector<sessions::Undetermined>& undetermined, double noise_factor,
+                     const std::string& advice) {
   sessions::TextTable table({"parameter", "value", "1 sigma"});
   for (const auto& parameter : parameters)
-    table.add({parameter.name, numberText(parameter.value), numberText(parameter.sigma)});
+    table.add({parameter.name, parameterText(parameter.value), parameterText(parameter.sigma)});
   std::cout << table.text() << "noise factor " << sessions::fixedText(noise_factor, 2)
             << " (1: residuals as the sigmas say)\n";
   for (const sessions::Undetermined& direction : undetermined)
-    std::cout << "not determined by these images: " << direction.text
-              << "; add images from other distances and turned about the view axis\n";
+    std::cout << "not determined: " << direction.text << "; " << advice << "\n";
 }
 
 }  // namespace boresight::app

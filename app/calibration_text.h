@@ -10,11 +10,12 @@
 namespace boresight::app {
 
 /// At most nine decimals; "not determined" for what is not finite.
-std::string numberText(double value);
+std::string parameterText(double value);
 
 /// A table of the parameters with their sigmas, the noise factor, and a line for each direction
-/// that the images leave open.
+/// that the observations leave open, with `advice` on what to add.
 void printParameters(const std::vector<sessions::CalibrationParameter>& parameters,
-                     const std::vector<sessions::Undetermined>& undetermined, double noise_factor);
+                     const std::vector<sessions::Undetermined>& undetermined, double noise_factor,
+                     const std::string& advice);
 
 }  // namespace boresight::app

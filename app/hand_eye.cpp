@@ -17,6 +17,8 @@
 namespace boresight::app {
 namespace {
 
+constexpr const char* kAdvice = "add postures that turn about other axes";
+
 struct HandEyeArguments {
   std::vector<std::string> sessions;
   std::string arm;
@@ -77,9 +79,9 @@ void writeHandEye(const HandEyeArguments& arguments, const sessions::HandEye& ha
                   std::size_t postures) {
   // A covariance without the open directions would promise more than is known.
   if (!hand_eye.undetermined.empty())
-    throw sessions::InputError(arguments.out, "covariance",
-                               "is not written while a direction is not determined; add postures "
-                               "that turn about other axes");
+    throw sessions::InputError(
+        arguments.out, "covariance",
+        std::string("is not written while a direction is not determined; ") + kAdvice);
   sessions::FrameTransform transform;
   transform.target = sessions::kCameraFrame;
   transform.source = sessions::kEndEffectorFrame;
@@ -98,7 +100,7 @@ int handEye(const HandEyeArguments& arguments) {
   const sessions::HandEye hand_eye = handEyeOf(arguments, observations);
   const std::size_t postures = observations.postures.size();
   std::cout << postures << " postures; changes of camera_from_end_effector\n";
-  printParameters(hand_eye.parameters, hand_eye.undetermined, hand_eye.noise_factor);
+  printParameters(hand_eye.parameters, hand_eye.undetermined, hand_eye.noise_factor, kAdvice);
   std::cout << sessions::poseText(hand_eye.camera_from_end_effector, hand_eye.covariance,
                                   "camera_from_end_effector")
             << std::flush;

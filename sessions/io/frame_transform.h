@@ -38,7 +38,7 @@ struct FrameTransform {
 std::vector<FrameTransform> readFrameTransforms(const std::filesystem::path& file);
 std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& files);
 
-/// Writes one transform as `boresight-transform`. InputError when the file cannot be written.
+/// Writes one transform as `boresight-transform`. OutputError when the file cannot be written.
 void writeFrameTransform(const std::filesystem::path& file, const FrameTransform& transform);
 
 }  // namespace boresight::sessions

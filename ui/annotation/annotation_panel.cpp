@@ -14,6 +14,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/session/rig_links.h"
 #include "ui/models/text.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/pose_comparison.h"
 #include "ui/panels/pose_panel.h"
 #include "ui/panels/widgets.h"
@@ -346,9 +347,10 @@ void AnnotationPanel::connectTools() {
 
 void AnnotationPanel::buildTable() {
   setUpTable(*ui_.annotations, filter_);
-  // The others do not fit beside the figures of the solution; the header's menu has them.
-  for (int column = AnnotationsModel::kWithout_mm; column < model_.columnCount(); ++column)
-    ui_.annotations->setColumnHidden(column, true);
+  std::vector<int> dispensable;
+  for (int column = model_.columnCount() - 1; column > AnnotationsModel::kV_px; --column)
+    dispensable.push_back(column);
+  new ColumnFitter(*ui_.annotations, std::move(dispensable));
   ui_.annotations->installEventFilter(this);
   ui_.annotations->setEditTriggers(QAbstractItemView::DoubleClicked |
                                    QAbstractItemView::EditKeyPressed);

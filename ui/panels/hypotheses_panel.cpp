@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/localizer/acceptance.h"
 #include "sessions/text/units.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {
@@ -91,6 +92,10 @@ HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(par
   table_ = named(new QTableView(this), "hypotheses");
   table_->setAccessibleName(tr("Competing poses, candidates and rolled hypotheses"));
   setUpTable(*table_, model_);
+  using Model = AlternativesModel;
+  new ColumnFitter(
+      *table_, {Model::kMatches, Model::kSimilarity, Model::kInliers, Model::kIteration,
+                Model::kEvidence_nats, Model::kApart_deg, Model::kMargin_nats, Model::kApart_mm});
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(

@@ -10,6 +10,7 @@
 #include "core/base/math.h"
 #include "sessions/text/units.h"
 #include "ui/models/text.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 #include "ui/plots/plots.h"
 
@@ -86,8 +87,8 @@ QString iterationNameOf(const sessions::LocalizationTrace& run, int iteration) {
     return RunScrubber::tr("seed");
   const int attempt = run.iterations[static_cast<std::size_t>(iteration)]->attempt;
   int number = 1;
-  for (int i = iteration; i > 0 && run.iterations[static_cast<std::size_t>(i - 1)]->attempt == attempt;
-       --i)
+  for (int i = iteration;
+       i > 0 && run.iterations[static_cast<std::size_t>(i - 1)]->attempt == attempt; --i)
     ++number;
   return QStringLiteral("%1.%2").arg(attempt + 1).arg(number);
 }
@@ -404,6 +405,11 @@ IterationsPanel::IterationsPanel(ViewState& view, QWidget* parent) : QWidget(par
 
 void IterationsPanel::buildTable() {
   setUpTable(*ui_.iterations, model_);
+  using Model = IterationsModel;
+  new ColumnFitter(*ui_.iterations,
+                   {Model::kPose_ms, Model::kMatching_ms, Model::kRendering_ms, Model::kHypothesis,
+                    Model::kMeanScore, Model::kBestScore, Model::kThreshold_px, Model::kLevel,
+                    Model::kTemplates, Model::kImage_px, Model::kMatches, Model::kRotation_deg});
   connect(ui_.iterations->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &IterationsPanel::chooseRow);
   hint_ = new EmptyHint(*ui_.iterations, IterationsModel::rowOf(0));

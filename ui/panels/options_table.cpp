@@ -7,6 +7,7 @@
 #include <QtWidgets>
 
 #include "sessions/io/json_reader.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {
@@ -174,6 +175,7 @@ Qt::ItemFlags OptionsModel::flags(const QModelIndex& index) const {
 OptionsTable::OptionsTable(QWidget* parent) : QTableView(parent) {
   filter_.setSourceModel(&model_);
   setUpTable(*this, filter_);
+  new ColumnFitter(*this, {OptionsModel::kRange, OptionsModel::kDefault, OptionsModel::kUnit});
   setItemDelegateForColumn(OptionsModel::kValue, new OptionDelegate(this));
   setEditTriggers(DoubleClicked | SelectedClicked | EditKeyPressed | AnyKeyPressed);
   auto* reset = new QAction(tr("Restore the default"), this);

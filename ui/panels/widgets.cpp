@@ -57,10 +57,8 @@ void rememberColumns(const QTableView& table) {
 
 /// As the operator left them; without a choice the panel's own stays.
 void restoreColumns(QTableView& table) {
-  const QSettings settings;
-  const QString key = hiddenColumnsKey(table);
-  if (table.objectName().isEmpty() || !settings.contains(key)) return;
-  const QStringList hidden = settings.value(key).toStringList();
+  if (!hasChosenColumns(table)) return;
+  const QStringList hidden = QSettings().value(hiddenColumnsKey(table)).toStringList();
   const int count = table.horizontalHeader()->count();
   if (hidden.size() >= count) return;  // of another version
   for (int column = 0; column < count; ++column)
@@ -89,6 +87,10 @@ void showColumnsMenu(QTableView& table, const QPoint& at) {
 }
 
 }  // namespace
+
+bool hasChosenColumns(const QTableView& table) {
+  return !table.objectName().isEmpty() && QSettings().contains(hiddenColumnsKey(table));
+}
 
 void styleTable(QTableView& table) {
   table.setSelectionBehavior(QAbstractItemView::SelectRows);

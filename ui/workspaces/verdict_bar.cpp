@@ -67,8 +67,16 @@ VerdictBar::VerdictBar(QWidget* parent)
   for (QPushButton* each : {badge_, action_}) each->setIconSize(kButtonIcon);
   connect(badge_, &QPushButton::clicked, this, &VerdictBar::warningsRequested);
   connect(action_, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(verdict_.step); });
+  sentence_->installEventFilter(this);
   setWarnings({});
   setVerdict({});
+}
+
+/// Buttons that come and go change the room of the sentence, and not the bar's size.
+bool VerdictBar::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == sentence_ && event->type() == QEvent::Resize)
+    QMetaObject::invokeMethod(this, [this] { elide(); }, Qt::QueuedConnection);
+  return QFrame::eventFilter(watched, event);
 }
 
 void VerdictBar::setVerdict(const Verdict& verdict) {
@@ -136,7 +144,8 @@ void VerdictBar::elide() {
   const QFontMetrics metrics = sentence_->fontMetrics();
   const auto fits = [&](const QString& text) {
     const QRect line(0, 0, sentence_->width(), 1);
-    return metrics.boundingRect(line, Qt::TextWordWrap, text).height() <= 2 * metrics.lineSpacing();
+    const int height = metrics.boundingRect(line, Qt::TextWordWrap, text).height();
+    return 2 * height < 5 * metrics.lineSpacing();  // two lines, however they are rounded
   };
   QString shown = verdict_.sentence;
   for (int width = 2 * sentence_->width(); !fits(shown) && width > 0; width -= kElideStep)

@@ -37,6 +37,7 @@ class VerdictBar : public QFrame {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void showOthers();

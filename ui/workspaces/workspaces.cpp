@@ -56,16 +56,15 @@ void Workspaces::bringUp() {
 }
 
 /// Panels of two workspaces are there together for a moment, which can make the window larger than
-/// the screen.
-void Workspaces::keepSize(const QSize& size) {
-  if (!shown_) return;
-  QMetaObject::invokeMethod(
-      this,
-      [this, size] {
-        QWidget* window = body_.window();
-        if (!window->isMaximized() && !window->isFullScreen()) window->resize(size);
-      },
-      Qt::QueuedConnection);
+/// the screen; layouts take some events until the window can be as small again.
+void Workspaces::keepSize(const QSize& size, int tries) {
+  if (!shown_ || tries == 0) return;
+  QTimer::singleShot(0, this, [this, size, tries] {
+    QWidget* window = body_.window();
+    if (window->isMaximized() || window->isFullScreen()) return;
+    window->resize(size);
+    if (window->size() != size) keepSize(size, tries - 1);
+  });
 }
 
 void Workspaces::reveal(const QString& name) {

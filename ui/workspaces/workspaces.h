@@ -49,7 +49,7 @@ class Workspaces : public QObject {
   void giveSizes(const std::vector<PlacedDock>& places);
   void keepOneDrawer(QDockWidget* opened);
   void bringUp();
-  void keepSize(const QSize& size);
+  void keepSize(const QSize& size, int tries = 20);
   QByteArray& stateOf(Workspace workspace, bool narrow) {
     return states_[narrow ? 1 : 0][static_cast<std::size_t>(workspace)];
   }

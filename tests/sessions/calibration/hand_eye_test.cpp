@@ -72,6 +72,21 @@ TEST(HandEye, TruthLiesWithinThreeSigma) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares[i], 1.0, 4.0 * std::sqrt(2.0 / kTrials)) << i;
 }
 
+/// Where nothing is known of the place, residuals begin at a hundred sigmas and more.
+TEST(HandEye, IsFoundFromAStartThatIsFarOff) {
+  Random random = randomFor("HandEye.Far");
+  for (int trial = 0; trial < 20; ++trial) {
+    Vector6d place;
+    for (int i = 0; i < 6; ++i) place[i] = random.uniform(-0.3, 0.3);
+    const Truth truth{perturbed(place, Pose()), randomPose(random)};
+    const HandEye result = calibrateHandEye(posturesOf(truth, 12, false, random), Pose());
+    EXPECT_LT(
+        perturbationBetween(result.camera_from_end_effector, truth.camera_from_end_effector).norm(),
+        0.02);
+    EXPECT_LT(result.noise_factor, 2.0);
+  }
+}
+
 TEST(HandEye, TurnsAboutOneAxisLeaveADirectionOpen) {
   Random random = randomFor("HandEye.OneAxis");
   const Truth truth{Pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.39}}, randomPose(random)};

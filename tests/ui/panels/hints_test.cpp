@@ -4,6 +4,7 @@
 #include <QtWidgets>
 
 #include "tests/ui/window_test.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 
 namespace boresight::ui {
@@ -67,6 +68,35 @@ TEST(TableColumns, HiddenOnesAreRemembered) {
   QApplication::processEvents();
   EXPECT_TRUE(again.isColumnHidden(1));
   EXPECT_FALSE(again.isColumnHidden(2)) << "the operator's choice counts";
+}
+
+TEST(ColumnFitter, HidesWhatCanBeDoneWithoutUntilAllFitsAndBringsItBack) {
+  const test::TemporaryFolder folder;
+  const test::OwnSettings settings(folder.path());
+  QStandardItemModel model(3, 5);
+  QTableView table;
+  table.setObjectName(QStringLiteral("fittedTable"));
+  setUpTable(table, model);
+  for (int column = 0; column < 5; ++column) table.setColumnWidth(column, 100);
+  new ColumnFitter(table, {4, 2, 3});
+  table.resize(600, 200);
+  table.show();
+  const auto hidden = [&table] {
+    std::vector<int> columns;
+    for (int column = 0; column < 5; ++column)
+      if (table.isColumnHidden(column)) columns.push_back(column);
+    return columns;
+  };
+  EXPECT_EQ(hidden(), std::vector<int>{});
+  table.resize(450, 200);
+  EXPECT_EQ(hidden(), std::vector<int>{4});
+  table.resize(350, 200);
+  EXPECT_EQ(hidden(), (std::vector<int>{2, 4}));
+  table.resize(120, 200);
+  EXPECT_EQ(hidden(), (std::vector<int>{2, 3, 4})) << "0 and 1 always stay";
+  table.resize(600, 200);
+  EXPECT_EQ(hidden(), std::vector<int>{});
+  EXPECT_EQ(table.columnWidth(4), 100);
 }
 
 TEST(Banner, HidesWithoutWarnings) {

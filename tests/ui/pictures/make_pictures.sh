@@ -38,6 +38,9 @@ if [ $# -eq 0 ]; then
   cp figures/success_seed_error.png "$folder/out/evaluation.png"
 fi
 for file in "$folder/out"/*.png; do
-  pngquant --force --strip --speed 1 --output "$pictures/$(basename "$file")" 256 "$file"
+  for colors in 256 64 40 28; do  # a picture stays below 260 kB
+    pngquant --force --strip --nofs --speed 1 --output "$pictures/$(basename "$file")" $colors "$file"
+    [ "$(stat -c %s "$pictures/$(basename "$file")")" -ge 255000 ] || break
+  done
 done
 ls -l "$pictures"

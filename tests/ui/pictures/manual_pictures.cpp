@@ -22,6 +22,7 @@
 #include "ui/panels/hypotheses_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
+#include "ui/style/theme.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
@@ -228,7 +229,6 @@ struct Places {
 void drawWindow(const Places& places) {
   Stage stage(places.sessions / "example.boresight.json");
   stage.run();
-  stage.front("iterations");
   places.save(stage.window(), "window");
 }
 
@@ -246,7 +246,8 @@ void drawOnboard(const Places& places) {
 void drawFailedRun(const Places& places) {
   Stage stage(places.sessions / "turned.boresight.json");
   stage.run();
-  stage.front("iterations");
+  stage.window().workspaces().show(Workspace::kDiagnose);
+  stage.front("remedies");
   places.save(stage.window(), "failed_run");
   stage.iteration(0);
   stage.window().state().selectTemplate(12);
@@ -365,6 +366,7 @@ int main(int argc, char** argv) {
   boresight::ui::prepareApplication(false);
   QApplication application(argc, argv);
   boresight::ui::nameApplication(application);
+  boresight::ui::applyTheme(application, boresight::ui::ThemeName::kLight);
   const QStringList arguments = QApplication::arguments();
   if (arguments.size() < 3) {
     std::fprintf(stderr, "manual_pictures SESSIONS OUT [NAME ...]\n");

@@ -31,7 +31,9 @@ class ImageShareTest : public test::WindowTest {
     window_.image().view().fit();
     QApplication::processEvents();
     EXPECT_TRUE(wait([&] { return window_.size() == size; }))
-        << workspaceInfo(workspace).name << ": panels need more room";
+        << workspaceInfo(workspace).name << ": panels need more room: " << window_.width() << " x "
+        << window_.height() << ", at least " << window_.minimumSizeHint().width() << " x "
+        << window_.minimumSizeHint().height();
     return imageShare(window_);
   }
 };
@@ -59,7 +61,9 @@ TEST_F(ImageShareTest, NothingScrollsSideways) {
       const auto workspace = static_cast<Workspace>(i);
       shareOf(workspace, size);
       for (const auto* area : window_.findChildren<QAbstractScrollArea*>())
-        if (area->isVisible() && area->horizontalScrollBar()->isVisible())
+        // A dock behind another's tab is visible for Qt, but outside the window.
+        if (area->isVisible() && !area->visibleRegion().isEmpty() &&
+            area->horizontalScrollBar()->isVisible())
           ADD_FAILURE() << workspaceInfo(workspace).name << " at " << size.width() << ": "
                         << area->objectName().toStdString() << " of "
                         << area->parentWidget()->metaObject()->className() << " scrolls sideways";

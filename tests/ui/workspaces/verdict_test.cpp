@@ -5,7 +5,9 @@
 
 #include "tests/support/example_run.h"
 #include "tests/ui/window_test.h"
+#include "ui/style/theme.h"
 #include "ui/workspaces/remedies.h"
+#include "ui/workspaces/verdict_bar.h"
 
 namespace boresight::ui {
 namespace {
@@ -186,6 +188,30 @@ TEST(Verdict, Onboard_TellsWhetherTheRunsAgree) {
   EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
   comparison->verdict = sessions::RunVerdict::kDifferent;
   EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kBad);
+}
+
+/// In the program's look, whose font does not round as plain widgets' does.
+TEST(VerdictBarText, LongSentenceTakesTwoLinesBeforeItIsCut) {
+  applyTheme(*qApp, ThemeName::kLight);
+  VerdictBar bar;
+  bar.resize(1200, kVerdictHeight);
+  bar.show();
+  Verdict verdict;
+  verdict.head = QStringLiteral("Converged");
+  verdict.sentence = QStringLiteral("in 4 iterations, ").repeated(10);
+  verdict.step = Step::kReview;
+  bar.setVerdict(verdict);
+  QApplication::processEvents();
+  const auto* sentence = bar.findChild<QLabel*>(QStringLiteral("verdictSentence"));
+  const int needed = sentence->fontMetrics().horizontalAdvance(verdict.sentence);
+  ASSERT_GT(needed, sentence->width()) << "it takes more than a line";
+  ASSERT_LT(needed, 1.8 * sentence->width()) << "and less than two";
+  EXPECT_EQ(sentence->text(), verdict.sentence);
+  bar.resize(700, kVerdictHeight);
+  QApplication::processEvents();
+  EXPECT_NE(sentence->text(), verdict.sentence);
+  EXPECT_EQ(sentence->toolTip(), verdict.sentence);
+  qApp->setStyleSheet({});
 }
 
 }  // namespace
