@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/io/camera_field.h"
 #include "sessions/io/camera_file.h"
 #include "sessions/io/labels/image_label.h"
@@ -173,6 +174,18 @@ void describe(const LoadedCase& loaded, const ImageSheet& image_sheet, const Cam
                        " % of the image");
 }
 
+/// Of a truth that was measured, against the case's own requirement or that of the first preset.
+void flagTruth(const SessionCase& session_case, InputSheet& sheet) {
+  if (!session_case.camera_from_station_truth || !session_case.truth_covariance) return;
+  const std::string excess = sigmaExcessText(
+      *session_case.truth_covariance, session_case.camera_from_end_effector,
+      session_case.requirement.value_or(checkPresets().front().requirement));
+  if (!excess.empty())
+    sheet.flags.push_back({"truth_uncertain", "one sigma of the truth is " + excess +
+                                                  ": too large to judge a result; annotate more "
+                                                  "points, spread over the station"});
+}
+
 std::string subframeText(const ImageLabel& label) {
   if (!label.subframe) return "not stated";
   const LabelSubframe& part = *label.subframe;
@@ -290,6 +303,7 @@ InputSheet inputSheet(const LoadedCase& loaded) {
       sheet.flags.push_back({"mesh", info.file.filename().string() + ": " + note});
   if (session_case.has_seed) flagSeed(session_case, loaded.scene, sheet);
   if (image.label) flagLabel(session_case, *image.label, sheet.flags);
+  flagTruth(session_case, sheet);
   return sheet;
 }
 

@@ -136,6 +136,13 @@ void CasesPanel::applyFilter() {
 }
 
 void CasesPanel::buildTable() {
+  ui_.cases->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(ui_.cases, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+    const QModelIndex index = ui_.cases->indexAt(at);
+    if (index.isValid())
+      Q_EMIT menuRequested(index.siblingAtColumn(CasesModel::kCase).data().toString(),
+                           ui_.cases->viewport()->mapToGlobal(at));
+  });
   setUpTable(*ui_.cases, filter_);
   ui_.cases->verticalHeader()->setDefaultSectionSize(kThumbnail_px + 4);
   ui_.cases->setItemDelegateForColumn(CasesModel::kCase, new NameAndState(ui_.cases));

@@ -84,6 +84,8 @@ class CasesPanel : public QWidget {
   void openRequested(const QString& id);
   void runRequested(const QString& id);
   void runAllRequested(const QStringList& ids);
+  /// At a place on the screen.
+  void menuRequested(const QString& id, const QPoint& at);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;

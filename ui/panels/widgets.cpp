@@ -138,6 +138,31 @@ void setTip(QAction& action, const QString& tip) {
   action.setStatusTip(tip);
 }
 
+FoldButton::FoldButton(QWidget* parent) : QToolButton(parent) {
+  setCheckable(true);
+  setAutoRaise(true);
+  setArrowType(Qt::RightArrow);
+  setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  connect(this, &QToolButton::toggled, this, [this](bool open) {
+    setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
+    Q_EMIT foldedChanged();
+  });
+  connect(this, &QToolButton::clicked, this,
+          [this] { QSettings().setValue(key(), isFolded()); });
+}
+
+QString FoldButton::key() const { return QStringLiteral("folds/") + objectName(); }
+
+void FoldButton::restore(bool folded) {
+  setChecked(!QSettings().value(key(), folded).toBool());
+}
+
+void FoldButton::setContent(const QString& text) {
+  setText(text);
+  setVisible(!text.isEmpty());
+}
+
 EmptyHint::EmptyHint(QAbstractItemView& view, int least_rows)
     : QLabel(view.viewport()), view_(view), least_rows_(least_rows) {
   setObjectName(QStringLiteral("emptyHint"));

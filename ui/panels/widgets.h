@@ -6,6 +6,7 @@
 #include <QKeySequence>
 #include <QLabel>
 #include <QStringList>
+#include <QToolButton>
 
 #include "sessions/review/review_status.h"
 #include "sessions/run/trace.h"
@@ -15,7 +16,6 @@ class QAbstractItemView;
 class QLabel;
 class QTableView;
 class QTableWidget;
-class QToolButton;
 
 namespace boresight::ui {
 
@@ -61,6 +61,26 @@ class EmptyHint : public QLabel {
 
   QAbstractItemView& view_;
   int least_rows_;
+};
+
+/// A line below a list that shows and hides a part of it, which is remembered by its name.
+class FoldButton : public QToolButton {
+  Q_OBJECT
+
+ public:
+  explicit FoldButton(QWidget* parent = nullptr);
+
+  /// `folded` holds until the operator chooses otherwise.
+  void restore(bool folded);
+  bool isFolded() const { return !isChecked(); }
+  /// What is folded; the button hides where that is nothing.
+  void setContent(const QString& text);
+
+ Q_SIGNALS:
+  void foldedChanged();
+
+ private:
+  QString key() const;
 };
 
 /// A sentence behind a sign of its own shape, and a button where something can be done about it.

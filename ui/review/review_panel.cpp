@@ -2,7 +2,6 @@
 #include "ui/review/review_panel.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <QtWidgets>
@@ -264,6 +263,12 @@ void ChecksModel::setRows(std::vector<CheckRow> rows, bool current) {
   Q_EMIT headerDataChanged(Qt::Horizontal, kCheck, kCheck);
 }
 
+int ChecksModel::count(CheckState state) const {
+  return static_cast<int>(std::count_if(
+      rows().begin(), rows().end(),
+      [state](const CheckRow& row) { return row.check.state == state; }));
+}
+
 QVariant ChecksModel::look(const CheckRow& row, int column, int role) const {
   const bool placeholder = column == kReason && row.reason.isEmpty();
   switch (role) {
@@ -304,9 +309,10 @@ Qt::ItemFlags ChecksModel::flags(const QModelIndex& index) const {
 QString ChecksModel::countsText() const {
   if (rows().empty()) return tr("Check");
   if (!current_) return tr("Check (out of date)");
-  std::array<int, 3> counts = {};
-  for (const CheckRow& row : rows()) ++counts[static_cast<std::size_t>(rank(row.check.state))];
-  return tr("Check: ✗ %1  ✓ %2  – %3").arg(counts[0]).arg(counts[1]).arg(counts[2]);
+  return tr("Check: ✗ %1  ✓ %2  – %3")
+      .arg(count(CheckState::kFailed))
+      .arg(count(CheckState::kPassed))
+      .arg(count(CheckState::kNotApplicable));
 }
 
 QVariant ChecksModel::headerData(int section, Qt::Orientation orientation, int role) const {
@@ -324,6 +330,10 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   ui_.splitter->setSizes({600, 200});
   ui_.convergenceSeeds->setValue(sessions::kConvergenceSeeds);
   buildTable();
+  ui_.passedFold->restore(false);
+  ui_.notApplicableFold->restore(true);
+  for (const FoldButton* fold : {ui_.passedFold, ui_.notApplicableFold})
+    connect(fold, &FoldButton::foldedChanged, this, &ReviewPanel::showFolds);
   connect(ui_.judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
     controller_.setSource(static_cast<PoseSource>(ui_.judged->currentData().toInt()));
   });
@@ -406,8 +416,27 @@ void ReviewPanel::showChecks() {
   model_.setRows(std::move(rows), controller_.isCurrent());
   if (!had_rows && model_.rowCount() > 0) ui_.checks->setCurrentIndex(model_.index(0, 0));
   showReasons();
+  showFolds();
   showChosen();
   showConvergence();
+}
+
+/// Failed checks are never folded.
+void ReviewPanel::showFolds() {
+  const auto foldOf = [this](CheckState state) {
+    return state == CheckState::kPassed          ? ui_.passedFold
+           : state == CheckState::kNotApplicable ? ui_.notApplicableFold
+                                                 : nullptr;
+  };
+  for (int row = 0; row < model_.rowCount(); ++row) {
+    const FoldButton* fold = foldOf(model_.state(row));
+    ui_.checks->setRowHidden(row, fold && fold->isFolded());
+  }
+  const int passed = model_.count(CheckState::kPassed);
+  const int not_applicable = model_.count(CheckState::kNotApplicable);
+  ui_.passedFold->setContent(passed > 0 ? tr("%1 passed").arg(passed) : QString());
+  ui_.notApplicableFold->setContent(
+      not_applicable > 0 ? tr("%1 not applicable").arg(not_applicable) : QString());
 }
 
 /// Failed checks come first; without any there is nothing to give a reason for. In a side pane the

@@ -93,6 +93,8 @@ class ChecksModel : public RowsModel<CheckRow> {
   /// `current` false: they are of something that has changed since, and are shown as such. Rows of
   /// the same checks change in place, so that selections and editors stay.
   void setRows(std::vector<CheckRow> rows, bool current);
+  sessions::CheckState state(int row) const { return at(row).check.state; }
+  int count(sessions::CheckState state) const;
   bool isFailed(int row) const { return at(row).check.state == sessions::CheckState::kFailed; }
   /// "✓", "✗" or "–": each state has a shape of its own.
   static QString sign(sessions::CheckState state);
@@ -136,6 +138,7 @@ class ReviewPanel : public QWidget {
   void showChecks();
   void showChosen();
   void showReasons();
+  void showFolds();
   void showConvergence();
   void askForConvergenceTest();
   void openLimits();

@@ -43,6 +43,12 @@ GrayLevels automaticLevels(const ImageSamples& samples) {
   return levels;
 }
 
+GrayLevels firstLevels(const ImageSamples& samples, const GrayLevels& automatic) {
+  const GrayLevels full = fullLevels(samples);
+  const bool flat = 2 * (automatic.white - automatic.black) < full.white;
+  return samples.sample_bits > 8 || flat ? automatic : full;
+}
+
 std::vector<int> histogramOf(const ImageSamples& samples) {
   constexpr int kBins = 256;
   std::vector<int> counts(kBins, 0);
@@ -126,9 +132,7 @@ void DisplayImage::showCase() {
 
 void DisplayImage::takeSamples(SamplesPtr samples) {
   samples_ = std::move(samples);
-  const sessions::GrayLevels full = fullLevels(*samples_);
-  const bool flat = 2 * (automatic_.white - automatic_.black) < full.white;
-  levels_ = samples_->sample_bits > 8 || flat ? automatic_ : full;
+  levels_ = firstLevels(*samples_, automatic_);
   Q_EMIT levelsChanged();
   makePicture();
 }

@@ -27,6 +27,11 @@ inline constexpr double kClippedShare = 0.005;
 /// that can be told apart.
 sessions::GrayLevels automaticLevels(const sessions::ImageSamples& samples);
 
+/// With which an image is shown at first: images of more than 8 bits are stretched automatically,
+/// and those of 8 bits that use less than half of their range.
+sessions::GrayLevels firstLevels(const sessions::ImageSamples& samples,
+                                 const sessions::GrayLevels& automatic);
+
 /// Number of samples in each of 256 even ranges of all that the samples' bits can say.
 std::vector<int> histogramOf(const sessions::ImageSamples& samples);
 
@@ -40,9 +45,7 @@ QString sampleText(const sessions::ImageSamples& samples, int x, int y);
 QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLevels& levels);
 
 /// The current case's image as the operator sees it: the 8-bit pixels that the core sees, or the
-/// file's samples stretched between two levels. At first images of more than 8 bits are stretched
-/// automatically, and those of 8 bits that use less than half of their range. Reading and
-/// stretching happen in the task runner; until a picture is made the one before, or the core's, is
+/// file's samples stretched between two levels, at first `firstLevels`. Reading and stretching happen in the task runner; until a picture is made the one before, or the core's, is
 /// shown.
 class DisplayImage : public QObject {
   Q_OBJECT

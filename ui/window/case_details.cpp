@@ -65,11 +65,12 @@ namespace {
 constexpr int kCaseThumbnail_px = 128;  // also sharp on a screen of double density
 constexpr int kPause_ms = 200;          // the list is filled as a whole
 
-/// Null when the file cannot be read: the operator who opens the case is told why.
+/// As the canvas shows the image at first. Null when the file cannot be read: the operator who opens the case is told why.
 QImage thumbnailOf(const sessions::ImageInput& input) {
   try {
-    const sessions::GrayImage image = sessions::readImage(input.source.file, input.eight_bit);
-    return grayImage(image.view())
+    const sessions::ImageSamples samples =
+        sessions::readSamples(input.source.file, input.eight_bit.bayer);
+    return stretched(samples, firstLevels(samples, automaticLevels(samples)))
         .scaled(kCaseThumbnail_px, kCaseThumbnail_px, Qt::KeepAspectRatio,
                 Qt::SmoothTransformation);
   } catch (const std::exception&) {

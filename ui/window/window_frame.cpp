@@ -13,6 +13,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/layers_panel.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/case_menu.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
 #include "ui/workspaces/canvas_frame.h"
@@ -120,6 +121,9 @@ void WindowFrame::connectAll() {
     QDockWidget* list = workspaces_.dock(QStringLiteral("cases"));
     list->setVisible(!list->isVisible());
   });
+  auto* menu = new CaseMenu(parts_, workspaces_, &window_);
+  connect(cases_, &CaseStrip::menuRequested, menu, &CaseMenu::show);
+  connect(&docks_.cases, &CasesPanel::menuRequested, menu, &CaseMenu::show);
   connect(cases_, &CaseStrip::addRequested, &files_, &SessionFiles::askForFiles);
   connect(&parts_.cases, &CaseController::caseChosen, cases_, &CaseStrip::setCurrent);
   connect(&workspaces_, &Workspaces::changed, this, &WindowFrame::arrange);
@@ -161,6 +165,7 @@ void WindowFrame::arrange() {
   files_.setMakesNewSession(start);
   if (start) start_->refresh();
   cases_->setNarrow(narrow);
+  cases_->setForDecisions(workspace == Workspace::kReview);
   cases_->setVisible(narrow || workspace != Workspace::kReview);  // the queue takes its place
   run_bar_->setVisible(workspace == Workspace::kRun);
   run_bar_->setNarrow(narrow);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/workspaces/case_strip.h"
 
+#include <utility>
+
 #include <QtWidgets>
 
 #include "ui/panels/cases_panel.h"
@@ -9,6 +11,24 @@
 
 namespace boresight::ui {
 namespace {
+
+/// Place in the order of decisions.
+int decisionRank(CaseState state) {
+  switch (state) {
+    case CaseState::kFailed:
+      return 0;
+    case CaseState::kConverged:
+    case CaseState::kAnnotated:
+      return 1;
+    case CaseState::kRunning:
+    case CaseState::kNew:
+      return 2;
+    case CaseState::kRejected:
+    case CaseState::kValidated:
+      return 3;
+  }
+  return 3;
+}
 
 struct Badge {
   QRgb color;
@@ -49,9 +69,11 @@ class CaseTile final : public QStyledItemDelegate {
 
   void paint(QPainter* painter, const QStyleOptionViewItem& option,
              const QModelIndex& index) const override {
-    const auto* model = qobject_cast<const CasesModel*>(index.model());
+    const auto* order = qobject_cast<const QAbstractProxyModel*>(index.model());
+    if (!order) return;
+    const auto* model = qobject_cast<const CasesModel*>(order->sourceModel());
     if (!model) return;
-    const CaseRow& row = model->at(index.row());
+    const CaseRow& row = model->at(order->mapToSource(index).row());
     const bool chosen = option.state & QStyle::State_Selected;
     painter->save();
     painter->setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
@@ -120,9 +142,35 @@ class CaseTile final : public QStyledItemDelegate {
 
 }  // namespace
 
+/// The session's order, or that of decisions.
+class DecisionOrder final : public QSortFilterProxyModel {
+ public:
+  DecisionOrder(CasesModel& model, QObject* parent) : QSortFilterProxyModel(parent), model_(model) {
+    setSourceModel(&model);
+    sort(0);
+  }
+
+  void setForDecisions(bool for_decisions) {
+    if (std::exchange(for_decisions_, for_decisions) != for_decisions) invalidate();
+  }
+
+ protected:
+  bool lessThan(const QModelIndex& left, const QModelIndex& right) const override {
+    const auto rank = [this](const QModelIndex& index) {
+      return for_decisions_ ? decisionRank(model_.at(index.row()).state) : 0;
+    };
+    return std::pair(rank(left), left.row()) < std::pair(rank(right), right.row());
+  }
+
+ private:
+  CasesModel& model_;
+  bool for_decisions_ = false;
+};
+
 CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
     : QFrame(parent),
       model_(model),
+      order_(new DecisionOrder(model, this)),
       filter_(named(new QToolButton, "stripFilter", tr("List, filter and run the cases"))),
       list_(named(new QListView, "stripList")) {
   setObjectName(QStringLiteral("caseStrip"));
@@ -130,7 +178,7 @@ CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
   filter_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   filter_->setFixedHeight(kVerdictHeight);
   filter_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  list_->setModel(&model_);
+  list_->setModel(order_);
   list_->setItemDelegate(new CaseTile(list_));
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
@@ -153,8 +201,13 @@ CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this,
           [this](const QModelIndex& current) {
             if (!showing_ && current.isValid())
-              Q_EMIT caseRequested(model_.at(current.row()).id);
+              Q_EMIT caseRequested(idAt(current));
           });
+  list_->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(list_, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+    const QModelIndex index = list_->indexAt(at);
+    if (index.isValid()) Q_EMIT menuRequested(idAt(index), list_->viewport()->mapToGlobal(at));
+  });
   connect(&model_, &QAbstractItemModel::modelReset, this, &CaseStrip::showRows);
   connect(&model_, &QAbstractItemModel::rowsInserted, this, &CaseStrip::showRows);
   setNarrow(false);
@@ -163,6 +216,15 @@ CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
 
 void CaseStrip::showRows() {
   filter_->setText(QString::number(model_.rowCount()));
+  setCurrent(current_);
+}
+
+QString CaseStrip::idAt(const QModelIndex& index) const {
+  return model_.at(order_->mapToSource(index).row()).id;
+}
+
+void CaseStrip::setForDecisions(bool for_decisions) {
+  order_->setForDecisions(for_decisions);
   setCurrent(current_);
 }
 
@@ -175,7 +237,7 @@ void CaseStrip::setNarrow(bool narrow) {
 void CaseStrip::setCurrent(const QString& id) {
   current_ = id;
   showing_ = true;
-  const QModelIndex index = model_.index(model_.rowOf(id), 0);
+  const QModelIndex index = order_->mapFromSource(model_.index(model_.rowOf(id), 0));
   list_->setCurrentIndex(index);
   if (index.isValid()) list_->scrollTo(index);
   showing_ = false;

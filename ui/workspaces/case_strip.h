@@ -10,6 +10,7 @@ class QToolButton;
 namespace boresight::ui {
 
 class CasesModel;
+class DecisionOrder;
 
 /// The cases as small pictures with a badge of their state, in every workspace. Names and errors
 /// are in the panel of the cases, which the button at the top opens.
@@ -22,17 +23,24 @@ class CaseStrip : public QFrame {
   void setCurrent(const QString& id);
   /// Pictures and names of a wide window, or smaller pictures.
   void setNarrow(bool narrow);
+  /// As a reviewer goes through them: failed ones first, then those to decide on, then those that
+  /// have not run, then what is decided. Otherwise the order is the session's.
+  void setForDecisions(bool for_decisions);
   QListView& list() { return *list_; }
 
  Q_SIGNALS:
   void caseRequested(const QString& id);
   void listRequested();
   void addRequested();
+  /// At a place on the screen.
+  void menuRequested(const QString& id, const QPoint& at);
 
  private:
   void showRows();
+  QString idAt(const QModelIndex& index) const;
 
   CasesModel& model_;
+  DecisionOrder* order_ = nullptr;
   QToolButton* filter_ = nullptr;
   QListView* list_ = nullptr;
   QString current_;  ///< the case that the window shows

@@ -80,6 +80,18 @@ TEST(InputSheet, FlagsWhatIsProbablyWrong) {
               Contains("camera_corners"));
 }
 
+TEST(InputSheet, FlagsATruthWhoseSigmaExceedsTheRequirement) {
+  const auto with_sigma = [](double sigma_m) {
+    return flagsWith([sigma_m](SessionCase& session_case) {
+      Matrix6d covariance = 1e-12 * Matrix6d::Identity();
+      covariance.bottomRightCorner<3, 3>() = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+      sessions::setTruth(session_case, session_case.camera_from_station_seed, covariance);
+    });
+  };
+  EXPECT_THAT(with_sigma(1e-5), Not(Contains("truth_uncertain")));
+  EXPECT_THAT(with_sigma(5e-3), Contains("truth_uncertain"));
+}
+
 /// The example with its pixels changed, since a file with other pixels would be refused.
 template <class Change>
 InputSheet sheetWithPixels(Change&& change) {

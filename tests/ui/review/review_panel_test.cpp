@@ -103,6 +103,35 @@ TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
   EXPECT_TRUE(test::has(banner(), "NOT VALIDATED"));
 }
 
+TEST_F(ReviewPanelTest, ChecksThatDoNotApplyAreFoldedAndAClickShowsThem) {
+  openRun();
+  askTooMuch();
+  const auto shown = [this](CheckState state) {
+    int count = 0;
+    for (const sessions::Check& check : controller().checks())
+      count += check.state == state && !hands().table().isRowHidden(hands().rowOf(fromText(check.title)));
+    return count;
+  };
+  const auto all = [this](CheckState state) {
+    const auto& checks = controller().checks();
+    return static_cast<int>(std::count_if(checks.begin(), checks.end(),
+                                          [&](const auto& each) { return each.state == state; }));
+  };
+  ASSERT_GT(all(CheckState::kNotApplicable), 0);
+  EXPECT_EQ(shown(CheckState::kNotApplicable), 0);
+  EXPECT_EQ(shown(CheckState::kPassed), all(CheckState::kPassed));
+  auto* fold = panel_->findChild<FoldButton*>(QStringLiteral("notApplicableFold"));
+  EXPECT_TRUE(fold->text().startsWith(QString::number(all(CheckState::kNotApplicable))));
+  QTest::mouseClick(fold, Qt::LeftButton);
+  EXPECT_EQ(shown(CheckState::kNotApplicable), all(CheckState::kNotApplicable));
+  QTest::mouseClick(panel_->findChild<FoldButton*>(QStringLiteral("passedFold")), Qt::LeftButton);
+  EXPECT_EQ(shown(CheckState::kPassed), 0);
+  EXPECT_EQ(shown(CheckState::kFailed), all(CheckState::kFailed)) << "never folded";
+  const ReviewPanel next(document_, state_);
+  EXPECT_FALSE(next.findChild<FoldButton*>(QStringLiteral("notApplicableFold"))->isFolded())
+      << "as it was left";
+}
+
 TEST_F(ReviewPanelTest, HiddenPanel_ChecksNothing) {
   panel_->hide();
   open(RunExample::get().withItsRun(file()), RunExample::get().id);

@@ -4,11 +4,14 @@
 
 #include "sessions/session/case_run.h"
 #include "tests/ui/window_test.h"
+#include "ui/models/text.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/measure_tool.h"
+#include "ui/window/case_menu.h"
 #include "ui/window/main_window.h"
 #include "ui/window/shortcut_sheet.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -71,6 +74,32 @@ TEST_F(MainWindowTest, UndoOfAnotherCasesEditShowsThatCase) {
   ASSERT_TRUE(wait([&] { return resting(); }));
   QTest::keySequence(&window_, QKeySequence::Redo);
   EXPECT_EQ(window_.cases().caseId(), first);
+  ASSERT_TRUE(wait([&] { return resting(); }));
+}
+
+TEST_F(MainWindowTest, CaseMenu_RemovesACaseWhichAnUndoBringsBack) {
+  openExample();
+  const std::string id = window_.document().session().cases.back()->id;
+  const auto act = [&](const char* name) {
+    const auto menu = window_.findChild<CaseMenu*>()->of(fromText(id));
+    menu->findChild<QAction*>(QLatin1String(name))->trigger();
+  };
+  act("caseName");
+  EXPECT_EQ(QGuiApplication::clipboard()->text(), fromText(id));
+  act("caseRun");
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  ASSERT_NE(window_.document().session().lastRunOf(id), nullptr);
+  act("caseReview");
+  EXPECT_EQ(window_.workspaces().current(), Workspace::kReview);
+  EXPECT_EQ(window_.cases().caseId(), fromText(id));
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  act("caseRemove");
+  EXPECT_EQ(window_.document().session().findCase(id), nullptr);
+  EXPECT_NE(window_.cases().caseId(), fromText(id)) << "another case is shown";
+  ASSERT_TRUE(wait([&] { return resting(); }));
+  QTest::keySequence(&window_, QKeySequence::Undo);
+  ASSERT_NE(window_.document().session().findCase(id), nullptr);
+  EXPECT_NE(window_.document().session().lastRunOf(id), nullptr) << "with its run";
   ASSERT_TRUE(wait([&] { return resting(); }));
 }
 

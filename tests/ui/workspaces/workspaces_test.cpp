@@ -2,6 +2,7 @@
 #include "ui/workspaces/workspaces.h"
 
 #include "tests/ui/window_test.h"
+#include "ui/panels/cases_panel.h"
 #include "ui/panels/close_ups_panel.h"
 #include "ui/run/run_controller.h"
 #include "ui/views/image_view.h"
@@ -67,6 +68,40 @@ TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
     for (const char* dock : each.hidden)
       EXPECT_FALSE(shows(dock)) << workspaceInfo(each.workspace).name << ": " << dock;
   }
+}
+
+TEST_F(WorkspacesTest, StripListsFailedCasesFirstInReviewOnly) {
+  openExample();
+  CasesModel& model = window_.findChild<CasesPanel*>()->model();
+  std::vector<CaseRow> rows(4);
+  const CaseState states[] = {CaseState::kValidated, CaseState::kNew, CaseState::kConverged,
+                              CaseState::kFailed};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].id = QString::number(i);
+    rows[i].state = states[i];
+  }
+  model.setRows(rows);
+  auto& strip = *window_.findChild<CaseStrip*>();
+  QStringList asked;
+  QObject::connect(&strip, &CaseStrip::caseRequested, &window_, [&](const QString& id) { asked << id; });
+  const auto ids = [&] {
+    asked.clear();
+    const QSignalBlocker quiet(window_.cases());
+    for (int row = 0; row < strip.list().model()->rowCount(); ++row) {
+      strip.list().setCurrentIndex({});
+      strip.list().setCurrentIndex(strip.list().model()->index(row, 0));
+    }
+    return asked.join(QString());
+  };
+  strip.disconnect(&window_.cases());
+  EXPECT_EQ(ids(), QStringLiteral("0123"));
+  strip.setForDecisions(true);
+  EXPECT_EQ(ids(), QStringLiteral("3210"));
+  rows[0].state = CaseState::kFailed;
+  model.setRows(rows);
+  EXPECT_EQ(ids(), QStringLiteral("0321")) << "equal ones in the session's order";
+  strip.setForDecisions(false);
+  EXPECT_EQ(ids(), QStringLiteral("0123"));
 }
 
 TEST_F(WorkspacesTest, CloseUpsShowTheRefinedPose_AndAClickShowsThePlaceOnTheCanvas) {
