@@ -54,11 +54,28 @@ void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
   scene.albedo_of_part.push_back(albedo);
 }
 
-MeshView stationView(const SceneMesh& scene) {
-  MeshView view = scene.view();
+namespace {
+
+/// Those of the station come first.
+std::size_t stationFaceCount(const MeshView& view) {
   const auto moves = [&view](std::uint16_t part) { return view.parts[part].fixed_to_camera; };
   const auto end = std::find_if(view.part_of_face.begin(), view.part_of_face.end(), moves);
-  const auto faces = static_cast<std::size_t>(end - view.part_of_face.begin());
+  return static_cast<std::size_t>(end - view.part_of_face.begin());
+}
+
+}  // namespace
+
+MeshView heldView(const SceneMesh& scene) {
+  MeshView view = scene.view();
+  const std::size_t faces = stationFaceCount(view);
+  view.faces = view.faces.subspan(faces);
+  view.part_of_face = view.part_of_face.subspan(faces);
+  return view;
+}
+
+MeshView stationView(const SceneMesh& scene) {
+  MeshView view = scene.view();
+  const std::size_t faces = stationFaceCount(view);
   view.vertices_in_station_m = view.vertices_in_station_m.first(firstVertexInCamera(view));
   view.faces = view.faces.first(faces);
   view.part_of_face = view.part_of_face.first(faces);

@@ -34,6 +34,8 @@ struct SceneMesh {
 /// The scene without the parts that are fixed to the camera: what stays in place in the station
 /// frame. Points into `scene`.
 MeshView stationView(const SceneMesh& scene);
+/// The others alone: their vertices are in the camera frame.
+MeshView heldView(const SceneMesh& scene);
 
 /// Appends a mesh as a new part; `frame_from_mesh` leads to the station frame, or to the camera
 /// frame of a part that is fixed to the camera, after which no other part may follow. InputError

@@ -37,9 +37,21 @@ void addDashed(std::vector<SceneLine>& lines, const SceneLine& line, const PoseR
   for (const SceneLine& dash : dashed(line, style.dashes)) lines.push_back(dash);
 }
 
+/// In the camera frame, of the parts that are fixed to the camera: a gripper, a held tube.
+std::vector<SceneLine> heldEdges(const sessions::SceneMesh& scene) {
+  const MeshView held = sessions::heldView(scene);
+  const auto at = [&held](std::int32_t vertex) -> Eigen::Vector3d {
+    return held.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>();
+  };
+  std::vector<SceneLine> lines;
+  for (const auto& [from, to] : sharpEdges(held)) lines.emplace_back(at(from), at(to));
+  return lines;
+}
+
 void addFrusta(const ViewState& state, SceneContent& content) {
   const sessions::LoadedCase& loaded_case = *content.one;
   const Eigen::Vector3d centre_m = content.bounds.centre();
+  const std::vector<SceneLine> held_in_camera_m = heldEdges(loaded_case.scene);
   const std::array<QString, kPoseRoles> labels = {
       sceneText("seed"), sceneText("iteration %1").arg(state.cursor().iteration + 1),
       sceneText("nudged"), sceneText("truth"), sceneText("annotated")};
@@ -52,6 +64,10 @@ void addFrusta(const ViewState& state, SceneContent& content) {
     const QString& label = labels[static_cast<std::size_t>(i)];
     content.frusta.push_back(frustumOf(role, rejected ? sceneText("rejected") : label,
                                        loaded_case.source.camera, *pose, centre_m, rejected));
+    const Pose station_from_camera = pose->inverse();
+    for (const SceneLine& line : held_in_camera_m)
+      content.frusta.back().lines.emplace_back(station_from_camera * line.first,
+                                               station_from_camera * line.second);
   }
 }
 

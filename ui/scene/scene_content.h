@@ -43,7 +43,8 @@ struct Frustum {
   QColor color;
   Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 4> corner_m;  ///< top left, top right, bottom right, bottom left
-  std::vector<SceneLine> lines;  ///< dashed as the role is; a roof annotations the image's top
+  /// Dashed as the role is, with a roof at the image's top; and edges of what the camera carries.
+  std::vector<SceneLine> lines;
   Eigen::Vector3d label_at_m = Eigen::Vector3d::Zero();
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/scene/scene_content.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -37,6 +38,36 @@ TEST(SceneContent, HoldsTheCamerasOfTheRunAtTheCursor) {
   EXPECT_EQ(content.trail_now, state.cursor().iteration + 1);
   state.setNudgedPose(state.shownPose());
   EXPECT_EQ(sceneContent(state).frusta.size(), 4u);
+}
+
+TEST(SceneContent, EachCameraCarriesThePartsThatAreFixedToIt) {
+  ViewState state;
+  test::showRun(state);
+  const std::size_t before = sceneContent(state).frusta.front().lines.size();
+  auto held = std::make_shared<sessions::LoadedCase>();
+  held->source = test::sceneCase()->source;
+  held->image = test::sceneCase()->image;
+  held->scene = test::sceneCase()->scene;
+  sessions::Mesh finger;
+  finger.vertices_m = {{0.0F, 0.0F, 0.2F}, {0.01F, 0.0F, 0.2F}, {0.0F, 0.01F, 0.2F}};
+  finger.faces = {Face{{0, 1, 2}}};
+  ScenePart part;
+  part.match = false;
+  part.fixed_to_camera = true;
+  sessions::addPart(held->scene, finger, Pose(), part, 1.0);
+  state.setCase(held);
+  const SceneContent content = sceneContent(state);
+  ASSERT_GE(content.frusta.size(), 1u);
+  for (const Frustum& frustum : content.frusta) {
+    const Pose pose = poseOf(state, frustum.role).value();
+    double nearest_m = 1.0;
+    for (const SceneLine& line : frustum.lines)
+      nearest_m = std::min(nearest_m, (pose * line.first - Eigen::Vector3d(0.01, 0.0, 0.2)).norm() *
+                                          (pose * line.second - Eigen::Vector3d(0.01, 0.0, 0.2)).norm());
+    EXPECT_LT(nearest_m, 1e-8) << "an edge begins or ends at the finger's tip";
+  }
+  EXPECT_EQ(content.frusta.front().lines.size(), before + 3);
+  EXPECT_EQ(content.mesh().faces.size(), test::sceneCase()->scene.faces.size());
 }
 
 TEST(SceneContent, CameraOfARejectedRunLooksRejected) {
