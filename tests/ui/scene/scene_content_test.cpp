@@ -60,10 +60,12 @@ TEST(SceneContent, EachCameraCarriesThePartsThatAreFixedToIt) {
   ASSERT_GE(content.frusta.size(), 1u);
   for (const Frustum& frustum : content.frusta) {
     const Pose pose = poseOf(state, frustum.role).value();
+    const auto distance_m = [&pose](const Eigen::Vector3d& at_m) {
+      return (pose * at_m - Eigen::Vector3d(0.01, 0.0, 0.2)).norm();
+    };
     double nearest_m = 1.0;
     for (const SceneLine& line : frustum.lines)
-      nearest_m = std::min(nearest_m, (pose * line.first - Eigen::Vector3d(0.01, 0.0, 0.2)).norm() *
-                                          (pose * line.second - Eigen::Vector3d(0.01, 0.0, 0.2)).norm());
+      nearest_m = std::min({nearest_m, distance_m(line.first), distance_m(line.second)});
     EXPECT_LT(nearest_m, 1e-8) << "an edge begins or ends at the finger's tip";
   }
   EXPECT_EQ(content.frusta.front().lines.size(), before + 3);
