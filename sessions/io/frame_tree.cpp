@@ -60,6 +60,9 @@ std::optional<FrameChain> findChain(std::span<const FrameTransform> transforms, 
 }
 
 [[noreturn]] void refuseLoop(const FrameTransform& second, const FrameChain& first) {
+  if (first.links.empty())
+    throw InputError(second.file, "leads from " + frameText(second.source) +
+                                      " to itself: a transform joins two frames");
   std::string files;
   for (const FrameLink& link : first.links) {
     const std::string name = link.transform->file.filename().string();

@@ -136,6 +136,13 @@ TEST(FrameTree, Loop_IsRefusedWithBothWays) {
             "");
 }
 
+TEST(FrameTree, TransformOfAFrameToItself_IsRefused) {
+  Pose a_metre;
+  a_metre.translation_m = {0.0, 0.0, 1.0};
+  EXPECT_EQ(refusal({transformOf(kBase, kBase, a_metre, "base.json")}),
+            "base.json: leads from ARM_BASE to itself: a transform joins two frames");
+}
+
 TEST(FrameTree, CameraModel_IsALink) {
   CameraReference reference;
   reference.frame = kSite;

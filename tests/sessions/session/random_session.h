@@ -68,8 +68,9 @@ inline void addRandomFrames(Random& random, sessions::SessionCase& session_case)
   session_case.station_frame = randomFrame(random);
   if (coin(random)) return;
   sessions::FrameTransform& join = session_case.frames.emplace_back();
-  join.target = randomFrame(random);
   join.source = *session_case.station_frame;
+  do join.target = randomFrame(random);
+  while (join.target == join.source);
   join.origin = static_cast<sessions::TransformSource>(random.below(5));
   if (coin(random)) join.covariance = Matrix6d(Vector6d::Constant(1e-6).asDiagonal());
   join.target_from_source = randomPose(random);
