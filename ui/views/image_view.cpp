@@ -44,14 +44,14 @@ void ImageView::setImage(const QImage& gray) {
   image_ = GrayPyramid(gray.isNull() ? QImage() : gray.convertToFormat(QImage::Format_Grayscale8));
   values_ = image_.isNull() ? QImage() : image_.full();
   if (image_.size() != before) fit();
-  update();
+  redraw();
 }
 
 void ImageView::setLayer(Layer layer) {
   const auto index = static_cast<std::size_t>(layer.id);
   layers_[index] = std::move(layer);
   drawn_[index].pixmaps.clear();
-  update();
+  redraw();
   Q_EMIT layersChanged();
 }
 
@@ -59,7 +59,7 @@ void ImageView::setStyle(LayerId id, const LayerStyle& style) {
   const auto index = static_cast<std::size_t>(id);
   if (layers_[index].style.color != style.color) drawn_[index].pixmaps.clear();
   layers_[index].style = style;
-  update();
+  redraw();
   Q_EMIT layersChanged();
 }
 
@@ -92,17 +92,17 @@ void ImageView::centreOn(const QPointF& pixel, double least_scale) {
 
 void ImageView::setSwipe(std::optional<double> share) {
   swipe_ = share;
-  update();
+  redraw();
 }
 
 void ImageView::setLayersHidden(bool hidden) {
   layers_hidden_ = hidden;
-  update();
+  redraw();
 }
 
 void ImageView::setHint(const QString& hint) {
   hint_ = hint;
-  update();
+  redraw();
 }
 
 void ImageView::setToolActive(bool active, double radius_px) {
@@ -132,7 +132,7 @@ void ImageView::setLinkedCursor(const std::optional<QPointF>& pixel) {
 }
 
 void ImageView::changed() {
-  update();
+  redraw();
   Q_EMIT transformChanged();
 }
 
@@ -162,10 +162,32 @@ QRect ImageView::visiblePixels() const {
   return seen.intersected(QRect(QPoint(0, 0), image_.size()));
 }
 
+/// Image and layers are kept as drawn: what follows the pointer lies above them and moves often.
 void ImageView::paintEvent(QPaintEvent*) {
+  const QRgb canvas = canvasColor();
+  if (ground_.isNull() || ground_.size() != (QSizeF(size()) * devicePixelRatioF()).toSize() ||
+      ground_canvas_ != canvas)
+    drawGround(canvas);
   QPainter painter(this);
+  painter.drawPixmap(0, 0, ground_);
+  if (image_.isNull()) return;
+  paintTool(painter);
+  if (linked_cursor_) paintLinkedCursor(painter);
+  for (const auto& [owner, overlay] : overlays_) overlay(painter);
+}
+
+QRgb ImageView::canvasColor() const {
   const bool dark = palette().color(QPalette::Window).lightnessF() < 0.5;
-  painter.fillRect(rect(), QColor((dark ? kDarkTheme : kLightTheme).canvas));
+  return (dark ? kDarkTheme : kLightTheme).canvas;
+}
+
+void ImageView::drawGround(QRgb canvas) {
+  ground_canvas_ = canvas;
+  ground_ = QPixmap((QSizeF(size()) * devicePixelRatioF()).toSize());
+  ground_.setDevicePixelRatio(devicePixelRatioF());
+  ground_.fill(QColor(canvas));
+  QPainter painter(&ground_);
+  painter.setFont(font());
   if (image_.isNull()) {
     painter.setPen(QColor(kOverlayText));
     painter.drawText(rect().adjusted(kToolMargin, 0, -kToolMargin, 0),
@@ -182,9 +204,12 @@ void ImageView::paintEvent(QPaintEvent*) {
   if (swipe_) paintSwipe(painter);
   if (transform_.scale() >= kGridScale) paintGrid(painter);
   if (transform_.scale() >= kValueScale) paintValues(painter);
-  paintTool(painter);
-  if (linked_cursor_) paintLinkedCursor(painter);
-  for (const auto& [owner, overlay] : overlays_) overlay(painter);
+}
+
+/// Image or layers are no longer as drawn.
+void ImageView::redraw() {
+  ground_ = QPixmap();
+  update();
 }
 
 void ImageView::paintSwipe(QPainter& painter) const {

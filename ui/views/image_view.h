@@ -116,6 +116,9 @@ class ImageView : public QWidget {
     std::vector<BitPixmaps> pixmaps;  ///< one per LayerBits, made when first drawn
   };
 
+  QRgb canvasColor() const;
+  void drawGround(QRgb canvas);
+  void redraw();
   void paintImage(QPainter& painter) const;
   void paintLayer(QPainter& painter, std::size_t index);
   void paintGrid(QPainter& painter) const;
@@ -149,6 +152,8 @@ class ImageView : public QWidget {
   std::vector<ToolPreview> tool_previews_;
   std::map<const QObject*, Overlay> overlays_;
   std::optional<QPointF> linked_cursor_;
+  QPixmap ground_;  ///< image and layers as drawn last; null: to be drawn
+  QRgb ground_canvas_ = 0;
   bool swiping_ = false;
 };
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include <QWheelEvent>
@@ -257,6 +259,36 @@ TEST_F(ImageViewTest, ADragOfTheSwipeLineMovesItAndNotTheImage) {
   EXPECT_NEAR(*view_.swipe(), 0.25, 0.01);
   EXPECT_EQ(view_.transform(), before);
   EXPECT_EQ(moved.size(), 1);
+}
+
+/// What is kept as drawn is drawn again whenever it has to be.
+TEST_F(ImageViewTest, PictureIsThatOfAViewThatIsDrawnForTheFirstTime) {
+  const OneBit bit(20, 30, 0);
+  const std::vector<std::function<void(ImageView&)>> acts = {
+      [](ImageView& view) { view.resize(500, 400); },
+      [](ImageView& view) { view.setImage(grayImage()); },
+      [&](ImageView& view) { view.setLayer(layerOf(LayerId::kTestEdges, {bit.bits})); },
+      [](ImageView& view) { view.setStyle(LayerId::kTestEdges, {true, Qt::green, 0.5}); },
+      [](ImageView& view) { view.centreOn({20.0, 30.0}, 40.0); },
+      [](ImageView& view) { view.setLinkedCursor(QPointF(21.0, 31.0)); },
+      [](ImageView& view) { view.setSwipe(0.5); },
+      [](ImageView& view) { view.setSwipe(std::nullopt); },
+      [](ImageView& view) { view.setLayersHidden(true); },
+      [](ImageView& view) { view.setLayersHidden(false); },
+      [](ImageView& view) { view.resize(420, 430); },
+      [](ImageView& view) { view.setPalette(QPalette(Qt::black)); },
+      [](ImageView& view) { view.setImage({}); },
+      [](ImageView& view) { view.setHint(QStringLiteral("Drop an image")); },
+  };
+  ImageView used;
+  used.show();
+  for (std::size_t count = 1; count <= acts.size(); ++count) {
+    acts[count - 1](used);
+    ImageView first;
+    first.show();
+    for (std::size_t i = 0; i < count; ++i) acts[i](first);
+    EXPECT_EQ(used.grab().toImage(), first.grab().toImage()) << "after act " << count;
+  }
 }
 
 TEST_F(ImageViewTest, HHeldHidesTheLayers) {
