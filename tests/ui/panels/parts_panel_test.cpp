@@ -29,6 +29,7 @@ class PartsPanelTest : public test::WindowTest {
     ASSERT_NE(box, nullptr);
     box->setCurrentIndex(static_cast<int>(role));
     Q_EMIT box->activated(static_cast<int>(role));
+    QCoreApplication::processEvents();  // the edit follows the signal
     ASSERT_TRUE(rests());
   }
 };
