@@ -52,9 +52,8 @@ void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& 
   cahvor_file.height = given.camera.height;
   if (given.covariance)
     cahvor_file.covariance =
-        inFrame(*given.covariance, given.reference
-                                       ? given.reference->camera_from_reference.inverse()
-                                       : Pose())
+        inFrame(*given.covariance,
+                given.reference ? given.reference->camera_from_reference.inverse() : Pose())
             .of_vectors;
   sessions::writeCahvorFile(arguments.out, cahvor_file);
   if (given.reference)

@@ -160,9 +160,9 @@ nlohmann::ordered_json cahvJson(const CameraFile& file) {
   const FrameName frame = file.reference ? file.reference->frame : FrameName{kOwnFrame, {}};
   if (!frame.name.empty()) json["reference_frame"] = toJson(frame);
   if (file.covariance)
-    json["covariance"] = toJson(inFrame(
-        *file.covariance,
-        file.reference ? file.reference->camera_from_reference.inverse() : Pose()));
+    json["covariance"] =
+        toJson(inFrame(*file.covariance,
+                       file.reference ? file.reference->camera_from_reference.inverse() : Pose()));
   return json;
 }
 

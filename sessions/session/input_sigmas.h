@@ -15,7 +15,7 @@ struct InputSigmas {
   double mesh_scale = kAssumedMeshScaleSigma;  ///< relative
   CalibrationSigma calibration;
   bool mesh_scale_stated = false;
-  bool calibration_stated = false;     ///< also by the camera's covariance
+  bool calibration_stated = false;   ///< also by the camera's covariance
   bool calibration_derived = false;  ///< from the camera's covariance, which counts in its place
 
   explicit InputSigmas(const SessionCase& session_case);

@@ -106,7 +106,7 @@ Outcome outcomeOf(const Localizer& localizer) {
 struct Reference {
   Outcome outcome;
   int steps = 0;
-  std::size_t bytes = 0;               ///< of the block that are used
+  std::size_t bytes = 0;              ///< of the block that are used
   std::vector<std::uint64_t> states;  ///< hash of all memory, each kStepsBetween steps
   static constexpr int kStepsBetween = 32;
 
@@ -226,8 +226,7 @@ class Tally {
   std::string kindOf(const Outcome& outcome) const {
     const bool same_pose = perturbationBetween(outcome.camera_from_station,
                                                good_.camera_from_station) == Vector6d::Zero();
-    const std::string digest =
-        outcome.digest == good_.digest ? ", same digest" : ", other digest";
+    const std::string digest = outcome.digest == good_.digest ? ", same digest" : ", other digest";
     if (outcome.status == LocalizationStatus::kFault)
       return std::string("refused: fault ") + statusText(outcome.fault);
     if (outcome.status != LocalizationStatus::kConverged)
@@ -254,8 +253,9 @@ class Tally {
 
   void print(const std::string& kind, const Flip& flip, const Outcome& outcome) const {
     const std::byte* base = placeOf(flip.byte) == "object" ? object : block;
-    const sessions::PoseError error = sessions::poseError(
-        good_.camera_from_station, outcome.camera_from_station, inputs_.truth.camera_from_end_effector);
+    const sessions::PoseError error =
+        sessions::poseError(good_.camera_from_station, outcome.camera_from_station,
+                            inputs_.truth.camera_from_end_effector);
     std::fprintf(stderr, "%s: %s byte %td bit %u step %d; moved %.4f %.4f mm %.4f mrad\n",
                  kind.c_str(), placeOf(flip.byte).c_str(), flip.byte - base, flip.bit, flip.step,
                  error.normal_mm, error.lateral_mm, error.rotation_mrad);

@@ -55,8 +55,8 @@ Eigen::Matrix2d variance_px(const CahvorFile& file, const Eigen::Vector3d& point
       });
       const auto moved = cameraOfVectors(vectors, file.width, file.height);
       EXPECT_TRUE(moved);
-      EXPECT_TRUE(project(moved->camera, moved->reference->camera_from_reference * point_m,
-                          pixel[side]));
+      EXPECT_TRUE(
+          project(moved->camera, moved->reference->camera_from_reference * point_m, pixel[side]));
     }
     by.col(i) = (pixel[1] - pixel[0]) / (2.0 * half);
   }
@@ -143,10 +143,16 @@ TEST(CameraCovariance, OfNothingButTheFocalLength_IsItsSigma) {
 TEST(CameraCovariance, ThatIsNone_IsRefusedByItsMember) {
   const TemporaryFolder folder;
   const auto error = [&](const nlohmann::json& covariance) {
-    const nlohmann::json json = {{"format", "boresight-camera"}, {"version", 1},
-                                 {"model", "cahv"}, {"width", 800}, {"height", 600},
-                                 {"C", {0, 0, 0}}, {"A", {0, 0, 1}}, {"H", {800, 0, 400}},
-                                 {"V", {0, 800, 300}}, {"covariance", covariance}};
+    const nlohmann::json json = {{"format", "boresight-camera"},
+                                 {"version", 1},
+                                 {"model", "cahv"},
+                                 {"width", 800},
+                                 {"height", 600},
+                                 {"C", {0, 0, 0}},
+                                 {"A", {0, 0, 1}},
+                                 {"H", {800, 0, 400}},
+                                 {"V", {0, 800, 300}},
+                                 {"covariance", covariance}};
     return folder.message([&] { (void)readCameraFile(folder.write("a.json", json.dump())); });
   };
   nlohmann::json rows = nlohmann::json::array();

@@ -81,7 +81,8 @@ struct VectorScene {
     edges = predictEdges(camera, box.scene_.view(), box.camera_from_station_);
     edges.places = thinned(edges.places, 150);
     for (EdgePlace& place : edges.places)
-      EXPECT_TRUE(project(camera, box.camera_from_station_ * place.point_in_station_m, place.pixel));
+      EXPECT_TRUE(
+          project(camera, box.camera_from_station_ * place.point_in_station_m, place.pixel));
   }
 };
 
@@ -130,8 +131,8 @@ TEST(PoseUncertainty, TheCamerasCovariance_GivesThatOfPosesFittedWithDrawnCamera
   for (int draw = 0; draw < kDraws; ++draw) {
     Eigen::VectorXd normal(18);
     for (double& value : normal) value = random.normal();
-    const Vector6d moved = perturbationBetween(scene.box.camera_from_station_,
-                                               fittedWith(scene, root * normal));
+    const Vector6d moved =
+        perturbationBetween(scene.box.camera_from_station_, fittedWith(scene, root * normal));
     sampled += moved * moved.transpose() / kDraws;
   }
   // Of 400 draws the eigenvalues lie between 0.77 and 1.26 (Marchenko-Pastur).
@@ -331,11 +332,15 @@ TEST(Correction, MoveReachesWhatWasPlannedFromTheSeed) {
     EXPECT_LT(perturbationBetween(planned, base_from_station.inverse() * moved).norm(), 1e-9);
     const double trace = corrections.front().covariance.trace();
     EXPECT_NEAR(in_base.covariance.trace(), trace, 1e-9 * trace);
-    EXPECT_GT(trace, correctionsOf([&] {
-                       SessionCase exact = session_case;
-                       exact.frames[0].covariance.reset();
-                       return exact;
-                     }(), estimate, covariance).front().covariance.trace());
+    EXPECT_GT(trace, correctionsOf(
+                         [&] {
+                           SessionCase exact = session_case;
+                           exact.frames[0].covariance.reset();
+                           return exact;
+                         }(),
+                         estimate, covariance)
+                         .front()
+                         .covariance.trace());
   }
 }
 

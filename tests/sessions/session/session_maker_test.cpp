@@ -122,8 +122,7 @@ sessions::CahvorFile vectorsWithCovariance(const Camera& camera) {
 TEST(SessionMaker, CovarianceOfACamerasVectors_IsPartOfTheSessionAndOfItsFile) {
   const TemporaryFolder folder;
   sessions::CaseFiles files = filesOf(copyOfExamples(folder) / "os");
-  const sessions::CahvorFile vectors =
-      vectorsWithCovariance(sessions::makeCase(files).made.camera);
+  const sessions::CahvorFile vectors = vectorsWithCovariance(sessions::makeCase(files).made.camera);
   files.camera = folder / "os.cahv";
   sessions::writeCahvorFile(files.camera, vectors);
   const sessions::SessionCase session_case = sessions::makeCase(files).made;
@@ -191,7 +190,8 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.mesh_unit = "mm"; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.frame_from_mesh.translation_m.x() = 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.normal_threshold_rad *= 2; }));
-  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.role = sessions::PartRole::kOccludes; }));
+  EXPECT_TRUE(
+      changed([](auto& c) { c.parts[0].source.state.role = sessions::PartRole::kOccludes; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.present = false; }));
   EXPECT_FALSE(changed([](auto& c) { c.parts[0].source.name = "station"; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.albedo = 0.42; }));
