@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// bit_flips DATASET CASE TRIALS [SEED [JOBS]]: each trial flips one random bit before a random
-// step of a run, and reports how the run ends. The memory is that of app/flight/flight_driver.cpp:
-// one block with the decoded mesh and mask, the pixels and the localizer's own memory, in this
-// order. A second table has trials in the localizer object, which the driver keeps on its stack.
-// Figures of resources/evidence/trust.md.
+// bit_flips PROBLEM.bin IMAGE.pgm TRUTH.txt TRIALS [SEED [JOBS]]: each trial flips one random bit
+// before a random step of a run, and reports how the run ends. The memory is that of
+// app/flight/flight_driver.cpp: one block with the decoded mesh and mask, the pixels and the
+// localizer's own memory, in this order. A second table has trials in the localizer object, which
+// the driver keeps on its stack. `whs problem` writes problem and image; the truth is
+// camera_from_station as 16 numbers, row by row. Figures of resources/evidence/trust.md.
 //
 // One process runs without a flip; before each step it forks the trials of that step. A crash or an
 // endless run is thus one outcome among others. A trial ends early when all its memory equals that
@@ -15,25 +16,24 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <map>
-#include <memory>
 #include <new>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/localizer/localizer.h"
 #include "core/localizer/problem_bytes.h"
-#include "sessions/evaluation/pose_error.h"
-#include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
 
 namespace boresight::test {
 namespace {
@@ -44,43 +44,76 @@ constexpr rlim_t kMostSeconds = 30;  ///< of processor time, several times that 
 alignas(Arena::kAlignment) std::byte block[kBlockBytes];
 alignas(Localizer) std::byte object[sizeof(Localizer)];
 
-struct Truth {
-  Pose camera_from_station;
-  std::optional<Pose> camera_from_end_effector;
-  sessions::Requirement requirement;
-};
+/// The requirement of a sample transfer.
+constexpr double kMostNormal_m = 0.0004;
+constexpr double kMostLateral_m = 0.0004;
+constexpr double kMostRotation_rad = 0.25 * kDegree_rad;
 
 /// Inputs in the front of the block; `pixels_begin` and `used` are offsets in it.
 struct Inputs {
   LocalizationProblem problem;
   LocalizerOptions options;
-  Truth truth;
+  Pose camera_from_station_true;
   std::size_t pixels_begin = 0;
   std::size_t used = 0;
 };
 
-/// As `whs problem` writes the case and flight_driver reads it.
-void readInputs(const char* file, const char* case_id, Inputs& inputs) {
-  const sessions::Dataset dataset = sessions::readDataset(file);
-  const sessions::Session session = sessions::makeSession(dataset, {case_id});
-  const auto loaded = sessions::loadCase(*session.cases.front());
-  inputs.truth = {loaded->source.camera_from_station_truth.value(),
-                  loaded->source.camera_from_end_effector, loaded->source.requirement.value()};
-  const LocalizationProblem problem = loaded->problem();
-  const sessions::GrayImage& image = loaded->image;
-  LocalizerOptions options = defaultProfile();
-  options.search.color = false;  // the flight profile
-  options.templates.feature_size_m = loaded->source.feature_size_m.value_or(0.0);
-  std::vector<std::uint8_t> encoded(encodeProblem(problem, options, {}));
-  encodeProblem(problem, options, encoded);
+std::vector<std::uint8_t> bytesOf(const char* file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+Pose readTruth(const char* file) {
+  std::ifstream stream(file);
+  Eigen::Matrix4d matrix;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) stream >> matrix(row, column);
+  Pose pose;
+  double deviation = 0.0;
+  const Status status =
+      poseFromMatrix(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>(), pose, deviation);
+  if (!stream || status != Status::kOk) throw std::runtime_error("the truth is no pose");
+  return pose;
+}
+
+/// As flight_driver reads them.
+void readInputs(const char* problem_file, const char* image_file, Inputs& inputs) {
   Arena arena{std::span<std::byte>(block)};
-  if (decodeProblem(encoded, arena, inputs.problem, inputs.options).fault != ProblemFault::kNone)
+  if (decodeProblem(bytesOf(problem_file), arena, inputs.problem, inputs.options).fault !=
+      ProblemFault::kNone)
     throw std::runtime_error("the problem is refused");
   inputs.pixels_begin = arena.used();
-  const std::span<std::uint8_t> pixels = arena.allocate<std::uint8_t>(image.pixels.size());
-  std::copy(image.pixels.begin(), image.pixels.end(), pixels.begin());
-  inputs.problem.image = {pixels.data(), image.width, image.height, image.width};
+  const Camera& camera = inputs.problem.camera;
+  const std::vector<std::uint8_t> pgm = bytesOf(image_file);
+  const auto count =
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  if (pgm.size() < count) throw std::runtime_error("the image is too small");
+  const std::span<std::uint8_t> pixels = arena.allocate<std::uint8_t>(count);
+  std::copy(pgm.end() - static_cast<std::ptrdiff_t>(count), pgm.end(), pixels.begin());
+  inputs.problem.image = {pixels.data(), camera.width, camera.height, camera.width};
   inputs.used = arena.used();
+}
+
+/// Errors of a pose where the end effector is, as `whs evaluate` reports them.
+struct PoseError {
+  double normal_m = 0.0;
+  double lateral_m = 0.0;
+  double rotation_rad = 0.0;
+
+  bool isWithinRequirement() const {
+    return std::abs(normal_m) <= kMostNormal_m && lateral_m <= kMostLateral_m &&
+           rotation_rad <= kMostRotation_rad;
+  }
+};
+
+PoseError errorOf(const Inputs& inputs, const Pose& camera_from_station_expected,
+                  const Pose& camera_from_station) {
+  const Pose expected_from_found = camera_from_station_expected * camera_from_station.inverse();
+  const Eigen::Vector3d& point_m = inputs.problem.end_effector_in_camera_m;
+  const Eigen::Vector3d moved_m = expected_from_found * point_m - point_m;
+  const Eigen::Vector3d axis = expected_from_found.matrix().col(2);
+  return {moved_m.z(), std::hypot(moved_m.x(), moved_m.y()),
+          std::atan2(std::hypot(axis.x(), axis.y()), axis.z())};
 }
 
 struct Flip {
@@ -237,12 +270,8 @@ class Tally {
   }
 
   bool isRight(const Outcome& outcome) const {
-    const Truth& truth = inputs_.truth;
-    return outcome.camera_from_station.translation_m.allFinite() &&
-           sessions::meetsRequirement(
-               sessions::poseError(truth.camera_from_station, outcome.camera_from_station,
-                                   truth.camera_from_end_effector),
-               truth.requirement);
+    return errorOf(inputs_, inputs_.camera_from_station_true, outcome.camera_from_station)
+        .isWithinRequirement();
   }
 
   std::string placeOf(const std::byte* byte) const {
@@ -253,12 +282,11 @@ class Tally {
 
   void print(const std::string& kind, const Flip& flip, const Outcome& outcome) const {
     const std::byte* base = placeOf(flip.byte) == "object" ? object : block;
-    const sessions::PoseError error =
-        sessions::poseError(good_.camera_from_station, outcome.camera_from_station,
-                            inputs_.truth.camera_from_end_effector);
+    const PoseError moved =
+        errorOf(inputs_, good_.camera_from_station, outcome.camera_from_station);
     std::fprintf(stderr, "%s: %s byte %td bit %u step %d; moved %.4f %.4f mm %.4f mrad\n",
                  kind.c_str(), placeOf(flip.byte).c_str(), flip.byte - base, flip.bit, flip.step,
-                 error.normal_mm, error.lateral_mm, error.rotation_mrad);
+                 1e3 * moved.normal_m, 1e3 * moved.lateral_m, 1e3 * moved.rotation_rad);
   }
 
   const Inputs& inputs_;
@@ -321,16 +349,17 @@ int campaign(const Inputs& inputs, int trials, std::uint64_t seed, std::size_t j
 }  // namespace boresight::test
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::fprintf(stderr, "usage: bit_flips DATASET CASE TRIALS [SEED [JOBS]]\n");
+  if (argc < 5) {
+    std::fprintf(stderr, "usage: bit_flips PROBLEM.bin IMAGE.pgm TRUTH.txt TRIALS [SEED [JOBS]]\n");
     return 2;
   }
   try {
     boresight::test::Inputs inputs;
     boresight::test::readInputs(argv[1], argv[2], inputs);
-    return boresight::test::campaign(inputs, std::atoi(argv[3]),
-                                     argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1,
-                                     argc > 5 ? static_cast<std::size_t>(std::atoi(argv[5])) : 2);
+    inputs.camera_from_station_true = boresight::test::readTruth(argv[3]);
+    return boresight::test::campaign(inputs, std::atoi(argv[4]),
+                                     argc > 5 ? std::strtoull(argv[5], nullptr, 10) : 1,
+                                     argc > 6 ? static_cast<std::size_t>(std::atoi(argv[6])) : 2);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bit_flips: %s\n", error.what());
     return 3;
