@@ -36,15 +36,7 @@ void noteEnding(const path& out, CameraModel model) {
          " model; other programs expect the file ending " + needed);
 }
 
-/// What camera.json has no place for.
-void noteLost(const CameraArguments& arguments) {
-  if (!sessions::isCahvorFile(path(arguments.file))) return;
-  if (sessions::readCahvorFile(arguments.file).covariance.size() > 0)
-    note("the covariance of " + path(arguments.file).filename().string() +
-         " is not written: camera.json cannot hold it");
-}
-
-/// Vectors as text, with the covariance where the given file had one.
+/// Vectors as text, with their covariance where it is known.
 void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& given) {
   if (!isCahvFamily(given.camera.model))
     throw sessions::InputError(arguments.file, "model",
@@ -58,6 +50,11 @@ void writeVectors(const CameraArguments& arguments, const sessions::CameraFile& 
       given.camera, given.reference ? given.reference->camera_from_reference : Pose());
   cahvor_file.width = given.camera.width;
   cahvor_file.height = given.camera.height;
+  if (given.covariance)
+    cahvor_file.covariance =
+        inFrame(*given.covariance,
+                given.reference ? given.reference->camera_from_reference.inverse() : Pose())
+            .of_vectors;
   sessions::writeCahvorFile(arguments.out, cahvor_file);
   if (given.reference)
     note("the vectors are in " + frameText(given.reference->frame) +
@@ -77,6 +74,8 @@ void convertAs(const CameraArguments& arguments, const sessions::CameraFile& giv
               << "error is " << fitted.worst_error_far_px << " px\n";
   else if (pupilMoves(given.camera))
     note("the entrance pupil moves, which shifts nearby points; state --distance");
+  if (given.covariance)
+    note("the covariance of the vectors does not apply to the fitted camera and is left out");
   if (!arguments.out.empty())
     sessions::writeFittedCamera(arguments.out, fitted, given.camera,
                                 path(arguments.file).filename().string(), arguments.distance_m);
@@ -96,7 +95,6 @@ int convert(const CameraArguments& arguments) {
     writeVectors(arguments, given);
   } else {
     sessions::writeCamera(path(arguments.out), given);
-    noteLost(arguments);
   }
   if (!arguments.out.empty()) print(arguments.out);
   return kDone;

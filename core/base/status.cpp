@@ -33,6 +33,8 @@ const char* statusText(Status status) {
       return "no_consensus";
     case Status::kTooManyLayers:
       return "too_many_layers";
+    case Status::kMemoryChanged:
+      return "memory_changed";
   }
   return "unknown";
 }

@@ -22,10 +22,11 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kDegenerate,        ///< the correspondences do not determine a pose
     kNoConsensus,       ///< no pose found enough inliers
     kTooManyLayers,     ///< faces cover rows of the image many hundred times over
+    kMemoryChanged,     ///< inputs, or tables derived from them, changed during the run
 };
 
 /// The last one.
-inline constexpr Status kLastStatus = Status::kTooManyLayers;
+inline constexpr Status kLastStatus = Status::kMemoryChanged;
 
 /// A short lower-case word or two, for messages and result files.
 const char* statusText(Status status);

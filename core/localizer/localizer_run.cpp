@@ -89,6 +89,10 @@ Agreement Localizer::agreement() const {
 }
 
 StepReport Localizer::finish(LocalizationStatus status, StepReport report) {
+  if (status == LocalizationStatus::kConverged && !pass_.memoryHolds()) {
+    status = LocalizationStatus::kFault;
+    pass_.workspace().fault = Status::kMemoryChanged;
+  }
   pass_.finish(status, attempt_.camera_from_station(), attempt_.covariance());
   phase_ = Phase::kEnded;
   report.finished = true;

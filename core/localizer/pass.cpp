@@ -47,6 +47,8 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
       memory_.create(problem_, options_, workers, kernels, block, workspace_.edges);
   if (laid_out != Status::kOk) return laid_out;
   levels_ = levelsOf(sizeOf(problem_), options_);
+  seal_.sealTables(memory_.tables());
+  seal_.sealEdges(workspace_.edges, levels_);
   scene_ = matchedBounds(problem_.mesh);
   const LocalizationProblem used = withoutUnusedInputs(problem, options);
   searched_ = {problem_.image,
@@ -59,6 +61,7 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
                problem_.uncertainty};
   digestOptions(options_, digest_);
   digestProblem(used, digest_);
+  seal_.sealInputs(digest_.digest());
   if (match_outside_) matchOutside(surfaces_);
   return Status::kOk;
 }
@@ -204,11 +207,19 @@ void Pass::show(const Ruling& ruling) {
 }
 
 void Pass::changeOptions(const LocalizerOptions& options) {
+  const LocalizationProblem used = withoutUnusedInputs(problem_, options);
+  const bool held = seal_.holdsInputs(options_, withoutUnusedInputs(problem_, options_));
   options_ = options;
+  if (held) seal_.sealInputs(inputDigest(options_, used));
   memory_.selector.setOptions(options.templates);
   memory_.refinement.setOptions(options.refinement);
   digest_.tag("changed");
   digestOptions(options, digest_);
+}
+
+bool Pass::memoryHolds() const {
+  return seal_.holdsInputs(options_, withoutUnusedInputs(problem_, options_)) &&
+         seal_.holdsTables(memory_.tables()) && seal_.holdsEdges(workspace_.edges, levels_);
 }
 
 void Pass::finish(LocalizationStatus status, const Pose& camera_from_station,

@@ -8,6 +8,7 @@
 
 #include "core/base/digest.h"
 #include "core/localizer/localizer_options.h"
+#include "core/localizer/memory_seal.h"
 #include "core/localizer/pass_memory.h"
 #include "core/localizer/pass_plan.h"
 #include "core/localizer/problem.h"
@@ -95,6 +96,8 @@ class Pass {
   void show(const Ruling& ruling);
   /// Takes other options from the next pass on; see firstFixedOption.
   void changeOptions(const LocalizerOptions& options);
+  /// Whether the memory that must not change during a run holds the bits that it held before.
+  bool memoryHolds() const;
   /// Sets how the run ended and writes it to the digest.
   void finish(LocalizationStatus status, const Pose& camera_from_station,
               const Matrix6d& covariance);
@@ -167,6 +170,7 @@ class Pass {
   SearchProblem searched_;
   Workspace workspace_;
   DigestWriter digest_;
+  MemorySeal seal_;
 
   PassPlan plan_;
   PassOutcome outcome_;

@@ -103,6 +103,7 @@ Status PassMemory::create(const LocalizationProblem& problem, const LocalizerOpt
   const Status counted = layout.run();
   if (counted != Status::kOk) return counted;
   if (use_.total() > block.size()) return Status::kArenaTooSmall;
+  tables_ = block.first(use_.tables);
   kept_ = Arena(block.first(use_.kept));
   scratch_ = Arena(block.subspan(use_.kept));
   return layout.run();
@@ -126,6 +127,7 @@ Status PassMemory::Layout::layOutKept() {
     status = RayGrid::create(cameraAtLevel(problem.camera, level), kept,
                              to.rays[static_cast<std::size_t>(level)]);
   }
+  if (kept.countsOnly()) to.use_.tables = kept.mark();
   layOutRenders();
   to.searches = kept.allocate<WhsSearch>(static_cast<std::size_t>(workers));
   to.tasks.create(static_cast<std::size_t>(std::max({options.templates.count,

@@ -30,6 +30,7 @@ namespace boresight {
 /// place.
 struct MemoryUse {
   std::size_t kept = 0;          ///< bytes that live throughout
+  std::size_t tables = 0;        ///< of these, tables of the inputs
   std::size_t construction = 0;  ///< additional bytes during construction
   /// Additional bytes of each stage.
   std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
@@ -70,6 +71,8 @@ class PassMemory {
 
   /// Bytes, by what they are for.
   const MemoryUse& use() const { return use_; }
+  /// The front of the block: adjacency and ray grids, which do not change after construction.
+  std::span<const std::byte> tables() const { return tables_; }
   /// Largest number of bytes in use at a time.
   std::size_t highWaterBytes() const { return kept_.highWater() + scratch_.highWater(); }
 
@@ -93,6 +96,7 @@ class PassMemory {
   struct Layout;
 
   MeshAdjacency adjacency_;
+  std::span<const std::byte> tables_;
   Arena kept_;
   Arena scratch_;  ///< of construction and of the stages, one after the other
   MemoryUse use_;

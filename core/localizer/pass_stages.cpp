@@ -38,6 +38,7 @@ StepReport Pass::step() {
 StepReport Pass::stepEdges() {
   if (!memory_.detector.step()) return StepReport::of(Stage::kEdges, false);
   digestEdgeMap(workspace_.edges, digest_);
+  seal_.sealEdges(workspace_.edges, levels_);
   return end(Stage::kEdges);
 }
 

@@ -110,6 +110,14 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
     digestVector(problem.end_effector_in_camera_m, writer);
 }
 
+std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
+                                         const LocalizationProblem& problem) {
+  DigestWriter writer;
+  digestOptions(options, writer);
+  digestProblem(problem, writer);
+  return writer.digest();
+}
+
 void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer) {
   writer.tag("edges");
   writer.f64(edges.low_threshold);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 
 #include "core/base/digest.h"
@@ -14,6 +16,9 @@ namespace boresight {
 /// addresses, thread or memory figures.
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer);
 void digestProblem(const LocalizationProblem& problem, DigestWriter& writer);
+/// The digest of both.
+std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
+                                         const LocalizationProblem& problem);
 void digestPose(const Pose& pose, DigestWriter& writer);
 void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer);
 void digestRender(const EdgeRender& render, DigestWriter& writer);

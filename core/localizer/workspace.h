@@ -61,7 +61,7 @@ enum class LocalizationStatus : std::uint8_t {
   kPnpFailed,
   kNotSupported,
   kIterationLimit,
-  kFault,      ///< a capacity or the arena did not suffice; see `Workspace::fault`
+  kFault,      ///< a capacity did not suffice or memory changed: `Workspace::fault`
   kAmbiguous,  ///< another pose explains the image nearly as well: `Workspace::competing_poses`
   kBlurred,    ///< the image's edges are too wide for a pose: `Workspace::edge_width`
   kCameraMismatch,  ///< the image's edges fit another focal length better: `Workspace::focal`

@@ -342,6 +342,12 @@ StepReport ViewsLocalizer::follow(CandidateTrials::Next next, LocalizationStatus
 }
 
 StepReport ViewsLocalizer::finish(LocalizationStatus status, StepReport report) {
+  const bool held = std::all_of(views_.begin(), views_.end(),
+                                [](const Linked& view) { return view.pass.memoryHolds(); });
+  if (status == LocalizationStatus::kConverged && !held) {
+    status = LocalizationStatus::kFault;
+    first().workspace().fault = Status::kMemoryChanged;
+  }
   first().finish(status, attempt_.camera_from_station(), attempt_.covariance());
   finished_ = true;
   report.finished = true;

@@ -225,6 +225,7 @@ Session withCalibration(const Session& session, const std::string& case_id,
     if (!(session_case->camera == former)) continue;
     SessionCase changed = *session_case;
     changed.camera = calibration.camera;
+    changed.camera_covariance.reset();  // that of the former camera
     if (const auto sigma = calibration.sigma()) changed.calibration_sigma = sigma;
     next = withCase(next, std::move(changed));
   }

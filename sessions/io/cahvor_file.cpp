@@ -22,10 +22,6 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 1 << 20;
 
-int sizeOf(CameraModel model) {
-  return model == CameraModel::kCahv ? 12 : model == CameraModel::kCahvor ? 18 : 21;
-}
-
 /// The text after each key; a line without a key continues the one before.
 class Entries {
  public:
@@ -180,7 +176,7 @@ CahvorFile readCahvorFile(const std::filesystem::path& file) {
   read.height = static_cast<int>(size[1]);
   forVectors(
       cahv, [&entries](const char* key, Eigen::Vector3d& vector) { vector = entries.vector(key); });
-  read.covariance = entries.square("S", sizeOf(cahv.model));
+  read.covariance = entries.square("S", vectorComponents(cahv.model));
   read.internal_covariance = entries.square("S internal", 5);
   return read;
 }
@@ -203,6 +199,9 @@ CameraFile readCahvorCamera(const std::filesystem::path& file) {
   std::optional<CameraFile> camera = cameraOfVectors(read.cahv, read.width, read.height);
   if (!camera) throw InputError(file, kVectorsCannotProject);
   camera->calibration_sigma = calibrationSigmaOf(read, camera->camera);
+  if (!read.covariance.isZero(0.0))
+    camera->covariance =
+        inFrame({read.covariance}, camera->reference->camera_from_reference);
   return *camera;
 }
 

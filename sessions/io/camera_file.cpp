@@ -38,14 +38,20 @@ CahvModel readVectors(CameraModel model, const JsonReader& json) {
 }
 
 /// Vectors are those of the whole image: what of it the image at hand is.
-void cutSubframe(const JsonReader& json, Camera& camera) {
+void cutSubframe(const JsonReader& json, CameraFile& file) {
+  Camera& camera = file.camera;
   const double scale = json.find("scale") ? json.at("scale").number(1e-3, 1e3) : 1.0;
-  const auto shifted = [&](const char* key, double centre_px) {
-    const double first = json.find(key) ? json.at(key).number(-1e6, 1e6) : 0.0;
-    return (centre_px - first + 0.5) / scale - 0.5;
+  const auto firstOf = [&](const char* key) {
+    return json.find(key) ? json.at(key).number(-1e6, 1e6) : 0.0;
   };
-  camera.cx = shifted("first_sample", camera.cx);
-  camera.cy = shifted("first_line", camera.cy);
+  const double first_x = firstOf("first_sample");
+  const double first_y = firstOf("first_line");
+  camera.cx = (camera.cx - first_x + 0.5) / scale - 0.5;
+  camera.cy = (camera.cy - first_y + 0.5) / scale - 0.5;
+  const double to_centre_px = 0.5 - 0.5 * scale;
+  if (file.covariance)
+    file.covariance =
+        ofSubframe(*file.covariance, to_centre_px - first_x, to_centre_px - first_y, scale);
   camera.fx /= scale;
   camera.fy /= scale;
   camera.cahv.skew_px /= scale;
@@ -121,9 +127,13 @@ CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
   const auto width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
   const auto height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
   std::optional<CameraFile> file = cameraOfVectors(cahv, width, height);
+  const auto covariance = json.find("covariance");
+  if (file && covariance)
+    file->covariance =
+        inFrame(readCameraCovariance(*covariance, model), file->reference->camera_from_reference);
   const auto subframe = json.find("subframe");
   if (file && subframe) {
-    cutSubframe(*subframe, file->camera);
+    cutSubframe(*subframe, *file);
     if (prepareCamera(file->camera) != Status::kOk) file.reset();
   }
   if (!file) json.fail(kVectorsCannotProject);
@@ -149,6 +159,10 @@ nlohmann::ordered_json cahvJson(const CameraFile& file) {
   }
   const FrameName frame = file.reference ? file.reference->frame : FrameName{kOwnFrame, {}};
   if (!frame.name.empty()) json["reference_frame"] = toJson(frame);
+  if (file.covariance)
+    json["covariance"] =
+        toJson(inFrame(*file.covariance,
+                       file.reference ? file.reference->camera_from_reference.inverse() : Pose()));
   return json;
 }
 

@@ -13,6 +13,7 @@
 #include "core/geometry/cahv_model.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
+#include "sessions/io/camera_covariance.h"
 #include "sessions/io/json_reader.h"
 
 namespace boresight::sessions {
@@ -86,6 +87,9 @@ struct CameraFile {
   Camera camera;
   std::optional<CameraReference> reference = std::nullopt;
   std::optional<CalibrationSigma> calibration_sigma = std::nullopt;  ///< where the file states it
+  /// Of the vectors in the camera's own frame, where the file states it; it then counts in place of
+  /// calibration_sigma.
+  std::optional<CameraCovariance> covariance = std::nullopt;
 };
 
 /// The camera of vectors that are given in a frame without a name; nothing where it cannot project:

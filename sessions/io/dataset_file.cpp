@@ -184,6 +184,7 @@ void addCamera(const std::string& id, const CameraFile& camera, Dataset& dataset
   dataset.cameras.emplace(id, camera.camera);
   if (camera.reference) dataset.camera_references.emplace(id, *camera.reference);
   if (camera.calibration_sigma) dataset.calibration_sigmas.emplace(id, *camera.calibration_sigma);
+  if (camera.covariance) dataset.camera_covariances.emplace(id, *camera.covariance);
 }
 
 /// One of the data set's cameras, or that of the image's own label.

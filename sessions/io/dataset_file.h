@@ -114,6 +114,7 @@ struct Dataset {
   std::map<std::string, Camera> cameras;
   std::map<std::string, CameraReference> camera_references;    ///< of those that have one
   std::map<std::string, CalibrationSigma> calibration_sigmas;  ///< of those that state one
+  std::map<std::string, CameraCovariance> camera_covariances;  ///< of those that state one
   std::vector<FrameTransform> transforms;  ///< between frames of camera models and of poses
   std::vector<Case> cases;
   std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations

@@ -27,6 +27,33 @@ ByCamera pointByCamera(const Camera& camera, const Eigen::Vector3d& point_in_cam
   return by;
 }
 
+/// How a place's distance along its normal follows each component of the vectors; false where the
+/// place does not project.
+bool distanceByVectors(const std::vector<VectorStep>& steps, const EdgePlace& place,
+                       const Eigen::Vector3d& point_in_camera_m, Eigen::VectorXd& by) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto& [before, after, width] = steps[i];
+    Eigen::Vector2d from, to;
+    if (!project(before.camera, before.displaced_from_camera * point_in_camera_m, from) ||
+        !project(after.camera, after.displaced_from_camera * point_in_camera_m, to))
+      return false;
+    by[static_cast<Eigen::Index>(i)] = place.normal.dot(to - from) / width;
+  }
+  return true;
+}
+
+/// The calibration's part of a pose's covariance where focal length and principal point err alone.
+Matrix6d bySigmas(std::span<const EdgePlace> places, const Camera& camera,
+                  const Pose& camera_from_station, const CalibrationSigma& sigma,
+                  const Eigen::Vector3d& middle_in_camera_m) {
+  const Eigen::Vector3d sigmas_px(sigma.focal_relative * camera.fx, sigma.principal_point_px,
+                                  sigma.principal_point_px);
+  const ByCamera scaled = poseByCamera(places, camera, camera_from_station)
+                              .value_or(pointByCamera(camera, middle_in_camera_m)) *
+                          sigmas_px.asDiagonal();
+  return scaled * scaled.transpose();
+}
+
 }  // namespace
 
 std::optional<ByCamera> poseByCamera(std::span<const EdgePlace> places, const Camera& camera,
@@ -45,6 +72,30 @@ std::optional<ByCamera> poseByCamera(std::span<const EdgePlace> places, const Ca
   return inverse * right;
 }
 
+std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
+                                             const Camera& camera,
+                                             const Pose& camera_from_station) {
+  const std::vector<VectorStep> steps = vectorSteps(camera);
+  if (steps.empty()) return {};
+  const auto size = static_cast<Eigen::Index>(steps.size());
+  Matrix6d information = Matrix6d::Zero();
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(6, size);
+  Eigen::VectorXd by_vectors(size);
+  for (const EdgePlace& place : places) {
+    PlaceDerivative by;
+    if (!placeDerivative(camera, camera_from_station, place.point_in_station_m, by) ||
+        !distanceByVectors(steps, place, camera_from_station * place.point_in_station_m,
+                           by_vectors))
+      continue;
+    const Vector6d row = by.by_pose.transpose() * place.normal;
+    information += row * row.transpose();
+    right -= row * by_vectors.transpose();
+  }
+  Matrix6d inverse;
+  if (!invert(information, inverse)) return {};
+  return inverse * right;
+}
+
 PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,
                               const Pose& camera_from_station, const Matrix6d& picture) {
   const Camera& camera = session_case.camera;
@@ -56,13 +107,15 @@ PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& m
   by_scale.tail<3>() = sigmas.mesh_scale * middle_in_camera_m;
   covariance.mesh_scale = by_scale * by_scale.transpose();
   const PredictedEdges edges = predictEdges(camera, mesh, camera_from_station);
-  const auto by_camera = poseByCamera(thinned(edges.places, kPlaces), camera, camera_from_station);
-  const double centre_px = sigmas.calibration.principal_point_px;
-  const Eigen::Vector3d sigmas_px(sigmas.calibration.focal_relative * camera.fx, centre_px,
-                                  centre_px);
-  const ByCamera scaled =
-      by_camera.value_or(pointByCamera(camera, middle_in_camera_m)) * sigmas_px.asDiagonal();
-  covariance.calibration = scaled * scaled.transpose();
+  const std::vector<EdgePlace> places = thinned(edges.places, kPlaces);
+  std::optional<Eigen::MatrixXd> by_vectors;
+  if (session_case.camera_covariance)
+    by_vectors = poseByVectors(places, camera, camera_from_station);
+  covariance.calibration =
+      by_vectors
+          ? Matrix6d(*by_vectors * session_case.camera_covariance->of_vectors *
+                     by_vectors->transpose())
+          : bySigmas(places, camera, camera_from_station, sigmas.calibration, middle_in_camera_m);
   return covariance;
 }
 

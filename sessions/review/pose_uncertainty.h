@@ -24,11 +24,20 @@ std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlac
                                                         const Camera& camera,
                                                         const Pose& camera_from_station);
 
+/// How it follows an error of the vectors of a CAHV camera: d xi / d (C, A, H, V ...), 6 x 12, 18
+/// or
+/// 21. The camera's frame stays where it is in the frame of the vectors, so that an error of C or A
+/// moves the pose as well. Nothing also outside the CAHV family.
+std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
+                                             const Camera& camera, const Pose& camera_from_station);
+
 /// The covariance of a case's pose with all of its causes: the one function behind checks,
 /// decisions and exports. `picture` is what the run or the annotations say.
 /// - A mesh that is larger by s about the middle of its box looks the same from 1 + s times the
 ///   distance: xi is s times that point in the camera frame, as a translation.
-/// - Errors of focal length and principal point are independent; the pose follows them as
+/// - With a covariance S of the camera's vectors the calibration's term is J S J', with J of
+///   `poseByVectors`.
+/// - Otherwise errors of focal length and principal point are independent; the pose follows them as
 ///   `poseByCamera` says at the edges that it shows, or where these do not determine it as a shift
 ///   of the same point that undoes the error.
 PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,

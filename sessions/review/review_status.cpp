@@ -64,6 +64,8 @@ ordered_json inputSigmasJson(const SessionCase& session_case) {
   ordered_json json = ordered_json::object();
   if (session_case.mesh_scale_sigma) json["mesh_scale"] = *session_case.mesh_scale_sigma;
   if (session_case.calibration_sigma) json["calibration"] = toJson(*session_case.calibration_sigma);
+  if (session_case.camera_covariance)
+    json["camera_covariance"] = toJson(*session_case.camera_covariance);
   return json;
 }
 

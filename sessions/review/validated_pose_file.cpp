@@ -66,7 +66,9 @@ ordered_json inputSigmasJson(const InputSigmas& sigmas) {
   return {{"mesh_scale_sigma", sigmas.mesh_scale},
           {"mesh_scale_is", sigmas.mesh_scale_stated ? "stated" : "assumed"},
           {"calibration_sigma", toJson(sigmas.calibration)},
-          {"calibration_is", sigmas.calibration_stated ? "stated" : "assumed"}};
+          {"calibration_is", sigmas.calibration_derived  ? "of the camera's covariance"
+                             : sigmas.calibration_stated ? "stated"
+                                                         : "assumed"}};
 }
 
 ordered_json poseJson(const HandedPose& pose, const SessionCase& session_case) {
@@ -95,8 +97,8 @@ ordered_json endEffectorJson(const HandedPose& pose, const SessionCase& session_
   json["correction_rotation_deg"] =
       toJson(Eigen::Vector3d(rotationLog(correction.rotation) / kDegree_rad));
   if (pose.covariance.known()) {
-    json["correction_to_command"] = toJson(
-        correctionsOf(session_case, pose.camera_from_station, pose.covariance.total()));
+    json["correction_to_command"] =
+        toJson(correctionsOf(session_case, pose.camera_from_station, pose.covariance.total()));
     json["covariance"] = toJson(end_effector_pose.covariance);
     json["covariance_is_of"] =
         "(rotation rad, translation m), right perturbation in the end effector's frame";
@@ -138,14 +140,15 @@ ordered_json chainJson(const HandedPose& pose, const SessionCase& session_case,
                            "the case's seed, as given"));
   for (const MeshInput& part : session_case.parts)
     if (part.source.state.used())
-      chain.push_back(linkJson(
-          part.source.frame == kStationFrame ? "station_from_mesh" : "frame_from_mesh",
-          part.source.frame_from_mesh,
-          part.source.mesh.filename().string() + ", sha256 " + part.sha256 +
-              (part.source.mesh_unit.empty() ? ", in its own unit" : ", in " + part.source.mesh_unit) +
-              (part.source.frame == kStationFrame
-                   ? ""
-                   : ", in " + frameText(part.source.frame) + ", occludes only")));
+      chain.push_back(
+          linkJson(part.source.frame == kStationFrame ? "station_from_mesh" : "frame_from_mesh",
+                   part.source.frame_from_mesh,
+                   part.source.mesh.filename().string() + ", sha256 " + part.sha256 +
+                       (part.source.mesh_unit.empty() ? ", in its own unit"
+                                                      : ", in " + part.source.mesh_unit) +
+                       (part.source.frame == kStationFrame
+                            ? ""
+                            : ", in " + frameText(part.source.frame) + ", occludes only")));
   if (session_case.rig)
     chain.push_back(linkJson("camera_from_rig", session_case.rig->camera_from_rig,
                              "rig '" + session_case.rig->id + "'"));

@@ -103,6 +103,8 @@ std::string faultText(const LocalizationTrace& trace) {
         "; more than %d faces of the mesh overlap in an image row: use a coarser mesh, or its "
         "outer surfaces only",
         static_cast<int>(BandPainter::kMostLayers));
+  if (trace.fault == Status::kMemoryChanged)
+    text += "; a bit of the inputs or of tables derived from them flipped in memory: run again";
   if (trace.fault == Status::kArenaTooSmall) {
     text += format(
         "; image, mask and mesh take %zu bytes and the options need %zu more, of %zu: lower "

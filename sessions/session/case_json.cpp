@@ -209,7 +209,7 @@ void fields(Archive& archive, Self& self) {
   archive.field("id", self.id, kNonEmptyText);
   archive.optional("station", self.station, kNonEmptyText);
   archive.object("image", self.image);
-  CameraFile camera{self.camera, std::nullopt, self.calibration_sigma};
+  CameraFile camera{self.camera, std::nullopt, self.calibration_sigma, self.camera_covariance};
   archive.field("camera", camera, kCamera);
   archive.list("parts", self.parts);
   archive.optional("feature_size_m", self.feature_size_m, numberIn(1e-6, 100.0));
@@ -236,6 +236,7 @@ void fields(Archive& archive, Self& self) {
   if constexpr (Archive::kReads) {
     self.camera = camera.camera;
     self.calibration_sigma = camera.calibration_sigma;
+    self.camera_covariance = camera.covariance;
     self.has_seed = seed.has_value();
     self.camera_from_station_seed = seed.value_or(Pose());
     requireScene(archive.json(), self);

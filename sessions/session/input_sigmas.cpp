@@ -23,13 +23,19 @@ CalibrationSigma assumedCalibration(const Camera& camera) {
 
 const char* sourceText(bool stated) { return stated ? "" : ", assumed"; }
 
+CalibrationSigma calibrationOf(const SessionCase& one) {
+  if (one.camera_covariance) return calibrationSigmaOf(one.camera, *one.camera_covariance);
+  return one.calibration_sigma.value_or(assumedCalibration(one.camera));
+}
+
 }  // namespace
 
 InputSigmas::InputSigmas(const SessionCase& one)
     : mesh_scale(one.mesh_scale_sigma.value_or(kAssumedMeshScaleSigma)),
-      calibration(one.calibration_sigma ? *one.calibration_sigma : assumedCalibration(one.camera)),
+      calibration(calibrationOf(one)),
       mesh_scale_stated(one.mesh_scale_sigma.has_value()),
-      calibration_stated(one.calibration_sigma.has_value()) {}
+      calibration_stated(one.calibration_sigma || one.camera_covariance),
+      calibration_derived(one.camera_covariance.has_value()) {}
 
 std::string meshScaleText(const InputSigmas& sigmas) {
   return shortNumber(100.0 * sigmas.mesh_scale) + " %" + sourceText(sigmas.mesh_scale_stated);
@@ -38,7 +44,8 @@ std::string meshScaleText(const InputSigmas& sigmas) {
 std::string calibrationText(const InputSigmas& sigmas) {
   return shortNumber(100.0 * sigmas.calibration.focal_relative) + " % and " +
          shortNumber(sigmas.calibration.principal_point_px) + " px" +
-         sourceText(sigmas.calibration_stated);
+         (sigmas.calibration_derived ? ", by the camera's covariance"
+                                     : sourceText(sigmas.calibration_stated));
 }
 
 Session withInputSigmas(const Session& session, const std::string& case_id,

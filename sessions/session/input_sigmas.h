@@ -10,18 +10,19 @@
 
 namespace boresight::sessions {
 
-/// One sigma of each as it counts: stated, or else assumed.
+/// One sigma of each as it counts: of the camera's covariance, stated, or else assumed.
 struct InputSigmas {
   double mesh_scale = kAssumedMeshScaleSigma;  ///< relative
   CalibrationSigma calibration;
   bool mesh_scale_stated = false;
-  bool calibration_stated = false;
+  bool calibration_stated = false;   ///< also by the camera's covariance
+  bool calibration_derived = false;  ///< from the camera's covariance, which counts in its place
 
   explicit InputSigmas(const SessionCase& session_case);
 };
 /// "0.02 %, assumed".
 std::string meshScaleText(const InputSigmas& sigmas);
-/// "0.02 % and 0.5 px, assumed".
+/// "0.02 % and 0.5 px, assumed", "..., by the camera's covariance".
 std::string calibrationText(const InputSigmas& sigmas);
 
 /// The same session with these sigmas stated (nothing: assumed): the mesh's for all cases of the

@@ -72,6 +72,9 @@ struct SessionCase {
   std::optional<double> mesh_scale_sigma;
   /// Nothing: that of a CalibrationSigma by default. No input of a run.
   std::optional<CalibrationSigma> calibration_sigma;
+  /// Of the camera's vectors, in its own frame: counts in place of calibration_sigma. No input of a
+  /// run.
+  std::optional<CameraCovariance> camera_covariance;
   /// False: the case can be annotated, but not run, and its seed is the identity.
   bool has_seed = true;
   Pose camera_from_station_seed;

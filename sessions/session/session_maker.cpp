@@ -132,6 +132,9 @@ SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const Image
   if (const auto known = dataset.calibration_sigmas.find(dataset_case.camera);
       known != dataset.calibration_sigmas.end())
     session_case.calibration_sigma = known->second;
+  if (const auto known = dataset.camera_covariances.find(dataset_case.camera);
+      known != dataset.camera_covariances.end())
+    session_case.camera_covariance = known->second;
   session_case.parts = parts;
   for (std::size_t i = 0; i < dataset_case.part_states.size(); ++i)
     session_case.parts[i].source.state = dataset_case.part_states[i];
@@ -176,6 +179,7 @@ MadeCase makeCase(const CaseFiles& files) {
   session_case.camera = camera.camera;
   session_case.camera_reference = camera.reference;
   session_case.calibration_sigma = camera.calibration_sigma;
+  session_case.camera_covariance = camera.covariance;
   session_case.parts = meshInputs(files.parts);
   session_case.feature_size_m = files.feature_size_m;
   session_case.mesh_scale_sigma = files.mesh_scale_sigma;

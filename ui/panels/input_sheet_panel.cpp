@@ -35,6 +35,14 @@ InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* 
   };
   ui_.meshStated->setChecked(sigmas.mesh_scale_stated);
   ui_.cameraStated->setChecked(sigmas.calibration_stated);
+  by_covariance_ = sigmas.calibration_derived;
+  former_calibration_ = one.calibration_sigma;
+  for (QWidget* field : {static_cast<QWidget*>(ui_.cameraStated), static_cast<QWidget*>(ui_.focal),
+                         static_cast<QWidget*>(ui_.principalPoint)}) {
+    if (!by_covariance_) break;
+    field->setEnabled(false);
+    field->setToolTip(tr("The camera's covariance counts in place of these"));
+  }
   show(ui_.meshScale, kPercent * sigmas.mesh_scale, kPercent * sessions::kMaxScaleSigma);
   show(ui_.focal, kPercent * sigmas.calibration.focal_relative,
        kPercent * sessions::kMaxFocalSigma);
@@ -50,6 +58,7 @@ std::optional<double> InputSigmasDialog::meshScaleSigma() const {
 }
 
 std::optional<sessions::CalibrationSigma> InputSigmasDialog::calibrationSigma() const {
+  if (by_covariance_) return former_calibration_;
   if (!ui_.cameraStated->isChecked()) return std::nullopt;
   return sessions::CalibrationSigma{ui_.focal->value() / kPercent, ui_.principalPoint->value()};
 }

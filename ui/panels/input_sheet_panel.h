@@ -28,6 +28,8 @@ class InputSigmasDialog : public QDialog {
 
  private:
   Ui::InputSigmasDialog ui_;
+  bool by_covariance_ = false;  ///< the camera's covariance counts
+  std::optional<sessions::CalibrationSigma> former_calibration_;
 };
 
 /// Asks where a pose is judged and what errors it may have.

@@ -157,6 +157,23 @@ TEST(ViewsLocalizer, TwoCamerasConvergeOnTheTruthAndBothTakePart) {
   }
 }
 
+TEST(ViewsLocalizer, PixelThatChangesInAnyView_EndsTheRunAsAFault) {
+  const Case scene = stationCase(1);
+  Picture second;
+  const View view = secondView(scene);
+  second.width = view.image.width;
+  second.height = view.image.height;
+  second.gray.assign(view.image.data, view.image.data + second.width * second.height);
+  View changing = view;
+  changing.image = second.view();
+  ViewsRun run(scene, {viewOf(scene), changing}, withoutSearch());
+  (void)run.localizer->step();
+  second.gray[1000] ^= 1;
+  const ViewsResult& result = run.finish();
+  EXPECT_EQ(result.status, LocalizationStatus::kFault);
+  EXPECT_STREQ(statusText(result.fault), statusText(Status::kMemoryChanged));
+}
+
 TEST(ViewsLocalizer, BlackOrWhiteSecondView_GivesTheBitsOfTheFirstView) {
   for (const int gray : {0, 255}) {
     const Case scene = stationCase(3);

@@ -110,6 +110,10 @@ TEST(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
       {"the truth has", [&](Session&, auto& item) { item.camera_from_station_truth = Pose(); }},
       {"the stated sigmas of mesh and camera have",
        [](Session&, auto& item) { item.mesh_scale_sigma = 1e-3; }},
+      {"the stated sigmas of mesh and camera",
+       [](Session&, auto& item) {
+         item.camera_covariance = CameraCovariance{Eigen::MatrixXd::Identity(12, 12)};
+       }},
       {"the requirement has",
        [](Session&, auto& item) {
          item.requirement = {1.0, {}, {}, {}};

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
+#include "core/geometry/cahv_model.h"
+#include "sessions/io/camera_file.h"
+
 #include "tests/sessions/review/drawn_box.h"
 #include "tests/support/random_pose.h"
 
@@ -60,6 +63,107 @@ TEST(PoseUncertainty, ThePoseFollowsTheCameraAsAFitWithTheWrongCameraDoes) {
     const Vector6d expected = change_px * follow->col(parameter);
     EXPECT_LT((found - expected).norm(), 0.01 * expected.norm()) << parameter;
   }
+}
+
+/// The box's camera with a CAHVOR lens, and places that are exactly where it sees them.
+struct VectorScene {
+  DrawnBox box;
+  Camera camera;
+  PredictedEdges edges;
+
+  VectorScene() {
+    CahvModel vectors = cahvFromCamera(box.camera_, Pose());
+    vectors.model = CameraModel::kCahvor;
+    vectors.o = Eigen::Vector3d(0.01, -0.02, 1.0).normalized();
+    vectors.r = {1e-4, -0.05, 0.02};
+    Pose own;
+    EXPECT_EQ(cameraFromCahv(vectors, 800, 600, camera, own), Status::kOk);
+    edges = predictEdges(camera, box.scene_.view(), box.camera_from_station_);
+    edges.places = thinned(edges.places, 150);
+    for (EdgePlace& place : edges.places)
+      EXPECT_TRUE(
+          project(camera, box.camera_from_station_ * place.point_in_station_m, place.pixel));
+  }
+};
+
+/// Root of a covariance of all vectors with correlations between all of them.
+Eigen::MatrixXd vectorRoot(Random& random) {
+  Eigen::MatrixXd root(18, 18);
+  for (int i = 0; i < 18; ++i) {
+    const double sigma = i < 3 ? 2e-4 : i < 6 ? 1e-4 : i < 12 ? 0.2 : i < 15 ? 1e-4 : 1e-3;
+    for (int j = 0; j < 18; ++j) root(i, j) = sigma / std::sqrt(18.0) * random.normal();
+  }
+  return root;
+}
+
+/// The pose that is fitted to the same places with other vectors, in the frame of the right ones.
+Pose fittedWith(const VectorScene& scene, const Eigen::VectorXd& change) {
+  CahvModel vectors = cahvFromCamera(scene.camera, Pose());
+  Eigen::Index first = 0;
+  forVectors(vectors, [&](const char*, Eigen::Vector3d& vector) {
+    vector += change.segment<3>(first);
+    first += 3;
+  });
+  Camera wrong;
+  Pose wrong_from_camera;
+  EXPECT_EQ(cameraFromCahv(vectors, 800, 600, wrong, wrong_from_camera), Status::kOk);
+  return wrong_from_camera.inverse() *
+         fitted(scene.edges, wrong, wrong_from_camera * scene.box.camera_from_station_);
+}
+
+/// Range of the eigenvalues of `covariance` in units of `expected`: 1 and 1 where they are equal.
+Eigen::Vector2d ratios(const Matrix6d& covariance, const Matrix6d& expected) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> solver(covariance, expected,
+                                                                  Eigen::EigenvaluesOnly);
+  return {solver.eigenvalues().minCoeff(), solver.eigenvalues().maxCoeff()};
+}
+
+TEST(PoseUncertainty, TheCamerasCovariance_GivesThatOfPosesFittedWithDrawnCameras) {
+  const VectorScene scene;
+  Random random = randomFor("PoseUncertainty.Vectors");
+  const Eigen::MatrixXd root = vectorRoot(random);
+  const Eigen::MatrixXd vectors = root * root.transpose();
+  const auto by = poseByVectors(scene.edges.places, scene.camera, scene.box.camera_from_station_);
+  ASSERT_TRUE(by);
+  const Matrix6d expected = *by * vectors * by->transpose();
+  constexpr int kDraws = 400;
+  Matrix6d sampled = Matrix6d::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Eigen::VectorXd normal(18);
+    for (double& value : normal) value = random.normal();
+    const Vector6d moved =
+        perturbationBetween(scene.box.camera_from_station_, fittedWith(scene, root * normal));
+    sampled += moved * moved.transpose() / kDraws;
+  }
+  // Of 400 draws the eigenvalues lie between 0.77 and 1.26 (Marchenko-Pastur).
+  const Eigen::Vector2d found = ratios(sampled, expected);
+  EXPECT_GT(found[0], 0.7);
+  EXPECT_LT(found[1], 1.35);
+  const Eigen::MatrixXd diagonal = vectors.diagonal().asDiagonal();
+  const Eigen::Vector2d without = ratios(sampled, Matrix6d(*by * diagonal * by->transpose()));
+  EXPECT_TRUE(without[0] < 0.7 || without[1] > 1.35) << "the correlations count";
+}
+
+TEST(PoseUncertainty, TheCamerasCovariance_CountsInPlaceOfTheStatedSigmas) {
+  const VectorScene scene;
+  Random random = randomFor("PoseUncertainty.Vectors");
+  const Eigen::MatrixXd root = vectorRoot(random);
+  SessionCase session_case;
+  session_case.camera = scene.camera;
+  session_case.mesh_scale_sigma = 0.0;
+  session_case.camera_covariance = CameraCovariance{root * root.transpose()};
+  const auto termOf = [&](const SessionCase& known) {
+    return poseCovariance(known, scene.box.scene_.view(), scene.box.camera_from_station_,
+                          1e-12 * Matrix6d::Identity())
+        .calibration;
+  };
+  const Matrix6d term = termOf(session_case);
+  session_case.calibration_sigma = CalibrationSigma{0.1, 100.0};
+  EXPECT_EQ(termOf(session_case), term);
+  session_case.camera_covariance->of_vectors *= 4.0;
+  EXPECT_LT((termOf(session_case) - 4.0 * term).norm(), 1e-9 * term.norm());
+  session_case.camera_covariance.reset();
+  EXPECT_GT((termOf(session_case) - term).norm(), term.norm());
 }
 
 /// A case whose only error is the mesh's scale.
@@ -228,11 +332,15 @@ TEST(Correction, MoveReachesWhatWasPlannedFromTheSeed) {
     EXPECT_LT(perturbationBetween(planned, base_from_station.inverse() * moved).norm(), 1e-9);
     const double trace = corrections.front().covariance.trace();
     EXPECT_NEAR(in_base.covariance.trace(), trace, 1e-9 * trace);
-    EXPECT_GT(trace, correctionsOf([&] {
-                       SessionCase exact = session_case;
-                       exact.frames[0].covariance.reset();
-                       return exact;
-                     }(), estimate, covariance).front().covariance.trace());
+    EXPECT_GT(trace, correctionsOf(
+                         [&] {
+                           SessionCase exact = session_case;
+                           exact.frames[0].covariance.reset();
+                           return exact;
+                         }(),
+                         estimate, covariance)
+                         .front()
+                         .covariance.trace());
   }
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/geometry/cahv_model.h"
+#include "sessions/io/cahvor_file.h"
 #include "sessions/io/pose_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
@@ -12,6 +14,7 @@
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight::test {
 namespace {
@@ -102,6 +105,44 @@ TEST(SessionMaker, SigmasAndTruth_OfTheDataset_AreKept) {
   EXPECT_EQ(result.truth_covariance, covariance);
 }
 
+/// The example's camera as vectors in a frame of the rover, with a covariance.
+sessions::CahvorFile vectorsWithCovariance(const Camera& camera) {
+  Camera linear = camera;
+  linear.model = CameraModel::kCahv;
+  linear.distortion = {};
+  EXPECT_EQ(prepareCamera(linear), Status::kOk);
+  Random random(7);
+  const Eigen::VectorXd sigma = Eigen::VectorXd::LinSpaced(12, 1e-4, 1e-3);
+  sessions::CahvorFile file{cahvFromCamera(linear, randomPose(random)), 1024, 1024, {}, {}};
+  file.covariance = sigma * sigma.transpose();
+  file.covariance.diagonal() *= 2.0;
+  return file;
+}
+
+TEST(SessionMaker, CovarianceOfACamerasVectors_IsPartOfTheSessionAndOfItsFile) {
+  const TemporaryFolder folder;
+  sessions::CaseFiles files = filesOf(copyOfExamples(folder) / "os");
+  const sessions::CahvorFile vectors = vectorsWithCovariance(sessions::makeCase(files).made.camera);
+  files.camera = folder / "os.cahv";
+  sessions::writeCahvorFile(files.camera, vectors);
+  const sessions::SessionCase session_case = sessions::makeCase(files).made;
+  ASSERT_TRUE(session_case.camera_covariance);
+  const sessions::InputSigmas sigmas(session_case);
+  EXPECT_TRUE(sigmas.calibration_derived);
+  EXPECT_THAT(sessions::calibrationText(sigmas), HasSubstr("by the camera's covariance"));
+  Session session;
+  session = withCase(session, session_case);
+  (void)sessions::writeSessionFile(folder / "a.boresight.json", session);
+  const Session again = sessions::readSessionFile(folder / "a.boresight.json").session;
+  EXPECT_TRUE(again.cases[0]->camera_covariance == session_case.camera_covariance);
+  EXPECT_TRUE(again == session);
+  sessions::SessionCase without = session_case;
+  without.camera_covariance.reset();
+  EXPECT_FALSE(without == session_case);
+  EXPECT_EQ(sessions::inputsDigest(without), sessions::inputsDigest(session_case))
+      << "no run depends on it";
+}
+
 TEST(InputSigmas, AreStatedForAllCasesOfTheMeshAndOfTheCamera) {
   Session session = sessions::makeSession(exampleFolder() / "dataset.json");
   sessions::SessionCase other = *session.cases[0];
@@ -149,7 +190,8 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.mesh_unit = "mm"; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.frame_from_mesh.translation_m.x() = 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.normal_threshold_rad *= 2; }));
-  EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.role = sessions::PartRole::kOccludes; }));
+  EXPECT_TRUE(
+      changed([](auto& c) { c.parts[0].source.state.role = sessions::PartRole::kOccludes; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.state.present = false; }));
   EXPECT_FALSE(changed([](auto& c) { c.parts[0].source.name = "station"; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.albedo = 0.42; }));
