@@ -4,7 +4,7 @@
 #        cycles.sh --check
 # Estimates the cycles of localizations stage by stage on a PowerPC 750: the flight driver, built
 # for that processor, runs in QEMU with the plugin of the folder cycles, a model of the processor's
-# units, caches and branch prediction. Low, mid and high are the assumptions in cycles/plugin.cpp;
+# units, caches and branch prediction. Low, mid, high and cached are assumptions in cycles/plugin.cpp;
 # resources/evidence/speed_and_memory.md explains them. BUILD is a build folder with whs; the driver
 # and the plugin are built in BUILD/cycles. A case takes two minutes; PERIOD=0 measures all
 # instructions, not half a million of each 10 million, and takes ten.
@@ -136,15 +136,15 @@ for name in "$@"; do sed "s/^/$name /" "$folder/$name.counts"; done | awk '
   }
   function value(name) { return sum[case_name, stage, name] }
   function printTimes() {
-    printf "%-10s %-14s %12.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f\n", case_name, stage,
+    printf "%-10s %-14s %12.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f\n", case_name, stage,
       value("instructions") / 1e9, value("cycles_low") / 1e9, value("cycles_mid") / 1e9,
-      value("cycles_high") / 1e9, value("cycles_low") / 12e9, value("cycles_mid") / 12e9,
+      value("cycles_high") / 1e9, value("cycles_cached") / 1e9, value("cycles_low") / 12e9, value("cycles_mid") / 12e9,
       value("cycles_high") / 12e9
   }
   function printMix(   i) {
     if (value("instructions") == 0) return
     printf "%-10s %-14s", case_name, stage
-    for (i = 7; i <= NF; ++i)
+    for (i = 8; i <= NF; ++i)
       printf " %*.2f", length(column[i]) < 6 ? 6 : length(column[i]),
         1000 * value(column[i]) / value("instructions")
     printf "\n"
@@ -169,12 +169,12 @@ for name in "$@"; do sed "s/^/$name /" "$folder/$name.counts"; done | awk '
   END {
     if (cases > 1) names[++cases] = "all"
     print "Instructions and cycles in 1e9, minutes at 200 MHz:"
-    printf "%-10s %-14s %12s %8s %8s %8s %8s %8s %8s\n", "case", "stage", "instructions",
-      "low", "mid", "high", "min_low", "min_mid", "min_high"
+    printf "%-10s %-14s %12s %8s %8s %8s %8s %8s %8s %8s\n", "case", "stage", "instructions",
+      "low", "mid", "high", "cached", "min_low", "min_mid", "min_high"
     forAll("times")
     print "\nOf 1000 instructions:"
     printf "%-10s %-14s", "case", "stage"
-    for (i = 7; i <= NF; ++i) printf " %6s", column[i]
+    for (i = 8; i <= NF; ++i) printf " %6s", column[i]
     printf "\n"
     forAll("mix")
   }'

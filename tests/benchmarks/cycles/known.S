@@ -31,6 +31,8 @@ kernel float_divisions, "fdiv 1, 3, 2", "fdiv 4, 3, 2"
 # Latency 2 cycles: the word at `self` is its own address; one load a cycle.
 kernel dependent_loads, "lwz 8, 0(8)", "lwz 8, 0(8)"
 kernel independent_loads, "lwz 3, 0(8)", "lwz 6, 0(8)"
+# The load waits until the store has left its queue.
+kernel stored_loads, "stw 3, 0(8)", "lwz 3, 0(8)"
 # Each load reads another line of memory: 6000 misses.
 kernel missing_loads, "lwzu 3, 32(9)", "lwzu 6, 32(9)"
 
@@ -51,6 +53,7 @@ _start:
   bl dependent_loads
   bl independent_loads
   bl missing_loads
+  bl stored_loads
   li 0, 1
   li 3, 0
   sc

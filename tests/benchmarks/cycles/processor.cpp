@@ -16,7 +16,7 @@ Cycle cycles(int count) { return static_cast<Cycle>(count); }
 }  // namespace
 
 void Processor::missFetch(const Found& found) {
-  fetching_ = std::max(fetching_, read(fetching_, {kNoLine, found}));
+  fetching_ = std::max(fetching_, read(fetching_, {0, kNoLine, found}));
   fetched_in_cycle_ = 0;
 }
 
@@ -98,9 +98,19 @@ int Processor::chooseUnit(const Instruction& instruction) const {
   return units_[kInteger1].free < units_[kInteger2].free ? kInteger1 : kInteger2;
 }
 
+/// A load of what a queued store writes starts after that store.
+Cycle Processor::waitForStore(Cycle start, const DataAccess& access) const {
+  for (std::size_t i = 1; i <= kStores; ++i) {
+    const std::size_t place = (store_count_ - i) % kRing;
+    if (stored_words_[place] == access.double_word) return std::max(start, stored_[place]);
+  }
+  return start;
+}
+
 /// When a load has its data.
 Cycle Processor::load(Cycle start, Cycle finish, std::span<const DataAccess> accesses) {
   for (const DataAccess& access : accesses) {
+    finish += waitForStore(start, access) - start;
     if (!access.found.level1) {
       finish = std::max(finish, read(start + 1, access) + 1);
     } else if (access.line == pending_line_ && finish < pending_until_) {
@@ -113,6 +123,7 @@ Cycle Processor::load(Cycle start, Cycle finish, std::span<const DataAccess> acc
 /// A store leaves its queue in order, and reads a missing line first.
 void Processor::completeStore(const DataAccess& access) {
   const Cycle last = stored_[(store_count_ - 1) % kRing];
+  stored_words_[store_count_ % kRing] = access.double_word;
   Cycle& stored = stored_[store_count_++ % kRing];
   const Cycle begin = std::max(completed_, last) + 1;
   if (!access.found.level1) {

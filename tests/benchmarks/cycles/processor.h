@@ -30,6 +30,7 @@ struct Assumptions {
 
 /// An access of a load or a store, and where it found its line.
 struct DataAccess {
+  std::uint32_t double_word = 0;  ///< address in units of 8 bytes
   std::uint32_t line = 0;
   Found found;
 };
@@ -61,6 +62,7 @@ class Processor {
   Cycle read(Cycle time, const DataAccess& access);
   Cycle readyTime(const Instruction& instruction) const;
   int chooseUnit(const Instruction& instruction) const;
+  Cycle waitForStore(Cycle start, const DataAccess& access) const;
   Cycle load(Cycle start, Cycle finish, std::span<const DataAccess> accesses);
 
   Assumptions assumptions_;
@@ -84,7 +86,8 @@ class Processor {
   Cycle bus_free_ = 0;
   std::uint32_t pending_line_ = 0;
   Cycle pending_until_ = 0;
-  std::array<Cycle, kRing> stored_{};
+  std::array<Cycle, kRing> stored_{};                ///< when the last stores left their queue
+  std::array<std::uint32_t, kRing> stored_words_{};  ///< their double words
   std::uint64_t store_count_ = 0;
 };
 
