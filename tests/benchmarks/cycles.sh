@@ -4,7 +4,7 @@
 #        cycles.sh --check
 # Estimates the cycles of localizations stage by stage on a PowerPC 750: the flight driver, built
 # for that processor, runs in QEMU with the plugin of the folder cycles, a model of the processor's
-# units, caches and branch prediction. Low, mid, high and cached are assumptions in cycles/plugin.cpp;
+# units, caches and branch prediction. Low, mid, high, cached: assumptions in cycles/plugin.cpp;
 # resources/evidence/speed_and_memory.md explains them. BUILD is a build folder with whs; the driver
 # and the plugin are built in BUILD/cycles. A case takes two minutes; PERIOD=0 measures all
 # instructions, not half a million of each 10 million, and takes ten.
@@ -42,7 +42,8 @@ check() {
   trap "rm -rf '$folder'" EXIT
   buildPlugin "$folder"
   $cross-gcc -mcpu=750 -nostdlib -static "$here/known.S" -o "$folder/known"
-  entries="$($cross-nm "$folder/known" | awk '$2 == "t" || $2 == "T" { printf ",entry=%s:%s", $1, $3 }')"
+  entries="$($cross-nm "$folder/known" |
+    awk 'tolower($2) == "t" { printf ",entry=%s:%s", $1, $3 }')"
   qemu-ppc -cpu 750 -plugin "$folder/cycles.so$entries" "$folder/known" 2>"$folder/counts"
   # The low estimate has the fastest memory: least is added by the misses of the first round.
   awk 'NR == FNR { expected[$1] = $2 * 6000; next }
@@ -117,8 +118,8 @@ entries() {
 run() { # CASE
   "$build/app/whs" problem --dataset "$dataset" --case "$1" --out "$folder/$1.bin" \
     --image-out "$folder/$1.pgm" ${OPTIONS:-} >/dev/null
-  qemu-ppc -cpu 750 -plugin "$folder/cycles.so$entries,period=${PERIOD:-10000000}" "$driver" "$folder/$1.bin" \
-    "$folder/$1.pgm" >"$folder/$1.txt" 2>"$folder/$1.counts"
+  qemu-ppc -cpu 750 -plugin "$folder/cycles.so$entries,period=${PERIOD:-10000000}" \
+    "$driver" "$folder/$1.bin" "$folder/$1.pgm" >"$folder/$1.txt" 2>"$folder/$1.counts"
 }
 
 entries="$(entries)"
@@ -138,8 +139,8 @@ for name in "$@"; do sed "s/^/$name /" "$folder/$name.counts"; done | awk '
   function printTimes() {
     printf "%-10s %-14s %12.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f\n", case_name, stage,
       value("instructions") / 1e9, value("cycles_low") / 1e9, value("cycles_mid") / 1e9,
-      value("cycles_high") / 1e9, value("cycles_cached") / 1e9, value("cycles_low") / 12e9, value("cycles_mid") / 12e9,
-      value("cycles_high") / 12e9
+      value("cycles_high") / 1e9, value("cycles_cached") / 1e9, value("cycles_low") / 12e9,
+      value("cycles_mid") / 12e9, value("cycles_high") / 12e9
   }
   function printMix(   i) {
     if (value("instructions") == 0) return
