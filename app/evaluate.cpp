@@ -68,9 +68,10 @@ void EvaluateArguments::addTo(CLI::App& command) {
   method.addTo(command, true);
   addKernels(command, batch.kernels);
   options.addTo(command);
+  batch.jobs = 0;
   command.add_option("--jobs", batch.jobs, "Number of runs in parallel")
       ->check(CLI::Range(1, 256))
-      ->capture_default_str()
+      ->default_str("one per core")
       ->type_name("N");
   addThreads(command, batch.threads);
   command
@@ -289,6 +290,14 @@ void readArguments(EvaluateArguments& arguments) {
   arguments.batch.memory_limit = arguments.options.memoryLimit();
 }
 
+/// Runs side by side use the cores better than the threads of one run; with fewer runs than cores
+/// the threads share the rest.
+int jobsFor(std::size_t runs) {
+  constexpr std::size_t kMost = 256;
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  return static_cast<int>(std::clamp(runs, std::size_t{1}, std::min(cores, kMost)));
+}
+
 int evaluate(EvaluateArguments& arguments) {
   readArguments(arguments);
   const sessions::Dataset dataset = arguments.dataset.open();
@@ -297,6 +306,7 @@ int evaluate(EvaluateArguments& arguments) {
   if (!arguments.bop_csv.empty()) requireOneMethodOfBop(arguments, dataset);
   for (const std::string& line : dataset.notes) note(line);
   const std::vector<sessions::PlannedRun> plan = sessions::planBatch(dataset, arguments.batch);
+  if (arguments.batch.jobs == 0) arguments.batch.jobs = jobsFor(plan.size());
 
   std::stop_source stop;
   {

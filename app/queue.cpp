@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <iostream>
+#include <vector>
 
 #include "app/commands.h"
 #include "sessions/io/atomic_file.h"
@@ -18,9 +20,7 @@ struct QueueArguments {
   bool differences = false;
 };
 
-int listQueue(const sessions::Session& session, const QueueArguments& arguments) {
-  if (!arguments.csv.empty()) sessions::requireWritable(arguments.csv);
-  const auto rows = sessions::queueRows(session, arguments.jobs);
+int listQueue(const std::vector<sessions::QueueRow>& rows, const QueueArguments& arguments) {
   std::cout << sessions::queueText(rows) << std::flush;
   if (!arguments.csv.empty())
     sessions::writeFileAtomically(arguments.csv, sessions::queueCsv(rows));
@@ -52,10 +52,21 @@ int listDifferences(const sessions::Session& session) {
   return exit_code;
 }
 
+bool isResults(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".sqlite";
+}
+
 int queue(const QueueArguments& arguments) {
-  const sessions::SessionDocument document = openToRead(arguments.session);
-  return arguments.differences ? listDifferences(document.session())
-                               : listQueue(document.session(), arguments);
+  const std::string& file = arguments.session;
+  if (isResults(file) && arguments.differences)
+    throw CLI::ValidationError("--differences", "needs a session; to compare results use "
+                                                "`whs tables RESULTS --against RESULTS`");
+  if (!arguments.csv.empty()) sessions::requireWritable(arguments.csv);
+  if (isResults(file)) return listQueue(sessions::resultsQueue(file), arguments);
+  const sessions::SessionDocument document = openToRead(file);
+  return arguments.differences
+             ? listDifferences(document.session())
+             : listQueue(sessions::queueRows(document.session(), arguments.jobs), arguments);
 }
 
 }  // namespace
@@ -66,7 +77,9 @@ void addQueue(CLI::App& app, int& exit_code) {
       "Checks the last runs of a session's cases and lists the worst first: failed runs, failed "
       "checks, smallest margin to a limit, largest distance from the seed. Decided cases come last",
       queue);
-  addFile(*command, "session", arguments->session, "Session file")->required();
+  addFile(*command, "session", arguments->session,
+          "Session file, or results of `whs evaluate` (.sqlite), whose runs are listed as they ended")
+      ->required();
   command->add_option("--jobs", arguments->jobs, "Number of cases that are checked in parallel")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "sessions/evaluation/run_rows.h"
@@ -69,9 +70,10 @@ template <class Row>
 std::vector<Row> readRows(SqlDatabase& database, const RowTable<Row>& table,
                           const std::string& from_and_order) {
   const std::vector<std::string> names = table.names();
+  const RowReader<Row> reader(table, names);
   SqlStatement statement(database, "SELECT " + joined(names) + from_and_order);
   std::vector<Row> rows;
-  while (statement.step()) rows.push_back(table.read(database.file(), names, statement.row()));
+  while (statement.step()) rows.push_back(reader.read(statement, database.file()));
   return rows;
 }
 
@@ -85,25 +87,31 @@ std::vector<BatchRun> readBatchRuns(SqlDatabase& database) {
 }
 
 /// The tags of all runs, by the runs' ids: one query for all of them.
-std::map<std::int64_t, std::vector<std::string>> readTags(SqlDatabase& database) {
+std::unordered_map<std::int64_t, std::vector<std::string>> readTags(SqlDatabase& database) {
   SqlStatement statement(database, "SELECT run, tag FROM tag ORDER BY run, tag");
-  std::map<std::int64_t, std::vector<std::string>> tags;
+  std::unordered_map<std::int64_t, std::vector<std::string>> tags;
   while (statement.step()) tags[integerOf(statement.cell(0))].push_back(textOf(statement.cell(1)));
   return tags;
 }
 
-void readRuns(SqlDatabase& database, const std::function<void(const RunResult&)>& take) {
+void readRuns(SqlDatabase& database, const std::function<void(RunResult&&)>& take) {
   auto tags = readTags(database);
   const std::vector<std::string> names = runTable().names();
+  const RowReader<RunResult> reader(runTable(), names);
   SqlStatement statement(
       database,
       "SELECT " + joined(names) + ", id FROM run ORDER BY dataset_index, case_id, reseed, method");
   while (statement.step()) {
-    const std::vector<SqlValue> row = statement.row();
-    RunResult run = runTable().read(database.file(), names, row);
-    run.tags = std::move(tags[integerOf(row.back())]);
-    take(run);
+    RunResult run = reader.read(statement, database.file());
+    run.tags = std::move(tags[integerOf(statement.cell(static_cast<int>(names.size())))]);
+    take(std::move(run));
   }
+}
+
+std::string stepsSql() {
+  return "SELECT " + joined(stepTable().names(), "iteration.") +
+         " FROM iteration JOIN run ON run.id = iteration.run WHERE case_id = ?1 AND reseed = ?2 "
+         "AND run.method = ?3 ORDER BY step";
 }
 
 /// INSERT INTO table (names) VALUES (?1, ...).
@@ -144,6 +152,13 @@ void requireResultsFile(SqlDatabase& database) {
     database.fail("it is a results file of version " + std::to_string(version) +
                   ", this program reads version " + std::to_string(kResultsVersion));
   requireOwnObjects(database);
+}
+
+/// An opened results file. InputError.
+SqlDatabase openedToRead(const std::filesystem::path& file) {
+  SqlDatabase database(file, SqlAccess::kRead);
+  requireResultsFile(database);
+  return database;
 }
 
 ResultsFacts factsOf(SqlDatabase& database) {
@@ -219,25 +234,21 @@ ResultsFacts readResultsFacts(const std::filesystem::path& file) {
   return factsOf(database);
 }
 
-void forEachRun(const std::filesystem::path& file,
-                const std::function<void(const RunResult&)>& take) {
-  SqlDatabase database(file, SqlAccess::kRead);
-  requireResultsFile(database);
+void forEachRun(const std::filesystem::path& file, const std::function<void(RunResult&&)>& take) {
+  SqlDatabase database = openedToRead(file);
   readRuns(database, take);
 }
 
-std::vector<RunStep> readSteps(const std::filesystem::path& file, const RunResult& run) {
-  SqlDatabase database(file, SqlAccess::kRead);
-  requireResultsFile(database);
-  const std::vector<std::string> names = stepTable().names();
-  SqlStatement statement(database, "SELECT " + joined(names, "iteration.") +
-                                       " FROM iteration JOIN run ON run.id = iteration.run WHERE "
-                                       "case_id = ?1 AND reseed = ?2 AND run.method = ?3 ORDER BY "
-                                       "step");
+StepReader::StepReader(const std::filesystem::path& file)
+    : database_(openedToRead(file)),
+      reader_(stepTable(), stepTable().names()),
+      statement_(database_, stepsSql()) {}
+
+std::vector<RunStep> StepReader::stepsOf(const RunResult& run) {
   const SqlValue key[] = {run.case_id, std::int64_t{run.reseed}, run.method};
-  statement.bind(key);
+  statement_.bind(key);
   std::vector<RunStep> steps;
-  while (statement.step()) steps.push_back(stepTable().read(file, names, statement.row()));
+  while (statement_.step()) steps.push_back(reader_.read(statement_, database_.file()));
   return steps;
 }
 
@@ -245,7 +256,7 @@ Results readResults(const std::filesystem::path& file) {
   SqlDatabase database(file, SqlAccess::kRead);
   Results results;
   results.facts = factsOf(database);
-  readRuns(database, [&results](const RunResult& run) { results.runs.push_back(run); });
+  readRuns(database, [&results](RunResult&& run) { results.runs.push_back(std::move(run)); });
   return results;
 }
 

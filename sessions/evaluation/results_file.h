@@ -12,6 +12,7 @@
 
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/run_result.h"
+#include "sessions/evaluation/run_rows.h"
 #include "sessions/evaluation/sqlite.h"
 #include "sessions/io/file_lock.h"
 
@@ -34,12 +35,24 @@ ResultsFacts readResultsFacts(const std::filesystem::path& file);
 
 /// One run after the other, with tags and without steps, in the order of the dataset, then of
 /// seeds, then of methods: whatever order they were run in. InputError.
-void forEachRun(const std::filesystem::path& file,
-                const std::function<void(const RunResult&)>& take);
+void forEachRun(const std::filesystem::path& file, const std::function<void(RunResult&&)>& take);
 
-/// The iterations of a run that the file lists, in their order, without details of matches. Empty
-/// when the file has no such run. InputError.
-std::vector<RunStep> readSteps(const std::filesystem::path& file, const RunResult& run);
+/// The iterations of a file's runs, one run at a time.
+class StepReader {
+ public:
+  /// InputError.
+  explicit StepReader(const std::filesystem::path& file);
+  StepReader(const StepReader&) = delete;
+  StepReader& operator=(const StepReader&) = delete;
+
+  /// In their order, without details of matches; empty when the file has no such run. InputError.
+  std::vector<RunStep> stepsOf(const RunResult& run);
+
+ private:
+  SqlDatabase database_;
+  RowReader<RunStep> reader_;
+  SqlStatement statement_;
+};
 
 struct Results {
   ResultsFacts facts;

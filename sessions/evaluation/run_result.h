@@ -104,7 +104,7 @@ struct RunResult {
   std::optional<Requirement> requirement;
   StageSeconds seconds;
   std::string digest;
-  std::vector<RunStep> steps;  ///< as it ran; a results file's are read by readSteps
+  std::vector<RunStep> steps;  ///< as it ran; a results file's are read by StepReader
 
   bool inputFailed() const { return status == "input_error"; }
   bool hasTag(const std::string& tag) const;

@@ -52,13 +52,50 @@ Column<Row> known(const char* name, std::optional<double> Row::*field) {
       [field](Row& row, const SqlValue& value, const fs::path&) { row.*field = realOf(value); }};
 }
 
+/// The numbers of "[[...], ...]", 4x4; nothing where the text is anything else.
+std::optional<Eigen::Matrix4d> plainMatrix(const std::string& text) {
+  const auto rows = nlohmann::json::parse(text, nullptr, false);
+  if (!rows.is_array() || rows.size() != 4) return std::nullopt;
+  Eigen::Matrix4d matrix;
+  for (int i = 0; const auto& row : rows) {
+    if (!row.is_array() || row.size() != 4) return std::nullopt;
+    for (int j = 0; const auto& cell : row) {
+      if (!cell.is_number()) return std::nullopt;
+      matrix(i, j++) = cell.template get<double>();
+    }
+    ++i;
+  }
+  return matrix;
+}
+
+/// A pose as this program writes it; nothing for all others, which readTransform judges. A
+/// JsonReader notes the place of each number: with many rows that takes most of the time.
+std::optional<Pose> plainPose(const std::string& text) {
+  constexpr double kNear_m = 1000.0;
+  const auto matrix = plainMatrix(text);
+  if (!matrix || matrix->row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) return std::nullopt;
+  const Eigen::Vector3d translation_m = matrix->topRightCorner<3, 1>();
+  Pose pose;
+  double deviation = 0.0;
+  if (translation_m.cwiseAbs().maxCoeff() > kNear_m ||
+      poseFromMatrix(matrix->topLeftCorner<3, 3>(), translation_m, pose, deviation) != Status::kOk)
+    return std::nullopt;
+  return pose;
+}
+
+/// InputError with the place and the reason.
+Pose readPoseText(const std::string& text, const fs::path& file) {
+  if (const auto pose = plainPose(text)) return *pose;
+  const JsonDocument document(file, text);
+  return readTransform(document.root());
+}
+
 template <class Row>
 Column<Row> pose(const char* name, Pose Row::*field) {
   return {name, "TEXT NOT NULL",
           [field](const Row& row) { return SqlValue(toJson(row.*field).dump()); },
           [field](Row& row, const SqlValue& value, const fs::path& file) {
-            const JsonDocument document(file, textOf(value));
-            row.*field = readTransform(document.root());
+            row.*field = readPoseText(textOf(value), file);
           }};
 }
 

@@ -47,16 +47,32 @@ struct RowTable {
     for (const Column<Row>& column : columns) all.push_back(column.write(row));
     return all;
   }
-  /// `names` are those of the columns that were asked for, in any order; others than this table's
-  /// are passed over. InputError.
-  Row read(const std::filesystem::path& file, const std::vector<std::string>& names,
-           const std::vector<SqlValue>& values) const {
+};
+
+/// Reads rows of a statement that selects columns of these names; names that are not the table's
+/// are passed over.
+template <class Row>
+class RowReader {
+ public:
+  RowReader(const RowTable<Row>& table, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                      [&](const Column<Row>& column) { return column.name == name; });
+      columns_.push_back(found != table.columns.end() && found->read ? &*found : nullptr);
+    }
+  }
+
+  /// The row that the statement is at. InputError.
+  Row read(const SqlStatement& statement, const std::filesystem::path& file) const {
     Row row;
-    for (const Column<Row>& column : columns)
-      for (std::size_t i = 0; column.read && i < std::min(names.size(), values.size()); ++i)
-        if (names[i] == column.name) column.read(row, values[i], file);
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (columns_[i] != nullptr)
+        columns_[i]->read(row, statement.cell(static_cast<int>(i)), file);
     return row;
   }
+
+ private:
+  std::vector<const Column<Row>*> columns_;  ///< nullptr: not read back
 };
 
 const RowTable<MethodFacts>& methodTable();

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/localizer/localizer.h"
+#include "sessions/evaluation/results_file.h"
 #include "sessions/io/errors.h"
 #include "sessions/review/checks.h"
 #include "sessions/review/review_status.h"
@@ -78,17 +79,24 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
                                          : "the run failed: " + explanation(*subject.run);
 }
 
-/// What is known of a case that was not run here: how it ended in the results that its session was
-/// made of.
-void takeListedResult(const SessionCase& session_case, QueueRow& row) {
-  const std::optional<ListedResult> listed = listedResult(session_case);
-  if (!listed) return;
-  if (!listed->completed) {
-    row.trouble = "not run in this session; in the results: " + listed->status;
-  } else if (listed->error_share) {
-    row.margin = 1.0 - *listed->error_share;
+/// How a case that was not run here ended in results.
+void takeListedResult(const ListedResult& listed, QueueRow& row) {
+  if (!listed.completed) {
+    row.trouble = "not run in this session; in the results: " + listed.status;
+  } else if (listed.error_share) {
+    row.margin = 1.0 - *listed.error_share;
     row.margin_of = "Requirement, in the results";
   }
+}
+
+QueueRow rowOfResult(const RunResult& run) {
+  QueueRow row;
+  row.case_id = resultCaseId(run);
+  takeListedResult(listedResult(run), row);
+  const ReviewStatus undecided;
+  row.review_status_text = reviewStatusText(undecided);
+  row.group = groupOf(undecided, row);
+  return row;
 }
 
 /// For comparing: no margin is the worst where checks failed, and the best where none did.
@@ -172,7 +180,8 @@ QueueRow queueRow(const Session& session, const std::string& case_id,
       row.trouble = error.what();
     }
   } else if (const SessionCase* session_case = session.findCase(case_id)) {
-    if (reason.empty()) takeListedResult(*session_case, row);
+    const auto listed = reason.empty() ? listedResult(*session_case) : std::nullopt;
+    if (listed) takeListedResult(*listed, row);
   }
   takeReviewStatus(session, row);
   return row;
@@ -242,6 +251,16 @@ std::vector<QueueRow> queueRows(const Session& session, int jobs, const std::sto
   std::vector<QueueRow> rows;
   for (std::optional<QueueRow>& row : queue_rows)
     if (row) rows.push_back(std::move(*row));
+  std::sort(rows.begin(), rows.end(), moreTrouble);
+  return rows;
+}
+
+std::vector<QueueRow> resultsQueue(const std::filesystem::path& results_file) {
+  std::vector<QueueRow> rows;
+  forEachRun(results_file, [&rows](const RunResult& run) {
+    if (run.method == "whs" && !run.inputFailed()) rows.push_back(rowOfResult(run));
+  });
+  if (rows.empty()) throw InputError(results_file, "it has no runs of the method whs that began");
   std::sort(rows.begin(), rows.end(), moreTrouble);
   return rows;
 }

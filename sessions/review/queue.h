@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -94,6 +95,11 @@ using QueueProgress = std::function<void(const QueueRow& row, std::size_t done, 
 std::vector<QueueRow> queueRows(const Session& session, int jobs = 1,
                                 const std::stop_token& stop = {},
                                 const QueueProgress& progress = {});
+
+/// The runs of a results file that a session of it would have as cases (session_of_results.h), in
+/// the order and with the texts that their queue would have. Reads nothing but the file: neither
+/// dataset nor images. InputError.
+std::vector<QueueRow> resultsQueue(const std::filesystem::path& results_file);
 
 /// A readable table, in the order of the rows.
 std::string queueText(const std::vector<QueueRow>& rows);

@@ -98,7 +98,8 @@ std::vector<Failure> failuresOfFile(const std::filesystem::path& file,
     if (failed && filter.takes(run))
       failures.push_back({run, facts.dataset.dataset, notes[run.method]});
   });
-  for (Failure& failure : failures) failure.run.steps = readSteps(file, failure.run);
+  StepReader reader(file);
+  for (Failure& failure : failures) failure.run.steps = reader.stepsOf(failure.run);
   return failures;
 }
 

@@ -216,14 +216,29 @@ std::optional<double> CountedShare::mostPercent() const {
 
 const char* rangeText(bool far) { return far ? "far" : "near"; }
 
-std::vector<RunGroup> runGroups(std::span<const RunResult> runs) {
+namespace {
+
+std::vector<RunGroup> groupsOf(RunSpan runs) {
   std::map<GroupKey, std::vector<const RunResult*>> groups;
-  for (const RunResult& run : runs)
-    if (!run.inputFailed()) groups[{run.station, run.hasTag(kFarTag), run.method}].push_back(&run);
+  for (const RunResult* run : runs)
+    if (!run->inputFailed())
+      groups[{run->station, run->hasTag(kFarTag), run->method}].push_back(run);
   std::vector<RunGroup> listed;
   for (auto& [key, members] : groups)
     listed.push_back({key.station, key.far, key.method, std::move(members)});
   return listed;
+}
+
+void addPointers(std::span<const RunResult> runs, std::vector<const RunResult*>& pointers) {
+  for (const RunResult& run : runs) pointers.push_back(&run);
+}
+
+}  // namespace
+
+std::vector<RunGroup> runGroups(std::span<const RunResult> runs) {
+  std::vector<const RunResult*> all;
+  addPointers(runs, all);
+  return groupsOf(all);
 }
 
 MethodFigures figuresOf(std::span<const RunResult* const> runs) {
@@ -248,10 +263,12 @@ MethodFigures figuresOf(std::span<const RunResult* const> runs) {
 }
 
 std::vector<MethodFigures> methodFigures(std::span<const RunResult> runs) {
-  std::vector<RunResult> all = seedsOf(runs);
-  all.insert(all.end(), runs.begin(), runs.end());
+  const std::vector<RunResult> seeds = seedsOf(runs);
+  std::vector<const RunResult*> all;
+  addPointers(seeds, all);
+  addPointers(runs, all);
   std::vector<MethodFigures> rows;
-  for (const RunGroup& group : runGroups(all)) {
+  for (const RunGroup& group : groupsOf(all)) {
     rows.push_back(figuresOf(group.runs));
     rows.back().station = group.station;
     rows.back().far = group.far;

@@ -52,9 +52,10 @@ std::string shownName(const std::vector<ResultsFacts>& files, const ResultsFacts
 
 /// The iterations of runs that ended at the limit of iterations: tables judge their last pose.
 void readStepsAtLimit(const std::filesystem::path& file, std::span<RunResult> runs) {
+  StepReader reader(file);
   for (RunResult& run : runs)
     if (run.status == localizationStatusText(LocalizationStatus::kIterationLimit))
-      run.steps = readSteps(file, run);
+      run.steps = reader.stepsOf(run);
 }
 
 /// Which file holds a run, so that none counts twice.
@@ -161,8 +162,8 @@ ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
       set.methods[shown[method.method]] = method;
     }
     const std::size_t first = set.runs.size();
-    forEachRun(file.file, [&](const RunResult& run) {
-      if (filter.takes(run)) set.runs.push_back(run);
+    forEachRun(file.file, [&](RunResult&& run) {
+      if (filter.takes(run)) set.runs.push_back(std::move(run));
     });
     const std::span<RunResult> added = std::span(set.runs).subspan(first);
     readStepsAtLimit(file.file, added);

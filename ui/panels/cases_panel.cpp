@@ -91,6 +91,7 @@ namespace {
 
 constexpr int kThumbnail_px = 40;
 constexpr int kUsualName = 20;  ///< letters
+constexpr int kMeasuredRows = 100;  ///< of a list of thousands, for the widths of columns
 
 /// A case's name with its state below it: both stay in sight in a narrow list. Names of one dataset
 /// begin alike and end in what tells them apart.
@@ -144,6 +145,7 @@ void CasesPanel::buildTable() {
                            ui_.cases->viewport()->mapToGlobal(at));
   });
   setUpTable(*ui_.cases, filter_);
+  ui_.cases->horizontalHeader()->setResizeContentsPrecision(kMeasuredRows);
   ui_.cases->verticalHeader()->setDefaultSectionSize(kThumbnail_px + 4);
   ui_.cases->setItemDelegateForColumn(CasesModel::kCase, new NameAndState(ui_.cases));
   // The state is in the first column too; its own one is there to sort by.

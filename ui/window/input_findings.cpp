@@ -22,10 +22,22 @@ InputFindings::InputFindings(const WindowParts& parts, Banner& bar, QWidget& win
   connect(&tasks_, &TaskRunner::failed, this, &InputFindings::failed);
 }
 
+/// After the files of the case that is shown are read: the same thread does one after the other.
 void InputFindings::check() {
   findings_.clear();
   show();
+  tasks_.cancel(QStringLiteral("check"));
   tasks_.cancel(QStringLiteral("mend"));
+  waits_ = true;
+  parts_.tasks.start(
+      QStringLiteral("first case read"), [](const std::stop_token&) { return true; },
+      [this](bool) {
+        waits_ = false;
+        compare();
+      });
+}
+
+void InputFindings::compare() {
   tasks_.start(
       QStringLiteral("check"),
       [session = parts_.document.session()](const std::stop_token&) {

@@ -15,7 +15,7 @@ namespace boresight::ui {
 
 class Banner;
 
-/// Compares the files of a session with what the session knows of them as soon as it is opened,
+/// Compares the files of a session with what the session knows of them once its first case is read,
 /// says which are missing or changed, and mends it when asked: looks for moved files below the
 /// session's folder, or takes changed ones as they are. Hashing may take long, so it has a runner
 /// of its own.
@@ -26,7 +26,7 @@ class InputFindings : public QObject {
   InputFindings(const WindowParts& parts, Banner& bar, QWidget& window);
 
   const std::vector<sessions::Finding>& findings() const { return findings_; }
-  bool isBusy() const { return tasks_.isBusy(); }
+  bool isBusy() const { return waits_ || tasks_.isBusy(); }
   /// Which files of a case are not as they should be and what to do; empty when all are.
   QString adviceFor(const QString& case_id) const;
 
@@ -40,6 +40,7 @@ class InputFindings : public QObject {
 
  private:
   void check();
+  void compare();
   void show();
   bool has(sessions::FindingKind kind) const;
   void findMoved();
@@ -50,6 +51,7 @@ class InputFindings : public QObject {
   QWidget& window_;
   TaskRunner tasks_;
   std::vector<sessions::Finding> findings_;
+  bool waits_ = false;  ///< for the files of the case that is shown
 };
 
 }  // namespace boresight::ui

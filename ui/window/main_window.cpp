@@ -33,6 +33,15 @@ namespace {
 constexpr const char* kGeometryKey = "window/geometry";
 constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
 
+/// What holds the docks, in its place before they are made: with a style sheet each change of
+/// parent looks up the rules of all widgets below again.
+QMainWindow* bodyIn(QMainWindow& window) {
+  auto* centre = new QWidget(&window);
+  auto* body = named(new QMainWindow(centre), "body");
+  body->setWindowFlags(Qt::Widget);
+  return body;
+}
+
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent)
@@ -41,7 +50,7 @@ MainWindow::MainWindow(QWidget* parent)
       annotation_(document_, state_),
       onboard_(document_, state_, tasks_),
       parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_},
-      body_(named(new QMainWindow, "body")),
+      body_(bodyIn(*this)),
       docks_(std::make_unique<WindowDocks>(*body_, *this, parts_)),
       workspaces_(new Workspaces(*body_, docks_->all(), this)),
       files_(new SessionFiles(*this, parts_)),
@@ -50,7 +59,6 @@ MainWindow::MainWindow(QWidget* parent)
       findings_(new InputFindings(parts_, docks_->findings, *this)) {
   setObjectName(QStringLiteral("mainWindow"));
   setAcceptDrops(true);
-  body_->setWindowFlags(Qt::Widget);
   frame_->takeMenus();
   connectAll();
   resizeToScreen();

@@ -78,7 +78,11 @@ void WindowFrame::build() {
   run_bar_ = new RunBar(parts_.state);
   drawers_ = new DrawerBar(workspaces_);
   jobs_ = new JobStrip;
+  stack_ = new QStackedWidget;
+  body_.setCentralWidget(stack_);
   canvas_column_ = new QWidget;
+  stack_->addWidget(start_);
+  stack_->addWidget(canvas_column_);
   auto* canvas = new QVBoxLayout(canvas_column_);
   canvas->setContentsMargins(0, 0, 0, 0);
   canvas->setSpacing(0);
@@ -86,11 +90,8 @@ void WindowFrame::build() {
   canvas->addWidget(&docks_.canvas, 1);
   canvas->addWidget(run_bar_);
   canvas->addWidget(drawers_);
-  stack_ = new QStackedWidget;
-  stack_->addWidget(start_);
-  stack_->addWidget(canvas_column_);
-  body_.setCentralWidget(stack_);
-  auto* centre = new QWidget;
+  QWidget* centre = body_.parentWidget();
+  window_.setCentralWidget(centre);
   auto* grid = new QGridLayout(centre);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setSpacing(0);
@@ -100,7 +101,6 @@ void WindowFrame::build() {
   grid->addWidget(jobs_, 2, 0, 1, 2);
   grid->setRowStretch(1, 1);
   grid->setColumnStretch(1, 1);
-  window_.setCentralWidget(centre);
   window_.statusBar()->hide();  // its messages are the job strip's notes
 }
 

@@ -72,6 +72,24 @@ TEST_F(SessionOfResults, WorstRuns_AreListedFirstAsInTheQueue) {
             "not run in this session; in the results: error 75 % of the requirement");
 }
 
+TEST_F(SessionOfResults, TheQueueOfTheResultsIsThatOfTheirSession) {
+  runs_.back().status = "input_error";
+  runs_.back().completed = false;
+  runs_[1].requirement.reset();
+  write();
+  const std::vector<QueueRow> of_session = queueRows(sessionOfResults(file_));
+  const std::vector<QueueRow> rows = resultsQueue(file_);
+  EXPECT_EQ(rows.size(), runs_.size() - 1);
+  EXPECT_EQ(queueText(rows), queueText(of_session));
+  EXPECT_EQ(queueCsv(rows), queueCsv(of_session));
+}
+
+TEST_F(SessionOfResults, TheQueueNeedsRunsOfWhs) {
+  write("ncc");
+  EXPECT_THAT(folder_.message([&] { (void)resultsQueue(file_); }),
+              HasSubstr("no runs of the method whs"));
+}
+
 TEST_F(SessionOfResults, RepeatsARunByItsOwnSeedAndOptions) {
   write();
   const Session session = sessionOfResults(file_);
