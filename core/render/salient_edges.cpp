@@ -311,7 +311,7 @@ Eigen::Vector3d SalientEdges::lineAt(const Context& context, const Crossing& cro
                                      int y) {
   const EdgeRender& output = context.output;
   Ray ray;
-  if (!pupilMoves(output.camera) || crossing.edge_of < 0 || crossing.edge < 0 ||
+  if (crossing.edge_of < 0 || crossing.edge < 0 ||
       !unprojectRay(output.camera, Eigen::Vector2d(x, y), ray))
     return crossing.line;
   const MeshView& mesh = context.scene.mesh;
@@ -352,19 +352,23 @@ void SalientEdges::mark(const Context& context, const Sample& p, const Sample& q
   double distance_px = (crossing.s - (mark_p ? 0.0 : 1.0)) * towards_q;
   // The line's value and its derivative along the image axes. The rows and columns that are
   // differenced depend on the image alone, not on how it is cut into bands.
-  const int left = marked.x + 1 < band.x_end ? marked.x : marked.x - 1;
-  const int top = p.row != q.row ? p.row : (p.row < band.rows ? p.row : p.row - 1);
-  const bool rows_known = top >= 1 || (top == 0 && band.first_y > 0);
-  if (crossing.has_line && left >= band.x_begin && rows_known &&
-      band.face[band.index(left, marked.row)] != RasterBand::kInvalid &&
-      band.face[band.index(left + 1, marked.row)] != RasterBand::kInvalid &&
-      band.face[band.index(marked.x, top)] != RasterBand::kInvalid &&
-      band.face[band.index(marked.x, top + 1)] != RasterBand::kInvalid) {
-    const Eigen::Vector3d line = lineAt(context, crossing, marked.x, y);
-    const double along_x = dotProduct(line, band.ray(left + 1, marked.row)) -
-                           dotProduct(line, band.ray(left, marked.row));
-    const double along_y =
-        dotProduct(line, band.ray(marked.x, top + 1)) - dotProduct(line, band.ray(marked.x, top));
+  const std::size_t at = band.index(marked.x, marked.row);
+  const std::size_t left = marked.x + 1 < band.x_end ? at : at - 1;
+  const int top_row = p.row != q.row ? p.row : (p.row < band.rows ? p.row : p.row - 1);
+  const std::size_t top = band.index(marked.x, top_row);
+  const std::size_t below = top + static_cast<std::size_t>(band.stride);
+  const bool columns_known = left == at || marked.x > band.x_begin;
+  const bool rows_known = top_row >= 1 || (top_row == 0 && band.first_y > 0);
+  if (crossing.has_line && columns_known && rows_known && band.face[left] != RasterBand::kInvalid &&
+      band.face[left + 1] != RasterBand::kInvalid && band.face[top] != RasterBand::kInvalid &&
+      band.face[below] != RasterBand::kInvalid) {
+    const Eigen::Vector3d line =
+        pupilMoves(context.output.camera) ? lineAt(context, crossing, marked.x, y) : crossing.line;
+    const auto valueAt = [&](std::size_t entry) {
+      return line.x() * band.ray_x[entry] + line.y() * band.ray_y[entry] + line.z();
+    };
+    const double along_x = valueAt(left + 1) - valueAt(left);
+    const double along_y = valueAt(below) - valueAt(top);
     const double norm = std::sqrt(along_x * along_x + along_y * along_y);
     if (norm > 0.0 && norm < 1e300) {
       normal_x = -along_x / norm;
