@@ -127,9 +127,10 @@ void FaceBins::addWide(CameraScene& scene, const RayGrid& rays, std::int32_t fac
   enter(face, kWide, bounds, share);
 }
 
-/// A face that its chunk could not rule out.
-void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face,
-                      const FixedFace& fixed, const Share& share) {
+/// A face that its chunk could not rule out. Called at one place.
+[[gnu::always_inline]] inline void FaceBins::addOne(CameraScene& scene, const RayGrid& rays,
+                                                    std::int32_t face, const FixedFace& fixed,
+                                                    const Share& share) {
   if (fixed.low_x == FixedPixel::kNotProjected || !small_.isSmall(fixed))
     return addWide(scene, rays, face, share);
   const PixelBox box = small_.box(fixed);
