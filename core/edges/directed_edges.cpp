@@ -35,12 +35,14 @@ void sumColumns(const SmallImage& image, int y, Row<std::int32_t>& smooth,
   }
 }
 
-/// Whether the pixels under the kernel are known, by its corners, sides and middle.
-bool isKnown(const SmallImage& image, int x, int y) {
-  for (int i = -kBorder; i <= kBorder; i += kBorder)
-    for (int j = -kBorder; j <= kBorder; j += kBorder)
-      if (image.seen[placeOf(x + j, y + i, image.width)] == 0) return false;
-  return true;
+/// Whether the pixels of each column in the kernel's rows about y are known, by its ends and
+/// middle: 1 or 0.
+void knownColumns(const SmallImage& image, int y, Row<std::uint8_t>& known) {
+  const std::uint8_t* row[3];
+  for (int i = 0; i < 3; ++i)
+    row[i] = image.seen.data() + placeOf(0, y + (i - 1) * kBorder, image.width);
+  for (int x = 0; x < image.width; ++x)
+    known[static_cast<std::size_t>(x)] = row[0][x] & row[1][x] & row[2][x];
 }
 
 }  // namespace
@@ -103,14 +105,18 @@ void DirectedEdgeDetector::addChannel(const SmallImage& image, DirectedEdges& ed
   const int width = image.width;
   Row<std::int32_t> smooth;
   Row<std::int32_t> derivative;
+  Row<std::uint8_t> known;
   for (int y = kBorder; y < image.height - kBorder; ++y) {
     sumColumns(image, y, smooth, derivative);
+    knownColumns(image, y, known);
     for (int x = kBorder; x < width - kBorder; ++x) {
       const std::int32_t* s = smooth.data() + x;
       const std::int32_t* d = derivative.data() + x;
       const std::int32_t dx = (s[2] - s[-2]) + 2 * (s[1] - s[-1]);
       const std::int32_t dy = d[-2] + 4 * (d[-1] + d[1]) + 6 * d[0] + d[2];
-      if (!isKnown(image, x, y)) continue;
+      // By the kernel's corners, sides and middle.
+      const std::uint8_t* k = known.data() + x;
+      if ((k[-kBorder] & k[0] & k[kBorder]) == 0) continue;
       const std::size_t at = placeOf(x, y, width);
       // At most 255 * 48 * sqrt(2).
       const auto magnitude = static_cast<std::uint16_t>(

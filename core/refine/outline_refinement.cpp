@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/pnp/normal_equations.h"
+#include "core/render/rounding.h"
 
 namespace boresight {
 namespace {
@@ -20,8 +21,8 @@ bool findEdge(const DirectedEdges& edges, const Eigen::Vector2d& place,
   for (int step = 0; step <= radius; ++step) {
     double best = 1e9;
     for (int sign = step == 0 ? 1 : -1; sign <= 1; sign += 2) {
-      const int x = static_cast<int>(std::floor(place.x() + sign * step * normal.x() + 0.5));
-      const int y = static_cast<int>(std::floor(place.y() + sign * step * normal.y() + 0.5));
+      const int x = floorClamped(place.x() + sign * step * normal.x() + 0.5, -1, edges.width);
+      const int y = floorClamped(place.y() + sign * step * normal.y() + 0.5, -1, edges.height);
       if (x < 0 || y < 0 || x >= edges.width || y >= edges.height) continue;
       const int found = edges.at(x, y);
       if (found >= kEdgeDirections || directionsApart(found, direction) > 1) continue;

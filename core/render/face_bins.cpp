@@ -103,7 +103,8 @@ std::int32_t FaceBins::firstFace(int band, int list) const {
                static_cast<std::size_t>((first + block) * 2 + (relation > 0 ? 1 : 0))];
 }
 
-void FaceBins::enter(std::int32_t face, Kind kind, const PixelBounds& bounds, const Share& share) {
+[[gnu::always_inline]] inline void FaceBins::enter(std::int32_t face, Kind kind,
+                                                   const PixelBounds& bounds, const Share& share) {
   const int first_band = bounds.y_first / band_rows_;
   const int last_band = bounds.y_last / band_rows_;
   for (int band = first_band; band <= last_band; ++band)
@@ -127,9 +128,10 @@ void FaceBins::addWide(CameraScene& scene, const RayGrid& rays, std::int32_t fac
   enter(face, kWide, bounds, share);
 }
 
-/// A face that its chunk could not rule out.
-void FaceBins::addOne(CameraScene& scene, const RayGrid& rays, std::int32_t face,
-                      const FixedFace& fixed, const Share& share) {
+/// A face that its chunk could not rule out. Called at one place.
+[[gnu::always_inline]] inline void FaceBins::addOne(CameraScene& scene, const RayGrid& rays,
+                                                    std::int32_t face, const FixedFace& fixed,
+                                                    const Share& share) {
   if (fixed.low_x == FixedPixel::kNotProjected || !small_.isSmall(fixed))
     return addWide(scene, rays, face, share);
   const PixelBox box = small_.box(fixed);

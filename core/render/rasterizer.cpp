@@ -19,12 +19,30 @@ constexpr int kShort_px = 8;
 constexpr int kChunk_px = 64;
 /// Cost of a chunk that the face does not cover.
 constexpr int kChunkWork_px = 16;
+/// Least uncertainty of the column at which an edge crosses a row.
+constexpr double kLeastWidth_px = 1e-6;
 
 /// Columns of a row that may be inside (possible) and that surely are (certain).
 struct Span {
   int possible_first, possible_last;
   int certain_first, certain_last;
 };
+
+/// Cuts a span by an edge that crosses the row at a column, known to within `width`.
+inline void cutAt(double crossing, double width, bool covers_right, int x_first, int x_last,
+                  Span& span) {
+  const int before = floorClamped(crossing - width, x_first - 1, x_last + 1);
+  int after = std::min(before + 1, x_last + 1);
+  if (crossing + width > after) after = ceilClamped(crossing + width, x_first - 1, x_last + 1);
+  // `before` and `after` lie beyond the slack on either side.
+  if (covers_right) {
+    span.possible_first = std::max(span.possible_first, before + 1);
+    span.certain_first = std::max(span.certain_first, after);
+  } else {
+    span.possible_last = std::min(span.possible_last, after - 1);
+    span.certain_last = std::min(span.certain_last, before);
+  }
+}
 
 /// Cuts a span by one edge, whose values at the ends of columns x_first .. x_last are given.
 inline void cutSpan(double left, double right, double slack, int x_first, int x_last, Span& span) {
@@ -41,19 +59,35 @@ inline void cutSpan(double left, double right, double slack, int x_first, int x_
   }
   const double columns_per_value = (x_last - x_first) / rise;
   const double crossing = x_first - left * columns_per_value;
-  const double width = slack * std::abs(columns_per_value) + 1e-6;
-  const int before = floorClamped(crossing - width, x_first - 1, x_last + 1);
-  int after = std::min(before + 1, x_last + 1);
-  if (crossing + width > after) after = ceilClamped(crossing + width, x_first - 1, x_last + 1);
-  // `before` and `after` lie beyond the slack on either side.
-  if (rise > 0.0) {
-    span.possible_first = std::max(span.possible_first, before + 1);
-    span.certain_first = std::max(span.certain_first, after);
-  } else {
-    span.possible_last = std::min(span.possible_last, after - 1);
-    span.certain_last = std::min(span.certain_last, before);
-  }
+  cutAt(crossing, slack * std::abs(columns_per_value) + kLeastWidth_px, rise > 0.0, x_first, x_last,
+        span);
 }
+
+/// An edge across some rows of a chunk: its values at both ends of the first row, and their
+/// changes from row to row.
+struct Cut {
+  double left, right, left_step, right_step, slack;
+};
+
+/// The same where rays are level: the edge's values rise alike along all rows, so that the column
+/// of its crossing is linear in the row.
+struct LevelCut {
+  double crossing, step, width;
+  bool covers_right;
+
+  /// False when the edge is too nearly along the rows. Values that are wrong by the slack shift
+  /// the crossing by that of one column's rise, and wrong rises by twice as much over the chunk.
+  bool set(const Cut& cut, int x_first, int x_last) {
+    const double rise = cut.right - cut.left;
+    if (!(std::abs(rise) > 64.0 * cut.slack)) return false;
+    const double columns_per_value = (x_last - x_first) / rise;
+    crossing = x_first - cut.left * columns_per_value;
+    step = -cut.left_step * columns_per_value;
+    width = 8.0 * cut.slack * std::abs(columns_per_value) + kLeastWidth_px;
+    covers_right = rise > 0.0;
+    return true;
+  }
+};
 
 /// One row of the band, from column 0. Where y/z is the same all along the row (kLevel: pinhole),
 /// the terms in it are computed once.
@@ -63,22 +97,21 @@ struct RowOfFace {
   const double* ray_y;
   float* inverse_depth;
   std::int32_t* owner;
-  double edge_term[3];
+  double y = 0.0;
   double plane_term = 0.0;
 
-  RowOfFace(const DrawnFace& drawn, RasterBand& band, int row) {
+  RowOfFace(const DrawnFace& drawn, const RasterBand& band, int row) {
     const std::size_t start = band.index(0, row);
     ray_x = band.ray_x.data() + start;
     ray_y = band.ray_y.data() + start;
     inverse_depth = band.inverse_depth.data() + start;
     owner = band.face.data() + start;
     if (!kLevel) return;
-    const double y = ray_y[band.x_begin];
-    for (int i = 0; i < 3; ++i) edge_term[i] = drawn.b[i] * y + drawn.c[i];
+    y = ray_y[band.x_begin];
     plane_term = drawn.plane_y * y + drawn.plane_1;
   }
   double edge(const DrawnFace& drawn, int i, int x) const {
-    return drawn.a[i] * ray_x[x] + (kLevel ? edge_term[i] : drawn.b[i] * ray_y[x] + drawn.c[i]);
+    return drawn.a[i] * ray_x[x] + (drawn.b[i] * (kLevel ? y : ray_y[x]) + drawn.c[i]);
   }
   double plane(const DrawnFace& drawn, int x) const {
     return drawn.plane_x * ray_x[x] +
@@ -174,9 +207,6 @@ class FaceDrawer {
     const RowOfFace<kLevel> top(drawn_, band_, row_first);
     const RowOfFace<kLevel> bottom(drawn_, band_, row_last);
     const double per_row = row_last > row_first ? 1.0 / (row_last - row_first) : 0.0;
-    struct Cut {
-      double left, right, left_step, right_step, slack;
-    };
     Cut cuts[3];
     int cut_count = 0;
     for (int i = 0; i < 3; ++i) {
@@ -189,17 +219,29 @@ class FaceDrawer {
       if (std::min(std::min(e00, e10), std::min(e01, e11)) > slack) continue;
       cuts[cut_count++] = {e00, e10, (e01 - e00) * per_row, (e11 - e10) * per_row, slack};
     }
+    LevelCut level_cuts[3];
+    bool level = kLevel;
+    for (int i = 0; level && i < cut_count; ++i)
+      level = level_cuts[i].set(cuts[i], x_first, x_last);
     for (int y = row_first; y <= row_last; ++y) {
       Span span{x_first, x_last, x_first, x_last};
-      for (int i = 0; i < cut_count; ++i) {
-        Cut& cut = cuts[i];
-        cutSpan(cut.left, cut.right, cut.slack, x_first, x_last, span);
-        cut.left += cut.left_step;
-        cut.right += cut.right_step;
-      }
+      for (int i = 0; i < cut_count; ++i)
+        level ? cutNext(level_cuts[i], x_first, x_last, span)
+              : cutNext(cuts[i], x_first, x_last, span);
       if (span.possible_last >= span.possible_first)
         drawSpan(RowOfFace<kLevel>(drawn_, band_, y), span);
     }
+  }
+
+  /// Cuts a row's span and goes on to the next row.
+  static void cutNext(LevelCut& cut, int x_first, int x_last, Span& span) {
+    cutAt(cut.crossing, cut.width, cut.covers_right, x_first, x_last, span);
+    cut.crossing += cut.step;
+  }
+  static void cutNext(Cut& cut, int x_first, int x_last, Span& span) {
+    cutSpan(cut.left, cut.right, cut.slack, x_first, x_last, span);
+    cut.left += cut.left_step;
+    cut.right += cut.right_step;
   }
 
   const DrawnFace& drawn_;
@@ -267,7 +309,13 @@ void RasterBand::advance(const RayGrid& rays, int y, int count, int x_first, int
   if (length <= 0) return;
   for (int row = 1; row <= count; ++row) {
     const std::size_t start = index(x_begin, row);
-    rays.row(y + row - 1, x_begin, length, &ray_x[start], &ray_y[start], valid.data());
+    // Rows of a pinhole camera differ in y/z only.
+    const bool alike = rays.level() && row > 1;
+    rays.row(y + row - 1, x_begin, alike ? 1 : length, &ray_x[start], &ray_y[start], valid.data());
+    if (alike) {
+      std::copy_n(&ray_x[index(x_begin, 1)], length, &ray_x[start]);
+      std::fill_n(&ray_y[start], length, ray_y[start]);
+    }
     float* depth_row = &inverse_depth[start];
     std::int32_t* face_row = &face[start];
     if (rays.smooth()) {

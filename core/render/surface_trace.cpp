@@ -14,20 +14,33 @@ constexpr int kMaxHops = 64;
 struct Exit {
   int edge = -1;
   double s = 2.0;
+  Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the triangle's side
 };
 
-Exit findExit(const Eigen::Vector3d edge[3], int entered_through, double s_entered,
-              const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to) {
-  Exit exit;
+/// Where the way from one ray to another leaves a face that it entered at a place through an edge
+/// (-1: it begins there). False when the face has no area seen from the camera. The edges are those
+/// of faceEdges(), without the one passed already; the sign that turns them inwards is applied to
+/// their values, which gives the same bits.
+inline bool findExit(const CameraScene& scene, std::int32_t face, int entered_through,
+                     double s_entered, const Eigen::Vector3d& ray_from,
+                     const Eigen::Vector3d& ray_to, Exit& exit) {
+  const Eigen::Vector3d* const vertex[3] = {&scene.vertex(face, 0), &scene.vertex(face, 1),
+                                            &scene.vertex(face, 2)};
+  Eigen::Vector3d line = crossProduct(*vertex[0], *vertex[1]);
+  const double determinant = dotProduct(line, *vertex[2]);
+  if (!(determinant > 0.0 || determinant < 0.0)) return false;
+  const double sign = determinant < 0.0 ? -1.0 : 1.0;
   for (int i = 0; i < 3; ++i) {
     if (i == entered_through) continue;
-    const double to = dotProduct(edge[i], ray_to);
-    const double from = dotProduct(edge[i], ray_from);
-    if (!(to <= 0.0 && from > to)) continue;
+    if (i > 0) line = crossProduct(*vertex[i], *vertex[i < 2 ? i + 1 : 0]);
+    const double to = sign * dotProduct(line, ray_to);
+    if (!(to <= 0.0)) continue;
+    const double from = sign * dotProduct(line, ray_from);
+    if (!(from > to)) continue;
     const double s = std::max(from > 0.0 ? from / (from - to) : 0.0, s_entered);
-    if (s < exit.s) exit = {i, s};
+    if (s < exit.s) exit = {i, s, sign * line};
   }
-  return exit;
+  return true;
 }
 
 /// The face beyond an edge folds back behind the surface when its third vertex lies on the
@@ -105,10 +118,12 @@ void PlaneCache::clear() {
 }
 
 void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry) {
-  entry = Entry();  // the same for a face without a plane, whatever the entry held
+  // The same for a face without a plane, whatever the entry held.
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
   entry.face = face;
-  entry.valid = facePlane(scene, trustedFace(scene, face), entry.plane);
-  const double norm2 = dotProduct(entry.plane, entry.plane);
+  entry.valid = facePlane(scene, scene.normalKnown(face) ? face : trustedFace(scene, face), plane);
+  entry.plane = plane;
+  const double norm2 = dotProduct(plane, plane);
   entry.inverse_norm = norm2 > 0.0 ? 1.0 / std::sqrt(norm2) : 0.0;
 }
 
@@ -118,15 +133,16 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
   SurfaceEnd end;
   end.face = start;
   SurfaceEnd turn;
+  PlaneCache::Entry plane;  // of the face
   int entered_through = -1;
   for (int hop = 0; hop <= kMaxHops; ++hop) {
-    Eigen::Vector3d edge[3];
-    if (!faceEdges(scene, end.face, edge)) break;
-    const Exit exit = findExit(edge, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to);
+    Exit exit;
+    if (!findExit(scene, end.face, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to, exit))
+      break;
     end.ends = exit.edge >= 0;
     end.s = exit.s;
     if (!end.ends) break;
-    end.line = edge[exit.edge];
+    end.line = exit.line;
     end.edge = static_cast<std::int8_t>(exit.edge);
     if (hop == kMaxHops) break;
 
@@ -139,7 +155,7 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
       end.reached = true;
       break;
     }
-    const PlaneCache::Entry plane = planes.get(scene, end.face);
+    if (hop == 0) plane = planes.get(scene, start);
     const PlaneCache::Entry next_plane = planes.get(scene, next);
     if (!next_plane.valid ||
         normalsDiffer(plane, next_plane, scene.cos_normal_threshold[scene.partIndex(end.face)]))
@@ -151,6 +167,7 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
     entered_through = edgeTowards(scene, next, end.face);
     if (entered_through < 0) break;
     end.face = next;
+    plane = next_plane;
   }
   return end;
 }

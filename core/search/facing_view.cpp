@@ -34,14 +34,22 @@ struct TangentBox {
 TangentBox boxOfScene(const MeshView& mesh, const Pose& view_from_station) {
   TangentBox box;
   const Eigen::Matrix3d rotation = view_from_station.matrix();
+  Face before = {};  // its vertices are included
+  bool included = false;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     if (!mesh.parts[mesh.part_of_face[i]].match) continue;
-    for (const std::int32_t vertex : mesh.faces[i].vertex) {
+    const Face& face = mesh.faces[i];
+    for (const std::int32_t vertex : face.vertex) {
+      if (included &&
+          (vertex == before.vertex[0] || vertex == before.vertex[1] || vertex == before.vertex[2]))
+        continue;
       const Eigen::Vector3d point_m =
           rotation * mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>() +
           view_from_station.translation_m;
       if (point_m.z() > 0.0) box.extend(point_m);
     }
+    before = face;
+    included = true;
   }
   return box;
 }
@@ -123,7 +131,7 @@ using Columns = std::array<std::int16_t, kColumns>;
 /// Rows whose sums fit.
 constexpr int kMostRows = 128;
 
-/// Sums of the columns over rows. This function and the next two stay vector code only when they
+/// Sums of the columns over rows. This function and the next three stay vector code only when they
 /// are not inlined.
 [[gnu::noinline]] Columns columnSums(const std::uint8_t* row, std::ptrdiff_t stride, int rows) {
   std::uint16_t sum[kColumns] = {};
@@ -133,6 +141,21 @@ constexpr int kMostRows = 128;
   for (int k = 0; k < kColumns; ++k)
     sums[static_cast<std::size_t>(k)] = static_cast<std::int16_t>(sum[k]);
   return sums;
+}
+
+/// The weight of whole columns, and none: the weights of n whole columns and none after them begin
+/// kColumns - n before the middle.
+constexpr std::array<std::int16_t, 2 * kColumns> kWhole = [] {
+  std::array<std::int16_t, 2 * kColumns> weights{};
+  for (std::size_t k = 0; k < kColumns; ++k) weights[k] = 1 << kWeightBits;
+  return weights;
+}();
+
+/// Sum of the products of all columns of a row.
+[[gnu::noinline]] std::int32_t weighRow(const Columns& weights, const std::uint8_t* row) {
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < kColumns; ++k) sum += weights[k] * static_cast<std::int16_t>(row[k]);
+  return sum;
 }
 
 /// Sum of the products of all columns.
@@ -148,8 +171,12 @@ constexpr int kMostRows = 128;
   const auto from = static_cast<std::int16_t>(first - begin);
   const auto to = static_cast<std::int16_t>(end - begin);
   Columns weights;
-  for (std::size_t k = 0; k < kColumns; ++k)
-    weights[k] = (kPlace[k] >= from) & (kPlace[k] < to) ? 1 << kWeightBits : 0;
+  if (from == 0) {
+    std::copy_n(kWhole.begin() + (kColumns - to), kColumns, weights.begin());
+  } else {
+    for (std::size_t k = 0; k < kColumns; ++k)
+      weights[k] = (kPlace[k] >= from) & (kPlace[k] < to) ? 1 << kWeightBits : 0;
+  }
   const auto weightOf = [&](int column) -> std::int16_t& {
     return weights[static_cast<std::size_t>(column - begin)];
   };
@@ -169,7 +196,7 @@ std::int64_t blockSumByColumns(const Channels& image, int width, const Block& bl
     const std::uint8_t* const top = image.at<1>(block.x + begin, block.y);
     const std::uint8_t* const bottom = top + image.stride * block.size;
     const auto alongRow = [&](const std::uint8_t* row) {
-      return std::int64_t{dotProduct(weights, columnSums(row, 0, 1))};
+      return std::int64_t{weighRow(weights, row)};
     };
     const Columns inner = columnSums(top + image.stride, image.stride, block.size - 1);
     sum += (std::int64_t{dotProduct(weights, inner)} << kWeightBits) + block.up() * alongRow(top) +

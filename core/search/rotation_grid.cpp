@@ -15,24 +15,40 @@ namespace {
 constexpr double kTurnReach = 0.5;
 constexpr double kTiltReach = 0.6;
 
+/// The factor of the square in the derivative of a rotation vector whose squared length is below
+/// kHalfTurn2, a little more than half a turn: it grows with the length.
+constexpr double kHalfTurn2 = 10.0;
+constexpr double kLeastOfSquare = 0.0833;
+constexpr double kMostOfSquare = 0.1017;
+
 }  // namespace
 
 bool isNearBox(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& box_rad,
                const Eigen::Vector3d& slack_rad) {
   const double angle2 = rotation_rad.squaredNorm();
-  const double half = 0.5 * std::sqrt(angle2);
-  // Derivative of the rotation vector (inverse left Jacobian of the exponential).
-  const double of_square = half > 0.01 ? (1.0 - half * cos(half) / sin(half)) / angle2 : 1.0 / 12.0;
   Eigen::Matrix3d cross;
   cross << 0.0, -rotation_rad.z(), rotation_rad.y(),  //
       rotation_rad.z(), 0.0, -rotation_rad.x(),       //
       -rotation_rad.y(), rotation_rad.x(), 0.0;
-  const Eigen::Matrix3d slope =
-      Eigen::Matrix3d::Identity() - 0.5 * cross + of_square * (cross * cross);
-  const Eigen::Vector3d reach = box_rad + slope.cwiseAbs() * slack_rad;
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(rotation_rad[i]) > reach[i]) return false;
-  return true;
+  // Derivative of the rotation vector (inverse left Jacobian of the exponential).
+  const Eigen::Matrix3d straight = Eigen::Matrix3d::Identity() - 0.5 * cross;
+  const Eigen::Matrix3d square = cross * cross;
+  const auto isWithin = [&](const Eigen::Matrix3d& slope, double margin_rad) {
+    const Eigen::Vector3d reach = box_rad + slope.cwiseAbs() * slack_rad;
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(rotation_rad[i]) > reach[i] + margin_rad) return false;
+    return true;
+  };
+  // Most rotations are too far off for any of the factors of the square up to half a turn.
+  if (angle2 < kHalfTurn2) {
+    const Eigen::Matrix3d steepest = (straight + kLeastOfSquare * square)
+                                         .cwiseAbs()
+                                         .cwiseMax((straight + kMostOfSquare * square).cwiseAbs());
+    if (!isWithin(steepest, 1e-9)) return false;
+  }
+  const double half = 0.5 * std::sqrt(angle2);
+  const double of_square = half > 0.01 ? (1.0 - half * cos(half) / sin(half)) / angle2 : 1.0 / 12.0;
+  return isWithin(straight + of_square * square, 0.0);
 }
 
 int RotationGrid::placesOn(int ring) const {
@@ -47,19 +63,22 @@ Eigen::Vector3d RotationGrid::tilt_rad() const {
 }
 
 bool RotationGrid::next() {
+  Turns turned;
+  for (int k = 0; k < count_; ++k)
+    turned[static_cast<std::size_t>(k)] = rotationExp({0.0, 0.0, k * spacing_rad()});
   while (ring_ <= count_ / 2) {
     if (++place_ >= placesOn(ring_)) {
       place_ = -1;
       ++ring_;
       continue;
     }
-    turns_ = turnsWithinReach();
+    turns_ = turnsWithinReach(turned);
     if (turns_ != 0) return true;
   }
   return false;
 }
 
-std::uint64_t RotationGrid::turnsWithinReach() const {
+std::uint64_t RotationGrid::turnsWithinReach(const Turns& turned) const {
   const Eigen::Quaterniond camera_from_view = range_.view_from_camera.conjugate();
   const double tilt_rad = kTiltReach * spacing_rad();
   const Eigen::Vector3d in_view(range_.aside_rad.x() + tilt_rad, range_.aside_rad.y() + tilt_rad,
@@ -68,8 +87,8 @@ std::uint64_t RotationGrid::turnsWithinReach() const {
   const Eigen::Quaterniond tilted = rotationExp(this->tilt_rad());
   std::uint64_t turns = 0;
   for (int k = 0; k < count_; ++k) {
-    const Eigen::Quaterniond turned = rotationExp({0.0, 0.0, k * spacing_rad()}) * tilted;
-    const Eigen::Vector3d rotation_rad = camera_from_view * rotationLog(turned);
+    const Eigen::Vector3d rotation_rad =
+        camera_from_view * rotationLog(turned[static_cast<std::size_t>(k)] * tilted);
     if (isNearBox(rotation_rad, range_.box_rad, slack_rad)) turns |= std::uint64_t{1} << k;
   }
   return turns;

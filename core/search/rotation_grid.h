@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -32,7 +33,7 @@ class RotationGrid {
   RotationGrid() = default;
   /// Starts before the first direction.
   explicit RotationGrid(const Range& range)
-      : range_(range), count_(range.box_rad.maxCoeff() > kSmallBox_rad ? 24 : 48) {}
+      : range_(range), count_(range.box_rad.maxCoeff() > kSmallBox_rad ? 24 : kMostTurns) {}
 
   /// Goes to the next direction of which at least one turn is within reach. False: none is left.
   [[nodiscard]] bool next();
@@ -46,8 +47,11 @@ class RotationGrid {
   std::uint64_t turns() const { return turns_; }
 
  private:
+  static constexpr int kMostTurns = 48;
+  using Turns = std::array<Eigen::Quaterniond, kMostTurns>;
+
   int placesOn(int ring) const;
-  std::uint64_t turnsWithinReach() const;
+  std::uint64_t turnsWithinReach(const Turns& turned) const;
 
   Range range_;
   int count_ = 24;

@@ -101,6 +101,37 @@ TEST(RotationGrid, RotationsWithinASmallTurnOfTheBox_AreNear) {
   }
 }
 
+/// The first-order reach of a slack, by the formula alone.
+Eigen::Vector3d reachOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& box_rad,
+                        const Eigen::Vector3d& slack_rad) {
+  const double angle2 = rotation_rad.squaredNorm();
+  const double half = 0.5 * std::sqrt(angle2);
+  Eigen::Matrix3d cross;
+  cross << 0.0, -rotation_rad.z(), rotation_rad.y(),  //
+      rotation_rad.z(), 0.0, -rotation_rad.x(),       //
+      -rotation_rad.y(), rotation_rad.x(), 0.0;
+  const Eigen::Matrix3d slope = Eigen::Matrix3d::Identity() - 0.5 * cross +
+                                (1.0 - half / std::tan(half)) / angle2 * (cross * cross);
+  return box_rad + slope.cwiseAbs() * slack_rad;
+}
+
+/// Random rotations of all lengths up to more than half a turn.
+TEST(RotationGrid, NearRotations_AreThoseOfTheFormula) {
+  Random random(5);
+  int near = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Eigen::Vector3d box_rad = inBox(Eigen::Vector3d::Constant(1.5), random).cwiseAbs();
+    const Eigen::Vector3d slack_rad = inBox(Eigen::Vector3d::Constant(0.5), random).cwiseAbs();
+    const Eigen::Vector3d rotation_rad = inBox(Eigen::Vector3d::Constant(2.2), random);
+    const Eigen::Vector3d reach = reachOf(rotation_rad, box_rad, slack_rad);
+    const double excess = (rotation_rad.cwiseAbs() - reach).maxCoeff();
+    if (std::abs(excess) < 1e-9) continue;  // a matter of rounding
+    EXPECT_EQ(isNearBox(rotation_rad, box_rad, slack_rad), excess < 0.0);
+    near += excess < 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(near, 10000);
+}
+
 TEST(RotationGrid, RotationsFarFromTheBox_AreNotNear) {
   const Eigen::Vector3d box_rad(0.1, 0.2, 0.3);
   EXPECT_TRUE(isNearBox(box_rad, box_rad, Eigen::Vector3d::Zero()));
