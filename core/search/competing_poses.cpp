@@ -266,8 +266,7 @@ void CompetingPoseTest::markRender(DirectedEdges& marks) const {
   marks.height = render_.edges.height;
   const auto pixels = static_cast<std::ptrdiff_t>(marks.width) * marks.height;
   std::fill(marks.direction.begin(), marks.direction.begin() + pixels, DirectedEdges::kNone);
-  for (std::int32_t i = 0; i < render_.pixel_count; ++i) {
-    const EdgePixel& pixel = render_.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render_.eachPixel()) {
     marks.direction[static_cast<std::size_t>(pixel.y * marks.width + pixel.x)] =
         static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
   }
