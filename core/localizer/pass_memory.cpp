@@ -191,7 +191,6 @@ Status PassMemory::Layout::layOutStages() {
   if (status == Status::kOk) status = to.ransac.create(options.templates.count, scratch);
   shareBehindRenders(bytesOf(Stage::kPose));
   if (status == Status::kOk) status = layOutAfterMatches();
-  scratch.rewind(0);
   if (status == Status::kOk) {
     status = to.detector.begin(problem.image, problem.ignore, options.edges, kept, scratch,
                                {levels.fine, levels.coarse}, edges);
@@ -216,7 +215,7 @@ Status PassMemory::Layout::layOutAfterMatches() {
     scratch.rewind(samples_end);
     if (status == Status::kOk) status = to.focal.create(options.refinement.max_samples, scratch);
   }
-  shareBehindRenders(bytesOf(Stage::kSupport));
+  shareScratch(bytesOf(Stage::kSupport), 0);
   // The test of competing poses renders, when the samples are no longer needed.
   if (options.search.enabled && scratch.countsOnly())
     bytesOf(Stage::kSupport) = std::max(bytesOf(Stage::kSupport), bytesOf(Stage::kRender));

@@ -167,9 +167,11 @@ TEST(LocalizerMemory, FitsTheFlightBudget) {
   for (const CameraModel model :
        {CameraModel::kPinhole, CameraModel::kBrownConrady, CameraModel::kKannalaBrandt}) {
     size.model = model;
-    std::size_t bytes = 0;
-    ASSERT_EQ(requiredBytes(size, defaultProfile(), bytes), Status::kOk);
-    EXPECT_LE(bytes + inputBytes(size), 10'000'000u);
+    for (const LocalizerOptions& options : {defaultProfile(), paperProfile()}) {
+      std::size_t bytes = 0;
+      ASSERT_EQ(requiredBytes(size, options, bytes), Status::kOk);
+      EXPECT_LE(bytes + inputBytes(size), 10'000'000u);
+    }
   }
 }
 
