@@ -23,7 +23,7 @@ BitImage BitMap::view() const {
 
 RenderView RenderTrace::view() const {
   RenderView view;
-  view.pixels.assign(pixels.begin(), pixels.end());
+  view.pixels = std::vector<PackedEdgePixel>(pixels.begin(), pixels.end());
   EdgeRender& render = view.render;
   render.edges = edges.view();
   render.mask = mask.view();

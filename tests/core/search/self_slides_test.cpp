@@ -39,7 +39,7 @@ class SelfSlidesTest : public testing::Test {
     std::sort(pixels_.begin(), pixels_.end(), [](const EdgePixel& a, const EdgePixel& b) {
       return a.y != b.y ? a.y < b.y : a.x < b.x;
     });
-    packed_.assign(pixels_.begin(), pixels_.end());
+    packed_ = std::vector<PackedEdgePixel>(pixels_.begin(), pixels_.end());
     std::ranges::fill(row_begin_, 0);
     for (const EdgePixel& pixel : pixels_) {
       for (int y = pixel.y; y < kSize_px; ++y) ++row_begin_[static_cast<std::size_t>(y) + 1];
