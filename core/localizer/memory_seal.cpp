@@ -15,11 +15,11 @@ std::uint32_t MemorySeal::checksumOf(std::span<const std::byte> memory) {
   return crc32({reinterpret_cast<const std::uint8_t*>(memory.data()), memory.size()});
 }
 
-/// Finer levels do not outlive the first render.
+/// Other levels do not outlive the first render.
 std::uint32_t MemorySeal::checksumOf(const EdgeMap& edges, RunLevels levels) {
-  std::array<std::uint32_t, kPyramidLevels> sums{};
-  for (std::size_t level = static_cast<std::size_t>(levels.fine); level < sums.size(); ++level)
-    sums[level] = checksumOf(std::as_bytes(edges.level[level].words));
+  const std::array<std::uint32_t, 2> sums = {
+      checksumOf(std::as_bytes(edges.level[static_cast<std::size_t>(levels.fine)].words)),
+      checksumOf(std::as_bytes(edges.level[static_cast<std::size_t>(levels.coarse)].words))};
   return checksumOf(std::as_bytes(std::span(sums)));
 }
 
