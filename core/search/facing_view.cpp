@@ -149,7 +149,7 @@ constexpr int kMostRows = 128;
   const auto to = static_cast<std::int16_t>(end - begin);
   Columns weights;
   for (std::size_t k = 0; k < kColumns; ++k)
-    weights[k] = (kPlace[k] >= from) & (kPlace[k] < to) ? 1 << kWeightBits : 0;
+    weights[k] = kPlace[k] >= from && kPlace[k] < to ? 1 << kWeightBits : 0;
   const auto weightOf = [&](int column) -> std::int16_t& {
     return weights[static_cast<std::size_t>(column - begin)];
   };
