@@ -175,7 +175,7 @@ constexpr std::array<std::int16_t, 2 * kColumns> kWhole = [] {
     std::copy_n(kWhole.begin() + (kColumns - to), kColumns, weights.begin());
   } else {
     for (std::size_t k = 0; k < kColumns; ++k)
-      weights[k] = (kPlace[k] >= from) & (kPlace[k] < to) ? 1 << kWeightBits : 0;
+      weights[k] = kPlace[k] >= from && kPlace[k] < to ? 1 << kWeightBits : 0;
   }
   const auto weightOf = [&](int column) -> std::int16_t& {
     return weights[static_cast<std::size_t>(column - begin)];
