@@ -10,7 +10,6 @@ namespace boresight {
 namespace {
 
 constexpr int kBorder = 2;                     ///< of Sobel's kernel
-constexpr int kMeanReach = 15;                 ///< of the mean around a pixel, 31 x 31
 constexpr std::uint64_t kOfMean_tenths = 7;    ///< least magnitude of an edge relative to that mean
 constexpr std::uint16_t kLeastMagnitude = 64;  ///< half a gray value per px: 128 times
 
@@ -81,87 +80,99 @@ SmallImage SmallImage::channel(int index) const {
   return image;
 }
 
-void DirectedEdgeDetector::create(std::size_t pixels, Arena& arena) {
-  magnitude_ = arena.allocate<std::uint16_t>(pixels);
+void DirectedEdgeDetector::create(int max_width, Arena& arena) {
+  magnitude_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(kHeldRows * max_width));
 }
 
-void DirectedEdgeDetector::begin(int width, int height, DirectedEdges& edges) {
-  edges.width = width;
+void DirectedEdgeDetector::begin(int width, int height, int channels, DirectedEdges& edges) {
+  edges.width = width_ = width;
   edges.height = height;
-  std::fill_n(magnitude_.begin(), placeOf(0, height, width), std::uint16_t{0});
-  std::fill_n(edges.direction.begin(), placeOf(0, height, width), DirectedEdges::kNone);
+  channels_ = channels;
+  next_ = 0;
+  column_sum_.fill(0);
 }
 
-void DirectedEdgeDetector::finish(const SmallImage& image, DirectedEdges& edges) {
-  suppress(edges);
-  const std::size_t count = placeOf(0, image.height, image.width);
-  for (std::size_t i = 0; i < count; ++i)
-    if (image.seen[i] == 0) edges.direction[i] = DirectedEdges::kUnseen;
+bool DirectedEdgeDetector::step(const SmallImage& image, int rows, DirectedEdges& edges) {
+  const int end = std::min(next_ + rows, edges.height);
+  for (; next_ < end; ++next_) {
+    // The first row needs all rows of its mean.
+    for (int y = next_ > 0 ? next_ + kMeanReach : 0; y <= next_ + kMeanReach; ++y) {
+      if (y >= edges.height) break;
+      takeRow(image, y, edges);
+      addToColumns(y, true);
+    }
+    if (next_ > kMeanReach) addToColumns(next_ - kMeanReach - 1, false);
+    suppressRow(next_, image, edges);
+  }
+  return next_ == edges.height;
 }
 
-void DirectedEdgeDetector::addChannel(const SmallImage& image, DirectedEdges& edges) {
-  const int width = image.width;
+/// Gradients and directions of a row.
+void DirectedEdgeDetector::takeRow(const SmallImage& image, int y, DirectedEdges& edges) {
+  std::fill_n(magnitudes(y), width_, std::uint16_t{0});
+  std::fill_n(edges.direction.begin() + static_cast<std::ptrdiff_t>(placeOf(0, y, width_)), width_,
+              DirectedEdges::kNone);
+  if (y < kBorder || y >= edges.height - kBorder) return;
+  for (int channel = 0; channel < channels_; ++channel)
+    takeChannel(image.channel(channel), y, edges);
+}
+
+void DirectedEdgeDetector::takeChannel(const SmallImage& image, int y, DirectedEdges& edges) {
   Row<std::int32_t> smooth;
   Row<std::int32_t> derivative;
-  for (int y = kBorder; y < image.height - kBorder; ++y) {
-    sumColumns(image, y, smooth, derivative);
-    for (int x = kBorder; x < width - kBorder; ++x) {
-      const std::int32_t* s = smooth.data() + x;
-      const std::int32_t* d = derivative.data() + x;
-      const std::int32_t dx = (s[2] - s[-2]) + 2 * (s[1] - s[-1]);
-      const std::int32_t dy = d[-2] + 4 * (d[-1] + d[1]) + 6 * d[0] + d[2];
-      if (!isKnown(image, x, y)) continue;
-      const std::size_t at = placeOf(x, y, width);
-      // At most 255 * 48 * sqrt(2).
-      const auto magnitude = static_cast<std::uint16_t>(
-          std::sqrt(static_cast<double>(dx) * dx + static_cast<double>(dy) * dy));
-      if (edges.direction[at] != DirectedEdges::kNone && magnitude <= magnitude_[at]) continue;
-      magnitude_[at] = magnitude;
-      edges.direction[at] = static_cast<std::uint8_t>(edgeDirectionOf(dx, dy));
-    }
+  sumColumns(image, y, smooth, derivative);
+  std::uint16_t* const magnitude_of_row = magnitudes(y);
+  for (int x = kBorder; x < width_ - kBorder; ++x) {
+    const std::int32_t* s = smooth.data() + x;
+    const std::int32_t* d = derivative.data() + x;
+    const std::int32_t dx = (s[2] - s[-2]) + 2 * (s[1] - s[-1]);
+    const std::int32_t dy = d[-2] + 4 * (d[-1] + d[1]) + 6 * d[0] + d[2];
+    if (!isKnown(image, x, y)) continue;
+    std::uint8_t& direction = edges.direction[placeOf(x, y, width_)];
+    // At most 255 * 48 * sqrt(2).
+    const auto magnitude = static_cast<std::uint16_t>(
+        std::sqrt(static_cast<double>(dx) * dx + static_cast<double>(dy) * dy));
+    if (direction != DirectedEdges::kNone && magnitude <= magnitude_of_row[x]) continue;
+    magnitude_of_row[x] = magnitude;
+    direction = static_cast<std::uint8_t>(edgeDirectionOf(dx, dy));
   }
 }
 
-/// Keeps only the directions of edges.
-void DirectedEdgeDetector::suppress(DirectedEdges& edges) const {
+void DirectedEdgeDetector::addToColumns(int y, bool add) {
+  const std::uint16_t* const row = magnitudes(y);
+  for (int x = 0; x < width_; ++x) {
+    const std::uint32_t value = row[x];
+    column_sum_[static_cast<std::size_t>(x)] += add ? value : 0u - value;
+  }
+}
+
+/// Keeps only the directions of edges, and marks unknown pixels.
+void DirectedEdgeDetector::suppressRow(int y, const SmallImage& image, DirectedEdges& edges) const {
   // The neighbour along the normal, of eight.
   static constexpr int kStep_x[kEdgeDirections] = {1, 1, 1, 0, 0, 0, -1, -1};
   static constexpr int kStep_y[kEdgeDirections] = {0, 0, 1, 1, 1, 1, 1, 0};
   const int width = edges.width;
   const int height = edges.height;
-  Row<std::uint32_t> column_sum{};  // of the rows about y
-  const auto addRow = [&](int y, bool add) {
-    if (y < 0 || y >= height) return;
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t value = magnitude_[placeOf(x, y, width)];
-      column_sum[static_cast<std::size_t>(x)] += add ? value : 0u - value;
-    }
-  };
-  for (int y = 0; y < kMeanReach; ++y) addRow(y, true);
-  for (int y = 0; y < height; ++y) {
-    addRow(y + kMeanReach, true);
-    addRow(y - kMeanReach - 1, false);
-    const int rows = std::min(height - 1, y + kMeanReach) - std::max(0, y - kMeanReach) + 1;
-    std::uint64_t sum = 0;
-    for (int x = 0; x < std::min(kMeanReach, width); ++x)
-      sum += column_sum[static_cast<std::size_t>(x)];
-    for (int x = 0; x < width; ++x) {
-      if (x + kMeanReach < width) sum += column_sum[static_cast<std::size_t>(x + kMeanReach)];
-      if (x > kMeanReach) sum -= column_sum[static_cast<std::size_t>(x - kMeanReach - 1)];
-      const std::size_t at = placeOf(x, y, width);
-      const std::uint8_t direction = edges.direction[at];
-      if (direction == DirectedEdges::kNone) continue;
+  const int rows = std::min(height - 1, y + kMeanReach) - std::max(0, y - kMeanReach) + 1;
+  std::uint64_t sum = 0;
+  for (int x = 0; x < std::min(kMeanReach, width); ++x)
+    sum += column_sum_[static_cast<std::size_t>(x)];
+  for (int x = 0; x < width; ++x) {
+    if (x + kMeanReach < width) sum += column_sum_[static_cast<std::size_t>(x + kMeanReach)];
+    if (x > kMeanReach) sum -= column_sum_[static_cast<std::size_t>(x - kMeanReach - 1)];
+    const std::size_t at = placeOf(x, y, width);
+    std::uint8_t& direction = edges.direction[at];
+    if (direction != DirectedEdges::kNone) {
       const int columns = std::min(width - 1, x + kMeanReach) - std::max(0, x - kMeanReach) + 1;
-      const std::uint16_t magnitude = magnitude_[at];
-      const std::uint16_t ahead =
-          magnitude_[placeOf(x + kStep_x[direction], y + kStep_y[direction], width)];
-      const std::uint16_t behind =
-          magnitude_[placeOf(x - kStep_x[direction], y - kStep_y[direction], width)];
+      const std::uint16_t magnitude = magnitudes(y)[x];
+      const std::uint16_t ahead = magnitudes(y + kStep_y[direction])[x + kStep_x[direction]];
+      const std::uint16_t behind = magnitudes(y - kStep_y[direction])[x - kStep_x[direction]];
       const auto count = static_cast<std::uint64_t>(rows * columns);
       const bool kept = magnitude >= kLeastMagnitude && magnitude >= ahead && magnitude > behind &&
                         std::uint64_t{magnitude} * 10 * count >= kOfMean_tenths * sum;
-      if (!kept) edges.direction[at] = DirectedEdges::kNone;
+      if (!kept) direction = DirectedEdges::kNone;
     }
+    if (image.seen[at] == 0) direction = DirectedEdges::kUnseen;
   }
 }
 

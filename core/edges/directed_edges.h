@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -52,19 +53,33 @@ class DirectedEdgeDetector {
  public:
   static constexpr int kMaxWidth = 512;  ///< px
 
-  /// Takes memory for images of up to `pixels` from `arena`.
-  void create(std::size_t pixels, Arena& arena);
-  /// Begins with an image of this size; `edges.direction` must have room for it.
-  void begin(int width, int height, DirectedEdges& edges);
-  /// Takes a channel of the image.
-  void addChannel(const SmallImage& image, DirectedEdges& edges);
-  /// Completes the edges; `image` holds the known pixels.
-  void finish(const SmallImage& image, DirectedEdges& edges);
+  /// Takes memory for images of up to `max_width` columns from `arena`: some rows.
+  void create(int max_width, Arena& arena);
+  /// Begins with an image of this size and number of channels; `edges.direction` must have room for
+  /// it.
+  void begin(int width, int height, int channels, DirectedEdges& edges);
+  /// The edges of up to `rows` further rows; true when all are complete.
+  [[nodiscard]] bool step(const SmallImage& image, int rows, DirectedEdges& edges);
 
  private:
-  void suppress(DirectedEdges& edges) const;
+  static constexpr int kMeanReach = 15;  ///< of the mean around a pixel, 31 x 31
+  /// Rows of gradients that are held: those of the mean and the one before.
+  static constexpr int kHeldRows = 2 * kMeanReach + 2;
+
+  std::uint16_t* magnitudes(int y) { return magnitude_.data() + y % kHeldRows * width_; }
+  const std::uint16_t* magnitudes(int y) const {
+    return magnitude_.data() + y % kHeldRows * width_;
+  }
+  void takeRow(const SmallImage& image, int y, DirectedEdges& edges);
+  void takeChannel(const SmallImage& image, int y, DirectedEdges& edges);
+  void addToColumns(int y, bool add);
+  void suppressRow(int y, const SmallImage& image, DirectedEdges& edges) const;
 
   std::span<std::uint16_t> magnitude_;
+  std::array<std::uint32_t, kMaxWidth> column_sum_{};  ///< of the rows about the current one
+  int width_ = 0;
+  int channels_ = 1;
+  int next_ = 0;  ///< row to be completed
 };
 
 }  // namespace boresight

@@ -7,6 +7,7 @@ namespace boresight {
 namespace {
 
 constexpr int kSliceRows = 32;
+constexpr int kDetectedRows = 128;  ///< of one slice
 
 }  // namespace
 
@@ -16,14 +17,14 @@ std::size_t ViewEdges::create(int longest_px, int channels, Arena& arena) {
   edges_.direction = arena.allocate<std::uint8_t>(pixels);
   const std::size_t mark = arena.mark();
   image_ = SmallImage::create(pixels, arena, channels);
-  detector_.create(pixels, arena);
+  detector_.create(longest_px, arena);
   return mark;
 }
 
 bool ViewEdges::begin(const SearchProblem& problem, const Pose& camera_from_station,
                       ViewSize size) {
   problem_ = &problem;
-  row_ = channel_ = 0;
+  row_ = 0;
   size.most_px = std::min(size.most_px, longest_px_);
   if (!faceScene(problem, camera_from_station, size, view_)) return false;
   Arena none;  // the rays of a pinhole need no memory
@@ -35,13 +36,11 @@ bool ViewEdges::step() {
   if (row_ < end) {
     fillViewRows(*problem_, view_, row_, end, image_);
     row_ = end;
+    if (row_ == view_.camera.height)
+      detector_.begin(image_.width, image_.height, channelsOf(*problem_), edges_);
     return false;
   }
-  if (channel_ == 0) detector_.begin(image_.width, image_.height, edges_);
-  detector_.addChannel(image_.channel(channel_), edges_);
-  if (++channel_ < channelsOf(*problem_)) return false;
-  detector_.finish(image_, edges_);
-  return true;
+  return detector_.step(image_, kDetectedRows, edges_);
 }
 
 Pose ViewEdges::inCamera(const Pose& view_from_station) const {

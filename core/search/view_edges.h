@@ -43,7 +43,6 @@ class ViewEdges {
   DirectedEdges edges_;
   int longest_px_ = 0;
   int row_ = 0;
-  int channel_ = 0;
 };
 
 }  // namespace boresight

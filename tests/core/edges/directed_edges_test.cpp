@@ -27,16 +27,18 @@ struct Scene {
     edges.direction = direction;
   }
   void detect() { detect({gray}); }
-  void detect(std::vector<std::vector<std::uint8_t>> channels) {
+  void detect(const std::vector<std::vector<std::uint8_t>>& channels) {
     Arena arena(block);
     DirectedEdgeDetector detector;
-    detector.create(gray.size(), arena);
-    detector.begin(image.width, image.height, edges);
-    for (std::vector<std::uint8_t>& channel : channels) {
-      image.value = channel;
-      detector.addChannel(image, edges);
+    detector.create(image.width, arena);
+    std::vector<std::uint8_t> values;
+    for (const std::vector<std::uint8_t>& channel : channels)
+      values.insert(values.end(), channel.begin(), channel.end());
+    image.value = values;
+    detector.begin(image.width, image.height, static_cast<int>(channels.size()), edges);
+    while (!detector.step(image, 7, edges)) {
     }
-    detector.finish(image, edges);
+    image.value = gray;
   }
 
   std::vector<std::uint8_t> gray, seen, direction;
