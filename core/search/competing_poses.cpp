@@ -61,8 +61,8 @@ Status CompetingPoseTest::create(int channels, Arena& arena) {
   (void)view_edges_.create(kLongestView_px, channels, arena);  // its memory is not shared
   render_ = createEdgeRender(kLongestView_px, kLongestView_px, kMaxEdgePixels, arena);
   own_.marks.direction = arena.allocate<std::uint8_t>(kPixels);
-  other_.marks.direction = arena.allocate<std::uint8_t>(kPixels);
-  // A render is measured before places are compared.
+  // A render is measured before places are compared; the marks of a competing pose are made after
+  // its last measurement.
   const std::size_t start = arena.mark();
   if (refinement_.create(arena) != Status::kOk) return Status::kArenaTooSmall;
   // The hypotheses of the first view are measured one after the other.
@@ -73,6 +73,7 @@ Status CompetingPoseTest::create(int channels, Arena& arena) {
   slides_.create(arena);  // used before
   const std::size_t end = std::max(measured, arena.mark());
   arena.rewind(start);
+  other_.marks.direction = arena.allocate<std::uint8_t>(kPixels);
   distance_ = arena.allocate<std::uint8_t>(kPixels);
   apart_ = arena.allocate<std::uint8_t>(kPixels);
   arena.rewind(std::max(end, arena.mark()));
@@ -266,8 +267,7 @@ void CompetingPoseTest::markRender(DirectedEdges& marks) const {
   marks.height = render_.edges.height;
   const auto pixels = static_cast<std::ptrdiff_t>(marks.width) * marks.height;
   std::fill(marks.direction.begin(), marks.direction.begin() + pixels, DirectedEdges::kNone);
-  for (std::int32_t i = 0; i < render_.pixel_count; ++i) {
-    const EdgePixel& pixel = render_.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render_.eachPixel()) {
     marks.direction[static_cast<std::size_t>(pixel.y * marks.width + pixel.x)] =
         static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
   }
