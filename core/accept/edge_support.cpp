@@ -35,8 +35,7 @@ void measureCoverage(const EdgeRender& render, int level, const ImageView& image
   const EdgeSearch search(kSupportDerivativeSigma_px);
   const std::int32_t stride = std::max(1, (render.pixel_count + kMaxPlaces - 1) / kMaxPlaces);
   int direction = 0;
-  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel(stride)) {
     countEdge(pixel, -1, level, search, image, ignore, support.rendered, support.covered);
     countEdge(pixel, direction, level, search, image, ignore, support.displaced,
               support.displaced_covered);

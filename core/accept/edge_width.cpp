@@ -112,8 +112,7 @@ EdgeWidth measureEdgeWidth(const EdgeRender& render, int level, const ImageView&
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5);
   const double scale = static_cast<double>(1 << level);
   const int stride = std::max(1, (render.pixel_count + kMostPlaces - 1) / kMostPlaces);
-  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel(stride)) {
     const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
     const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
     meter.add(scale * (place + half) - half, normal);

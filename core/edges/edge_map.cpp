@@ -26,8 +26,8 @@ Status checkInput(const ImageView& image, const BitImage* ignore, const EdgeOpti
 }  // namespace
 
 Status EdgeDetector::begin(const ImageView& image, const BitImage* ignore,
-                           const EdgeOptions& options, Arena& kept, Arena& scratch, int finest_kept,
-                           EdgeMap& output) {
+                           const EdgeOptions& options, Arena& kept, Arena& scratch,
+                           const KeptLevels& levels, EdgeMap& output) {
   *this = EdgeDetector();
   output = EdgeMap();
   if (const Status status = checkInput(image, ignore, options, kept.countsOnly());
@@ -44,7 +44,7 @@ Status EdgeDetector::begin(const ImageView& image, const BitImage* ignore,
   int height = image.height;
   for (int level = 0; level < kPyramidLevels; ++level) {
     output.level[static_cast<std::size_t>(level)] =
-        BitImage::create(level < finest_kept ? scratch : kept, width, height);
+        BitImage::create(levels.hold(level) ? kept : scratch, width, height);
     width = (width + 1) / 2;
     height = (height + 1) / 2;
   }

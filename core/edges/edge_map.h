@@ -60,12 +60,19 @@ class EdgeDetector {
   /// was.
   Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                Arena& arena, EdgeMap& output) {
-    return begin(image, ignore, options, arena, arena, 0, output);
+    return begin(image, ignore, options, arena, arena, {}, output);
   }
-  /// The same with levels finer than `finest_kept` from `scratch`, where the detector's own scratch
+  /// Levels to keep.
+  struct KeptLevels {
+    int finest = 0;
+    int coarsest = kPyramidLevels - 1;
+    /// Whether a level is one of them.
+    bool hold(int level) const { return level >= finest && level <= coarsest; }
+  };
+  /// The same with other levels than those to keep from `scratch`, where the detector's own scratch
   /// follows: they are valid until that memory is reused.
   Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
-               Arena& kept, Arena& scratch, int finest_kept, EdgeMap& output);
+               Arena& kept, Arena& scratch, const KeptLevels& levels, EdgeMap& output);
   /// One bounded slice (about a million pixel operations); true when the map is complete.
   [[nodiscard]] bool step();
 

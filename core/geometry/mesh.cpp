@@ -67,7 +67,7 @@ void groupSides(const MeshView& mesh, std::span<std::uint32_t> group_end, std::s
 }
 
 /// Joins the faces of every run of exactly two sides with the same ends. `sides`: one group.
-void joinPairs(std::span<Side> sides, std::span<std::array<std::int32_t, 3>> neighbour) {
+void joinPairs(std::span<Side> sides, MeshAdjacency& adjacency) {
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return a.high != b.high ? a.high < b.high : a.side < b.side;
   });
@@ -75,12 +75,7 @@ void joinPairs(std::span<Side> sides, std::span<std::array<std::int32_t, 3>> nei
   while (first < sides.size()) {
     std::size_t end = first + 1;
     while (end < sides.size() && sides[end].high == sides[first].high) ++end;
-    if (end - first == 2) {
-      const std::uint32_t a = sides[first].side;
-      const std::uint32_t b = sides[first + 1].side;
-      neighbour[a / 3][a % 3] = static_cast<std::int32_t>(b / 3);
-      neighbour[b / 3][b % 3] = static_cast<std::int32_t>(a / 3);
-    }
+    if (end - first == 2) adjacency.join(sides[first].side, sides[first + 1].side);
     first = end;
   }
 }
@@ -137,9 +132,9 @@ std::size_t firstVertexInCamera(const MeshView& mesh) {
 }
 
 Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdjacency& adjacency) {
-  adjacency.neighbour = {};
+  adjacency = {};
   const std::size_t face_count = mesh.faces.size();
-  const auto neighbour = kept.allocate<std::array<std::int32_t, 3>>(face_count);
+  MeshAdjacency built = MeshAdjacency::create(face_count, kept);
   const std::size_t mark = scratch.mark();
   const auto sides = scratch.allocate<Side>(3 * face_count);
   const auto group_end = scratch.allocate<std::uint32_t>(mesh.vertices_in_station_m.size());
@@ -148,14 +143,13 @@ Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdj
   if (kept.exhausted() || scratch.exhausted()) return Status::kArenaTooSmall;
   if (face_count > kMostFaces || !indicesInRange(mesh)) return Status::kInvalidMesh;
 
-  for (auto& of_face : neighbour) of_face = {-1, -1, -1};
   groupSides(mesh, group_end, sides);
   std::uint32_t begin = 0;
   for (const std::uint32_t end : group_end) {
-    if (end - begin > 1) joinPairs(sides.subspan(begin, end - begin), neighbour);
+    if (end - begin > 1) joinPairs(sides.subspan(begin, end - begin), built);
     begin = end;
   }
-  adjacency.neighbour = neighbour;
+  adjacency = built;
   return Status::kOk;
 }
 

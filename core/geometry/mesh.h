@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include <Eigen/Core>
 
 #include "core/base/arena.h"
+#include "core/base/index_list.h"
 #include "core/base/status.h"
 
 namespace boresight {
@@ -18,6 +20,77 @@ namespace boresight {
 struct Face {
   std::array<std::int32_t, 3> vertex{};  ///< indices into MeshView::vertices_in_station_m
 };
+
+/// The same in 16 bits, where the mesh has at most kShortVertices vertices.
+using ShortFace = std::array<std::uint16_t, 3>;
+inline constexpr std::size_t kShortVertices = 65536;
+
+/// A view of triangles in either form; they are read as Face.
+class FaceList {
+ public:
+  FaceList() = default;
+  /// Any contiguous range of faces.
+  template <class Faces>
+    requires std::is_convertible_v<const Faces&, std::span<const Face>>
+  FaceList(const Faces& faces) : FaceList(std::span<const Face>(faces)) {}
+  FaceList(std::span<const Face> faces) : long_(faces.data()), size_(faces.size()) {}
+  FaceList(std::span<const ShortFace> faces) : short_(faces.data()), size_(faces.size()) {}
+
+  /// Number of faces.
+  std::size_t size() const { return size_; }
+  /// Whether there is none.
+  bool empty() const { return size_ == 0; }
+  /// A face.
+  Face operator[](std::size_t at) const {
+    if (short_ == nullptr) return long_[at];
+    const ShortFace& face = short_[at];
+    return {{face[0], face[1], face[2]}};
+  }
+  /// The first faces.
+  FaceList first(std::size_t count) const {
+    FaceList some = *this;
+    some.size_ = count;
+    return some;
+  }
+
+  /// Calls use(i, vertices of face first + i) for `count` faces; for tight loops.
+  template <class Use>
+  void forEach(std::size_t first, std::size_t count, Use&& use) const {
+    if (short_ != nullptr) {
+      for (std::size_t i = 0; i < count; ++i) use(i, short_[first + i]);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) use(i, long_[first + i].vertex);
+    }
+  }
+
+  /// Iterates over the faces by value.
+  class Iterator {
+   public:
+    Iterator(const FaceList& list, std::size_t at) : list_(&list), at_(at) {}
+    Face operator*() const { return (*list_)[at_]; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+   private:
+    const FaceList* list_;
+    std::size_t at_;
+  };
+  Iterator begin() const { return {*this, 0}; }   ///< The first face
+  Iterator end() const { return {*this, size_}; }  ///< Behind the last face
+
+ private:
+  const Face* long_ = nullptr;
+  const ShortFace* short_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// Bytes of a face in the shortest form.
+constexpr std::size_t bytesPerFace(std::size_t vertices) {
+  return vertices <= kShortVertices ? sizeof(ShortFace) : sizeof(Face);
+}
 
 /// Thresholds and role of one part of the scene.
 struct ScenePart {
@@ -42,7 +115,7 @@ constexpr std::uint8_t roleByte(const ScenePart& part) {
 struct MeshView {
   /// Metres. The vertices of parts fixed to the camera come last, and are in the camera frame.
   std::span<const Eigen::Vector3f> vertices_in_station_m;
-  std::span<const Face> faces;                             ///< triangles
+  FaceList faces;                                          ///< triangles
   std::span<const std::uint16_t> part_of_face;             ///< index into parts, one per face
   std::span<const ScenePart> parts;                        ///< at least one
 };
@@ -59,8 +132,28 @@ std::size_t firstVertexInCamera(const MeshView& mesh);
 
 /// Per face the face on the other side of edge i (vertex i to vertex (i + 1) % 3), or -1 at a
 /// border or where more than two faces meet. Faces with a repeated vertex have no neighbours.
-struct MeshAdjacency {
-  std::span<std::array<std::int32_t, 3>> neighbour;  ///< one entry per face
+class MeshAdjacency {
+ public:
+  /// Takes the memory from `arena`; no face has neighbours yet.
+  static MeshAdjacency create(std::size_t faces, Arena& arena) {
+    MeshAdjacency adjacency;
+    adjacency.neighbour_ = IndexList::create(3 * faces, faces, arena);
+    return adjacency;
+  }
+  /// Number of faces.
+  std::size_t size() const { return neighbour_.size() / 3; }
+  /// The face beyond an edge (0 ... 2) of a face, or -1.
+  std::int32_t beyond(std::int32_t face, int edge) const {
+    return neighbour_[3 * static_cast<std::size_t>(face) + static_cast<std::size_t>(edge)];
+  }
+  /// Joins two sides, each 3 * face + edge.
+  void join(std::uint32_t side, std::uint32_t other) {
+    neighbour_.set(side, static_cast<std::int32_t>(other / 3));
+    neighbour_.set(other, static_cast<std::int32_t>(side / 3));
+  }
+
+ private:
+  IndexList neighbour_;  ///< three a face
 };
 
 /// Builds the adjacency; deterministic, O(n log n). The output comes from `kept`, 24 bytes a face

@@ -78,7 +78,7 @@ void Pass::begin(const PassPlan& plan) {
       stage_ = Stage::kEdges;
       break;
     case PassKind::kSearch:
-      dropFinerEdges();
+      dropOtherEdges();
       stage_ = Stage::kSearch;
       break;
     case PassKind::kMatch:
@@ -93,14 +93,15 @@ void Pass::begin(const PassPlan& plan) {
   }
 }
 
-/// Releases the edge maps finer than any render: the renderer works in their memory.
-void Pass::dropFinerEdges() {
-  for (int level = 0; level < levels_.fine; ++level)
-    workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
+/// Releases the edge maps of levels that are not matched: the renders lie in their memory.
+void Pass::dropOtherEdges() {
+  for (int level = 0; level < kPyramidLevels; ++level)
+    if (level < levels_.fine || level > levels_.coarse)
+      workspace_.edges.level[static_cast<std::size_t>(level)] = BitImage();
 }
 
 void Pass::prepareRecord() {
-  dropFinerEdges();
+  dropOtherEdges();
   Iteration& iteration = record();
   iteration.index = workspace_.iterations;
   iteration.attempt = plan_.attempt;

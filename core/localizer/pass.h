@@ -131,7 +131,7 @@ class Pass {
   DigestWriter& digest() { return digest_; }
 
  private:
-  void dropFinerEdges();
+  void dropOtherEdges();
   void prepareRecord();
   EdgeRender& renderMemory();
   bool keepsRender(const Iteration& iteration) const;

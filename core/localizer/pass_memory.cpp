@@ -44,7 +44,8 @@ MeshView placeholderMesh(const ProblemSize& size) {
   MeshView mesh;
   mesh.vertices_in_station_m = {static_cast<const Eigen::Vector3f*>(nullptr),
                                 static_cast<std::size_t>(size.vertices)};
-  mesh.faces = {static_cast<const Face*>(nullptr), static_cast<std::size_t>(size.faces)};
+  mesh.faces = std::span<const Face>(static_cast<const Face*>(nullptr),
+                                     static_cast<std::size_t>(size.faces));
   mesh.parts = {static_cast<const ScenePart*>(nullptr), static_cast<std::size_t>(size.parts)};
   return mesh;
 }
@@ -60,14 +61,17 @@ struct PassMemory::Layout {
   RunLevels levels;
   PassMemory& to;
   EdgeMap& edges;
+  std::size_t render_bytes = 0;  ///< of the renders, at the beginning of the scratch
 
   Status run();
   Status layOutKept();
   Status layOutStages();
+  Status layOutAfterMatches();
   Status layOutSearches(int longest_px);
   void layOutRenders();
   EdgeRender createRender(int level);
-  void shareScratch(std::size_t& bytes);
+  void shareScratch(std::size_t& bytes, std::size_t first);
+  void shareBehindRenders(std::size_t& bytes) { shareScratch(bytes, render_bytes); }
   std::size_t& bytesOf(Stage stage) { return to.use_.stage[static_cast<std::size_t>(stage)]; }
 };
 
@@ -121,12 +125,11 @@ Status PassMemory::Layout::run() {
 Status PassMemory::Layout::layOutKept() {
   Arena& kept = to.kept_;
   Status status = buildAdjacency(problem.mesh, kept, to.scratch_, to.adjacency_);
-  shareScratch(to.use_.construction);
+  shareScratch(to.use_.construction, 0);
   for (int level = levels.fine; level <= levels.coarse && status == Status::kOk; ++level) {
     status = RayGrid::create(cameraAtLevel(problem.camera, level), kept,
                              to.rays[static_cast<std::size_t>(level)]);
   }
-  layOutRenders();
   to.searches = kept.allocate<WhsSearch>(static_cast<std::size_t>(workers));
   to.tasks.create(static_cast<std::size_t>(std::max({options.templates.count,
                                                      EdgeRefinement::chunksOf(options.refinement),
@@ -141,75 +144,81 @@ EdgeRender PassMemory::Layout::createRender(int level) {
   const Camera camera = cameraAtLevel(problem.camera, level);
   const std::int32_t capacity = options.render.max_edge_pixels >> (level - levels.fine);
   return createEdgeRender(camera.width, camera.height,
-                          std::min(capacity, camera.width * camera.height), to.kept_);
+                          std::min(capacity, camera.width * camera.height), to.scratch_);
 }
 
 /// The first iteration compares two coarse renders; later ones have one fine render in their place.
 void PassMemory::Layout::layOutRenders() {
-  Arena& kept = to.kept_;
-  const std::size_t start = kept.mark();
+  Arena& arena = to.scratch_;
+  const auto nextInSamePlace = [&] {
+    render_bytes = std::max(render_bytes, arena.mark());
+    arena.rewind(0);
+  };
   to.coarse_render[0] = createRender(levels.coarse);
   if (comparesHypotheses(options)) to.coarse_render[1] = createRender(levels.coarse);
   to.fine_render = to.coarse_render[0];
-  if (levels.fine != levels.coarse) {
-    const std::size_t end = kept.mark();
-    kept.rewind(start);
-    to.fine_render = createRender(levels.fine);
-    kept.rewind(std::max(end, kept.mark()));
-  }
-  if (options.search.enabled) {
-    const std::size_t end = kept.mark();
-    kept.rewind(start);
-    (void)to.search.create(channelsOf(options), kept);
-    const std::size_t search_end = kept.mark();
-    kept.rewind(start);
-    (void)to.competing.create(channelsOf(options), kept);
-    kept.rewind(std::max({end, search_end, kept.mark()}));
-  }
+  nextInSamePlace();
+  if (levels.fine != levels.coarse) to.fine_render = createRender(levels.fine);
+  nextInSamePlace();
+  if (!options.search.enabled) return;
+  (void)to.search.create(channelsOf(options), arena);
+  nextInSamePlace();
+  (void)to.competing.create(channelsOf(options), arena);
+  nextInSamePlace();
 }
 
-/// One after the other in the same memory; the edges last, as that stage is the first to run.
+/// One after the other in the same memory, behind the renders; the edges of the image last and in
+/// the place of the renders, too, as that stage is the first to run.
 Status PassMemory::Layout::layOutStages() {
   Arena& kept = to.kept_;
   Arena& scratch = to.scratch_;
+  layOutRenders();
+  std::size_t of_renders = 0;
+  shareBehindRenders(of_renders);
   const int width = ((problem.image.width - 1) >> levels.fine) + 1;
   const int height = ((problem.image.height - 1) >> levels.fine) + 1;
   const int least = options.search.enabled ? PoseSearch::kLongestView_px : 1;
-  Status status = to.renderer.create(problem.mesh, to.adjacency_, std::max(width, least),
-                                     std::max(height, least), options.render, kept, scratch,
-                                     EdgeRenderer::kBandRows, workers);
-  shareScratch(bytesOf(Stage::kRender));
+  const int widest = std::max(width, least);
+  Status status = to.renderer.create(problem.mesh, to.adjacency_, widest, std::max(height, least),
+                                     options.render, kept, scratch,
+                                     EdgeRenderer::bandRowsOf(widest), workers);
+  shareBehindRenders(bytesOf(Stage::kRender));
   if (options.search.enabled) bytesOf(Stage::kSearch) = bytesOf(Stage::kRender);
   if (status == Status::kOk) status = to.selector.create(width, height, options.templates, scratch);
-  shareScratch(bytesOf(Stage::kTemplates));
+  shareBehindRenders(bytesOf(Stage::kTemplates));
   if (status == Status::kOk) status = layOutSearches(std::max(width, height));
-  shareScratch(bytesOf(Stage::kMatch));
+  shareBehindRenders(bytesOf(Stage::kMatch));
   if (status == Status::kOk) status = to.ransac.create(options.templates.count, scratch);
-  shareScratch(bytesOf(Stage::kPose));
-  if (status == Status::kOk) status = to.refinement.create(options.refinement, scratch);
+  shareBehindRenders(bytesOf(Stage::kPose));
+  if (status == Status::kOk) status = layOutAfterMatches();
+  if (status == Status::kOk) {
+    status = to.detector.begin(problem.image, problem.ignore, options.edges, kept, scratch,
+                               {levels.fine, levels.coarse}, edges);
+  }
+  if (scratch.countsOnly()) shareScratch(bytesOf(Stage::kEdges), 0);
+  return status;
+}
+
+/// The samples of a refinement remain valid until the next render. Behind them first the
+/// refinement works, then the evidence is measured, then the focal length.
+Status PassMemory::Layout::layOutAfterMatches() {
+  Arena& scratch = to.scratch_;
   if (options.refinement.enabled) {
     to.records[0].refinement.samples =
         scratch.allocate<EdgeSample>(static_cast<std::size_t>(options.refinement.max_samples));
   }
-  if (scratch.countsOnly()) bytesOf(Stage::kRefine) = scratch.highWater();
-  // Placed behind the samples, which remain valid until the next render.
-  if (options.search.enabled && status == Status::kOk) {
-    const std::size_t start = scratch.mark();
-    status = to.evidence.create(channelsOf(options), scratch);
-    // The focal length is measured when the evidence is complete.
-    scratch.rewind(start);
+  const std::size_t samples_end = scratch.mark();
+  Status status = to.refinement.create(options.refinement, scratch);
+  shareScratch(bytesOf(Stage::kRefine), samples_end);
+  if (options.search.enabled) {
+    if (status == Status::kOk) status = to.evidence.create(channelsOf(options), scratch);
+    scratch.rewind(samples_end);
     if (status == Status::kOk) status = to.focal.create(options.refinement.max_samples, scratch);
-    // The test of competing poses renders, when the samples are no longer needed.
-    if (scratch.countsOnly())
-      bytesOf(Stage::kSupport) = std::max(scratch.highWater(), bytesOf(Stage::kRender));
   }
-  [[maybe_unused]] std::size_t of_samples_and_evidence = 0;  // counted above
-  shareScratch(of_samples_and_evidence);
-  if (status == Status::kOk) {
-    status = to.detector.begin(problem.image, problem.ignore, options.edges, kept, scratch,
-                               levels.fine, edges);
-  }
-  if (scratch.countsOnly()) shareScratch(bytesOf(Stage::kEdges));
+  shareScratch(bytesOf(Stage::kSupport), 0);
+  // The test of competing poses renders, when the samples are no longer needed.
+  if (options.search.enabled && scratch.countsOnly())
+    bytesOf(Stage::kSupport) = std::max(bytesOf(Stage::kSupport), bytesOf(Stage::kRender));
   return status;
 }
 
@@ -225,14 +234,12 @@ Status PassMemory::Layout::layOutSearches(int longest_px) {
   return status;
 }
 
-/// The next stage takes the same memory.
-void PassMemory::Layout::shareScratch(std::size_t& bytes) {
-  if (to.scratch_.countsOnly()) {
-    bytes = to.scratch_.highWater();
-    to.scratch_ = Arena();
-  } else {
-    to.scratch_.rewind(0);
-  }
+/// The next stage takes the same memory from byte `first` on.
+void PassMemory::Layout::shareScratch(std::size_t& bytes, std::size_t first) {
+  if (!to.scratch_.countsOnly()) return to.scratch_.rewind(first);
+  bytes = to.scratch_.highWater();
+  to.scratch_ = Arena();
+  (void)to.scratch_.allocate<std::byte>(first);
 }
 
 }  // namespace boresight

@@ -26,8 +26,8 @@
 namespace boresight {
 
 /// Bytes of a localizer's block: memory that lives throughout, additional memory of construction
-/// (returned before the first step), and additional memory of each stage; the stages share one
-/// place.
+/// (returned before the first step), and additional memory of each stage, renders included; the
+/// stages share one place.
 struct MemoryUse {
   std::size_t kept = 0;          ///< bytes that live throughout
   std::size_t construction = 0;  ///< additional bytes during construction
@@ -43,11 +43,12 @@ struct MemoryUse {
 };
 
 /// The memory of a localization, laid out once in one block: first the memory kept for the whole
-/// run (mesh adjacency, ray grids, edge maps from the finest matched level on, renders, records),
-/// then scratch that the stages use in turn. The search before the first iteration and that of
-/// competing poses after the last one work in the memory of the renders. Edge maps finer than the
-/// finest matched level last until the first render; the samples of a refinement last until the
-/// next render.
+/// run (mesh adjacency, ray grids, edge maps of the matched levels, records), then the
+/// renders, then scratch that the stages use in turn. Construction and the detection of the image's
+/// edges come before the first render and also use the memory of the renders. The search before the
+/// first iteration and that of competing poses after the last one work in the memory of the
+/// renders. Edge maps of other levels last until the first render; the samples of a refinement last
+/// until the next render.
 ///
 /// The stages keep pointers into this object: it must not move.
 class PassMemory {

@@ -187,6 +187,9 @@ ProblemFault allocateList(ByteReader& reader, std::size_t bytes_each, Arena& are
   return list.size() == count ? ProblemFault::kNone : ProblemFault::kArenaTooSmall;
 }
 
+std::array<std::int32_t, 3>& verticesOf(Face& face) { return face.vertex; }
+std::array<std::uint16_t, 3>& verticesOf(ShortFace& face) { return face; }
+
 ProblemFault readParts(ByteReader& reader, Arena& arena, MeshView& mesh) {
   std::span<ScenePart> parts;
   const ProblemFault fault = allocateList(reader, 17, arena, parts);
@@ -214,19 +217,31 @@ ProblemFault readVertices(ByteReader& reader, Arena& arena, MeshView& mesh) {
   return ProblemFault::kNone;
 }
 
-ProblemFault readFaces(ByteReader& reader, Arena& arena, MeshView& mesh) {
-  std::span<Face> faces;
+/// Faces of one form. Indices that the form cannot hold are refused here, others by validateMesh().
+template <class Stored, class Index>
+ProblemFault readFacesAs(ByteReader& reader, Arena& arena, MeshView& mesh) {
+  std::span<Stored> faces;
   const ProblemFault fault = allocateList(reader, 14, arena, faces);
   if (fault != ProblemFault::kNone) return fault;
   const std::span<std::uint16_t> part_of_face = arena.allocate<std::uint16_t>(faces.size());
   if (part_of_face.size() != faces.size()) return ProblemFault::kArenaTooSmall;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::int32_t& vertex : faces[f].vertex) vertex = reader.i32();
+    for (Index& index : verticesOf(faces[f])) {
+      const std::int32_t vertex = reader.i32();
+      index = static_cast<Index>(vertex);
+      if (std::int64_t{index} != vertex) return ProblemFault::kMesh;
+    }
     part_of_face[f] = reader.u16();
   }
-  mesh.faces = faces;
+  mesh.faces = FaceList(std::span<const Stored>(faces));
   mesh.part_of_face = part_of_face;
   return ProblemFault::kNone;
+}
+
+ProblemFault readFaces(ByteReader& reader, Arena& arena, MeshView& mesh) {
+  return mesh.vertices_in_station_m.size() <= kShortVertices
+             ? readFacesAs<ShortFace, std::uint16_t>(reader, arena, mesh)
+             : readFacesAs<Face, std::int32_t>(reader, arena, mesh);
 }
 
 ProblemFault readMesh(ByteReader& reader, Arena& arena, MeshView& mesh) {

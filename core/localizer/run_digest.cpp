@@ -123,8 +123,7 @@ void digestRender(const EdgeRender& render, DigestWriter& writer) {
   digestBits(render.edges, writer);
   digestBits(render.mask, writer);
   writer.i32(render.pixel_count);
-  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel()) {
     writer.f32(pixel.depth_m);
     writer.i32(pixel.face);
     writer.u8(static_cast<std::uint8_t>(pixel.normal_x));

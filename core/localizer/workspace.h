@@ -117,7 +117,7 @@ struct Iteration {
 
 /// State of a run, valid between two steps.
 struct Workspace {
-  EdgeMap edges;  ///< levels finer than any render are invalid once the first iteration has begun
+  EdgeMap edges;  ///< levels without renders are invalid once the first iteration has begun
   /// The latest iteration; stages not yet reached hold old values. Its render and its samples are
   /// invalid after the test of competing poses.
   const Iteration* iteration = nullptr;

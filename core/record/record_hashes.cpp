@@ -27,8 +27,7 @@ RecordHash renderHash(const EdgeRender& render) {
   writeBits(render.edges, writer);
   writeBits(render.mask, writer);
   writer.i32(render.pixel_count);
-  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel()) {
     writer.f32(pixel.depth_m);
     writer.i32(pixel.face);
     for (const std::int8_t value : {pixel.normal_x, pixel.normal_y, pixel.offset})

@@ -70,12 +70,12 @@ void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render)
   RefinementResult& result = *result_;
   result.sample_count = 0;
   box_px_.setEmpty();
-  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel(stride)) {
     Eigen::Vector2d position_px;
     EdgeSample sample;
     if (!edgeLinePoint(render, mesh, pixel, position_px, sample.point_in_station_m)) continue;
-    sample.normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
+    sample.normal_x = pixel.normal_x;
+    sample.normal_y = pixel.normal_y;
     sample.kind = pixel.kind;
     box_px_.extend(scale * position_px);
     result.samples[static_cast<std::size_t>(result.sample_count)] = sample;
@@ -154,11 +154,12 @@ void EdgeRefinement::searchChunk(int chunk) {
     Eigen::Vector2d predicted_px;
     if (!project(camera_, rotation * sample.point_in_station_m + translation_m, predicted_px))
       continue;
+    const Eigen::Vector2d normal = sample.normal();
     const EdgePeak peak =
-        search_.find(image_, ignore_, predicted_px, sample.normal, radius_px_, kMinGradient);
+        search_.find(image_, ignore_, predicted_px, normal, radius_px_, kMinGradient);
     sample.residual_px = peak.offset_px;
     sample.gradient = peak.gradient;
-    found_at_px_[static_cast<std::size_t>(i)] = sample.normal.dot(predicted_px) + peak.offset_px;
+    found_at_px_[static_cast<std::size_t>(i)] = normal.dot(predicted_px) + peak.offset_px;
   }
 }
 
@@ -221,11 +222,12 @@ EdgeEquations EdgeRefinement::weightedEquations(double& weights) {
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> jacobian;
     if (!projectWithJacobian(camera_, point_in_camera_m, pixel, jacobian)) continue;
-    sample.residual_px = found_at_px_[static_cast<std::size_t>(i)] - sample.normal.dot(pixel);
+    const Eigen::Vector2d normal = sample.normal();
+    sample.residual_px = found_at_px_[static_cast<std::size_t>(i)] - normal.dot(pixel);
     if (std::abs(sample.residual_px) >= cut_px) continue;
     const double ratio = sample.residual_px / cut_px;
     sample.weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
-    const Vector6d row = lineRow(point_in_camera_m, sample.normal, jacobian);
+    const Vector6d row = lineRow(point_in_camera_m, normal, jacobian);
     const double weight = shareOf(sample) * sample.weight;
     addRow(row, weight, sample.residual_px, equations.step);
     noteGroups(sample, pixel, row, ratio, equations.errors.curvature);
@@ -246,7 +248,7 @@ void EdgeRefinement::noteGroups(const EdgeSample& sample, const Eigen::Vector2d&
     for (int b = 0; b <= a; ++b) curvature(a, b) += bend * row[a] * row[b];
   const Eigen::Vector2d sizes_px = box_px_.sizes().cwiseMax(1.0);
   const Eigen::Vector2d place = (pixel - box_px_.min()).cwiseQuotient(sizes_px);
-  groups_.add({place, sample.normal, sample.gradient > 0.0, sample.kind}, sample.residual_px,
+  groups_.add({place, sample.normal(), sample.gradient > 0.0, sample.kind}, sample.residual_px,
               share * sample.weight * row);
 }
 

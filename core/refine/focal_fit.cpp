@@ -79,9 +79,9 @@ bool FocalFitter::rowOf(const EdgeSample& sample, Row& row) const {
       rotation_ * sample.point_in_station_m + refined_->camera_from_station.translation_m;
   Eigen::Matrix<double, 2, 3> jacobian;
   if (!projectWithJacobian(camera_, point_m, row.pixel, jacobian)) return false;
-  const Eigen::Vector3d slope = (sample.normal.transpose() * jacobian).transpose();
+  const Eigen::Vector3d slope = (sample.normal().transpose() * jacobian).transpose();
   row.by_pose << point_m.cross(slope), slope;
-  row.by_focal = sample.normal.dot(row.pixel - Eigen::Vector2d(camera_.cx, camera_.cy));
+  row.by_focal = sample.normal().dot(row.pixel - Eigen::Vector2d(camera_.cx, camera_.cy));
   row.residual_px = sample.residual_px - row.by_pose.dot(xi_) - row.by_focal * fit_.change;
   return true;
 }
@@ -154,11 +154,11 @@ void FocalFitter::measureSigma() {
     const double error = slope * row.residual_px;
     const Eigen::Vector2d place = (row.pixel - box_px_.min()).cwiseQuotient(sizes_px);
     const std::array<int, 3> groups =
-        ErrorGroups::groupsOf({place, sample.normal, sample.gradient > 0.0, sample.kind});
+        ErrorGroups::groupsOf({place, sample.normal(), sample.gradient > 0.0, sample.kind});
     by_place.add(groups[0], error);
     by_side.add(groups[1], error);
     by_kind.add(groups[2], error);
-    common += slope * Eigen::Vector3d(1.0, sample.normal.x(), sample.normal.y());
+    common += slope * Eigen::Vector3d(1.0, sample.normal().x(), sample.normal().y());
   }
   const double squares =
       by_place.squares() + by_side.squares() + by_kind.squares() +

@@ -46,8 +46,7 @@ Status OutlineRefinement::create(Arena& arena) {
 void OutlineRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render) {
   count_ = 0;
   const int stride = std::max(1, (render.pixel_count + kMaxSamples - 1) / kMaxSamples);
-  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel(stride)) {
     Sample& sample = samples_[static_cast<std::size_t>(count_)];
     Eigen::Vector2d position_px;
     if (!edgeLinePoint(render, mesh, pixel, position_px, sample.point_in_station_m)) continue;

@@ -28,8 +28,7 @@ double clamped(double value, double low, double high) {
 /// Bounds of a face that crosses the near plane or leaves the region where projection is well
 /// behaved: what is left of it beyond the near plane has a bounding box in (x/z, y/z).
 PixelBounds clippedBounds(const CameraScene& scene, const RayGrid& rays, std::int32_t face) {
-  std::array<Eigen::Vector3d, 3> corner;
-  for (int i = 0; i < 3; ++i) corner[static_cast<std::size_t>(i)] = scene.vertex(face, i);
+  const Corners corner = scene.corners(face);
   const double near_m = CameraScene::kNearPlane_m;
   double x_min = 1e300, x_max = -1e300, y_min = 1e300, y_max = -1e300;
   const auto include = [&](double x, double y) {
@@ -95,13 +94,12 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
   scene = CameraScene();
   const Status status = kept.countsOnly() ? Status::kOk : validateMesh(mesh);
   if (status != Status::kOk) return status;
-  if (adjacency.neighbour.size() != mesh.faces.size() && !kept.countsOnly())
+  if (adjacency.size() != mesh.faces.size() && !kept.countsOnly())
     return Status::kInvalidMesh;
   scene.mesh = mesh;
   scene.adjacency = adjacency;
   scene.cos_normal_threshold = kept.allocate<double>(mesh.parts.size());
   scene.face_flags = kept.allocate<std::uint8_t>(mesh.faces.size());
-  scene.vertex_in_camera_m = scratch.allocate<Eigen::Vector3d>(mesh.vertices_in_station_m.size());
   scene.vertex_px = scratch.allocate<FixedPixel>(mesh.vertices_in_station_m.size());
   scene.vertex_depth = scratch.allocate<std::uint16_t>(mesh.vertices_in_station_m.size());
   if (kept.countsOnly()) return Status::kOk;
@@ -152,7 +150,8 @@ void CameraScene::setFlags(std::size_t face) {
   unsigned flags = face_flags[face];
   if (normalIsKnown(face, normal)) flags |= kNormalKnown;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::int32_t beyond = adjacency.neighbour[face][i];
+    const std::int32_t beyond =
+        adjacency.beyond(static_cast<std::int32_t>(face), static_cast<int>(i));
     if (beyond < 0 || static_cast<std::size_t>(beyond) < face) continue;
     const auto neighbour_index = static_cast<std::size_t>(beyond);
     const Face& neighbour = mesh.faces[neighbour_index];
@@ -177,14 +176,17 @@ void CameraScene::setFlags(std::size_t face) {
 }
 
 void CameraScene::orient(std::int32_t face) {
-  const Eigen::Vector3d& v0 = vertex(face, 0);
-  const Eigen::Vector3d normal = crossProduct(vertex(face, 1) - v0, vertex(face, 2) - v0);
-  setFrontFacing(face, dotProduct(normal, v0) < 0.0);
+  const Corners corner = corners(face);
+  const Eigen::Vector3d normal = crossProduct(corner[1] - corner[0], corner[2] - corner[0]);
+  setFrontFacing(face, dotProduct(normal, corner[0]) < 0.0);
 }
 
 void CameraScene::begin(const Pose& camera_from_station, const RayGrid& rays, const Pose& turn) {
   const Camera& camera = rays.camera();
-  view_from_camera = turn;
+  station_ = Placement(camera_from_station);
+  camera_ = Placement(turn);
+  pupil_moves_ = pupilMoves(camera);
+  rays_camera_ = camera;
   // The middle is a pixel's centre, and a node's spacing beyond the image still has a place.
   scale.middle_x = camera.width / 2;
   scale.middle_y = camera.height / 2;
@@ -195,7 +197,7 @@ void CameraScene::begin(const Pose& camera_from_station, const RayGrid& rays, co
 
   DepthBounds depths = depthsOf(station_box, camera_from_station);
   if (first_in_camera < mesh.vertices_in_station_m.size()) {
-    const DepthBounds of_camera = depthsOf(camera_box, view_from_camera);
+    const DepthBounds of_camera = depthsOf(camera_box, turn);
     depths.low_m = std::min(depths.low_m, of_camera.low_m);
     depths.high_m = std::max(depths.high_m, of_camera.high_m);
   }
@@ -214,12 +216,12 @@ struct VertexBlock {
   double camera[3][kBlock];
 };
 
-void rotate(const Eigen::Matrix3d& r, const Eigen::Vector3d& t, VertexBlock& block) {
+void rotate(const Eigen::Matrix3d& r, const Eigen::Vector3d& t_m, VertexBlock& block) {
   for (int k = 0; k < 3; ++k) {
     const double rx = r(k, 0);
     const double ry = r(k, 1);
     const double rz = r(k, 2);
-    const double translation_m = t[k];
+    const double translation_m = t_m[k];
     for (std::size_t i = 0; i < kBlock; ++i)
       block.camera[k][i] =
           ((rx * block.station[0][i] + ry * block.station[1][i]) + rz * block.station[2][i]) +
@@ -238,17 +240,13 @@ void moveToPupil(const Camera& camera, std::size_t count, VertexBlock& block) {
 
 }  // namespace
 
-void CameraScene::transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
-                            std::size_t last) {
-  transformBy(camera_from_station, rays, first, std::min(last, first_in_camera));
-  transformBy(view_from_camera, rays, std::max(first, first_in_camera), last);
-  if (!rays.level()) projectDistorted(rays.camera(), first, last);
+void CameraScene::transform(const RayGrid& rays, std::size_t first, std::size_t last) {
+  transformBy(station_, rays, first, std::min(last, first_in_camera));
+  transformBy(camera_, rays, std::max(first, first_in_camera), last);
 }
 
-/// `pose` is camera_from_station, or view_from_camera of vertices fixed to the camera.
-void CameraScene::transformBy(const Pose& pose, const RayGrid& rays, std::size_t first,
+void CameraScene::transformBy(const Placement& placed, const RayGrid& rays, std::size_t first,
                               std::size_t last) {
-  const Eigen::Matrix3d r = pose.matrix();
   VertexBlock block = {};
   double steps_of_depth[kBlock];
   for (std::size_t begin = first; begin < last; begin += kBlock) {
@@ -257,17 +255,17 @@ void CameraScene::transformBy(const Pose& pose, const RayGrid& rays, std::size_t
       const Eigen::Vector3f& p = mesh.vertices_in_station_m[begin + i];
       for (int k = 0; k < 3; ++k) block.station[k][i] = static_cast<double>(p[k]);
     }
-    rotate(r, pose.translation_m, block);
+    rotate(placed.r, placed.t_m, block);
     if (pupilMoves(rays.camera())) moveToPupil(rays.camera(), count, block);
     for (std::size_t i = 0; i < kBlock; ++i)
       steps_of_depth[i] = clamped((block.camera[2][i] - scale.low_m) * scale.per_m, 0.0, kDeepest);
-    for (std::size_t i = 0; i < count; ++i) {
-      vertex_in_camera_m[begin + i] = {block.camera[0][i], block.camera[1][i], block.camera[2][i]};
+    for (std::size_t i = 0; i < count; ++i)
       vertex_depth[begin + i] = static_cast<std::uint16_t>(static_cast<int>(steps_of_depth[i]));
-    }
+    const std::span<FixedPixel> pixels = vertex_px.subspan(begin, count);
     if (rays.level())
-      projectPinhole(rays.camera(), block.camera[0], block.camera[1], block.camera[2],
-                     vertex_px.subspan(begin, count));
+      projectPinhole(rays.camera(), block.camera[0], block.camera[1], block.camera[2], pixels);
+    else
+      projectDistorted(rays.camera(), block.camera[0], block.camera[1], block.camera[2], pixels);
   }
 }
 
@@ -296,13 +294,14 @@ void CameraScene::projectPinhole(const Camera& camera, const double* x_m, const 
   }
 }
 
-void CameraScene::projectDistorted(const Camera& camera, std::size_t first, std::size_t last) {
+void CameraScene::projectDistorted(const Camera& camera, const double* x_m, const double* y_m,
+                                   const double* z_m, std::span<FixedPixel> pixels) const {
   // The bound on the bend of lines holds over the image and one node beyond it.
   const double reach = RayGrid::kSpacing_px;
   const double steps = scale.steps();
-  for (std::size_t i = first; i < last; ++i) {
-    const Eigen::Vector3d& q = vertex_in_camera_m[i];
-    vertex_px[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const Eigen::Vector3d q(x_m[i], y_m[i], z_m[i]);
+    pixels[i] = {FixedPixel::kNotProjected, FixedPixel::kNotProjected};
     Eigen::Vector2d pixel;
     if (!(q.z() >= kNearPlane_m) || !projectDirection(camera, q, pixel)) continue;
     if (!(pixel.x() >= -reach && pixel.x() <= camera.width - 1 + reach && pixel.y() >= -reach &&
@@ -312,14 +311,12 @@ void CameraScene::projectDistorted(const Camera& camera, std::size_t first, std:
       return static_cast<std::int16_t>(
           floorClamped(value_px * steps + 0.5, -FixedScale::kLimit, FixedScale::kLimit));
     };
-    vertex_px[i] = {fixed(pixel.x() - scale.middle_x), fixed(pixel.y() - scale.middle_y)};
+    pixels[i] = {fixed(pixel.x() - scale.middle_x), fixed(pixel.y() - scale.middle_y)};
   }
 }
 
-bool faceEdges(const CameraScene& scene, std::int32_t face, Eigen::Vector3d edge[3]) {
-  const Eigen::Vector3d& v0 = scene.vertex(face, 0);
-  const Eigen::Vector3d& v1 = scene.vertex(face, 1);
-  const Eigen::Vector3d& v2 = scene.vertex(face, 2);
+bool faceEdges(const Corners& corners, Eigen::Vector3d edge[3]) {
+  const auto& [v0, v1, v2] = corners;
   edge[0] = crossProduct(v0, v1);
   edge[1] = crossProduct(v1, v2);
   edge[2] = crossProduct(v2, v0);
@@ -330,9 +327,7 @@ bool faceEdges(const CameraScene& scene, std::int32_t face, Eigen::Vector3d edge
 }
 
 bool facePlane(const CameraScene& scene, std::int32_t face, Eigen::Vector3d& plane) {
-  const Eigen::Vector3d& v0 = scene.vertex(face, 0);
-  const Eigen::Vector3d& v1 = scene.vertex(face, 1);
-  const Eigen::Vector3d& v2 = scene.vertex(face, 2);
+  const auto [v0, v1, v2] = scene.corners(face);
   return planeOf(crossProduct(v1 - v0, v2 - v0), v0, plane);
 }
 
@@ -364,10 +359,11 @@ double bendMargin(const RayGrid& rays, double length2) {
 /// outside the valid field.
 bool boxBySegments(const CameraScene& scene, const RayGrid& rays, std::int32_t face, FaceBox& box) {
   constexpr int kSegments = 8;
+  const Corners corner = scene.corners(face);
   double longest2 = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& from = scene.vertex(face, i);
-    const Eigen::Vector3d& to = scene.vertex(face, i < 2 ? i + 1 : 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& from = corner[i];
+    const Eigen::Vector3d& to = corner[i < 2 ? i + 1 : 0];
     Eigen::Vector2d before;
     for (int k = 0; k <= kSegments; ++k) {
       const double s = k / static_cast<double>(kSegments);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -40,9 +41,13 @@ struct FixedScale {
   int steps() const { return 1 << shift; }
 };
 
-/// The mesh seen from one pose: its vertices in the camera frame (where the entrance pupil moves:
-/// as seen from the pupil of their own rays), and their pixels and depths in
-/// few bits, for bounds and for clear decisions. Refilled for every pose.
+/// The corners of a face.
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// The mesh seen from one pose: the pixels and depths of its vertices in few bits, for bounds and
+/// for clear decisions. Vertices in the camera frame (where the entrance pupil moves: as seen from
+/// the pupil of their own rays) are computed again wherever they are needed: they would be the
+/// largest part of a render's memory. Refilled for every pose.
 struct CameraScene {
   /// Surfaces nearer than this are not rendered: no camera is in focus there.
   static constexpr double kNearPlane_m = 0.01;
@@ -52,11 +57,9 @@ struct CameraScene {
   std::size_t first_in_camera = 0;                ///< vertices from here on are fixed to the camera
   BoundingBox station_box;                        ///< of the vertices before, station frame
   BoundingBox camera_box;                         ///< of the others, camera frame
-  Pose view_from_camera;                          ///< of the current render
-  std::span<Eigen::Vector3d> vertex_in_camera_m;  ///< one per vertex of the mesh
-  std::span<FixedPixel> vertex_px;                      ///< of each
-  std::span<std::uint16_t> vertex_depth;                ///< floor((z - low_m) per_m)
-  FixedScale scale;                                     ///< of pixels and depths
+  std::span<FixedPixel> vertex_px;                ///< one per vertex of the mesh
+  std::span<std::uint16_t> vertex_depth;          ///< of each: floor((z - low_m) per_m)
+  FixedScale scale;                               ///< of pixels and depths
   std::span<double> cos_normal_threshold;               ///< per part
   /// Per face: bit i when the surface continues smoothly over edge i to a face of the same
   /// orientation; kFrontFacing when the outer side is seen from this pose; kNormalKnown when the
@@ -72,12 +75,11 @@ struct CameraScene {
   static Status create(const MeshView& mesh, const MeshAdjacency& adjacency, Arena& kept,
                        Arena& scratch, CameraScene& scene);
 
-  /// Chooses the scale for a render; before `transform`. Where the rays are those of a view turned
+  /// Sets pose and scale of a render; before `transform`. Where the rays are those of a view turned
   /// from the camera, `camera_from_station` is the view's pose, and `turn` is view_from_camera.
   void begin(const Pose& camera_from_station, const RayGrid& rays, const Pose& turn = Pose());
-  /// Vertices first .. last - 1 into the camera frame.
-  void transform(const Pose& camera_from_station, const RayGrid& rays, std::size_t first,
-                 std::size_t last);
+  /// Pixels and depths of vertices first .. last - 1.
+  void transform(const RayGrid& rays, std::size_t first, std::size_t last);
 
   /// Sets a face's kFrontFacing.
   void orient(std::int32_t face);
@@ -99,18 +101,24 @@ struct CameraScene {
   /// True when two faces share an edge over which the surface continues smoothly, and show the same
   /// side: no salient edge separates them.
   bool continues(std::int32_t face, std::int32_t other) const {
-    const auto& around = adjacency.neighbour[static_cast<std::size_t>(face)];
     const std::uint8_t flags = face_flags[static_cast<std::size_t>(face)];
     if (((flags ^ face_flags[static_cast<std::size_t>(other)]) & kFrontFacing) != 0) return false;
-    return (around[0] == other && (flags & 1) != 0) || (around[1] == other && (flags & 2) != 0) ||
-           (around[2] == other && (flags & 4) != 0);
+    for (int i = 0; i < 3; ++i)
+      if ((flags >> i & 1) != 0 && adjacency.beyond(face, i) == other) return true;
+    return false;
   }
 
-  /// Vertex `corner` (0 ... 2) of a face, camera frame, m.
-  const Eigen::Vector3d& vertex(std::int32_t face, int corner) const {
-    const Face& indices = mesh.faces[static_cast<std::size_t>(face)];
-    return vertex_in_camera_m[static_cast<std::size_t>(
-        indices.vertex[static_cast<std::size_t>(corner)])];
+  /// A vertex, camera frame, m.
+  Eigen::Vector3d vertex(std::int32_t index) const {
+    const auto at = static_cast<std::size_t>(index);
+    const Placement& placed = at < first_in_camera ? station_ : camera_;
+    const Eigen::Vector3d point = placed.place(mesh.vertices_in_station_m[at].cast<double>());
+    return pupil_moves_ ? seenFromPupil(rays_camera_, point) : point;
+  }
+  /// The corners of a face, camera frame, m.
+  Corners corners(std::int32_t face) const {
+    const Face indices = mesh.faces[static_cast<std::size_t>(face)];
+    return {vertex(indices.vertex[0]), vertex(indices.vertex[1]), vertex(indices.vertex[2])};
   }
   /// The part that a face belongs to.
   const ScenePart& part(std::int32_t face) const { return mesh.parts[partIndex(face)]; }
@@ -120,13 +128,36 @@ struct CameraScene {
   }
 
  private:
-  void transformBy(const Pose& pose, const RayGrid& rays, std::size_t first, std::size_t last);
+  /// A pose as it moves points.
+  struct Placement {
+    Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d t_m = Eigen::Vector3d::Zero();
+
+    Placement() = default;
+    explicit Placement(const Pose& pose) : r(pose.matrix()), t_m(pose.translation_m) {}
+    /// The same terms in the same order as for a block of vertices.
+    Eigen::Vector3d place(const Eigen::Vector3d& p) const {
+      Eigen::Vector3d placed;
+      for (int k = 0; k < 3; ++k)
+        placed[k] = ((r(k, 0) * p[0] + r(k, 1) * p[1]) + r(k, 2) * p[2]) + t_m[k];
+      return placed;
+    }
+  };
+
+  void transformBy(const Placement& placed, const RayGrid& rays, std::size_t first,
+                   std::size_t last);
   void projectPinhole(const Camera& camera, const double* x_m, const double* y_m, const double* z_m,
                       std::span<FixedPixel> pixels) const;
-  void projectDistorted(const Camera& camera, std::size_t first, std::size_t last);
+  void projectDistorted(const Camera& camera, const double* x_m, const double* y_m,
+                        const double* z_m, std::span<FixedPixel> pixels) const;
   Eigen::Vector3d outerNormal(std::size_t face) const;
   bool normalIsKnown(std::size_t face, const Eigen::Vector3d& normal) const;
   void setFlags(std::size_t face);
+
+  Placement station_;         ///< camera_from_station of the current render
+  Placement camera_;          ///< view_from_camera of the current render
+  bool pupil_moves_ = false;  ///< of the camera
+  Camera rays_camera_;        ///< the camera rendered with
 };
 
 /// a x b, each component a difference of two products: cross(a, b) == -cross(b, a) bit for bit,
@@ -144,7 +175,7 @@ inline double dotProduct(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 /// on the triangle's side of edge i (vertex i to vertex (i + 1) % 3), for rays (x/z, y/z, 1)
 /// (homogeneous rasterization: Olano & Greer, "Triangle Scan Conversion using 2D Homogeneous
 /// Coordinates", 1997). False when the triangle has no area seen from the camera.
-[[nodiscard]] bool faceEdges(const CameraScene& scene, std::int32_t face, Eigen::Vector3d edge[3]);
+[[nodiscard]] bool faceEdges(const Corners& corners, Eigen::Vector3d edge[3]);
 
 /// The plane through a point with a normal of any length, as 1/z = plane . ray. False when the
 /// camera's centre lies in it.

@@ -26,9 +26,9 @@ bool hasArea(const Eigen::Vector3d& v0, const Eigen::Vector3d& v1, const Eigen::
 
 }  // namespace
 
-bool prepareEdges(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
+bool prepareEdges(const Corners& corners, DrawnFace& drawn) {
   Eigen::Vector3d edge[3];
-  if (!faceEdges(scene, face, edge)) return false;
+  if (!faceEdges(corners, edge)) return false;
   for (int i = 0; i < 3; ++i) {
     drawn.a[i] = edge[i].x();
     drawn.b[i] = edge[i].y();
@@ -38,10 +38,8 @@ bool prepareEdges(const CameraScene& scene, std::int32_t face, DrawnFace& drawn)
   return true;
 }
 
-bool preparePlane(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
-  const Eigen::Vector3d& v0 = scene.vertex(face, 0);
-  const Eigen::Vector3d& v1 = scene.vertex(face, 1);
-  const Eigen::Vector3d& v2 = scene.vertex(face, 2);
+bool preparePlane(const Corners& corners, std::int32_t face, DrawnFace& drawn) {
+  const auto& [v0, v1, v2] = corners;
   const double z_min = std::min({v0.z(), v1.z(), v2.z()});
   const double z_max = std::max({v0.z(), v1.z(), v2.z()});
   if (!(z_max >= CameraScene::kNearPlane_m) || !hasArea(v0, v1, v2)) return false;
@@ -68,7 +66,8 @@ bool preparePlane(const CameraScene& scene, std::int32_t face, DrawnFace& drawn)
 }
 
 bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn) {
-  return prepareEdges(scene, face, drawn) && preparePlane(scene, face, drawn);
+  const Corners corners = scene.corners(face);
+  return prepareEdges(corners, drawn) && preparePlane(corners, face, drawn);
 }
 
 }  // namespace boresight

@@ -28,9 +28,9 @@ struct DrawnFace {
 };
 
 /// Sets up the edges, but for their `slack`. False when the face has no area seen from the camera.
-[[nodiscard]] bool prepareEdges(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
+[[nodiscard]] bool prepareEdges(const Corners& corners, DrawnFace& drawn);
 /// Sets up all other members. False when the face is invisible, as one without area is.
-[[nodiscard]] bool preparePlane(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
+[[nodiscard]] bool preparePlane(const Corners& corners, std::int32_t face, DrawnFace& drawn);
 /// Both. False when the face is invisible.
 [[nodiscard]] bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
 

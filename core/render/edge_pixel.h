@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -26,7 +28,44 @@ struct EdgePixel {
       0;  ///< signed distance from pixel centre to the line along that normal, 1/100 px
   std::uint8_t kind = 0;  ///< EdgeKind bits
 };
-static_assert(sizeof(EdgePixel) == 16);
+
+/// An edge pixel as a render holds it: the row follows from its place among the others.
+class PackedEdgePixel {
+ public:
+  static constexpr std::size_t kMostFaces = std::size_t{1} << 21;  ///< of a mesh
+
+  PackedEdgePixel() = default;
+  /// Everything but the row.
+  explicit PackedEdgePixel(const EdgePixel& pixel)
+      : depth_m_(pixel.depth_m),
+        face_kind_offset_(static_cast<std::uint32_t>(pixel.face) << 11 |
+                          static_cast<std::uint32_t>(pixel.kind & 7) << 8 |
+                          static_cast<std::uint8_t>(pixel.offset)),
+        x_(pixel.x),
+        normal_x_(pixel.normal_x),
+        normal_y_(pixel.normal_y) {}
+
+  std::int16_t x() const { return x_; }  ///< px
+  /// The pixel, of row `y`.
+  EdgePixel unpacked(int y) const {
+    return {x_,
+            static_cast<std::int16_t>(y),
+            depth_m_,
+            static_cast<std::int32_t>(face_kind_offset_ >> 11),
+            normal_x_,
+            normal_y_,
+            static_cast<std::int8_t>(face_kind_offset_ & 255),
+            static_cast<std::uint8_t>(face_kind_offset_ >> 8 & 7)};
+  }
+
+ private:
+  float depth_m_ = 0.0F;
+  std::uint32_t face_kind_offset_ = 0;  ///< 21, 3 and 8 bits
+  std::int16_t x_ = 0;
+  std::int8_t normal_x_ = 0;
+  std::int8_t normal_y_ = 0;
+};
+static_assert(sizeof(PackedEdgePixel) == 12);
 
 enum EdgeKind : std::uint8_t {
   kEdgeCrease = 1,     ///< the normals differ
@@ -34,12 +73,15 @@ enum EdgeKind : std::uint8_t {
   kEdgeBorder = 4,     ///< the other side is background
 };
 
+class EdgePixelRange;
+
 /// Salient edges of the scene from one pose (Pham 2025, Sec. III-B): the baseline edge map, its
 /// mask, and depth, normal and sub-pixel place at the edge pixels, in raster order.
 struct EdgeRender {
   BitImage edges;  ///< 1 at salient edges
   BitImage mask;   ///< 1 where a matched part is the nearest surface, and at every edge pixel
-  std::span<EdgePixel> pixels;        ///< capacity; the first `pixel_count` are valid, raster order
+  /// Capacity; the first `pixel_count` are valid, raster order.
+  std::span<PackedEdgePixel> pixels;
   std::span<std::int32_t> row_begin;  ///< height + 1 indices into pixels
   std::int32_t pixel_count = 0;       ///< salient edge pixels
   /// Words for the largest image; `edges` and `mask` use the words that the current camera needs.
@@ -47,6 +89,61 @@ struct EdgeRender {
   std::span<std::uint64_t> mask_words;  ///< of the mask, likewise
   Camera camera;                        ///< the camera at this level
   Pose camera_from_station;             ///< the pose rendered
+
+  /// An edge pixel by its index; searches its row.
+  EdgePixel pixel(std::int32_t index) const;
+  /// Every `stride`-th edge pixel, to iterate over.
+  EdgePixelRange eachPixel(std::int32_t stride = 1) const;
 };
+
+/// Every n-th edge pixel of a render, in raster order.
+class EdgePixelRange {
+ public:
+  class Iterator {
+   public:
+    Iterator(const EdgeRender& render, std::int32_t index, std::int32_t stride)
+        : render_(&render), index_(index), stride_(stride) {
+      findRow();
+    }
+    EdgePixel operator*() const {
+      return render_->pixels[static_cast<std::size_t>(index_)].unpacked(y_);
+    }
+    Iterator& operator++() {
+      index_ += stride_;
+      findRow();
+      return *this;
+    }
+    bool operator!=(const Iterator& end) const { return index_ < end.index_; }
+
+   private:
+    void findRow() {
+      while (y_ + 1 < render_->edges.height &&
+             render_->row_begin[static_cast<std::size_t>(y_) + 1] <= index_)
+        ++y_;
+    }
+
+    const EdgeRender* render_;
+    std::int32_t index_;
+    std::int32_t stride_;
+    int y_ = 0;
+  };
+
+  EdgePixelRange(const EdgeRender& render, std::int32_t stride)
+      : render_(render), stride_(stride) {}
+  Iterator begin() const { return {render_, 0, stride_}; }                    ///< The first one
+  Iterator end() const { return {render_, render_.pixel_count, stride_}; }  ///< Behind the last
+
+ private:
+  const EdgeRender& render_;
+  std::int32_t stride_;
+};
+
+inline EdgePixelRange EdgeRender::eachPixel(std::int32_t stride) const { return {*this, stride}; }
+
+inline EdgePixel EdgeRender::pixel(std::int32_t index) const {
+  const auto first = row_begin.begin();
+  const auto row = std::upper_bound(first, first + edges.height, index);
+  return pixels[static_cast<std::size_t>(index)].unpacked(static_cast<int>(row - first) - 1);
+}
 
 }  // namespace boresight

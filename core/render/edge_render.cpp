@@ -36,7 +36,7 @@ EdgeRender createEdgeRender(int width, int height, std::int32_t max_edge_pixels,
   render.mask = BitImage::create(arena, width, height);
   render.edge_words = render.edges.words;
   render.mask_words = render.mask.words;
-  render.pixels = arena.allocate<EdgePixel>(static_cast<std::size_t>(max_edge_pixels));
+  render.pixels = arena.allocate<PackedEdgePixel>(static_cast<std::size_t>(max_edge_pixels));
   render.row_begin = arena.allocate<std::int32_t>(static_cast<std::size_t>(height) + 1);
   return render;
 }
@@ -47,7 +47,7 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y) {
   std::int32_t high = render.row_begin[static_cast<std::size_t>(y) + 1];
   while (low < high) {
     const std::int32_t middle = low + (high - low) / 2;
-    const int at = render.pixels[static_cast<std::size_t>(middle)].x;
+    const int at = render.pixels[static_cast<std::size_t>(middle)].x();
     if (at == x) return middle;
     if (at < x)
       low = middle + 1;
@@ -76,7 +76,7 @@ bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh, const EdgePix
   Ray ray;
   if (!unprojectRay(render.camera, position_px, ray)) return false;
 
-  const Face& face = mesh.faces[static_cast<std::size_t>(pixel.face)];
+  const Face face = mesh.faces[static_cast<std::size_t>(pixel.face)];
   Eigen::Vector3d corner[3];
   for (std::size_t i = 0; i < 3; ++i)
     corner[i] =
@@ -99,6 +99,7 @@ Status EdgeRenderer::create(const MeshView& mesh, const MeshAdjacency& adjacency
                             int max_height, const RenderOptions& options, Arena& kept,
                             Arena& scratch, int band_rows, int workers) {
   if (firstInvalidOption(options) != nullptr || workers < 1) return Status::kInvalidOption;
+  if (mesh.faces.size() > PackedEdgePixel::kMostFaces) return Status::kInvalidMesh;
   if (max_width < 1 || max_height < 1 || max_width > kMaxSize_px || max_height > kMaxSize_px ||
       band_rows < 1)
     return Status::kInvalidImage;
@@ -127,7 +128,7 @@ void EdgeRenderer::createWorkers(int workers, int max_pixels, const RenderOption
     Worker& worker = workers_.empty() ? counted : workers_[static_cast<std::size_t>(i)];
     // The first worker's memory equals that of a render by one worker.
     worker.painter = i == 0 ? painter_ : BandPainter::create(max_width_, band_rows_, scratch);
-    worker.pixels = scratch.allocate<EdgePixel>(
+    worker.pixels = scratch.allocate<PackedEdgePixel>(
         static_cast<std::size_t>(std::min(options.max_edge_pixels, max_pixels)));
   }
 }
@@ -158,7 +159,7 @@ Status EdgeRenderer::begin(const RayGrid& rays, const Pose& camera_from_station,
 
 /// Items of a phase.
 std::size_t EdgeRenderer::itemsOf(Phase phase) const {
-  if (phase == Phase::kVertices) return scene_.vertex_in_camera_m.size();
+  if (phase == Phase::kVertices) return scene_.mesh.vertices_in_station_m.size();
   if (phase == Phase::kFaces) return scene_.mesh.faces.size();
   return static_cast<std::size_t>(covered_count_);
 }
@@ -225,7 +226,7 @@ Status EdgeRenderer::stepAlone(bool& done) {
   const std::size_t count = itemsOf(phase_);
   const std::size_t last = std::min(next_ + kSlice, count);
   if (phase_ == Phase::kVertices)
-    scene_.transform(output_->camera_from_station, *rays_, next_, last);
+    scene_.transform(*rays_, next_, last);
   else
     bins_.add(scene_, *rays_, next_, last, 0);
   next_ = last;
@@ -243,7 +244,7 @@ void EdgeRenderer::runTask(int task, int worker) {
   const std::size_t first = count * static_cast<std::size_t>(task) / tasks;
   const std::size_t last = count * (static_cast<std::size_t>(task) + 1) / tasks;
   if (phase_ == Phase::kVertices)
-    scene_.transform(output_->camera_from_station, *rays_, first, last);
+    scene_.transform(*rays_, first, last);
   else
     bins_.add(scene_, *rays_, first, last, task);
 }

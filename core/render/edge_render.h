@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -68,9 +69,16 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
 class EdgeRenderer {
  public:
   static constexpr int kBandRows = 16;  ///< rows drawn at a time
+  /// The same for images of this width: wide bands are lower and take no more memory, with the row
+  /// that is carried from one to the next.
+  static constexpr int bandRowsOf(int width) {
+    if (width <= kFullBand_px) return kBandRows;
+    return std::max(1, (kBandRows + 1) * kFullBand_px / width - 1);
+  }
 
   /// `max_width` x `max_height` bound every camera that will be rendered with. The mesh and its
-  /// adjacency must outlive the renderer. Counting arenas only count. kInvalidMesh, kInvalidImage
+  /// adjacency must outlive the renderer. Counting arenas only count. kInvalidMesh (also of more
+  /// than PackedEdgePixel::kMostFaces faces), kInvalidImage
   /// (size), kInvalidOption, kArenaTooSmall.
   Status create(const MeshView& mesh, const MeshAdjacency& adjacency, int max_width, int max_height,
                 const RenderOptions& options, Arena& arena, int band_rows = kBandRows,
@@ -112,6 +120,7 @@ class EdgeRenderer {
 
  private:
   enum class Phase : std::uint8_t { kIdle, kVertices, kFaces, kBands };
+  static constexpr int kFullBand_px = 1024;  ///< width of the widest band of kBandRows
   /// Several tasks per worker balance the load between parts of the image.
   static constexpr int kTasksPerWorker = 4;
   /// Bands in a row that one worker draws, and their edge pixels until all are known.
@@ -124,7 +133,7 @@ class EdgeRenderer {
   /// Data of one worker.
   struct Worker {
     BandPainter painter;
-    std::span<EdgePixel> pixels;
+    std::span<PackedEdgePixel> pixels;
     std::int32_t pixel_count = 0;
   };
 

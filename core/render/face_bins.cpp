@@ -15,11 +15,11 @@ class Chunk {
  public:
   void gather(const CameraScene& scene, std::size_t first, std::size_t count) {
     static_assert(sizeof(FixedPixel) == 2 * sizeof(std::int16_t));
-    const Face* face = &scene.mesh.faces[first];
     const FixedPixel* pixels = scene.vertex_px.data();
-    for (std::size_t i = 0; i < count; ++i)
+    scene.mesh.faces.forEach(first, count, [&](std::size_t i, const auto& vertex) {
       for (std::size_t k = 0; k < 3; ++k)
-        std::memcpy(&value_[k][2 * i], &pixels[face[i].vertex[k]], sizeof(FixedPixel));
+        std::memcpy(&value_[k][2 * i], &pixels[vertex[k]], sizeof(FixedPixel));
+    });
   }
 
   /// Finds the faces whose boxes hold the centre of a pixel.
@@ -57,7 +57,7 @@ class Chunk {
 
 FaceBins FaceBins::create(std::size_t faces, int max_bands, int max_shares, Arena& arena) {
   FaceBins bins;
-  bins.next_ = arena.allocate<std::int32_t>(faces);
+  bins.next_ = IndexList::create(faces, faces, arena);
   // Level k has a block for every 2^k bands: fewer than two per band and one per level in all.
   const int blocks = 2 * max_bands + kMostLevels;
   bins.heads_ = static_cast<std::size_t>(blocks + 2 * max_bands) * 2;
@@ -115,7 +115,7 @@ void FaceBins::enter(std::int32_t face, Kind kind, const PixelBounds& bounds, co
   const int first = kind == kWide || level > 0 ? first_of_level_[static_cast<std::size_t>(level)]
                                                : first_of_kind_[kind];
   std::int32_t& head = share.head[static_cast<std::size_t>((first + block) * 2 + further)];
-  next_[static_cast<std::size_t>(face)] = head;
+  next_.set(static_cast<std::size_t>(face), head);
   head = face;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/index_list.h"
 #include "core/render/camera_scene.h"
 #include "core/render/ray_grid.h"
 #include "core/render/small_face.h"
@@ -71,7 +72,7 @@ class FaceBins {
   void addWide(CameraScene& scene, const RayGrid& rays, std::int32_t face, const Share& share);
   void enter(std::int32_t face, Kind kind, const PixelBounds& bounds, const Share& share);
 
-  std::span<std::int32_t> next_;  ///< per face: the next one of its list
+  IndexList next_;  ///< per face: the next one of its list
   /// Per share and block of bands, the first face within it and the first that lies in the next one
   /// too: small front faces, small back faces (blocks of one band), wide faces (all levels).
   std::span<std::int32_t> head_;

@@ -286,17 +286,16 @@ float SalientEdges::depthOf(const Context& context, const Sample& own, const Sam
   const CameraScene& scene = context.scene;
   const PlaneCache::Entry plane = planes_.get(scene, face);
   double inverse_depth = dotProduct(plane.plane, marked.ray);
-  const double z0 = scene.vertex(face, 0).z();
-  const double z1 = scene.vertex(face, 1).z();
-  const double z2 = scene.vertex(face, 2).z();
   const bool extended = own.x != marked.x || own.row != marked.row;
   const bool grazing =
       !(inverse_depth > 0.0) ||
       inverse_depth * plane.inverse_norm < kGrazing * std::sqrt(dotProduct(marked.ray, marked.ray));
   if (extended && grazing) inverse_depth = dotProduct(plane.plane, ray_at_line);
   if (!extended || grazing) {
-    const double farthest = std::max({z0, z1, z2});
-    const double nearest = std::max(std::min({z0, z1, z2}), CameraScene::kNearPlane_m);
+    const auto [v0, v1, v2] = scene.corners(face);
+    const double farthest = std::max({v0.z(), v1.z(), v2.z()});
+    const double nearest =
+        std::max(std::min({v0.z(), v1.z(), v2.z()}), CameraScene::kNearPlane_m);
     inverse_depth = std::max(inverse_depth, 1.0 / farthest);
     inverse_depth = std::min(inverse_depth, 1.0 / nearest);
   }
@@ -315,7 +314,7 @@ Eigen::Vector3d SalientEdges::lineAt(const Context& context, const Crossing& cro
       !unprojectRay(output.camera, Eigen::Vector2d(x, y), ray))
     return crossing.line;
   const MeshView& mesh = context.scene.mesh;
-  const Face& face = mesh.faces[static_cast<std::size_t>(crossing.edge_of)];
+  const Face face = mesh.faces[static_cast<std::size_t>(crossing.edge_of)];
   Eigen::Vector3d end[2];
   for (int i = 0; i < 2; ++i) {
     const auto corner = static_cast<std::size_t>((crossing.edge + i) % 3);
@@ -423,6 +422,12 @@ void SalientEdges::compareBelow(const Context& context, int row, int x_first, in
   }
 }
 
+/// Ends the rows from y on with the pixels found so far.
+void SalientEdges::endRows(int y, EdgeRender& output) const {
+  for (int row = y; row <= last_y_; ++row)
+    output.row_begin[static_cast<std::size_t>(row) + 1] = output.pixel_count;
+}
+
 /// The row's edge pixels into the mask and the output.
 Status SalientEdges::finishRow(const Context& context, int row) {
   EdgeRender& output = context.output;
@@ -433,10 +438,12 @@ Status SalientEdges::finishRow(const Context& context, int row) {
     mask[word] |= edges[word];
     for (std::uint64_t bits = edges[word]; bits != 0; bits &= bits - 1) {
       const int x = word * 64 + std::countr_zero(bits);
-      if (static_cast<std::size_t>(output.pixel_count) >= output.pixels.size())
+      if (static_cast<std::size_t>(output.pixel_count) >= output.pixels.size()) {
+        endRows(y, output);
         return Status::kCapacityExceeded;
+      }
       output.pixels[static_cast<std::size_t>(output.pixel_count++)] =
-          candidates_[static_cast<std::size_t>((y & 1) * stride_ + x)];
+          PackedEdgePixel(candidates_[static_cast<std::size_t>((y & 1) * stride_ + x)]);
     }
   }
   output.row_begin[static_cast<std::size_t>(y) + 1] = output.pixel_count;

@@ -91,6 +91,7 @@ class SalientEdges {
   float depthOf(const Context& context, const Sample& own, const Sample& marked,
                 const Eigen::Vector3d& ray_at_line, std::int32_t face);
   Status finishRow(const Context& context, int row);
+  void endRows(int y, EdgeRender& output) const;
 
   PlaneCache planes_;
   std::span<EdgePixel> candidates_;  ///< two rows: this one and the next

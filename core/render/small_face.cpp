@@ -18,7 +18,7 @@ struct DepthRange {
 };
 
 DepthRange depthRange(const CameraScene& scene, std::int32_t face) {
-  const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const Face indices = scene.mesh.faces[static_cast<std::size_t>(face)];
   const std::uint16_t a = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[0])];
   const std::uint16_t b = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[1])];
   const std::uint16_t c = scene.vertex_depth[static_cast<std::size_t>(indices.vertex[2])];
@@ -53,15 +53,21 @@ class SmallFace {
 
   /// By the exact edges. The plane of a face that covers no pixel is not needed.
   bool covers(std::size_t at) {
-    if (!edges_known_) has_area_ = prepareEdges(scene_, face_, drawn_);
+    if (!edges_known_) has_area_ = prepareEdges(corners(), drawn_);
     edges_known_ = true;
     return has_area_ && insideFace(drawn_, band_.ray_x[at], band_.ray_y[at]) && isVisible();
   }
 
   bool isVisible() {
-    if (!plane_known_) visible_ = preparePlane(scene_, face_, drawn_);
+    if (!plane_known_) visible_ = preparePlane(corners(), face_, drawn_);
     plane_known_ = true;
     return visible_;
+  }
+
+  const Corners& corners() {
+    if (!corners_known_) corners_ = scene_.corners(face_);
+    corners_known_ = true;
+    return corners_;
   }
 
   void meet(std::int32_t owner) {
@@ -81,7 +87,8 @@ class SmallFace {
     if (!isVisible() || !inverseDepthOn(drawn_, band_.ray_x[at], band_.ray_y[at], inverse_depth))
       return;
     if (band_.inverse_depth[at] == RasterBand::kUnknownDepth) {
-      if (!owner_prepared_) owner_visible_ = preparePlane(scene_, owner_, owner_drawn_);
+      if (!owner_prepared_)
+        owner_visible_ = preparePlane(scene_.corners(owner_), owner_, owner_drawn_);
       owner_prepared_ = true;
       float known = 0.0F;
       if (owner_visible_ && inverseDepthOn(owner_drawn_, band_.ray_x[at], band_.ray_y[at], known))
@@ -99,6 +106,7 @@ class SmallFace {
   std::int32_t face_;
   std::int32_t owner_ = -1;  ///< the face tested last
   Relation relation_ = Relation::kUnclear;
+  bool corners_known_ = false;
   bool edges_known_ = false;
   bool has_area_ = false;
   bool plane_known_ = false;
@@ -107,6 +115,7 @@ class SmallFace {
   bool owner_prepared_ = false;
   bool owner_visible_ = false;
   DepthRange depth_;
+  Corners corners_;
   DrawnFace drawn_;
   DrawnFace owner_drawn_;
 };
@@ -189,7 +198,7 @@ SmallFaces::SmallFaces(const CameraScene& scene, const RayGrid& rays) : scale_(s
 }
 
 void SmallFaces::draw(const CameraScene& scene, std::int32_t face, RasterBand& band) const {
-  const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const Face indices = scene.mesh.faces[static_cast<std::size_t>(face)];
   const FixedFace fixed(scene.vertex_px[static_cast<std::size_t>(indices.vertex[0])],
                         scene.vertex_px[static_cast<std::size_t>(indices.vertex[1])],
                         scene.vertex_px[static_cast<std::size_t>(indices.vertex[2])]);

@@ -34,26 +34,25 @@ Exit findExit(const Eigen::Vector3d edge[3], int entered_through, double s_enter
 /// surface's side of the edge; this does not depend on the orientation of the mesh.
 bool foldsBack(const CameraScene& scene, std::int32_t face, int edge, std::int32_t beyond,
                const Eigen::Vector3d& line) {
-  const Face& from = scene.mesh.faces[static_cast<std::size_t>(face)];
-  const Face& to = scene.mesh.faces[static_cast<std::size_t>(beyond)];
+  const Face from = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const Face to = scene.mesh.faces[static_cast<std::size_t>(beyond)];
   const std::int32_t first = from.vertex[static_cast<std::size_t>(edge)];
   const std::int32_t second = from.vertex[static_cast<std::size_t>((edge + 1) % 3)];
   for (const std::int32_t vertex : to.vertex)
     if (vertex != first && vertex != second)
-      return !(dotProduct(line, scene.vertex_in_camera_m[static_cast<std::size_t>(vertex)]) < 0.0);
+      return !(dotProduct(line, scene.vertex(vertex)) < 0.0);
   return true;
 }
 
 int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighbour) {
-  const auto& around = scene.adjacency.neighbour[static_cast<std::size_t>(face)];
   for (int i = 0; i < 3; ++i)
-    if (around[static_cast<std::size_t>(i)] == neighbour) return i;
+    if (scene.adjacency.beyond(face, i) == neighbour) return i;
   return -1;
 }
 
 /// The neighbour along a face's longest edge, that to `from` (-1: none) left out.
 std::int32_t acrossLongestEdge(const CameraScene& scene, std::int32_t face, std::int32_t from) {
-  const Face& indices = scene.mesh.faces[static_cast<std::size_t>(face)];
+  const Face indices = scene.mesh.faces[static_cast<std::size_t>(face)];
   std::int32_t across = -1;
   double longest2 = -1.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -65,7 +64,7 @@ std::int32_t acrossLongestEdge(const CameraScene& scene, std::int32_t face, std:
             .cast<double>();
     const Eigen::Vector3d side = end - begin;
     const double side2 = dotProduct(side, side);
-    const std::int32_t beyond = scene.adjacency.neighbour[static_cast<std::size_t>(face)][i];
+    const std::int32_t beyond = scene.adjacency.beyond(face, static_cast<int>(i));
     if (side2 <= longest2 || (from >= 0 && beyond == from)) continue;
     longest2 = side2;
     across = beyond;
@@ -121,7 +120,7 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
   int entered_through = -1;
   for (int hop = 0; hop <= kMaxHops; ++hop) {
     Eigen::Vector3d edge[3];
-    if (!faceEdges(scene, end.face, edge)) break;
+    if (!faceEdges(scene.corners(end.face), edge)) break;
     const Exit exit = findExit(edge, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to);
     end.ends = exit.edge >= 0;
     end.s = exit.s;
@@ -130,9 +129,7 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
     end.edge = static_cast<std::int8_t>(exit.edge);
     if (hop == kMaxHops) break;
 
-    const std::int32_t next =
-        scene.adjacency
-            .neighbour[static_cast<std::size_t>(end.face)][static_cast<std::size_t>(exit.edge)];
+    const std::int32_t next = scene.adjacency.beyond(end.face, exit.edge);
     if (next < 0 || foldsBack(scene, end.face, exit.edge, next, end.line)) break;
     if (next == target) {
       if (turn.ends) end = turn;

@@ -53,14 +53,13 @@ inline bool isOutline(const EdgePixel& pixel) {
 /// of all edges where the outline is too short.
 template <class Take>
 void takeEvenly(const EdgeRender& render, Take&& take) {
-  const auto pixels = render.pixels.first(static_cast<std::size_t>(render.pixel_count));
   std::int64_t available = 0;
-  for (const EdgePixel& pixel : pixels) available += isOutline(pixel) ? 1 : 0;
+  for (const EdgePixel& pixel : render.eachPixel()) available += isOutline(pixel) ? 1 : 0;
   const bool all = available < SlideSums::kMaxPlaces / 2;
   if (all) available = render.pixel_count;
   const std::int64_t wanted = available < SlideSums::kMaxPlaces ? available : SlideSums::kMaxPlaces;
   std::int64_t place = 0;
-  for (const EdgePixel& pixel : pixels) {
+  for (const EdgePixel& pixel : render.eachPixel()) {
     if (!all && !isOutline(pixel)) continue;
     const bool taken = place * wanted / available != (place + 1) * wanted / available;
     ++place;

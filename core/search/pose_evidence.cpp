@@ -38,9 +38,7 @@ ViewSize evidenceViewSize() {
 }
 
 void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
-  const std::int32_t stride = strideOf(render);
-  for (std::int32_t i = 0; i < render.pixel_count; i += stride) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel(strideOf(render))) {
     meter.add({pixel.x, pixel.y,
                static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y)),
                isOutline(pixel)});
@@ -75,9 +73,7 @@ bool PoseEvidence::step() {
 void PoseEvidence::addPlacesOfRender() {
   const FacingView& view = view_edges_.view();
   const Eigen::Matrix3d view_from_camera = view.view_from_camera.matrix();
-  const std::int32_t stride = strideOf(*render_);
-  for (std::int32_t i = 0; i < render_->pixel_count; i += stride) {
-    const EdgePixel& pixel = render_->pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render_->eachPixel(strideOf(*render_))) {
     const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
     const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
     Eigen::Vector2d at;

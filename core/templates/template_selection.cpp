@@ -64,24 +64,44 @@ Status TemplateSelector::create(int max_width, int max_height, const TemplateOpt
   options_ = options;
   if (firstInvalidOption(options) != nullptr) return Status::kInvalidOption;
   const int blocks = std::min(kMaxBlocks, ceilDivide(std::max(max_width, max_height), 4)) + 1;
-  sums_ = arena.allocate<Scatter>(static_cast<std::size_t>(blocks * blocks));
+  sums_ = arena.allocate<Scatter>(static_cast<std::size_t>(blocks * kHeldRows));
   cells_ = arena.allocate<std::uint16_t>(static_cast<std::size_t>(kMaxCells * kMaxCells));
   best_ = arena.allocate<Best>(static_cast<std::size_t>(options.count));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
-void TemplateSelector::sumScatter(const EdgeRender& render, int side_px) {
+void TemplateSelector::beginSums(const EdgeRender& render, int side_px) {
   const int width = render.edges.width;
   const int height = render.edges.height;
   block_px_ = std::max({4, side_px / 8, ceilDivide(std::max(width, height), kMaxBlocks)});
   blocks_x_ = ceilDivide(width, block_px_);
   blocks_y_ = ceilDivide(height, block_px_);
-  const int stride = blocks_x_ + 1;
-  std::fill_n(sums_.begin(), static_cast<std::ptrdiff_t>(stride) * (blocks_y_ + 1), Scatter{});
-  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
-    const int at = (pixel.y / block_px_ + 1) * stride + pixel.x / block_px_ + 1;
-    Scatter& block = sums_[static_cast<std::size_t>(at)];
+  std::ranges::fill(sumsOf(0), Scatter{});
+  summed_rows_ = 1;
+}
+
+/// Row `row` of the summed-area table: over the rows of blocks before it.
+std::span<TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) {
+  const auto columns = static_cast<std::size_t>(blocks_x_ + 1);
+  return sums_.subspan(static_cast<std::size_t>(row % kHeldRows) * columns, columns);
+}
+
+std::span<const TemplateSelector::Scatter> TemplateSelector::sumsOf(int row) const {
+  const auto columns = static_cast<std::size_t>(blocks_x_ + 1);
+  return sums_.subspan(static_cast<std::size_t>(row % kHeldRows) * columns, columns);
+}
+
+/// The next row of the table.
+void TemplateSelector::sumRow(const EdgeRender& render) {
+  const std::span<Scatter> sums = sumsOf(summed_rows_);
+  const std::span<const Scatter> above = sumsOf(summed_rows_ - 1);
+  std::ranges::fill(sums, Scatter{});
+  const int first_y = (summed_rows_ - 1) * block_px_;
+  const int end_y = std::min(first_y + block_px_, render.edges.height);
+  const std::int32_t end = render.row_begin[static_cast<std::size_t>(end_y)];
+  for (std::int32_t i = render.row_begin[static_cast<std::size_t>(first_y)]; i < end; ++i) {
+    const EdgePixel pixel = render.pixels[static_cast<std::size_t>(i)].unpacked(first_y);
+    Scatter& block = sums[static_cast<std::size_t>(pixel.x / block_px_ + 1)];
     const int nx = pixel.normal_x;
     const int ny = pixel.normal_y;
     block.xx += static_cast<std::uint32_t>(nx * nx);
@@ -89,33 +109,43 @@ void TemplateSelector::sumScatter(const EdgeRender& render, int side_px) {
     block.yy += static_cast<std::uint32_t>(ny * ny);
     block.count += 1;
   }
-  for (int by = 1; by <= blocks_y_; ++by) {
-    Scatter row;
-    for (int bx = 1; bx <= blocks_x_; ++bx) {
-      Scatter& sum = sums_[static_cast<std::size_t>(by * stride + bx)];
-      const Scatter& above = sums_[static_cast<std::size_t>((by - 1) * stride + bx)];
-      row.xx += sum.xx;
-      row.xy += sum.xy;
-      row.yy += sum.yy;
-      row.count += sum.count;
-      sum = {above.xx + row.xx, above.xy + row.xy, above.yy + row.yy, above.count + row.count};
-    }
+  Scatter row;
+  for (std::size_t bx = 1; bx < sums.size(); ++bx) {
+    Scatter& sum = sums[bx];
+    row.xx += sum.xx;
+    row.xy += sum.xy;
+    row.yy += sum.yy;
+    row.count += sum.count;
+    sum = {above[bx].xx + row.xx, above[bx].xy + row.xy, above[bx].yy + row.yy,
+           above[bx].count + row.count};
   }
+  ++summed_rows_;
+}
+
+/// Rows of the table up to `row`.
+void TemplateSelector::sumRowsTo(const EdgeRender& render, int row) {
+  while (summed_rows_ <= row) sumRow(render);
+}
+
+/// Blocks from the middle one of a square to its first and last one.
+int TemplateSelector::reachOf(int side_px) const {
+  return std::clamp(side_px / block_px_ / 2, 1, kMaxReach);
 }
 
 TemplateSelector::Scatter TemplateSelector::scatterAround(int x, int y, int side_px) const {
   // The square in whole blocks: centred on the pixel's block, with the number of blocks that fit
   // the side.
-  const int reach = std::max(1, side_px / block_px_ / 2);
+  const int reach = reachOf(side_px);
   const int bx0 = std::max(0, x / block_px_ - reach);
   const int by0 = std::max(0, y / block_px_ - reach);
   const int bx1 = std::min(blocks_x_, x / block_px_ + reach + 1);
   const int by1 = std::min(blocks_y_, y / block_px_ + reach + 1);
-  const int stride = blocks_x_ + 1;
-  const Scatter& a = sums_[static_cast<std::size_t>(by0 * stride + bx0)];
-  const Scatter& b = sums_[static_cast<std::size_t>(by0 * stride + bx1)];
-  const Scatter& c = sums_[static_cast<std::size_t>(by1 * stride + bx0)];
-  const Scatter& d = sums_[static_cast<std::size_t>(by1 * stride + bx1)];
+  const std::span<const Scatter> above = sumsOf(by0);
+  const std::span<const Scatter> below = sumsOf(by1);
+  const Scatter& a = above[static_cast<std::size_t>(bx0)];
+  const Scatter& b = above[static_cast<std::size_t>(bx1)];
+  const Scatter& c = below[static_cast<std::size_t>(bx0)];
+  const Scatter& d = below[static_cast<std::size_t>(bx1)];
   return {d.xx - b.xx - c.xx + a.xx, d.xy - b.xy - c.xy + a.xy, d.yy - b.yy - c.yy + a.yy,
           d.count - b.count - c.count + a.count};
 }
@@ -148,8 +178,7 @@ int TemplateSelector::countCells(const EdgeRender& render, int side_px, int cell
   const int rows = ceilDivide(render.edges.height, cell_px);
   std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, kUnoccupied);
   int occupied = 0;
-  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  for (const EdgePixel& pixel : render.eachPixel()) {
     if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
     std::uint16_t& cell =
         cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
@@ -175,15 +204,16 @@ int TemplateSelector::cellSize(const EdgeRender& render, int side_px) {
 }
 
 /// The most distinct pixel of every occupied cell. The cell size limits their number to that of the
-/// templates.
+/// templates. The table's rows around each pixel are summed on the way down.
 void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cell_px,
                                   const BitImage* ignore, int level) {
   const int columns = ceilDivide(render.edges.width, cell_px);
   const int rows = ceilDivide(render.edges.height, cell_px);
   std::fill_n(cells_.begin(), static_cast<std::ptrdiff_t>(columns) * rows, kUnoccupied);
   std::uint16_t occupied = 0;
-  for (std::int32_t i = 0; i < render.pixel_count; ++i) {
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+  std::int32_t index = -1;
+  for (const EdgePixel& pixel : render.eachPixel()) {
+    ++index;
     if (!squareInside(pixel.x, pixel.y, side_px, render.edges.width, render.edges.height)) continue;
     std::uint16_t& cell =
         cells_[static_cast<std::size_t>((pixel.y / cell_px) * columns + pixel.x / cell_px)];
@@ -191,10 +221,11 @@ void TemplateSelector::chooseBest(const EdgeRender& render, int side_px, int cel
       cell = occupied++;
       best_[cell] = Best{};
     }
+    sumRowsTo(render, std::min(blocks_y_, pixel.y / block_px_ + reachOf(side_px) + 1));
     const float distinctness = distinctnessOf(pixel, side_px);
     if (distinctness <= best_[cell].distinctness || tooMuchIgnored(pixel, side_px, ignore, level))
       continue;
-    best_[cell] = {distinctness, i};
+    best_[cell] = {distinctness, index};
   }
 }
 
@@ -202,7 +233,7 @@ Status TemplateSelector::select(const EdgeRender& render, int side_px, const Bit
                                 int level, TemplateSet& output) {
   output.count = 0;
   output.side_px = side_px;
-  sumScatter(render, side_px);
+  beginSums(render, side_px);
   const int cell_px = cellSize(render, side_px);
   const int columns = ceilDivide(render.edges.width, cell_px);
   const int rows = ceilDivide(render.edges.height, cell_px);
@@ -211,7 +242,7 @@ Status TemplateSelector::select(const EdgeRender& render, int side_px, const Bit
     const std::uint16_t place = cells_[static_cast<std::size_t>(cell)];
     if (place == kUnoccupied || best_[place].pixel < 0) continue;
     const Best& best = best_[place];
-    const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(best.pixel)];
+    const EdgePixel pixel = render.pixel(best.pixel);
     Template& chosen = output.templates[static_cast<std::size_t>(output.count)];
     chosen.center_x = pixel.x;
     chosen.center_y = pixel.y;

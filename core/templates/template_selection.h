@@ -92,8 +92,18 @@ class TemplateSelector {
     std::int32_t pixel = -1;
   };
   static constexpr std::uint16_t kUnoccupied = 0xffff;
+  /// Rows of blocks of the summed-area table that are held at a time, a power of two: a square
+  /// reaches at most kMaxReach blocks from its middle one.
+  static constexpr int kHeldRows = 16;
+  static constexpr int kMaxReach = 4;
+  static_assert(2 * kMaxReach + 2 <= kHeldRows);
 
-  void sumScatter(const EdgeRender& render, int side_px);
+  void beginSums(const EdgeRender& render, int side_px);
+  void sumRow(const EdgeRender& render);
+  void sumRowsTo(const EdgeRender& render, int row);
+  std::span<Scatter> sumsOf(int row);
+  std::span<const Scatter> sumsOf(int row) const;
+  int reachOf(int side_px) const;
   Scatter scatterAround(int x, int y, int side_px) const;
   float distinctnessOf(const EdgePixel& pixel, int side_px) const;
   bool tooMuchIgnored(const EdgePixel& pixel, int side_px, const BitImage* ignore, int level) const;
@@ -103,10 +113,10 @@ class TemplateSelector {
                   int level);
 
   TemplateOptions options_;
-  std::span<Scatter> sums_;  ///< summed-area table over blocks, modulo 2^32
-
+  std::span<Scatter> sums_;  ///< summed-area table over blocks, modulo 2^32: the rows held
   std::span<std::uint16_t> cells_;  ///< per cell its place in best_, or kUnoccupied
   std::span<Best> best_;            ///< one for each occupied cell
+  int summed_rows_ = 0;             ///< of the table, so far
   int block_px_ = 0;
   int blocks_x_ = 0;
   int blocks_y_ = 0;

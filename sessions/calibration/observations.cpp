@@ -55,7 +55,7 @@ CalibrationView runView(const Session& session, const SessionCase& session_case)
                  predicted))
       continue;
     view.points.push_back({used[i]->point_in_station_m,
-                           predicted + used[i]->residual_px * used[i]->normal, used[i]->normal,
+                           predicted + used[i]->residual_px * used[i]->normal(), used[i]->normal(),
                            sigma_px});
   }
   return view;

@@ -81,7 +81,8 @@ Template templateAt(const RecordedTemplate& recorded, const RenderTrace& render,
   if (render.row_begin.empty() || recorded.x >= render.edges.width ||
       recorded.y >= render.edges.height)
     return result;
-  const EdgeRender view = render.view();
+  const RenderView owned = render.view();
+  const EdgeRender& view = owned.render;
   const std::int32_t pixel = findEdgePixel(view, recorded.x, recorded.y);
   if (pixel < 0) return result;
   const EdgePixel& edge = render.pixels[static_cast<std::size_t>(pixel)];

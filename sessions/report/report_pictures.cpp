@@ -60,7 +60,7 @@ ReportResiduals ofEdges(const PoseReport& report, const Camera& camera,
         predictPlace(camera, report.pose.camera_from_station, sample.point_in_station_m);
     if (!place.valid || sample.gradient == 0.0) continue;
     report_residuals.all.push_back(
-        {place.pixel, sample.residual_px * sample.normal, sample.weight > 0.0});
+        {place.pixel, sample.residual_px * sample.normal(), sample.weight > 0.0});
   }
   return report_residuals;
 }

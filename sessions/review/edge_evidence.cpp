@@ -316,7 +316,8 @@ PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
   PredictedEdges predicted_edges;
   RenderTrace render;
   if (renderScene(camera, mesh, camera_from_station, render) != Status::kOk) return predicted_edges;
-  const EdgeRender view = render.view();
+  const RenderView owned = render.view();
+  const EdgeRender& view = owned.render;
   predicted_edges.places.reserve(render.pixels.size());
   for (const EdgePixel& pixel : render.pixels) {
     EdgePlace place;

@@ -22,7 +22,7 @@ std::vector<FoundPlace> foundPlaces(const Camera& camera, const RefinementTrace&
     if (sample.gradient == 0.0) continue;
     Eigen::Vector2d pixel;
     if (project(camera, refinement.camera_from_station * sample.point_in_station_m, pixel))
-      places.push_back({pixel, sample.normal, std::abs(sample.residual_px)});
+      places.push_back({pixel, sample.normal(), std::abs(sample.residual_px)});
   }
   return places;
 }

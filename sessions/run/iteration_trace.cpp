@@ -86,7 +86,8 @@ RenderTrace recordRender(const EdgeRender& render) {
   RenderTrace trace;
   trace.edges = recordBits(render.edges);
   trace.mask = recordBits(render.mask);
-  trace.pixels = firstOf(render.pixels, render.pixel_count);
+  trace.pixels.reserve(static_cast<std::size_t>(render.pixel_count));
+  for (const EdgePixel& pixel : render.eachPixel()) trace.pixels.push_back(pixel);
   trace.row_begin = firstOf(render.row_begin, render.edges.height + 1);
   trace.camera = render.camera;
   trace.camera_from_station = render.camera_from_station;

@@ -70,7 +70,7 @@ std::vector<ResidualVector> residualVectors(const IterationTrace& iteration, con
     ResidualVector vector;
     if (!project(camera, camera_from_station * sample.point_in_station_m, vector.projected))
       continue;
-    vector.found = vector.projected + sample.residual_px * sample.normal;
+    vector.found = vector.projected + sample.residual_px * sample.normal();
     vector.inlier = sample.weight > 0.5;
     vectors.push_back(vector);
   }

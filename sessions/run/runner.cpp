@@ -38,7 +38,8 @@ std::size_t inputBytes(const LocalizationProblem& problem) {
   const std::size_t channels = problem.color.data != nullptr ? 1 + ColorView::kChannels : 1;
   return channels * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) +
          (problem.ignore != nullptr ? problem.ignore->words.size_bytes() : 0) +
-         mesh.vertices_in_station_m.size_bytes() + mesh.faces.size_bytes() +
+         mesh.vertices_in_station_m.size_bytes() +
+         mesh.faces.size() * bytesPerFace(mesh.vertices_in_station_m.size()) +
          mesh.part_of_face.size_bytes() + mesh.parts.size_bytes();
 }
 

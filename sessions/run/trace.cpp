@@ -21,16 +21,18 @@ BitImage BitMap::view() const {
   return image;
 }
 
-EdgeRender RenderTrace::view() const {
-  EdgeRender render;
+RenderView RenderTrace::view() const {
+  RenderView view;
+  view.pixels = std::vector<PackedEdgePixel>(pixels.begin(), pixels.end());
+  EdgeRender& render = view.render;
   render.edges = edges.view();
   render.mask = mask.view();
-  render.pixels = {const_cast<EdgePixel*>(pixels.data()), pixels.size()};
+  render.pixels = view.pixels;
   render.row_begin = {const_cast<std::int32_t*>(row_begin.data()), row_begin.size()};
   render.pixel_count = static_cast<std::int32_t>(pixels.size());
   render.camera = camera;
   render.camera_from_station = camera_from_station;
-  return render;
+  return view;
 }
 
 void StageSeconds::add(Stage stage, double seconds) {

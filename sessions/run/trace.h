@@ -24,6 +24,17 @@ struct BitMap {
   BitImage view() const;
 };
 
+/// A render for the core's functions, with edge pixels of its own.
+struct RenderView {
+  std::vector<PackedEdgePixel> pixels;
+  EdgeRender render;  ///< points to `pixels` and to the trace
+
+  RenderView() = default;
+  RenderView(RenderView&&) = default;
+  RenderView& operator=(RenderView&&) = default;
+  operator const EdgeRender&() const { return render; }
+};
+
 /// What the core's EdgeRender holds.
 struct RenderTrace {
   BitMap edges;
@@ -34,7 +45,7 @@ struct RenderTrace {
   Pose camera_from_station;
 
   /// For the core's functions; must not be written through.
-  EdgeRender view() const;
+  RenderView view() const;
 };
 
 /// What the core's EdgeMap holds.

@@ -5,6 +5,7 @@
 // a new member there does not compile here until it has its place in the file.
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <type_traits>
@@ -152,9 +153,16 @@ void fields(Archive& archive, Self& pnp) {
 
 template <class Archive, Is<EdgeSample> Self>
 void fields(Archive& archive, Self& sample) {
-  auto& [point_in_station_m, normal, residual_px, gradient, weight, kind] = sample;
+  auto& [point_in_station_m, residual_px, gradient, weight, normal_x, normal_y, kind] = sample;
   vectorFields(archive, point_in_station_m);
+  Eigen::Vector2d normal = sample.normal();
   vectorFields(archive, normal);
+  archive.require(std::abs(normal.x()) <= 1.0 && std::abs(normal.y()) <= 1.0,
+                  "a normal longer than 1");
+  if constexpr (!std::is_const_v<Self>) {
+    normal_x = static_cast<std::int8_t>(std::lround(127.0 * normal.x()));
+    normal_y = static_cast<std::int8_t>(std::lround(127.0 * normal.y()));
+  }
   numbers(archive, residual_px, gradient, weight, kind);
 }
 

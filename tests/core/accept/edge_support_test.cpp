@@ -75,7 +75,7 @@ TEST(EdgeSupport, CoverageCountsEachRenderedEdgePixel) {
       int looked[2] = {0, 0};
       int near[2] = {0, 0};
       for (int i = 0; i < render.pixel_count; ++i) {
-        const EdgePixel& pixel = render.pixels[static_cast<std::size_t>(i)];
+        const EdgePixel& pixel = render.pixel(i);
         const Eigen::Vector2d normal(pixel.normal_x / 127.0, pixel.normal_y / 127.0);
         // In place, and displaced in one of four directions in turn.
         for (const int displaced : {0, 1}) {

@@ -83,7 +83,7 @@ void expectBruteAdjacency(const OwnedMesh& mesh) {
   Arena counter;
   MeshAdjacency adjacency;
   ASSERT_EQ(buildAdjacency(mesh.view(), counter, adjacency), Status::kOk);
-  EXPECT_TRUE(adjacency.neighbour.empty());
+  EXPECT_EQ(adjacency.size(), 0u);
 
   std::vector<std::byte> block(counter.highWater());
   Arena arena(block);
@@ -92,9 +92,53 @@ void expectBruteAdjacency(const OwnedMesh& mesh) {
   EXPECT_EQ(arena.highWater(), counter.highWater());
   EXPECT_LT(arena.used(), arena.highWater()) << "the scratch was not given back";
   const auto expected = bruteAdjacency(mesh);
-  ASSERT_EQ(adjacency.neighbour.size(), expected.size());
+  ASSERT_EQ(adjacency.size(), expected.size());
   for (std::size_t f = 0; f < expected.size(); ++f)
-    EXPECT_EQ(adjacency.neighbour[f], expected[f]) << "face " << f;
+    for (int i = 0; i < 3; ++i)
+      ASSERT_EQ(adjacency.beyond(static_cast<std::int32_t>(f), i),
+                expected[f][static_cast<std::size_t>(i)])
+          << "face " << f;
+}
+
+/// The faces of a mesh in 16 bits.
+std::vector<ShortFace> shortFaces(const OwnedMesh& mesh) {
+  std::vector<ShortFace> faces;
+  for (const Face& face : mesh.faces) {
+    ShortFace& shortened = faces.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i)
+      shortened[i] = static_cast<std::uint16_t>(face.vertex[i]);
+  }
+  return faces;
+}
+
+TEST(FaceList, ReadsBothFormsAlike) {
+  OwnedMesh mesh = grid(9);
+  mesh.vertices.resize(kShortVertices, Eigen::Vector3f::Zero());
+  mesh.addFace(65535, 0, 65534);
+  const std::vector<ShortFace> faces = shortFaces(mesh);
+  const FaceList wide = mesh.faces;
+  const FaceList narrow{std::span<const ShortFace>(faces)};
+  ASSERT_EQ(narrow.size(), wide.size());
+  std::size_t at = 0;
+  for (const Face& face : narrow) {
+    EXPECT_EQ(face.vertex, mesh.faces[at].vertex);
+    EXPECT_EQ(wide[at].vertex, mesh.faces[at].vertex);
+    ++at;
+  }
+  EXPECT_EQ(at, mesh.faces.size());
+  for (const FaceList& list : {wide, narrow}) {
+    std::size_t visited = 0;
+    list.forEach(3, 20, [&](std::size_t i, const auto& vertex) {
+      EXPECT_EQ(i, visited++);
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(std::int32_t{vertex[k]}, mesh.faces[3 + i].vertex[k]);
+    });
+    EXPECT_EQ(visited, 20u);
+    EXPECT_EQ(list.first(5).size(), 5u);
+  }
+  MeshView view = mesh.view();
+  view.faces = narrow;
+  EXPECT_EQ(validateMesh(view), Status::kOk);
 }
 
 TEST(BuildAdjacency, JoinsAllFacesOfAClosedMesh) {
@@ -107,6 +151,10 @@ TEST(BuildAdjacency, JoinsAllFacesOfAClosedMesh) {
 TEST(BuildAdjacency, LeavesBordersOpen) {
   expectBruteAdjacency(grid(1));
   expectBruteAdjacency(grid(7));
+}
+
+TEST(BuildAdjacency, HoldsMoreFacesThan16BitsCount) {
+  expectBruteAdjacency(grid(182));  // 66248 faces
 }
 
 TEST(BuildAdjacency, JoinsFacesOfOppositeOrientation) {
@@ -153,7 +201,7 @@ TEST(BuildAdjacency, SmallArena_IsReported) {
     std::vector<std::byte> block(bytes);
     Arena arena(block);
     EXPECT_EQ(buildAdjacency(mesh.view(), arena, adjacency), Status::kArenaTooSmall);
-    EXPECT_TRUE(adjacency.neighbour.empty());
+    EXPECT_EQ(adjacency.size(), 0u);
   }
 }
 

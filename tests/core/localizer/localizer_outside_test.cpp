@@ -134,7 +134,7 @@ TEST(LocalizerOutside, WithoutMatches_StepWaits) {
     EXPECT_FALSE(report.stage_complete);
   }
   const Iteration& iteration = *localizer.workspace().iteration;
-  const EdgePixel& pixel = iteration.render.pixels[0];
+  const EdgePixel pixel = iteration.render.pixel(0);
   EXPECT_GT(*std::max_element(waiting.intensity.begin(), waiting.intensity.end()), 30)
       << "the shaded render came with the edges, around " << pixel.x;
   ASSERT_EQ(localizer.supplyMatches(waiting.everyTemplate()), Status::kOk);

@@ -122,7 +122,7 @@ TEST(Localizer, ConvergesBehindAnOccluder) {
     if (report.stage != Stage::kRender || !report.stage_complete) return;
     const EdgeRender& render = run.localizer.workspace().iteration->render;
     for (int i = 0; i < render.pixel_count; ++i)
-      ASSERT_LT(render.pixels[static_cast<std::size_t>(i)].face, first_occluder);
+      ASSERT_LT(render.pixel(i).face, first_occluder);
     ++renders;
   });
   EXPECT_GE(renders, 4);

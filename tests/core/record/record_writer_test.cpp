@@ -140,10 +140,21 @@ TEST(RecordWriter, HashesEdgesAndRendersPixelByPixel) {
     value = before;
     return other;
   };
-  EdgePixel& pixel = render.pixels[static_cast<std::size_t>(render.pixel_count / 2)];
-  EXPECT_TRUE(differs(pixel.face));
-  EXPECT_TRUE(differs(pixel.depth_m));
-  EXPECT_TRUE(differs(pixel.offset));
+  const std::int32_t middle = render.pixel_count / 2;
+  const EdgePixel before = render.pixel(middle);
+  const auto differsBy = [&](const auto& change) {
+    EdgePixel pixel = before;
+    change(pixel);
+    PackedEdgePixel& packed = render.pixels[static_cast<std::size_t>(middle)];
+    packed = PackedEdgePixel(pixel);
+    const bool other = renderHash(render) != whole;
+    packed = PackedEdgePixel(before);
+    return other;
+  };
+  EXPECT_TRUE(differsBy([](EdgePixel& pixel) { ++pixel.face; }));
+  EXPECT_TRUE(differsBy([](EdgePixel& pixel) { pixel.depth_m += 1.0F; }));
+  EXPECT_TRUE(differsBy([](EdgePixel& pixel) { ++pixel.offset; }));
+  EXPECT_TRUE(differsBy([](EdgePixel& pixel) { pixel.kind ^= kEdgeCrease; }));
   EXPECT_TRUE(differs(render.mask.row(render.mask.height / 2)[1]));
   EXPECT_EQ(renderHash(render), whole);
 }

@@ -112,7 +112,7 @@ TEST(EdgeRefinement, UsesExactlyTheCountedBytes) {
   double weights = 0.0;
   for (int i = 0; i < result.sample_count; ++i) {
     const EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
-    EXPECT_NEAR(sample.normal.norm(), 1.0, 0.02);
+    EXPECT_NEAR(sample.normal().norm(), 1.0, 0.02);
     EXPECT_NE(sample.kind, 0);
     EXPECT_GE(sample.weight, 0.0);
     EXPECT_LE(sample.weight, 1.0);

@@ -55,7 +55,7 @@ TEST(EdgeRenderer, RecordsAreInRasterOrderAndConsistent) {
       const std::int32_t found = findEdgePixel(edges, x, y);
       EXPECT_EQ(found, edges.edges.get(x, y) ? index : -1);
       if (found < 0) continue;
-      const EdgePixel& pixel = edges.pixels[static_cast<std::size_t>(index++)];
+      const EdgePixel& pixel = edges.pixel(index++);
       EXPECT_EQ(pixel.x, x);
       EXPECT_EQ(pixel.y, y);
       EXPECT_TRUE(edges.mask.get(x, y));
@@ -297,7 +297,7 @@ TEST(EdgeRenderer, AbsurdPosesRenderNothingOrSomethingFinite) {
         Eigen::Vector3d(1e300, -1e300, 1), Eigen::Vector3d(0, 0, 1e9), Eigen::Vector3d(0, 0, 0)}) {
     const Rendered rendered = render(bench.mesh, bench.camera, poseOf({0, 0, 0}, translation));
     for (std::int32_t i = 0; i < rendered.edges.pixel_count; ++i) {
-      const float depth = rendered.edges.pixels[static_cast<std::size_t>(i)].depth_m;
+      const float depth = rendered.edges.pixel(i).depth_m;
       EXPECT_TRUE(std::isfinite(depth) && depth > 0.0F);
     }
   }
@@ -343,9 +343,7 @@ TEST(EdgeRenderer, AMillionSliversAreNormalInput) {
     for (int i = 0; i < 20000; ++i) mesh.addFace(3 * i, 3 * i + 1, 3 * i + 2);
   std::vector<std::byte> memory(std::size_t{96} << 20);
   Arena arena(memory);
-  MeshAdjacency adjacency;
-  std::vector<std::array<std::int32_t, 3>> none(mesh.faces.size(), {-1, -1, -1});
-  adjacency.neighbour = none;
+  const MeshAdjacency adjacency = MeshAdjacency::create(mesh.faces.size(), arena);
   const Camera camera = brownCamera(512, 512, 500.0, -0.1);
   RayGrid rays;
   ASSERT_EQ(RayGrid::create(camera, arena, rays), Status::kOk);

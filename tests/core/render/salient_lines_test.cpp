@@ -298,7 +298,7 @@ TEST_P(SalientLines, EveryPixelHasTheKindAndPointOfTheNearerSurface) {
     const Rendered rendered = render(mesh, camera, pose);
     ASSERT_GT(rendered.edges.pixel_count, 100);
     for (std::int32_t k = 0; k < rendered.edges.pixel_count; ++k) {
-      const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(k)];
+      const EdgePixel& pixel = rendered.edges.pixel(k);
       EXPECT_TRUE(rendered.edges.mask.get(pixel.x, pixel.y));
       const int expected_kind = GetParam() == LineKind::kBorder      ? kEdgeOccluding | kEdgeBorder
                                 : GetParam() == LineKind::kOccluding ? kEdgeOccluding

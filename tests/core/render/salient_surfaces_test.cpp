@@ -157,7 +157,7 @@ TEST(SalientEdges, NearerIsTheOneThatEndsNotTheOneWithTheNearerPixel) {
       for (int x = 0; x < camera.width; ++x) {
         const std::int32_t found = findEdgePixel(rendered.edges, x, row);
         ASSERT_GE(found, 0) << edge_row;
-        const EdgePixel& pixel = rendered.edges.pixels[static_cast<std::size_t>(found)];
+        const EdgePixel& pixel = rendered.edges.pixel(found);
         EXPECT_FLOAT_EQ(pixel.depth_m, 1.1F);
         EXPECT_EQ(pixel.normal_y, 127 * side);
         EXPECT_NEAR(pixel.offset / 100.0, (edge_row - row) * side, 0.006);
@@ -265,11 +265,11 @@ TEST(SalientEdges, NearerLineWinsWhereTwoCross) {
   for (int x = 0; x < camera.width; ++x) {
     const std::int32_t found = findEdgePixel(rendered.edges, x, 40);
     ASSERT_GE(found, 0);
-    EXPECT_FLOAT_EQ(rendered.edges.pixels[static_cast<std::size_t>(found)].depth_m, 0.5F);
+    EXPECT_FLOAT_EQ(rendered.edges.pixel(found).depth_m, 0.5F);
   }
   const std::int32_t below = findEdgePixel(rendered.edges, 50, 41);
   ASSERT_GE(below, 0);
-  EXPECT_FLOAT_EQ(rendered.edges.pixels[static_cast<std::size_t>(below)].depth_m, 0.8F);
+  EXPECT_FLOAT_EQ(rendered.edges.pixel(below).depth_m, 0.8F);
 }
 
 /// Triangles thinner than their vertices' rounding have any normal; a smooth surface that holds

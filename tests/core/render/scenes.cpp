@@ -160,8 +160,8 @@ Pose poseOf(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translat
 void expectEqual(const EdgeRender& a, const EdgeRender& b) {
   ASSERT_EQ(a.pixel_count, b.pixel_count);
   for (std::int32_t i = 0; i < a.pixel_count; ++i) {
-    const EdgePixel& p = a.pixels[static_cast<std::size_t>(i)];
-    const EdgePixel& q = b.pixels[static_cast<std::size_t>(i)];
+    const EdgePixel& p = a.pixel(i);
+    const EdgePixel& q = b.pixel(i);
     EXPECT_TRUE(p.x == q.x && p.y == q.y && p.depth_m == q.depth_m && p.face == q.face &&
                 p.normal_x == q.normal_x && p.normal_y == q.normal_y && p.offset == q.offset &&
                 p.kind == q.kind)

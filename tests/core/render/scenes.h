@@ -72,8 +72,10 @@ Rendered render(const SceneMesh& mesh, const Camera& camera, const Pose& camera_
                 bool plainly = false);
 
 /// The edge pixels that a render has.
-inline std::span<const EdgePixel> pixelsOf(const EdgeRender& edges) {
-  return edges.pixels.first(static_cast<std::size_t>(edges.pixel_count));
+inline std::vector<EdgePixel> pixelsOf(const EdgeRender& edges) {
+  std::vector<EdgePixel> pixels;
+  for (const EdgePixel& pixel : edges.eachPixel()) pixels.push_back(pixel);
+  return pixels;
 }
 
 /// Expects two renders to agree in every bit of edges, mask and edge pixels.

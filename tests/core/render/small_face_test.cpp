@@ -85,7 +85,7 @@ TEST(SmallFaces, KnowWhichSideIsSeen) {
     ASSERT_FALSE(arena.exhausted());
     const Pose pose = poseOf({0.1, 0.2, 0.3}, {0.01, 0.0, 0.5});
     scene.begin(pose, rays);
-    scene.transform(pose, rays, 0, mesh.vertices.size());
+    scene.transform(rays, 0, mesh.vertices.size());
     for (std::size_t face = 0; face < mesh.faces.size(); ++face)
       scene.orient(static_cast<std::int32_t>(face));
     const std::vector<std::uint8_t> expected(scene.face_flags.begin(), scene.face_flags.end());

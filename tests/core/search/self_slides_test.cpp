@@ -17,23 +17,40 @@ class SelfSlidesTest : public testing::Test {
   SelfSlidesTest() : arena_(block_), directions_(kSize_px * kSize_px, DirectedEdges::kNone) {
     edges_.width = edges_.height = kSize_px;
     edges_.direction = directions_;
-    render_.pixels = pixels_;
+    render_.edges.width = render_.edges.height = kSize_px;
     slides_.create(arena_);
   }
 
   void addEdge(int x) {
     for (int y = 40; y < 80; ++y) {
-      EdgePixel& pixel = pixels_[static_cast<std::size_t>(render_.pixel_count++)];
+      EdgePixel pixel;
       pixel.x = static_cast<std::int16_t>(x);
       pixel.y = static_cast<std::int16_t>(y);
       pixel.normal_x = 127;
       pixel.kind = kEdgeBorder;
+      pixels_.push_back(pixel);
       directions_[static_cast<std::size_t>(y * kSize_px + x)] =
           static_cast<std::uint8_t>(edgeDirectionOf(127, 0));
     }
   }
 
+  /// Fills the render in raster order.
+  void complete() {
+    std::sort(pixels_.begin(), pixels_.end(), [](const EdgePixel& a, const EdgePixel& b) {
+      return a.y != b.y ? a.y < b.y : a.x < b.x;
+    });
+    packed_ = std::vector<PackedEdgePixel>(pixels_.begin(), pixels_.end());
+    std::ranges::fill(row_begin_, 0);
+    for (const EdgePixel& pixel : pixels_) {
+      for (int y = pixel.y; y < kSize_px; ++y) ++row_begin_[static_cast<std::size_t>(y) + 1];
+    }
+    render_.pixels = packed_;
+    render_.row_begin = row_begin_;
+    render_.pixel_count = static_cast<std::int32_t>(pixels_.size());
+  }
+
   std::vector<Eigen::Vector2i> slides() {
+    complete();
     slides_.begin(render_, edges_);
     while (!slides_.step()) {
     }
@@ -43,7 +60,9 @@ class SelfSlidesTest : public testing::Test {
   std::vector<std::byte> block_ = std::vector<std::byte>(1 << 20);
   Arena arena_;
   std::vector<std::uint8_t> directions_;
-  std::vector<EdgePixel> pixels_ = std::vector<EdgePixel>(1000);
+  std::vector<EdgePixel> pixels_;
+  std::vector<PackedEdgePixel> packed_;
+  std::vector<std::int32_t> row_begin_ = std::vector<std::int32_t>(kSize_px + 1);
   EdgeRender render_;
   DirectedEdges edges_;
   SelfSlides slides_;

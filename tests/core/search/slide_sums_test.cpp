@@ -120,8 +120,7 @@ TEST(CompassSearch, GridPosesAroundTheTruth_ConvergeToTheTruth) {
   const Pose truth = test::truthPose();
   const test::Rendering seen = test::renderEdges(solid, camera, truth);
   std::vector<std::uint8_t> direction(101 * 101, DirectedEdges::kNone);
-  for (const EdgePixel& pixel :
-       seen.edges.pixels.first(static_cast<std::size_t>(seen.edges.pixel_count)))
+  for (const EdgePixel& pixel : seen.edges.eachPixel())
     direction[static_cast<std::size_t>(pixel.y * 101 + pixel.x)] =
         static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
   DirectedEdges edges;

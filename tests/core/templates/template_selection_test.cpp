@@ -42,17 +42,21 @@ class DrawnRender {
     });
     render.edges.clear();
     render.pixel_count = 0;
+    std::ranges::fill(render.row_begin, 0);
     for (const DrawnPixel& pixel : drawn) {
       if (render.edges.get(pixel.x, pixel.y)) continue;
       render.edges.set(pixel.x, pixel.y);
-      EdgePixel& edge_pixel = render.pixels[static_cast<std::size_t>(render.pixel_count++)];
-      edge_pixel = EdgePixel{};
+      EdgePixel edge_pixel;
       edge_pixel.x = static_cast<std::int16_t>(pixel.x);
       edge_pixel.y = static_cast<std::int16_t>(pixel.y);
       edge_pixel.depth_m = 1.0F;
       edge_pixel.normal_x = static_cast<std::int8_t>(std::lround(127.0 * pixel.nx));
       edge_pixel.normal_y = static_cast<std::int8_t>(std::lround(127.0 * pixel.ny));
+      render.pixels[static_cast<std::size_t>(render.pixel_count++)] = PackedEdgePixel(edge_pixel);
+      render.row_begin[static_cast<std::size_t>(pixel.y) + 1] = render.pixel_count;
     }
+    for (std::size_t y = 1; y < render.row_begin.size(); ++y)
+      render.row_begin[y] = std::max(render.row_begin[y], render.row_begin[y - 1]);
   }
 
   EdgeRender render;

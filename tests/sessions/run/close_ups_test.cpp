@@ -18,7 +18,8 @@ EdgeSample sampleAt(double x_px, double y_px, const Eigen::Vector2d& normal, dou
   const Camera camera = cameraOver();
   EdgeSample sample;
   sample.point_in_station_m = {(x_px - camera.cx) / camera.fx, (y_px - camera.cy) / camera.fy, 1.0};
-  sample.normal = normal;
+  sample.normal_x = static_cast<std::int8_t>(127.0 * normal.x());
+  sample.normal_y = static_cast<std::int8_t>(127.0 * normal.y());
   sample.residual_px = residual_px;
   sample.gradient = -20.0;
   return sample;

@@ -202,7 +202,7 @@ TEST(Localize, CountsWhatTheProblemPointsTo) {
   const std::size_t bytes = inputBytes(problem);
   const auto pixels = static_cast<std::size_t>(problem.image.width * problem.image.height);
   EXPECT_EQ(bytes, pixels + problem.mesh.vertices_in_station_m.size() * 12 +
-                       problem.mesh.faces.size() * 14 +
+                       problem.mesh.faces.size() * 8 +
                        problem.mesh.parts.size() * sizeof(ScenePart));
   std::vector<std::uint64_t> words(100);
   BitImage ignore;
