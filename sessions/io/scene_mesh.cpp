@@ -68,7 +68,7 @@ std::size_t stationFaceCount(const MeshView& view) {
 MeshView heldView(const SceneMesh& scene) {
   MeshView view = scene.view();
   const std::size_t faces = stationFaceCount(view);
-  view.faces = view.faces.subspan(faces);
+  view.faces = std::span<const Face>(scene.faces).subspan(faces);
   view.part_of_face = view.part_of_face.subspan(faces);
   return view;
 }
