@@ -107,7 +107,7 @@ Status PassMemory::create(const LocalizationProblem& problem, const LocalizerOpt
   const Status counted = layout.run();
   if (counted != Status::kOk) return counted;
   if (use_.total() > block.size()) return Status::kArenaTooSmall;
-  tables_ = block.first(use_.tables);
+  tables_ = block.first(table_bytes_);
   kept_ = Arena(block.first(use_.kept));
   scratch_ = Arena(block.subspan(use_.kept));
   return layout.run();
@@ -131,7 +131,7 @@ Status PassMemory::Layout::layOutKept() {
     status = RayGrid::create(cameraAtLevel(problem.camera, level), kept,
                              to.rays[static_cast<std::size_t>(level)]);
   }
-  if (kept.countsOnly()) to.use_.tables = kept.mark();
+  if (kept.countsOnly()) to.table_bytes_ = kept.mark();
   to.searches = kept.allocate<WhsSearch>(static_cast<std::size_t>(workers));
   to.tasks.create(static_cast<std::size_t>(std::max({options.templates.count,
                                                      EdgeRefinement::chunksOf(options.refinement),

@@ -30,7 +30,6 @@ namespace boresight {
 /// stages share one place.
 struct MemoryUse {
   std::size_t kept = 0;          ///< bytes that live throughout
-  std::size_t tables = 0;        ///< of these, tables of the inputs
   std::size_t construction = 0;  ///< additional bytes during construction
   /// Additional bytes of each stage.
   std::array<std::size_t, static_cast<std::size_t>(Stage::kFinished)> stage{};
@@ -97,6 +96,7 @@ class PassMemory {
   struct Layout;
 
   MeshAdjacency adjacency_;
+  std::size_t table_bytes_ = 0;  ///< of the front of the block
   std::span<const std::byte> tables_;
   Arena kept_;
   Arena scratch_;  ///< of construction and of the stages, one after the other
