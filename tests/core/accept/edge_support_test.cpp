@@ -132,6 +132,8 @@ TEST(EdgeSupport, Explanation_EqualsABruteForceCount) {
     EdgeRender render;
     render.edges = maps.edges.bits;
     render.mask = maps.mask.bits;
+    std::vector<std::int32_t> row_begin(RandomMaps::kHeight + 1, 0);  // no pixel
+    render.row_begin = row_begin;
     EdgeMap edges;
     edges.level[2] = maps.test_edges.bits;
     const auto nearEdge = [&](int x, int y) {
