@@ -112,7 +112,7 @@ TEST(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
        [](Session&, auto& item) { item.mesh_scale_sigma = 1e-3; }},
       {"the stated sigmas of mesh and camera",
        [](Session&, auto& item) {
-         item.camera_covariance = CameraCovariance{Eigen::MatrixXd::Identity(12, 12)};
+         item.camera_covariance = sessions::CameraCovariance{Eigen::MatrixXd::Identity(12, 12)};
        }},
       {"the requirement has",
        [](Session&, auto& item) {
