@@ -11,23 +11,7 @@
 #include <QCoreApplication>
 #include <QEvent>
 
-#ifdef __linux__
-#include <sys/resource.h>
-#endif
-
 namespace boresight::ui {
-namespace {
-
-/// With a run on every core the window would wait for its turn like one more of them. Threads that
-/// the calling one starts inherit its priority.
-void yieldToWindow() {
-#ifdef __linux__
-  constexpr int kNice = 10;
-  setpriority(PRIO_PROCESS, 0, kNice);  // on Linux of the calling thread alone
-#endif
-}
-
-}  // namespace
 
 class TaskRunner::Thread {
  public:
@@ -101,7 +85,6 @@ class TaskRunner::Thread {
   }
 
   void loop() {
-    yieldToWindow();
     for (Item item; waitForItem(item); item = {}) {
       const QString error = work(item);
       post([owner = &owner_, key = item.key, number = item.number, error] {

@@ -8,12 +8,7 @@
 #include <future>
 #include <stdexcept>
 #include <thread>
-#include <utility>
 #include <vector>
-
-#ifdef __linux__
-#include <sys/resource.h>
-#endif
 
 namespace boresight::ui {
 namespace {
@@ -51,25 +46,6 @@ class TaskRunnerTest : public testing::Test {
   QStringList failures_;
   TaskRunner runner_;
 };
-
-#ifdef __linux__
-/// Otherwise the window waits for its turn beside a run on every core.
-TEST_F(TaskRunnerTest, WorkAndItsOwnThreadsYieldToTheWindow) {
-  const auto niceness = [] { return getpriority(PRIO_PROCESS, 0); };
-  std::pair<int, int> found;
-  runner_.start(
-      QStringLiteral("nice"),
-      [niceness](const std::stop_token&) {
-        int of_child = 0;
-        std::thread([&] { of_child = niceness(); }).join();
-        return std::pair(niceness(), of_child);
-      },
-      [&](std::pair<int, int> nice) { found = nice; });
-  ASSERT_TRUE(rests());
-  EXPECT_GT(found.first, niceness());
-  EXPECT_EQ(found.second, found.first);
-}
-#endif
 
 TEST_F(TaskRunnerTest, TakesValuesInTheirOrderOnTheOwnersThread) {
   const auto current = std::this_thread::get_id();
