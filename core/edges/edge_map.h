@@ -64,8 +64,8 @@ class EdgeDetector {
   }
   /// Levels to keep.
   struct KeptLevels {
-    int finest = 0;
-    int coarsest = kPyramidLevels - 1;
+    int finest = 0;                     ///< the first of them
+    int coarsest = kPyramidLevels - 1;  ///< the last of them
     /// Whether a level is one of them.
     bool hold(int level) const { return level >= finest && level <= coarsest; }
   };

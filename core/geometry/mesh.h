@@ -33,7 +33,9 @@ class FaceList {
   template <class Faces>
     requires std::is_convertible_v<const Faces&, std::span<const Face>>
   FaceList(const Faces& faces) : FaceList(std::span<const Face>(faces)) {}
+  /// Of 32-bit indices.
   FaceList(std::span<const Face> faces) : long_(faces.data()), size_(faces.size()) {}
+  /// Of 16-bit indices.
   FaceList(std::span<const ShortFace> faces) : short_(faces.data()), size_(faces.size()) {}
 
   /// Number of faces.
@@ -66,12 +68,16 @@ class FaceList {
   /// Iterates over the faces by value.
   class Iterator {
    public:
+    /// At a face of a list.
     Iterator(const FaceList& list, std::size_t at) : list_(&list), at_(at) {}
+    /// The face.
     Face operator*() const { return (*list_)[at_]; }
+    /// The next face.
     Iterator& operator++() {
       ++at_;
       return *this;
     }
+    /// At the same face.
     bool operator==(const Iterator& other) const { return at_ == other.at_; }
 
    private:

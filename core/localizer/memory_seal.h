@@ -22,13 +22,16 @@ class MemorySeal {
   void sealInputs(const std::array<std::uint8_t, 32>& inputs) { inputs_ = inputs; }
   /// Tables laid out at construction; the edges when they are detected.
   void sealTables(std::span<const std::byte> tables) { tables_ = checksumOf(tables); }
+  /// Edges of the matched levels.
   void sealEdges(const EdgeMap& edges, RunLevels levels) { edges_ = checksumOf(edges, levels); }
 
   /// Whether options and problem (withoutUnusedInputs) are those that were sealed.
   bool holdsInputs(const LocalizerOptions& options, const LocalizationProblem& problem) const;
+  /// Whether the tables are those that were sealed.
   bool holdsTables(std::span<const std::byte> tables) const {
     return checksumOf(tables) == tables_;
   }
+  /// Whether the edges are those that were sealed.
   bool holdsEdges(const EdgeMap& edges, RunLevels levels) const {
     return checksumOf(edges, levels) == edges_;
   }

@@ -99,20 +99,25 @@ struct EdgeRender {
 /// Every n-th edge pixel of a render, in raster order.
 class EdgePixelRange {
  public:
+  /// Gives each pixel with its row.
   class Iterator {
    public:
+    /// At a pixel of a render.
     Iterator(const EdgeRender& render, std::int32_t index, std::int32_t stride)
         : render_(&render), index_(index), stride_(stride) {
       findRow();
     }
+    /// The pixel.
     EdgePixel operator*() const {
       return render_->pixels[static_cast<std::size_t>(index_)].unpacked(y_);
     }
+    /// The next pixel.
     Iterator& operator++() {
       index_ += stride_;
       findRow();
       return *this;
     }
+    /// Whether the end is not reached.
     bool operator!=(const Iterator& end) const { return index_ < end.index_; }
 
    private:
@@ -128,6 +133,7 @@ class EdgePixelRange {
     int y_ = 0;
   };
 
+  /// Of a render that lasts as long.
   EdgePixelRange(const EdgeRender& render, std::int32_t stride)
       : render_(render), stride_(stride) {}
   Iterator begin() const { return {render_, 0, stride_}; }                    ///< The first one
