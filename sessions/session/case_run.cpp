@@ -76,9 +76,7 @@ std::shared_ptr<const LoadedCase> loadCase(const SessionCase& session_case) {
 std::shared_ptr<const LoadedCase> reloadCase(const LoadedCase& before,
                                              const SessionCase& session_case) {
   const bool same_image = session_case.image == before.source.image;
-  const bool same_scene = session_case.parts == before.source.parts &&
-                          session_case.frames == before.source.frames &&
-                          session_case.camera_reference == before.source.camera_reference;
+  const bool same_scene = sameScene(session_case, before.source);
   GrayImage image = same_image ? before.image : loadImage(session_case.image);
   return completed(session_case, std::move(image),
                    same_scene ? before.scene : readKnownScene(session_case));

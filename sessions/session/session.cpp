@@ -59,6 +59,10 @@ std::vector<PartSource> partsOf(const SessionCase& session_case) {
   return parts;
 }
 
+bool sameScene(const SessionCase& a, const SessionCase& b) {
+  return a.parts == b.parts && a.frames == b.frames && a.camera_reference == b.camera_reference;
+}
+
 bool sameMeshes(const SessionCase& a, const SessionCase& b) {
   const auto same = [](const MeshInput& part, const MeshInput& other) {
     return part.sha256 == other.sha256 && part.source.mesh_unit == other.source.mesh_unit &&

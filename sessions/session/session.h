@@ -107,6 +107,8 @@ FrameTree framesOf(const SessionCase& session_case);
 /// The case's parts, as readScene takes them.
 std::vector<PartSource> partsOf(const SessionCase& session_case);
 
+/// Whether two cases have the same scene: parts, their states, and the frames that place them.
+bool sameScene(const SessionCase& a, const SessionCase& b);
 /// Whether two cases have the same meshes in the same places, whatever their states.
 bool sameMeshes(const SessionCase& a, const SessionCase& b);
 

@@ -18,7 +18,7 @@ struct SearchedCase {
 };
 
 bool haveSameMesh(const ViewState::CasePtr& a, const ViewState::CasePtr& b) {
-  return a && b && a->source.id == b->source.id && a->source.parts == b->source.parts;
+  return a && b && a->source.id == b->source.id && sessions::sameScene(a->source, b->source);
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ void ImagePanel::showCase() {
   if (!same_case) view_->fit();
   // An edit of the mask leaves the image and the renders as they are.
   const bool same_scene = same_case && before->source.camera == after->source.camera &&
-                          before->source.parts == after->source.parts;
+                          sessions::sameScene(before->source, after->source);
   if (!same_scene ||
       !(before->source.camera_from_station_seed == after->source.camera_from_station_seed))
     forget(LayerId::kSeedEdges);
