@@ -11,9 +11,16 @@
 namespace boresight::ui {
 
 ColumnFitter::ColumnFitter(QTableView& table, std::vector<int> dispensable)
-    : QObject(&table), table_(table), dispensable_(std::move(dispensable)) {
-  table_.viewport()->installEventFilter(this);
-  const QAbstractItemModel* model = table_.model();
+    : ColumnFitter(table, *table.horizontalHeader(), std::move(dispensable)) {}
+
+ColumnFitter::ColumnFitter(QTreeView& tree, std::vector<int> dispensable)
+    : ColumnFitter(tree, *tree.header(), std::move(dispensable)) {}
+
+ColumnFitter::ColumnFitter(QAbstractItemView& view, QHeaderView& header,
+                           std::vector<int> dispensable)
+    : QObject(&view), view_(view), header_(header), dispensable_(std::move(dispensable)) {
+  view_.viewport()->installEventFilter(this);
+  const QAbstractItemModel* model = view_.model();
   connect(model, &QAbstractItemModel::modelReset, this, &ColumnFitter::fit, Qt::QueuedConnection);
   connect(model, &QAbstractItemModel::rowsInserted, this, &ColumnFitter::fit, Qt::QueuedConnection);
   connect(model, &QAbstractItemModel::layoutChanged, this, &ColumnFitter::fit,
@@ -27,7 +34,7 @@ bool ColumnFitter::eventFilter(QObject* watched, QEvent* event) {
 
 int ColumnFitter::widthOf(int column) const {
   const auto hidden = hidden_.find(column);
-  return hidden == hidden_.end() ? table_.columnWidth(column) : hidden->second;
+  return hidden == hidden_.end() ? header_.sectionSize(column) : hidden->second;
 }
 
 void ColumnFitter::show(int column, bool shown) {
@@ -35,18 +42,18 @@ void ColumnFitter::show(int column, bool shown) {
     if (shown)
       hidden_.erase(column);
     else
-      hidden_[column] = table_.columnWidth(column);
-    table_.setColumnHidden(column, !shown);
+      hidden_[column] = header_.sectionSize(column);
+    header_.setSectionHidden(column, !shown);
   }
 }
 
 void ColumnFitter::fit() {
-  if (fitting_ || hasChosenColumns(table_)) return;
+  if (fitting_ || hasChosenColumns(view_)) return;
   fitting_ = true;  // a scroll bar that goes makes the viewport larger
-  int room = table_.viewport()->width();
-  for (int column = 0; column < table_.horizontalHeader()->count(); ++column)
+  int room = view_.viewport()->width();
+  for (int column = 0; column < header_.count(); ++column)
     if (std::find(dispensable_.begin(), dispensable_.end(), column) == dispensable_.end())
-      room -= table_.columnWidth(column);
+      room -= header_.sectionSize(column);
   for (auto column = dispensable_.rbegin(); column != dispensable_.rend(); ++column) {
     const int width = widthOf(*column);
     const bool fits = width <= room;

@@ -6,29 +6,36 @@
 
 #include <QObject>
 
+class QAbstractItemView;
+class QHeaderView;
 class QTableView;
+class QTreeView;
 
 namespace boresight::ui {
 
-/// Keeps a table from scrolling sideways: where it is too narrow, columns that can be done without
+/// Keeps a table or a tree from scrolling sideways: where it is too narrow, columns that can be done without
 /// are hidden, the first of the list first, and come back where there is room. Once the operator
-/// has chosen columns, those stay. Belongs to the table.
+/// has chosen columns, those stay. Belongs to the view.
 class ColumnFitter : public QObject {
   Q_OBJECT
 
  public:
-  /// The table must have its model already.
+  /// The view must have its model already.
   ColumnFitter(QTableView& table, std::vector<int> dispensable);
+  ColumnFitter(QTreeView& tree, std::vector<int> dispensable);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  ColumnFitter(QAbstractItemView& view, QHeaderView& header, std::vector<int> dispensable);
+
   void fit();
   int widthOf(int column) const;
   void show(int column, bool shown);
 
-  QTableView& table_;
+  QAbstractItemView& view_;
+  QHeaderView& header_;
   std::vector<int> dispensable_;
   std::map<int, int> hidden_;  ///< by this object, with their widths
   bool fitting_ = false;

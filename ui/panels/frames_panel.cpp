@@ -6,6 +6,7 @@
 #include <QtWidgets>
 
 #include "ui/models/text.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 #include "ui/state/view_state.h"
 
@@ -60,6 +61,8 @@ FramesPanel::FramesPanel(ViewState& state, QWidget* parent)
   tree_->headerItem()->setToolTip(kSigma_mm, tr("One sigma of the worst axis"));
   tree_->headerItem()->setToolTip(kSigma_mrad, tr("One sigma of the worst axis"));
   tree_->setFrameShape(QFrame::NoFrame);
+  tree_->header()->setStretchLastSection(false);
+  new ColumnFitter(*tree_, {kComment, kSource, kSigma_mrad, kSigma_mm});
   tree_->setAccessibleName(tr("Frames"));
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(add_);

@@ -44,7 +44,7 @@ void showTableMenu(QTableView& table, const QPoint& at) {
   menu.exec(table.viewport()->mapToGlobal(at));
 }
 
-QString hiddenColumnsKey(const QTableView& table) {
+QString hiddenColumnsKey(const QAbstractItemView& table) {
   return QStringLiteral("tables/%1/hidden").arg(table.objectName());
 }
 
@@ -88,8 +88,8 @@ void showColumnsMenu(QTableView& table, const QPoint& at) {
 
 }  // namespace
 
-bool hasChosenColumns(const QTableView& table) {
-  return !table.objectName().isEmpty() && QSettings().contains(hiddenColumnsKey(table));
+bool hasChosenColumns(const QAbstractItemView& view) {
+  return !view.objectName().isEmpty() && QSettings().contains(hiddenColumnsKey(view));
 }
 
 void styleTable(QTableView& table) {

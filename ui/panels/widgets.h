@@ -22,8 +22,8 @@ namespace boresight::ui {
 /// How all tables look: whole rows, one at a time, no row numbers, compact, columns as wide as what
 /// they hold. A menu of the header hides columns and shows them, which is remembered.
 void styleTable(QTableView& table);
-/// Whether the operator has chosen the columns of this table.
-bool hasChosenColumns(const QTableView& table);
+/// Whether the operator has chosen the columns of this view.
+bool hasChosenColumns(const QAbstractItemView& view);
 /// The same for a table of a model, which it is given.
 void setUpTable(QTableView& table, QAbstractItemModel& model);
 

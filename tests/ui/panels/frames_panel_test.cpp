@@ -57,6 +57,17 @@ TEST_F(FramesPanelTest, ShowsTheTreeWithPlacesAndSigmas) {
   EXPECT_EQ(end_effector->child(0)->text(2), QStringLiteral("exact"));
 }
 
+TEST_F(FramesPanelTest, NarrowPanel_HidesColumnsInsteadOfScrolling) {
+  panel_.resize(1200, 300);
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(tree().isColumnHidden(5));
+  panel_.resize(380, 300);
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(tree().isColumnHidden(5)) << "the comment";
+  EXPECT_FALSE(tree().isColumnHidden(1)) << "the place";
+  EXPECT_EQ(tree().horizontalScrollBar()->maximum(), 0);
+}
+
 TEST_F(FramesPanelTest, RemovesWhatIsTheCasesOwn) {
   QList<sessions::FrameTransform> removed;
   QObject::connect(&panel_, &FramesPanel::removeRequested,
