@@ -15,6 +15,7 @@ namespace {
 
 enum Column { kFrame, kPlace, kSigma_mm, kSigma_mrad, kSource, kComment, kColumns };
 constexpr int kRow = Qt::UserRole;
+constexpr int kIndentation = 12;  // frames hang on one another five deep
 
 QString placeText(const sessions::FrameRow& row) {
   if (!row.transform) return {};
@@ -56,11 +57,13 @@ FramesPanel::FramesPanel(ViewState& state, QWidget* parent)
       remove_(named(new QPushButton(tr("Remove")), "removeFrame",
                     tr("Remove the chosen transform from the case"))) {
   tree_->setColumnCount(kColumns);
-  tree_->setHeaderLabels({tr("Frame"), tr("In the frame above, mm"), tr("Sigma, mm"),
+  tree_->setHeaderLabels({tr("Frame"), tr("Place, mm"), tr("Sigma, mm"),
                           tr("Sigma, mrad"), tr("Source"), tr("Comment")});
+  tree_->headerItem()->setToolTip(kPlace, tr("Of the origin, in the frame above"));
   tree_->headerItem()->setToolTip(kSigma_mm, tr("One sigma of the worst axis"));
   tree_->headerItem()->setToolTip(kSigma_mrad, tr("One sigma of the worst axis"));
   tree_->setFrameShape(QFrame::NoFrame);
+  tree_->setIndentation(kIndentation);
   tree_->header()->setStretchLastSection(false);
   new ColumnFitter(*tree_, {kComment, kSource, kSigma_mrad, kSigma_mm});
   tree_->setAccessibleName(tr("Frames"));
