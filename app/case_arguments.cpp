@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/case_arguments.h"
 
+#include <iterator>
+
 #include "sessions/io/camera_field.h"
 #include "sessions/io/errors.h"
 #include "sessions/run/problem.h"
@@ -58,7 +60,8 @@ void CaseArguments::addTo(CLI::App& command) {
   command
       .add_option("--bayer", bayer,
                   "The samples are a mosaic of colours, whose first two lines begin like this")
-      ->check(CLI::IsMember({"rggb", "bggr", "grbg", "gbrg"}));
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(sessions::kBayerPatternNames),
+                                                     std::end(sessions::kBayerPatternNames))));
 }
 
 void CaseArguments::addEndEffectorTo(CLI::App& command) {

@@ -325,6 +325,20 @@ std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case
   return parts;
 }
 
+namespace {
+
+[[noreturn]] void refusePart(const Dataset& dataset, const std::string& name) {
+  std::set<std::string> names;
+  for (const auto& [id, station] : dataset.stations)
+    for (const PartSource& part : station.parts) names.insert(partName(part));
+  std::string known;
+  for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+  throw InputError(dataset.file, "stations",
+                   "no station has a part '" + name + "'; there are: " + known);
+}
+
+}  // namespace
+
 Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes) {
   for (const PartChange& change : changes) {
     bool known = false;
@@ -346,15 +360,15 @@ Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes) 
         if (dataset_case.station == id && !dataset_case.part_states.empty())
           set(dataset_case.part_states[part]);
     }
-    if (!known)
-      throw InputError(dataset.file, "stations", "no station has a part '" + change.part + "'");
+    if (!known) refusePart(dataset, change.part);
     dataset.sha256 = sha256Text(dataset.sha256 + change.part + "=" + change.state);
   }
   for (const Case& dataset_case : dataset.cases) {
     const std::vector<PartSource> parts = partsOf(dataset, dataset_case);
     if (!anyMatched(parts))
       throw InputError(dataset.file, "cases." + dataset_case.id, "no part of its station is matched");
-    for (const PartSource& part : parts) (void)placedPart(part, framesOf(dataset, dataset_case));
+    const FrameTree frames = framesOf(dataset, dataset_case);
+    for (const PartSource& part : parts) (void)placedPart(part, frames);
   }
   return dataset;
 }

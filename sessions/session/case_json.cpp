@@ -65,7 +65,8 @@ ImageReadOptions readEightBit(const JsonReader& json) {
   if (const auto depth = json.find("bit_depth"))
     options.bit_depth = static_cast<int>(depth->integer(1, 16));
   if (const auto bayer = json.find("bayer"))
-    options.bayer = bayerPatternNamed(bayer->choice({"rggb", "bggr", "grbg", "gbrg"}));
+    options.bayer = bayerPatternNamed(bayer->choice({kBayerPatternNames[0], kBayerPatternNames[1],
+                                                     kBayerPatternNames[2], kBayerPatternNames[3]}));
   const std::string rule = json.at("rule").choice({"linear", "levels", "table"});
   if (rule != "table" && json.has("table"))
     json.failMember("table", "given although the rule is " + rule);

@@ -4,6 +4,7 @@
 #include <QtWidgets>
 
 #include "ui/models/text.h"
+#include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
@@ -31,7 +32,7 @@ PartsPanel::PartsPanel(Document& document, ViewState& state, QWidget* parent)
   table_->horizontalHeaderItem(kRole)->setToolTip(
       tr("matched: its edges are looked for; occludes: it hides what is behind it; ignored: as if "
          "it were not there"));
-  table_->horizontalHeader()->setStretchLastSection(true);
+  new ColumnFitter(*table_, {kMesh, kFrame});
   table_->setAccessibleName(tr("Parts of the station"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -69,7 +70,8 @@ void PartsPanel::addPart(int row, const sessions::PartSource& part, bool editabl
                     (editable ? Qt::ItemIsEnabled : Qt::NoItemFlags));
   present->setCheckState(part.state.present ? Qt::Checked : Qt::Unchecked);
   table_->setItem(row, kPresent, present);
-  table_->setItem(row, kName, textItem(fromText(sessions::partName(part))));
+  table_->setItem(row, kName, textItem(fromText(sessions::partName(part)),
+                                       fromText(sessions::partText(part))));
   auto* role = new QComboBox;
   for (const char* name : sessions::kPartRoleNames) role->addItem(QLatin1String(name));
   role->setCurrentIndex(static_cast<int>(part.state.role));

@@ -67,6 +67,22 @@ List listOf(int count) {
   return list;
 }
 
+TEST(SameScene, FramesAndStatesOfPartsMakeAnother) {
+  Random random = randomFor("SameScene");
+  const sessions::SessionCase session_case = randomCase(random, "a");
+  sessions::SessionCase other = session_case;
+  other.camera_from_station_seed.translation_m.x() += 0.01;
+  EXPECT_TRUE(sameScene(session_case, other)) << "the seed is no part of the scene";
+  other = session_case;
+  other.frames.emplace_back();  // may place a part elsewhere
+  EXPECT_FALSE(sameScene(session_case, other));
+  EXPECT_TRUE(sameMeshes(session_case, other));
+  other = session_case;
+  other.parts[0].source.state.present = !other.parts[0].source.state.present;
+  EXPECT_FALSE(sameScene(session_case, other));
+  EXPECT_TRUE(sameMeshes(session_case, other)) << "in another state";
+}
+
 TEST(KeyedList, FindsTheLastElementOfAKey) {
   const List list = listOf(25);
   ASSERT_NE(list.find("k3"), nullptr);

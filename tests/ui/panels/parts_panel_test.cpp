@@ -51,6 +51,21 @@ TEST_F(PartsPanelTest, ShowsTheStatesAndChangesThemAsEdits) {
   EXPECT_EQ(table().item(1, 0)->checkState(), Qt::Checked);
 }
 
+TEST_F(PartsPanelTest, NarrowPanel_HidesColumnsInsteadOfScrolling) {
+  PartsPanel panel(window_.document(), window_.state());
+  const auto& shown = *panel.findChild<QTableWidget*>(QStringLiteral("parts"));
+  panel.show();
+  panel.resize(900, 200);
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(shown.isColumnHidden(4)) << "the mesh";
+  panel.resize(250, 200);
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(shown.isColumnHidden(3)) << "the frame";
+  EXPECT_FALSE(shown.isColumnHidden(2)) << "the role";
+  EXPECT_EQ(shown.horizontalScrollBar()->maximum(), 0);
+  EXPECT_TRUE(test::has(shown.item(1, 1)->toolTip(), "fixed to STATION"));
+}
+
 TEST_F(PartsPanelTest, AStationWithoutAMatchedPartIsRefusedAndSaidSo) {
   choose(0, PartRole::kIgnored);
   EXPECT_EQ(stateOf(0).role, PartRole::kMatched);
