@@ -112,7 +112,7 @@ struct SessionCommand {
 };
 
 /// What undo or redo makes of `target` now: runs and what is looked at are not edits and stay as
-/// they are at present, except those of cases that `target` does not have.
+/// they are at present, except those of cases that only `target` has (its own) or has not (none).
 Session keepingRuns(const Session& target, const Session& current);
 
 /// The undo stack of a document, of any length. Every step goes through SessionDocument::apply and

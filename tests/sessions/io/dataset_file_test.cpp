@@ -319,7 +319,8 @@ TEST_F(ReadDataset, StatesOfAllCases_AreChangedAtOnce) {
     return folder_.message([&] { (void)withPartStates(dataset, {change}); });
   };
   EXPECT_EQ(message({"cap", "off"}),
-            "dataset.json: stations: no station has a part 'cap'; there are: gripper, os, tube");
+            "dataset.json: stations: no station has a part 'cap'; there are: gripper, model, os, "
+            "tube");
   EXPECT_THAT(message({"tube", "hidden"}), HasSubstr("'hidden' is not one of off, on"));
   EXPECT_THAT(message({"os", "off"}), HasSubstr("cases.c: no part of its station is matched"));
   EXPECT_THAT(message({"gripper", "matched"}), HasSubstr("cannot be matched"));

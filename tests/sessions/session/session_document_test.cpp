@@ -409,9 +409,14 @@ TEST(SessionHistory, UndoesAndRedoesEveryStep) {
     history.perform(randomEdit(random, document.session()), "Edit " + std::to_string(i));
     if (states.size() <= history.done()) states.push_back(document.session());
   }
+  const auto withoutRuns = [](Session session) {
+    session.runs.clear();
+    session.view = {};
+    return session;
+  };
   const Session& end = document.session();
   const auto expectEdits = [&](std::size_t i) {
-    ASSERT_TRUE(keepingRuns(states[i], {}) == keepingRuns(document.session(), {})) << i;
+    ASSERT_TRUE(withoutRuns(states[i]) == withoutRuns(document.session())) << i;
   };
   const std::size_t count = history.done();
   ASSERT_EQ(states.size(), count + 1);
@@ -428,7 +433,7 @@ TEST(SessionHistory, UndoesAndRedoesEveryStep) {
     expectEdits(i);
   }
   EXPECT_FALSE(history.canRedo());
-  EXPECT_TRUE(keepingRuns(end, {}) == keepingRuns(states.back(), {}));
+  EXPECT_TRUE(withoutRuns(end) == withoutRuns(states.back()));
 }
 
 TEST(SessionHistory, ANewEditForgetsWhatWasUndone) {
@@ -463,6 +468,27 @@ TEST(SessionHistory, RunsAndTheViewAreNotUndone) {
   EXPECT_TRUE(document.session().annotations.empty());
   EXPECT_EQ(document.session().runs.size(), 1u);
   EXPECT_EQ(document.session().view.case_id, "a");
+}
+
+TEST(SessionHistory, ARemovedCaseComesBackWithItsRun) {
+  Random random = randomFor("removed");
+  const TemporaryFolder folder;
+  Session session = withCase(withCase({}, randomCase(random, "a")), randomCase(random, "b"));
+  for (const char* id : {"a", "b"})
+    session.runs.push_back({id, randomSha256(random), folder / id, "converged", "0.1.0",
+                            "2026-01-31T23:59:59Z", randomSha256(random), randomSha256(random)});
+  SessionDocument document = SessionDocument::create(folder / "s.json", session);
+  SessionHistory history(document);
+  history.perform(withoutCase(document.session(), "b"), "Remove b");
+  Session again = document.session();
+  again.runs[0].digest = randomSha256(random);
+  document.apply(again, "Run a");
+  history.undo();
+  ASSERT_NE(document.session().lastRunOf("b"), nullptr);
+  EXPECT_EQ(*document.session().lastRunOf("b"), session.runs[1]);
+  EXPECT_EQ(*document.session().lastRunOf("a"), again.runs[0]) << "the later run stays";
+  history.redo();
+  EXPECT_EQ(document.session().lastRunOf("b"), nullptr);
 }
 
 TEST(SessionHistory, AStepThatCannotBeWrittenHasNotHappened) {
