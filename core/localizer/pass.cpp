@@ -61,7 +61,7 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
                problem_.uncertainty};
   digestOptions(options_, digest_);
   digestProblem(used, digest_);
-  seal_.sealInputs(digest_.digest());
+  seal_.sealInputs(inputDigest(options_, used));
   if (match_outside_) matchOutside(surfaces_);
   return Status::kOk;
 }

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <string_view>
+
+#include "core/base/crc32.h"
 
 namespace boresight {
 namespace {
@@ -39,6 +42,39 @@ void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
   for (int row = 0; row < 6; ++row) {
     for (int column = 0; column < 6; ++column) writer.f64(matrix(row, column));
   }
+}
+
+/// Of what a problem views.
+std::uint32_t checksumOfArrays(const LocalizationProblem& problem) {
+  std::uint32_t sum = 0;
+  const auto add = [&sum](const auto& memory) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(memory));
+    sum = crc32({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, sum);
+  };
+  const auto addRow = [&add](const std::uint8_t* row, int bytes) {
+    add(std::span(row, static_cast<std::size_t>(bytes)));
+  };
+  for (int y = 0; y < problem.image.height; ++y) addRow(problem.image.row(y), problem.image.width);
+  if (problem.color.data != nullptr)
+    for (int y = 0; y < problem.color.height; ++y)
+      addRow(problem.color.row(y), problem.color.width * ColorView::kChannels);
+  if (problem.ignore != nullptr) add(problem.ignore->words);
+  const MeshView& mesh = problem.mesh;
+  add(mesh.vertices_in_station_m);
+  mesh.faces.forEach(0, mesh.faces.size(),
+                     [&add](std::size_t, const auto& vertices) { add(vertices); });
+  add(mesh.part_of_face);
+  return sum;
+}
+
+LocalizationProblem withoutArrays(LocalizationProblem problem) {
+  problem.image.height = 0;
+  problem.color = {};
+  problem.ignore = nullptr;
+  problem.mesh.vertices_in_station_m = {};
+  problem.mesh.faces = {};
+  problem.mesh.part_of_face = {};
+  return problem;
 }
 
 }  // namespace
@@ -113,8 +149,9 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
 std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
                                          const LocalizationProblem& problem) {
   DigestWriter writer;
+  writer.u32(checksumOfArrays(problem));
   digestOptions(options, writer);
-  digestProblem(problem, writer);
+  digestProblem(withoutArrays(problem), writer);
   return writer.digest();
 }
 

@@ -16,7 +16,8 @@ namespace boresight {
 /// addresses, thread or memory figures.
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer);
 void digestProblem(const LocalizationProblem& problem, DigestWriter& writer);
-/// The digest of both.
+/// A digest of both, not that of a run: images and mesh enter with their CRC-32, as SHA-256 of 4 MP
+/// would take ten times as long.
 std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
                                          const LocalizationProblem& problem);
 void digestPose(const Pose& pose, DigestWriter& writer);

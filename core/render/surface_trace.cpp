@@ -18,13 +18,11 @@ struct Exit {
 };
 
 /// Where the way from one ray to another leaves a face that it entered at a place through an edge
-/// (-1: it begins there). False when the face has no area seen from the camera. The edges are those
-/// of faceEdges(), without the one passed already; the sign that turns them inwards is applied to
-/// their values, which gives the same bits.
-inline bool findExit(const CameraScene& scene, std::int32_t face, int entered_through,
-                     double s_entered, const Eigen::Vector3d& ray_from,
-                     const Eigen::Vector3d& ray_to, Exit& exit) {
-  const Corners vertex = scene.corners(face);
+/// (-1: it begins there). False when the face, given by its corners, has no area seen from the
+/// camera. The edges are those of faceEdges(), without the one passed already; the sign that turns
+/// them inwards is applied to their values, which gives the same bits.
+inline bool findExit(const Corners& vertex, int entered_through, double s_entered,
+                     const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to, Exit& exit) {
   Eigen::Vector3d line = crossProduct(vertex[0], vertex[1]);
   const double determinant = dotProduct(line, vertex[2]);
   if (!(determinant > 0.0 || determinant < 0.0)) return false;
@@ -43,18 +41,37 @@ inline bool findExit(const CameraScene& scene, std::int32_t face, int entered_th
   return true;
 }
 
-/// The face beyond an edge folds back behind the surface when its third vertex lies on the
-/// surface's side of the edge; this does not depend on the orientation of the mesh.
-bool foldsBack(const CameraScene& scene, std::int32_t face, int edge, std::int32_t beyond,
-               const Eigen::Vector3d& line) {
+/// The corners of the face beyond an edge: two are those of this face.
+struct Beyond {
+  Corners corner;
+  int third = -1;  ///< the corner that is not on the edge; -1: none
+};
+
+inline Beyond beyondEdge(const CameraScene& scene, std::int32_t face, const Corners& corner,
+                         int edge, std::int32_t beyond) {
   const Face from = scene.mesh.faces[static_cast<std::size_t>(face)];
   const Face to = scene.mesh.faces[static_cast<std::size_t>(beyond)];
-  const std::int32_t first = from.vertex[static_cast<std::size_t>(edge)];
-  const std::int32_t second = from.vertex[static_cast<std::size_t>((edge + 1) % 3)];
-  for (const std::int32_t vertex : to.vertex)
-    if (vertex != first && vertex != second)
-      return !(dotProduct(line, scene.vertex(vertex)) < 0.0);
-  return true;
+  const auto first = static_cast<std::size_t>(edge);
+  const std::size_t second = (first + 1) % 3;
+  Beyond found;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (to.vertex[i] == from.vertex[first]) {
+      found.corner[i] = corner[first];
+    } else if (to.vertex[i] == from.vertex[second]) {
+      found.corner[i] = corner[second];
+    } else {
+      found.corner[i] = scene.vertex(to.vertex[i]);
+      found.third = static_cast<int>(i);
+    }
+  }
+  return found;
+}
+
+/// A face folds back behind the surface when its third corner lies on the surface's side of the
+/// edge; this does not depend on the orientation of the mesh.
+bool foldsBack(const Beyond& face, const Eigen::Vector3d& line) {
+  return face.third < 0 ||
+         !(dotProduct(line, face.corner[static_cast<std::size_t>(face.third)]) < 0.0);
 }
 
 int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighbour) {
@@ -133,11 +150,11 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
   end.face = start;
   SurfaceEnd turn;
   PlaneCache::Entry plane;  // of the face
+  Corners corner = scene.corners(start);
   int entered_through = -1;
   for (int hop = 0; hop <= kMaxHops; ++hop) {
     Exit exit;
-    if (!findExit(scene, end.face, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to, exit))
-      break;
+    if (!findExit(corner, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to, exit)) break;
     end.ends = exit.edge >= 0;
     end.s = exit.s;
     if (!end.ends) break;
@@ -146,7 +163,9 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
     if (hop == kMaxHops) break;
 
     const std::int32_t next = scene.adjacency.beyond(end.face, exit.edge);
-    if (next < 0 || foldsBack(scene, end.face, exit.edge, next, end.line)) break;
+    if (next < 0) break;
+    const Beyond beyond = beyondEdge(scene, end.face, corner, exit.edge, next);
+    if (foldsBack(beyond, end.line)) break;
     if (next == target) {
       if (turn.ends) end = turn;
       end.reached = true;
@@ -164,6 +183,7 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
     entered_through = edgeTowards(scene, next, end.face);
     if (entered_through < 0) break;
     end.face = next;
+    corner = beyond.corner;
     plane = next_plane;
   }
   return end;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/crc32.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+
+namespace boresight {
+namespace {
+
+/// Division by the polynomial, a bit at a time.
+std::uint32_t bitByBit(std::span<const std::uint8_t> bytes) {
+  std::uint32_t c = 0xffffffffu;
+  for (const std::uint8_t byte : bytes) {
+    c ^= byte;
+    for (int bit = 0; bit < 8; ++bit) c = (c & 1u) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
+  }
+  return ~c;
+}
+
+std::vector<std::uint8_t> randomBytes(Random& random, std::size_t size) {
+  std::vector<std::uint8_t> bytes(size);
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
+  return bytes;
+}
+
+TEST(Crc32, GivesThePublishedCheckValue) {
+  constexpr std::string_view kText = "123456789";
+  EXPECT_EQ(crc32({reinterpret_cast<const std::uint8_t*>(kText.data()), kText.size()}),
+            0xcbf43926u);
+  EXPECT_EQ(crc32({}), 0u);
+}
+
+TEST(Crc32, EqualsTheDivisionBitByBit_AlsoInPieces) {
+  Random random(7);
+  for (std::size_t size = 0; size < 40; ++size) {
+    const std::vector<std::uint8_t> bytes = randomBytes(random, size);
+    const std::uint32_t expected = bitByBit(bytes);
+    for (std::size_t split = 0; split <= size; ++split)
+      ASSERT_EQ(crc32(std::span(bytes).subspan(split), crc32(std::span(bytes).first(split))),
+                expected)
+          << size << " " << split;
+  }
+}
+
+TEST(Crc32, ShowsEveryBitThatFlips) {
+  Random random(8);
+  std::vector<std::uint8_t> bytes = randomBytes(random, 50);
+  const std::uint32_t sum = crc32(bytes);
+  for (std::size_t at = 0; at < 8 * bytes.size(); ++at) {
+    const auto bit = static_cast<std::uint8_t>(1U << at % 8);
+    bytes[at / 8] ^= bit;
+    EXPECT_NE(crc32(bytes), sum) << at;
+    bytes[at / 8] ^= bit;
+  }
+}
+
+}  // namespace
+}  // namespace boresight
