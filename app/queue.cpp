@@ -59,8 +59,9 @@ bool isResults(const std::string& file) {
 int queue(const QueueArguments& arguments) {
   const std::string& file = arguments.session;
   if (isResults(file) && arguments.differences)
-    throw CLI::ValidationError("--differences", "needs a session; to compare results use "
-                                                "`whs tables RESULTS --against RESULTS`");
+    throw CLI::ValidationError("--differences",
+                               "needs a session; to compare results use "
+                               "`whs tables RESULTS --against RESULTS`");
   if (!arguments.csv.empty()) sessions::requireWritable(arguments.csv);
   if (isResults(file)) return listQueue(sessions::resultsQueue(file), arguments);
   const sessions::SessionDocument document = openToRead(file);
@@ -77,8 +78,9 @@ void addQueue(CLI::App& app, int& exit_code) {
       "Checks the last runs of a session's cases and lists the worst first: failed runs, failed "
       "checks, smallest margin to a limit, largest distance from the seed. Decided cases come last",
       queue);
-  addFile(*command, "session", arguments->session,
-          "Session file, or results of `whs evaluate` (.sqlite), whose runs are listed as they ended")
+  addFile(
+      *command, "session", arguments->session,
+      "Session file, or results of `whs evaluate` (.sqlite), whose runs are listed as they ended")
       ->required();
   command->add_option("--jobs", arguments->jobs, "Number of cases that are checked in parallel")
       ->check(CLI::Range(1, 64))

@@ -7,7 +7,7 @@
 namespace boresight {
 namespace {
 
-/// Row k: remainders of a byte that k bytes follow. Four bytes are taken at a time with four of them.
+/// Row k: remainders of a byte that k bytes follow.
 using Tables = std::array<std::array<std::uint32_t, 256>, 4>;
 
 constexpr Tables crcTables() {

@@ -29,8 +29,9 @@ inline bool findExit(const Corners& vertex, int entered_through, double s_entere
   const double sign = determinant < 0.0 ? -1.0 : 1.0;
   for (int i = 0; i < 3; ++i) {
     if (i == entered_through) continue;
-    if (i > 0) line = crossProduct(vertex[static_cast<std::size_t>(i)],
-                                 vertex[static_cast<std::size_t>(i < 2 ? i + 1 : 0)]);
+    if (i > 0)
+      line = crossProduct(vertex[static_cast<std::size_t>(i)],
+                          vertex[static_cast<std::size_t>(i < 2 ? i + 1 : 0)]);
     const double to = sign * dotProduct(line, ray_to);
     if (!(to <= 0.0)) continue;
     const double from = sign * dotProduct(line, ray_from);

@@ -56,8 +56,9 @@ class RowReader {
  public:
   RowReader(const RowTable<Row>& table, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
-      const auto found = std::find_if(table.columns.begin(), table.columns.end(),
-                                      [&](const Column<Row>& column) { return column.name == name; });
+      const auto found =
+          std::find_if(table.columns.begin(), table.columns.end(),
+                       [&](const Column<Row>& column) { return column.name == name; });
       columns_.push_back(found != table.columns.end() && found->read ? &*found : nullptr);
     }
   }
@@ -66,8 +67,7 @@ class RowReader {
   Row read(const SqlStatement& statement, const std::filesystem::path& file) const {
     Row row;
     for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (columns_[i] != nullptr)
-        columns_[i]->read(row, statement.cell(static_cast<int>(i)), file);
+      if (columns_[i] != nullptr) columns_[i]->read(row, statement.cell(static_cast<int>(i)), file);
     return row;
   }
 

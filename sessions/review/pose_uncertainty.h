@@ -24,10 +24,9 @@ std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlac
                                                         const Camera& camera,
                                                         const Pose& camera_from_station);
 
-/// How it follows an error of the vectors of a CAHV camera: d xi / d (C, A, H, V ...), 6 x 12, 18
-/// or
-/// 21. The camera's frame stays where it is in the frame of the vectors, so that an error of C or A
-/// moves the pose as well. Nothing also outside the CAHV family.
+/// How it follows an error of the vectors of a CAHV camera: d xi / d (C, A, H, V ...), 6 x 12,
+/// 18 or 21. The camera's frame stays where it is in the frame of the vectors, so that an error of
+/// C or A moves the pose as well. Nothing also outside the CAHV family.
 std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
                                              const Camera& camera, const Pose& camera_from_station);
 

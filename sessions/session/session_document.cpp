@@ -262,8 +262,7 @@ void SessionDocument::saveAs(const fs::path& file) {
 
 Session keepingRuns(const Session& target, const Session& current) {
   Session kept = target;
-  kept.runs.eraseIf(
-      [&](const RunRecord& run) { return current.findCase(run.case_id) != nullptr; });
+  kept.runs.eraseIf([&](const RunRecord& run) { return current.findCase(run.case_id) != nullptr; });
   for (const RunRecord& run : current.runs)
     if (kept.findCase(run.case_id) != nullptr) kept.runs.push_back(run);
   kept.view = current.view;

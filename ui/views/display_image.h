@@ -45,8 +45,8 @@ QString sampleText(const sessions::ImageSamples& samples, int x, int y);
 QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLevels& levels);
 
 /// The current case's image as the operator sees it: the 8-bit pixels that the core sees, or the
-/// file's samples stretched between two levels, at first `firstLevels`. Reading and stretching happen in the task runner; until a picture is made the one before, or the core's, is
-/// shown.
+/// file's samples stretched between two levels, at first `firstLevels`. Reading and stretching
+/// happen in the task runner; until a picture is made the one before, or the core's, is shown.
 class DisplayImage : public QObject {
   Q_OBJECT
 

@@ -65,7 +65,8 @@ namespace {
 constexpr int kCaseThumbnail_px = 128;  // also sharp on a screen of double density
 constexpr int kPause_ms = 200;          // the list is filled as a whole
 
-/// As the canvas shows the image at first. Null when the file cannot be read: the operator who opens the case is told why.
+/// As the canvas shows the image at first. Null when the file cannot be read: the operator who
+/// opens the case is told why.
 QImage thumbnailOf(const sessions::ImageInput& input) {
   try {
     const sessions::ImageSamples samples =

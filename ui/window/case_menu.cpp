@@ -26,18 +26,18 @@ std::unique_ptr<QMenu> CaseMenu::of(const QString& id) const {
     action->setObjectName(QLatin1String(name));
     return action;
   };
-  add("caseRun", iconOf(Icon::kRun), tr("Run"), [this, id] { parts_.cases.runAll({id}); })
-      ->setEnabled(!isBusy());
+  add("caseRun", iconOf(Icon::kRun), tr("Run"), [this, id] {
+    parts_.cases.runAll({id});
+  })->setEnabled(!isBusy());
   add("caseReview", iconOf(Icon::kShield), tr("Review"), [this, id] { review(id); });
   menu->addSeparator();
-  add("caseName", {}, tr("Copy the name"),
-      [id] { QGuiApplication::clipboard()->setText(id); });
+  add("caseName", {}, tr("Copy the name"), [id] { QGuiApplication::clipboard()->setText(id); });
   add("caseFolder", iconOf(Icon::kFolder), tr("Show the image's folder"),
       [this, id] { showFolder(id); });
   menu->addSeparator();
-  add("caseRemove", iconOf(Icon::kTrash), tr("Remove from the session"),
-      [this, id] { remove(id); })
-      ->setEnabled(parts_.document.isEditable() && !isBusy());
+  add("caseRemove", iconOf(Icon::kTrash), tr("Remove from the session"), [this, id] {
+    remove(id);
+  })->setEnabled(parts_.document.isEditable() && !isBusy());
   return menu;
 }
 

@@ -109,7 +109,8 @@ TEST_F(ReviewPanelTest, ChecksThatDoNotApplyAreFoldedAndAClickShowsThem) {
   const auto shown = [this](CheckState state) {
     int count = 0;
     for (const sessions::Check& check : controller().checks())
-      count += check.state == state && !hands().table().isRowHidden(hands().rowOf(fromText(check.title)));
+      count += check.state == state &&
+               !hands().table().isRowHidden(hands().rowOf(fromText(check.title)));
     return count;
   };
   const auto all = [this](CheckState state) {

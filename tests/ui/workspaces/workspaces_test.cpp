@@ -83,7 +83,8 @@ TEST_F(WorkspacesTest, StripListsFailedCasesFirstInReviewOnly) {
   model.setRows(rows);
   auto& strip = *window_.findChild<CaseStrip*>();
   QStringList asked;
-  QObject::connect(&strip, &CaseStrip::caseRequested, &window_, [&](const QString& id) { asked << id; });
+  QObject::connect(&strip, &CaseStrip::caseRequested, &window_,
+                   [&](const QString& id) { asked << id; });
   const auto ids = [&] {
     asked.clear();
     const QSignalBlocker quiet(window_.cases());
@@ -168,7 +169,8 @@ TEST_F(WorkspacesTest, VerdictRunsTheCaseAndLeadsToReview) {
   ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kRun; })) << bar.text().toStdString();
   QTest::mouseClick(&bar.action(), Qt::LeftButton);
   ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
-  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kReview; })) << bar.text().toStdString();
+  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kReview; }))
+      << bar.text().toStdString();
   EXPECT_TRUE(test::has(bar.text(), "Converged in"));
   QTest::keyClick(&window_, Qt::Key_Return, Qt::ControlModifier);
   EXPECT_EQ(workspaces().current(), Workspace::kReview);
