@@ -69,13 +69,27 @@ double meanOf(double sum, std::int32_t count) { return count > 0 ? sum / count :
 
 }  // namespace
 
-double evidenceOfPlace_nats(const EvidencePlace& place, const DirectedEdges& edges,
-                            std::span<const std::uint8_t> distance, double window_px) {
+PlaceEvidence evidenceOfPlace(const EvidencePlace& place, const DirectedEdges& edges,
+                              std::span<const std::uint8_t> distance, double window_px) {
   const Shares around = sharesAround(place, edges, distance, window_px);
   const std::uint64_t count =
       kCountOf[distance[static_cast<std::size_t>(place.y * edges.width + place.x)]];
-  const auto k = static_cast<std::size_t>(std::countr_zero(count) / kCountBits);
-  return log((kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k]) / around[k]);
+  const auto observed = static_cast<std::size_t>(std::countr_zero(count) / kCountBits);
+  PlaceEvidence evidence;
+  for (std::size_t k = 0; k < kIntervals; ++k) {
+    const double share = kTrusted * kAtRightPoses[k] + (1.0 - kTrusted) * around[k];
+    const double nats = log(share / around[k]);
+    if (k == observed) evidence.nats = nats;
+    evidence.expected_nats += share * nats;
+  }
+  return evidence;
+}
+
+double ContourEvidence::shareOfExpected() const {
+  const double of_edges = expected_nats > 0.0 ? edges_nats / expected_nats : 0.0;
+  const double of_outline =
+      outline_expected_nats > 0.0 ? outline_nats / outline_expected_nats : 0.0;
+  return std::max(of_edges, of_outline);
 }
 
 double ContourEvidence::weakest_nats() const {
@@ -111,6 +125,7 @@ std::span<const std::uint8_t> ContourEvidenceMeter::distanceTo(int direction) {
 ContourEvidence ContourEvidenceMeter::measure(double size_px) {
   const DirectedEdges& edges = *edges_;
   ContourEvidence evidence;
+  evidence.place_length_px = place_length_px_;
   const auto places = places_.first(static_cast<std::size_t>(count_));
   std::int64_t sum_x = 0;
   std::int64_t sum_y = 0;
@@ -125,20 +140,26 @@ ContourEvidence ContourEvidenceMeter::measure(double size_px) {
       if (place.direction != direction || place.x < 0 || place.y < 0 || place.x >= edges.width ||
           place.y >= edges.height || edges.at(place.x, place.y) == DirectedEdges::kUnseen)
         continue;
-      const double nats = evidenceOfPlace_nats(place, edges, distance, kEvidenceWindow * size_px);
+      const auto [nats, expected_nats] =
+          evidenceOfPlace(place, edges, distance, kEvidenceWindow * size_px);
       const auto quadrant = static_cast<std::size_t>((place.x * count > sum_x ? 1 : 0) +
                                                      (place.y * count > sum_y ? 2 : 0));
       evidence.edges_nats += nats;
+      evidence.expected_nats += expected_nats;
       ++evidence.places;
       evidence.quadrant_nats[quadrant] += nats;
       ++evidence.quadrant_places[quadrant];
       if (!place.outline) continue;
       evidence.outline_nats += nats;
+      evidence.outline_expected_nats += expected_nats;
       ++evidence.outline_places;
     }
   }
   evidence.edges_nats = meanOf(evidence.edges_nats, evidence.places);
   evidence.outline_nats = meanOf(evidence.outline_nats, evidence.outline_places);
+  evidence.expected_nats = meanOf(evidence.expected_nats, evidence.places);
+  evidence.outline_expected_nats =
+      meanOf(evidence.outline_expected_nats, evidence.outline_places);
   for (std::size_t q = 0; q < evidence.quadrant_nats.size(); ++q)
     evidence.quadrant_nats[q] = meanOf(evidence.quadrant_nats[q], evidence.quadrant_places[q]);
   return evidence;

@@ -7,18 +7,21 @@
 
 namespace boresight {
 
-LocalizationStatus judgeSupport(const Workspace& measured, const Seed& seed,
-                                const Pose& camera_from_station, const LocalizerOptions& options,
+LocalizationStatus judgeSupport(const Workspace& measured, const LocalizerOptions& options,
                                 bool searches) {
   const SupportOptions& support = options.support;
-  if (searches && leftUncertainty(seed, camera_from_station, options.loop.leave_factor))
-    return LocalizationStatus::kLeftUncertainty;
   if (!(searches ? isProbable(measured.probability, support)
                  : isSupported(measured.support, support)))
     return LocalizationStatus::kNotSupported;
   if (support.gate && !measured.edge_width.isSharp()) return LocalizationStatus::kBlurred;
   if (support.gate && measured.focal.disagrees()) return LocalizationStatus::kCameraMismatch;
   return LocalizationStatus::kConverged;
+}
+
+LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& options) {
+  const bool ambiguous =
+      options.support.gate && measured.competitor >= 0 && measured.gap <= kLeastGap;
+  return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
 }
 
 LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,

@@ -19,13 +19,17 @@ inline constexpr double kLeastMargin_nats = 3.0;
 /// nats more.
 inline constexpr double kLeastMarginOutside_nats = -2.0;
 
+/// Least score of the final pose beyond that of the best other pose of the run.
+inline constexpr double kLeastGap = 0.15;
+
 /// Whether the image supports the pose after its support pass: kConverged, or the reason why not.
-/// A run that searches also judges the probability, whether the pose lies within the seed's
-/// uncertainty (a candidate's own box may reach beyond it), edge width and focal length. Edge width
-/// and focal length describe the image only where the pose is about right.
-LocalizationStatus judgeSupport(const Workspace& measured, const Seed& seed,
-                                const Pose& camera_from_station, const LocalizerOptions& options,
+/// A run that searches also judges the probability, edge width and focal length. Edge width and
+/// focal length describe the image only where the pose is about right.
+LocalizationStatus judgeSupport(const Workspace& measured, const LocalizerOptions& options,
                                 bool searches);
+
+/// kConverged, or kAmbiguous when another hypothesis of the run has about the same score.
+LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& options);
 
 /// kConverged, or kAmbiguous when a competing pose has about as much evidence.
 LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,

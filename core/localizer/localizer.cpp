@@ -3,6 +3,7 @@
 #include "core/localizer/localizer.h"
 
 #include "core/localizer/acceptance.h"
+#include "core/localizer/pose_change.h"
 
 namespace boresight {
 
@@ -29,7 +30,11 @@ PassPlan Localizer::plan() const {
       break;
     case Phase::kIterate:  // match templates, solve, repeat; then refine on edges
       return attempt_.plan(pass_.context());
-    case Phase::kAccept:  // measure the support of the converged pose
+    case Phase::kWeigh:  // measure the evidence for the converged pose
+      plan.kind = PassKind::kEvidence;
+      plan.record = attempt_.record();
+      break;
+    case Phase::kAccept:  // measure the support of the final pose
       plan.kind = PassKind::kSupport;
       plan.record = attempt_.record();
       break;
@@ -52,15 +57,15 @@ StepReport Localizer::decide(StepReport report) {
       phase_ = searches() ? Phase::kSearch : Phase::kIterate;
       break;
     case Phase::kSearch:
-      startTrials();
+      startComparison();
       break;
     case Phase::kIterate:
       return iterated(
           attempt_.take(pass_.outcome(), agreement(), pass_.context(), pass_.memory().records));
+    case Phase::kWeigh:
+      return weighed();
     case Phase::kAccept:
-      return accepted(judgeSupport(workspace(), seedOf(problem()), attempt_.camera_from_station(),
-                                   options(), searches()),
-                      report);
+      return accepted(judgeSupport(workspace(), options(), searches()), report);
     case Phase::kCompare:
       return finish(judgeCompetingPoses(workspace().competing_poses, seedOf(problem()), options()),
                     report);
@@ -70,50 +75,66 @@ StepReport Localizer::decide(StepReport report) {
   return report;
 }
 
-/// Follows the attempt's ruling: another pass, its pose, or its failure.
+/// Follows the attempt's ruling: another pass, its pose, or its failure. An attempt that reaches a
+/// known hypothesis ends.
 StepReport Localizer::iterated(const Ruling& ruling) {
   if (ruling.failed()) return fail(ruling);
-  if (ruling.found()) phase_ = Phase::kAccept;
+  const bool refined = workspace().iteration->kind == IterationKind::kRefine;
+  if (searches() && refined &&
+      comparison_.isKnown(attempt_.camera_from_station(), workspace().iteration->level,
+                          pass_.context()))
+    return follow(comparison_.takeFailure(pass_.context()), ruling.status, show(ruling));
+  if (ruling.found())
+    phase_ = searches() && !comparison_.returns() ? Phase::kWeigh : Phase::kAccept;
   return show(ruling);
 }
 
-/// Compares the pose with those of other candidates, then with poses that show about the same
-/// edges.
+/// Takes the pose as a hypothesis, unless a candidate's own box reached beyond the seed's.
+StepReport Localizer::weighed() {
+  const StepReport report =
+      show({Ruling::Next::kPose, LocalizationStatus::kRunning, Stage::kSupport, false,
+            attempt_.record()});
+  const Pose& pose = attempt_.camera_from_station();
+  if (leftUncertainty(seedOf(problem()), pose, options().loop.leave_factor))
+    return follow(comparison_.takeFailure(pass_.context()), LocalizationStatus::kLeftUncertainty,
+                  report);
+  const PoseComparison::Next next = comparison_.takePose(
+      attempt_, workspace().iteration->camera_from_station_before, workspace().evidence.score(),
+      workspace().probability, pass_.outcome().weak, pass_.context());
+  noteHypotheses();
+  return follow(next, LocalizationStatus::kConverged, report);
+}
+
+/// Judges the final pose, then compares it with poses that show about the same edges.
 StepReport Localizer::accepted(LocalizationStatus status, const StepReport& report) {
   if (status != LocalizationStatus::kConverged)
     return fail({Ruling::Next::kFailed, status, Stage::kSupport, false, attempt_.record()});
   show({Ruling::Next::kPose, status, Stage::kSupport, false, attempt_.record()});
-  if (!searches()) return finish(status, report);
-  const CandidateTrials::Next next =
-      trials_.takePose(attempt_, workspace().iteration->camera_from_station_before,
-                       pass_.outcome().probability, pass_.context());
-  if (next != CandidateTrials::Next::kConclude) return follow(next, status, report);
-  if (!options().support.gate) return finish(status, report);
+  if (!searches() || !options().support.gate) return finish(status, report);
+  status = judgeGap(workspace(), options());
+  if (status != LocalizationStatus::kConverged) return finish(status, report);
   phase_ = Phase::kCompare;
   return report;
 }
 
-/// After a failure: the next candidate, another attempt, or the end.
+/// After a failure: the next start, another attempt, or the end.
 StepReport Localizer::fail(const Ruling& ruling) {
   const StepReport report = show(ruling);
-  // Other candidates are seen by the same camera.
-  const bool concludes =
-      ruling.status == LocalizationStatus::kFault ||
-      (ruling.status == LocalizationStatus::kCameraMismatch && !trials_.hasPose());
-  if (concludes) return finish(ruling.status, report);
-  if (searches()) return follow(trials_.takeFailure(pass_.context()), ruling.status, report);
+  if (ruling.status == LocalizationStatus::kFault) return finish(ruling.status, report);
+  if (searches())
+    return follow(comparison_.takeFailure(pass_.context()), ruling.status, report);
   if (attempt_.index() + 1 >= options().loop.max_attempts) return finish(ruling.status, report);
   attempt_.restart();
   iterate(attempt_);
   return report;
 }
 
-StepReport Localizer::follow(CandidateTrials::Next next, LocalizationStatus status,
+StepReport Localizer::follow(PoseComparison::Next next, LocalizationStatus status,
                              const StepReport& report) {
   const int index = attempt_.index() + 1;
-  if (next == CandidateTrials::Next::kConclude) return finish(status, report);
-  iterate(next == CandidateTrials::Next::kTry ? trials_.next(index, pass_.context())
-                                              : trials_.best(index, options()));
+  if (next == PoseComparison::Next::kConclude) return finish(status, report);
+  iterate(next == PoseComparison::Next::kTry ? comparison_.next(index, pass_.context())
+                                             : comparison_.best(index, options()));
   return report;
 }
 

@@ -8,9 +8,9 @@
 
 #include "core/base/kernels.h"
 #include "core/localizer/attempt.h"
-#include "core/localizer/candidate_trials.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/pass.h"
+#include "core/localizer/pose_comparison.h"
 #include "core/localizer/problem.h"
 #include "core/localizer/stage.h"
 #include "core/localizer/workspace.h"
@@ -23,7 +23,8 @@ namespace boresight {
 /// (PassMemory).
 ///
 /// The pass runs the stages; the policies decide which pass comes next: the iterations of an
-/// attempt, and the candidates of the search that attempts start from. At the end the final pose is
+/// attempt, and the poses from which attempts start. A run that searches compares several refined
+/// poses and takes the one with the best evidence (PoseComparison). At the end the final pose is
 /// compared with other poses that show about the same edges.
 ///
 /// A caller with threads may share out the independent tasks of a stage:
@@ -101,21 +102,30 @@ class Localizer {
 
  private:
   /// The policy that plans the next pass.
-  enum class Phase : std::uint8_t { kEdges = 0, kSearch, kIterate, kAccept, kCompare, kEnded };
+  enum class Phase : std::uint8_t {
+    kEdges = 0,
+    kSearch,
+    kIterate,
+    kWeigh,
+    kAccept,
+    kCompare,
+    kEnded
+  };
 
   Status begin(const LocalizationProblem& problem, const LocalizerOptions& options);
   PassPlan plan() const;
   StepReport decide(StepReport report);
   StepReport iterated(const Ruling& ruling);
+  StepReport weighed();
   StepReport accepted(LocalizationStatus status, const StepReport& report);
   StepReport fail(const Ruling& ruling);
-  StepReport follow(CandidateTrials::Next next, LocalizationStatus status,
-                    const StepReport& report);
+  StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
+  void noteHypotheses();
   StepReport show(const Ruling& ruling);
   Agreement agreement() const;
   StepReport finish(LocalizationStatus status, StepReport report);
   void iterate(const Attempt& attempt);
-  void startTrials();
+  void startComparison();
   bool searches() const { return pass_.searches(); }
 
   std::span<std::byte> memory_;
@@ -125,7 +135,7 @@ class Localizer {
   Pass pass_;
   Phase phase_ = Phase::kEdges;
   Attempt attempt_;
-  CandidateTrials trials_;
+  PoseComparison comparison_;
 };
 
 }  // namespace boresight

@@ -29,7 +29,7 @@ Status Localizer::begin(const LocalizationProblem& problem, const LocalizerOptio
   pass_.workspace().fault = status;
   if (status != Status::kOk) return status;
   attempt_ = Attempt(0, seedOf(pass_.problem()));
-  trials_ = CandidateTrials();
+  comparison_ = PoseComparison();
   return status;
 }
 
@@ -57,14 +57,24 @@ bool Localizer::changeOptions(const LocalizerOptions& options) {
   if (sameOptions(pass_.options(), options)) return true;
   pass_.changeOptions(options);
   // The start of the first attempt depends on the options.
-  if (searches() && workspace().iterations == 0) startTrials();
+  if (searches() && workspace().iterations == 0) startComparison();
   return true;
 }
 
 /// The attempt of the search's first candidate.
-void Localizer::startTrials() {
-  trials_ = CandidateTrials(workspace().candidates, seedOf(problem()));
-  iterate(trials_.next(0, pass_.context()));
+void Localizer::startComparison() {
+  comparison_ = PoseComparison(workspace().candidates, seedOf(problem()));
+  noteHypotheses();
+  iterate(comparison_.next(0, pass_.context()));
+}
+
+/// Shows the hypotheses so far.
+void Localizer::noteHypotheses() {
+  Workspace& workspace = pass_.workspace();
+  workspace.hypotheses = comparison_.hypotheses();
+  workspace.best_hypothesis = comparison_.bestIndex();
+  workspace.competitor = comparison_.competitorIndex(pass_.context());
+  workspace.gap = comparison_.gap(pass_.context());
 }
 
 /// Starts the first iteration of an attempt.

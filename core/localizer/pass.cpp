@@ -89,6 +89,7 @@ void Pass::begin(const PassPlan& plan) {
       prepareRecord();
       stage_ = Stage::kRender;
       break;
+    case PassKind::kEvidence:
     case PassKind::kSupport:
     case PassKind::kCompare:
       stage_ = Stage::kSupport;
@@ -230,6 +231,7 @@ void Pass::finish(LocalizationStatus status, const Pose& camera_from_station,
   workspace_.camera_from_station =
       converged ? camera_from_station : problem_.camera_from_station_seed;
   if (converged) workspace_.covariance = covariance;
+  if (searches()) digestHypotheses(workspace_.hypotheses, digest_);
   digest_.tag(localizationStatusText(status));
   digestPose(workspace_.camera_from_station, digest_);
 }

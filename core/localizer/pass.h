@@ -36,7 +36,7 @@ struct JointPose {
 };
 
 /// Runs the stages of one pass, one bounded slice per step: edges, or search, or
-/// render -> templates -> match -> pose, or render -> refine, or support, or compare. It fills the
+/// render -> templates -> match -> pose, or render -> refine, or evidence, or support, or compare. It fills the
 /// plan's record and the digest. It contains no policy.
 ///
 /// A caller with threads may share out the tasks of a stage between two steps; tasks that are left

@@ -215,6 +215,8 @@ Status PassMemory::Layout::layOutAfterMatches() {
   if (options.search.enabled) {
     if (status == Status::kOk) status = to.evidence.create(channelsOf(options), scratch);
     scratch.rewind(samples_end);
+    if (status == Status::kOk) status = to.region.create(scratch);
+    scratch.rewind(samples_end);
     if (status == Status::kOk) status = to.focal.create(options.refinement.max_samples, scratch);
   }
   shareScratch(bytesOf(Stage::kSupport), 0);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/accept/region_evidence.h"
 #include "core/base/arena.h"
 #include "core/base/kernels.h"
 #include "core/localizer/localizer_options.h"
@@ -19,7 +20,7 @@
 #include "core/refine/focal_fit.h"
 #include "core/render/edge_render.h"
 #include "core/search/competing_poses.h"
-#include "core/search/pose_evidence.h"
+#include "core/search/pose_evidence_meter.h"
 #include "core/search/pose_search.h"
 #include "core/templates/template_selection.h"
 
@@ -83,7 +84,8 @@ class PassMemory {
   std::span<WhsSearch> searches;             ///< one per worker
   PnpRansac ransac;                          ///< of poses from matches
   EdgeRefinement refinement;                 ///< of poses on edges
-  PoseEvidence evidence;                     ///< of the final pose, with search.enabled
+  PoseEvidenceMeter evidence;                ///< of a refined pose, with search.enabled
+  RegionEvidenceMeter region;                ///< of a refined pose, with search.enabled
   FocalFitter focal;                         ///< of the final pose, with search.enabled
   CompetingPoseTest competing;               ///< of the final pose, with search.enabled
   TaskList tasks;                            ///< of the stage under way

@@ -3,8 +3,7 @@
 
 #include <cstdint>
 
-#include "core/accept/contour_evidence.h"
-#include "core/accept/edge_support.h"
+#include "core/accept/pose_evidence.h"
 #include "core/base/status.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
@@ -13,6 +12,7 @@
 #include "core/localizer/schedule.h"
 #include "core/localizer/stage.h"
 #include "core/localizer/workspace.h"
+#include "core/refine/weak_directions.h"
 
 // Interface between policies and passes: a policy plans a pass, the pass runs, and the policy rules
 // on its outcome.
@@ -23,7 +23,8 @@ enum class PassKind : std::uint8_t {
   kSearch,     ///< searches the whole object over the seed's uncertainty
   kMatch,      ///< renders, selects templates, matches them, solves for the pose
   kRefine,     ///< renders, refines the pose on the edges of the image
-  kSupport,    ///< measures how the image supports the pose of the record
+  kEvidence,   ///< measures the image's evidence for the pose of the record
+  kSupport,    ///< the same for the final pose, with the width of its edges and the focal length
   kCompare,    ///< compares the final pose with others that show about the same edges
 };
 
@@ -50,9 +51,7 @@ struct PassPlan {
 struct PassOutcome {
   Stage reached = Stage::kEdges;  ///< the last stage that ran
   Status fault = Status::kOk;     ///< the capacity that was exceeded
-  EdgeSupport support;            ///< with kSupport
-  ContourEvidence evidence;       ///< with kSupport, of runs that search
-  double probability = 0.0;       ///< with kSupport, that the pose is right, of runs that search
+  WeakDirections weak;            ///< with kEvidence, of a refined pose
 };
 
 /// Number of matches that agree with a pose: of all views when several views share the pose.

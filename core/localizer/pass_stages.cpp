@@ -2,7 +2,6 @@
 // The stages of a pass, in their order.
 #include <algorithm>
 
-#include "core/accept/pose_probability.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
@@ -28,7 +27,7 @@ StepReport Pass::step() {
     case Stage::kRefine:
       return solve_outside_ ? stepOutsideRound() : stepRefine();
     case Stage::kSupport:
-      return plan_.kind == PassKind::kSupport ? stepSupport() : stepCompare();
+      return plan_.kind == PassKind::kCompare ? stepCompare() : stepSupport();
     case Stage::kFinished:
       break;
   }
@@ -263,7 +262,8 @@ StepReport Pass::stepRefine() {
   return end(Stage::kRefine);
 }
 
-/// Edge support and edge width at once; after a search evidence and focal length, in slices.
+/// Edge support at once; after a search contours and regions in slices, and of the final pose the
+/// focal length.
 StepReport Pass::stepSupport() {
   if (!stage_begun_) {
     beginSupport();
@@ -271,11 +271,12 @@ StepReport Pass::stepSupport() {
       return end(Stage::kSupport);
   }
   const StepReport slice = StepReport::of(Stage::kSupport, false);
+  const bool is_refined = record().kind == IterationKind::kRefine;
   if (!evidence_complete_) {
     evidence_complete_ = memory_.evidence.step();
     if (!evidence_complete_) return slice;
     noteEvidence();
-    if (record().kind != IterationKind::kRefine) return end(Stage::kSupport);
+    if (plan_.kind == PassKind::kEvidence || !is_refined) return end(Stage::kSupport);
     memory_.focal.begin(problem_.camera, record().refinement);
     return slice;
   }
@@ -291,21 +292,29 @@ void Pass::beginSupport() {
                                           problem_.image, problem_.ignore);
   workspace_.evidence = {};
   workspace_.probability = 0.0;
-  workspace_.edge_width =
-      measureEdgeWidth(iteration.render, iteration.level, problem_.image, problem_.ignore);
+  workspace_.edge_width = {};
   workspace_.focal = {};
-  outcome_.support = workspace_.support;
   digest_.tag("support");
   digestSupport(workspace_.support, digest_);
-  digestEdgeWidth(workspace_.edge_width, digest_);
+  if (plan_.kind == PassKind::kSupport) {
+    workspace_.edge_width =
+        measureEdgeWidth(iteration.render, iteration.level, problem_.image, problem_.ignore);
+    digestEdgeWidth(workspace_.edge_width, digest_);
+  }
   stage_begun_ = true;
 }
 
 void Pass::noteEvidence() {
-  outcome_.evidence = workspace_.evidence = memory_.evidence.evidence();
-  outcome_.probability = workspace_.probability =
-      poseProbability(workspace_.evidence, workspace_.support);
-  digestEvidence(workspace_.evidence, digest_);
+  const Iteration& iteration = record();
+  PoseEvidence& evidence = workspace_.evidence;
+  evidence.contours = memory_.evidence.contours();
+  evidence.region = memory_.region.measure(iteration.render, iteration.level, problem_.image,
+                                           problem_.ignore);
+  evidence.edge_support = workspace_.support.share();
+  workspace_.probability = evidence.probability();
+  digestEvidence(evidence, digest_);
+  if (plan_.kind == PassKind::kEvidence && iteration.kind == IterationKind::kRefine)
+    outcome_.weak = weakDirections(iteration.refinement, problem_.camera, scene_.centre());
 }
 
 /// Works in the memory of the renders and of the samples: those of the iteration become invalid.

@@ -14,6 +14,13 @@ Vector6d limitsOf(const SeedUncertainty& uncertainty) {
   return limits;
 }
 
+Eigen::Vector3d cornerOf(const BoundingBox& box, int corner) {
+  Eigen::Vector3d point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[axis] = ((corner >> axis) & 1) != 0 ? box.maximum_m[axis] : box.minimum_m[axis];
+  return point;
+}
+
 }  // namespace
 
 double translationBetween_m(const Pose& before, const Pose& after, const RunContext& run) {
@@ -39,11 +46,7 @@ double displacementBetween_px(const Pose& before, const Pose& after, const Bound
   double sum_px = 0.0;
   int seen = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    Eigen::Vector3d point_in_station_m;
-    for (int axis = 0; axis < 3; ++axis) {
-      point_in_station_m[axis] =
-          ((corner >> axis) & 1) != 0 ? scene.maximum_m[axis] : scene.minimum_m[axis];
-    }
+    const Eigen::Vector3d point_in_station_m = cornerOf(scene, corner);
     Eigen::Vector2d from_px;
     Eigen::Vector2d to_px;
     if (!project(camera, before * point_in_station_m, from_px)) continue;
@@ -52,6 +55,19 @@ double displacementBetween_px(const Pose& before, const Pose& after, const Bound
     ++seen;
   }
   return seen > 0 ? sum_px / seen : 1e6;
+}
+
+double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
+                     const Camera& camera) {
+  Eigen::AlignedBox2d box;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector2d pixel;
+    if (project(camera, camera_from_station * cornerOf(scene, corner), pixel)) box.extend(pixel);
+  }
+  const Eigen::AlignedBox2d image(Eigen::Vector2d::Zero(),
+                                  Eigen::Vector2d(camera.width, camera.height));
+  const Eigen::AlignedBox2d seen = box.intersection(image);
+  return seen.isEmpty() ? 0.0 : seen.sizes().maxCoeff();
 }
 
 Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene) {

@@ -20,6 +20,10 @@ double rotationBetween_rad(const Pose& before, const Pose& after);
 /// both poses.
 double displacementBetween_px(const Pose& before, const Pose& after, const BoundingBox& scene,
                               const Camera& camera);
+/// Longer side of the bounding box of the scene's corners in the image, as far as it is inside; 0
+/// when none of them is seen.
+double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
+                     const Camera& camera);
 
 /// The pose turned about the ray through the scene's middle, so that the scene stays where it is.
 Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene);

@@ -254,17 +254,40 @@ void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& w
     digestPose(candidate.found.camera_from_station, writer);
     writer.f64(candidate.found.distance_px);
     digestPose(candidate.camera_from_station, writer);
-    digestEvidence(candidate.evidence, writer);
+    digestContours(candidate.evidence, writer);
   }
 }
 
-void digestEvidence(const ContourEvidence& evidence, DigestWriter& writer) {
-  writer.tag("evidence");
+void digestContours(const ContourEvidence& evidence, DigestWriter& writer) {
+  writer.tag("contours");
   writer.i32(evidence.places);
   writer.i32(evidence.outline_places);
+  writer.f64(evidence.place_length_px);
   writer.f64(evidence.edges_nats);
   writer.f64(evidence.outline_nats);
+  writer.f64(evidence.expected_nats);
+  writer.f64(evidence.outline_expected_nats);
   for (const double nats : evidence.quadrant_nats) writer.f64(nats);
+}
+
+void digestEvidence(const PoseEvidence& evidence, DigestWriter& writer) {
+  writer.tag("evidence");
+  for (const ContourEvidence& view : evidence.contours) digestContours(view, writer);
+  writer.f64(evidence.region.nats);
+  writer.i32(evidence.region.lines);
+  writer.i32(evidence.region.separated);
+}
+
+void digestHypotheses(std::span<const PoseHypothesis> hypotheses, DigestWriter& writer) {
+  writer.tag("hypotheses");
+  writer.i32(static_cast<std::int32_t>(hypotheses.size()));
+  for (const PoseHypothesis& hypothesis : hypotheses) {
+    digestPose(hypothesis.camera_from_station, writer);
+    writer.u8(static_cast<std::uint8_t>(hypothesis.origin));
+    writer.i32(hypothesis.number);
+    writer.f64(hypothesis.score);
+    writer.f64(hypothesis.probability);
+  }
 }
 
 void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer) {

@@ -30,7 +30,9 @@ void digestSupport(const EdgeSupport& support, DigestWriter& writer);
 void digestCandidates(std::span<const PoseCandidate> candidates, DigestWriter& writer);
 void digestFocal(const FocalFit& focal, DigestWriter& writer);
 void digestEdgeWidth(const EdgeWidth& width, DigestWriter& writer);
-void digestEvidence(const ContourEvidence& evidence, DigestWriter& writer);
+void digestContours(const ContourEvidence& evidence, DigestWriter& writer);
+void digestEvidence(const PoseEvidence& evidence, DigestWriter& writer);
+void digestHypotheses(std::span<const PoseHypothesis> hypotheses, DigestWriter& writer);
 void digestCompetingPoses(std::span<const CompetingPose> poses, DigestWriter& writer);
 void digestRefinement(const RefinementResult& refinement, DigestWriter& writer);
 

@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <span>
 
-#include "core/accept/contour_evidence.h"
 #include "core/accept/edge_support.h"
 #include "core/accept/edge_width.h"
+#include "core/accept/pose_evidence.h"
 #include "core/edges/edge_map.h"
+#include "core/localizer/pose_hypothesis.h"
 #include "core/match/whs.h"
 #include "core/pnp/correspondence.h"
 #include "core/pnp/pnp_ransac.h"
@@ -122,10 +123,15 @@ struct Workspace {
   /// invalid after the test of competing poses.
   const Iteration* iteration = nullptr;
   std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
-  EdgeSupport support;                        ///< of the final pose
-  ContourEvidence evidence;                   ///< of the final pose
-  double probability =
-      0.0;  ///< that the final pose is right, from support and evidence; 0 without a search
+  EdgeSupport support;    ///< of the latest pose that was measured
+  PoseEvidence evidence;  ///< of the latest pose that was measured; empty without a search
+  double probability = 0.0;  ///< that this pose is right; 0 without a search
+  /// Poses that were compared; those of the search. Valid until the run restarts.
+  std::span<const PoseHypothesis> hypotheses;
+  std::int32_t best_hypothesis = -1;  ///< index of the one with the best score
+  std::int32_t competitor = -1;       ///< index of the best one that is another pose
+  /// Score of the best hypothesis minus that of the competitor, which counts at least 0.
+  double gap = 0.0;
   EdgeWidth edge_width;  ///< along the edges of the final pose; empty without a search
   FocalFit focal;        ///< estimated at the final pose; not determined without a search
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< state of the run

@@ -6,7 +6,7 @@
 
 #include "core/edges/direction_distance.h"
 #include "core/geometry/surface_axes.h"
-#include "core/search/pose_evidence.h"
+#include "core/search/pose_evidence_meter.h"
 
 namespace boresight {
 namespace {
@@ -20,7 +20,7 @@ struct Scale {
 constexpr std::array<Scale, 3> kScales = {{
     {88.0, 3, {6.0, 4.0, 3.0}},
     {158.0, 2, {5.0, 3.0, 0.0}},
-    {kEvidenceSpan_px, 2, {4.0, 3.0, 0.0}},
+    {kEvidenceSpan_px[0], 2, {4.0, 3.0, 0.0}},
 }};
 constexpr int kLastScale = static_cast<int>(kScales.size()) - 1;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
@@ -256,8 +256,7 @@ void CompetingPoseTest::nextPromising() {
 }
 
 double CompetingPoseTest::rankOfRender() {
-  meter_.clear();
-  addPlaces(render_, meter_);
+  takePlaces(render_, meter_);
   const ContourEvidence evidence = meter_.measure(view_edges_.view().span_px);
   return evidence.strongest_nats() + 0.5 * evidence.weakest_nats();
 }
@@ -287,7 +286,7 @@ void CompetingPoseTest::addAlone(const DirectedEdges& others, Prediction& predic
       ++prediction.alone;
       const EvidencePlace place{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y),
                                 static_cast<std::uint8_t>(direction_)};
-      prediction.nats += evidenceOfPlace_nats(place, image, distance_, window_px);
+      prediction.nats += evidenceOfPlace(place, image, distance_, window_px).nats;
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "core/search/pose_evidence.h"
+#include "core/search/pose_evidence_meter.h"
 
 namespace boresight {
 namespace {
@@ -36,8 +36,8 @@ struct Round {
 };
 constexpr std::array<Round, 3> kRounds = {{
     {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
-    {1, 1, 8, 5, 0.3},
-    {2, kMeasuring, PoseSearch::kMaxCandidates, 1, 0.35},
+    {1, 1, 10, 8, 0.5},
+    {2, kMeasuring, PoseSearch::kMaxCandidates, 5, 0.7},
 }};
 constexpr int kLastRound = static_cast<int>(kRounds.size()) - 1;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
@@ -45,10 +45,6 @@ constexpr double kMargin = 0.1;  ///< around the object, of its size
 constexpr double kSame_px = 1.2;
 /// Error after the last scale, px of its view.
 constexpr double kRemaining_px = 1.5;
-/// A candidate with this much evidence needs no alternative, unless the next one has about as much.
-constexpr double kConvincing_nats = 0.75;
-constexpr double kConvincingWeakest_nats = 0.45;
-constexpr double kAsGood_nats = 0.15;
 
 }  // namespace
 
@@ -165,15 +161,7 @@ bool PoseSearch::keep() {
     kept_[static_cast<std::size_t>(place)] = kept_[static_cast<std::size_t>(place - 1)];
   kept_[static_cast<std::size_t>(place)] = current_;
   kept_count_ = kept + 1;
-  if (!is_last || !isConvincing(kept_[0]) || nextIsAsGood()) return !beginNext();
-  phase_ = Phase::kDone;
-  return true;
-}
-
-/// Whether the next waiting pose has about as much evidence as the best pose.
-bool PoseSearch::nextIsAsGood() const {
-  return next_ < waiting_count_ && waiting_[static_cast<std::size_t>(next_)].rank_nats() >
-                                       waiting_[0].rank_nats() - kAsGood_nats;
+  return !beginNext();
 }
 
 bool PoseSearch::isKept(const Pose& camera_from_station) const {
@@ -208,7 +196,7 @@ bool PoseSearch::beginLevel() {
     phase_ = Phase::kRender;
     return true;
   }
-  ViewSize size = evidenceViewSize();
+  ViewSize size = evidenceViewSize(0);
   if (level_ < kMeasuring) {
     size.span_px = kLevels[static_cast<std::size_t>(level_)].span_px;
     size.margin_px = kMargin * size.span_px;
@@ -265,15 +253,9 @@ bool PoseSearch::refine() {
 }
 
 bool PoseSearch::measure() {
-  meter_.clear();
-  addPlaces(render_, meter_);
+  takePlaces(render_, meter_);
   current_.evidence = meter_.measure(view_edges_.view().span_px);
   return keep();
-}
-
-bool PoseSearch::isConvincing(const PoseCandidate& candidate) const {
-  return candidate.evidence.strongest_nats() > kConvincing_nats &&
-         candidate.evidence.weakest_nats() > kConvincingWeakest_nats;
 }
 
 }  // namespace boresight

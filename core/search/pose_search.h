@@ -31,7 +31,7 @@ struct PoseCandidate {
 /// scales.
 class PoseSearch {
  public:
-  static constexpr int kMaxCandidates = 4;      ///< that are refined at the finest scale
+  static constexpr int kMaxCandidates = 6;      ///< that are refined at the finest scale
   static constexpr int kLongestView_px = 352;   ///< of views
   static constexpr int kMaxEdgePixels = 20000;  ///< of renders
 
@@ -62,8 +62,6 @@ class PoseSearch {
   bool stepRender();
   bool refine();
   bool measure();
-  bool nextIsAsGood() const;
-  bool isConvincing(const PoseCandidate& candidate) const;
   bool isSame(const Pose& first, const Pose& second) const;
   bool isKept(const Pose& camera_from_station) const;
   PosePrior prior() const;

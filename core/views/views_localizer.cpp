@@ -6,6 +6,7 @@
 
 #include "core/base/digest.h"
 #include "core/localizer/acceptance.h"
+#include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
 
 namespace boresight {
@@ -236,8 +237,8 @@ void ViewsLocalizer::startAttempts() {
       candidates_[place] = candidate;
     }
   }
-  trials_ = CandidateTrials(std::span(candidates_).first(count), seed);
-  start(first().searches() ? trials_.next(0, first().context()) : Attempt(0, seed));
+  comparison_ = PoseComparison(std::span(candidates_).first(count), seed);
+  start(first().searches() ? comparison_.next(0, first().context()) : Attempt(0, seed));
 }
 
 /// Goes on with the first iteration of an attempt, in all views.
@@ -289,7 +290,11 @@ StepReport ViewsLocalizer::decide(const Ruling& ruling) {
   first().show(ruling);
   StepReport report = StepReport::of(ruling.stage, true);
   report.iteration_complete = ruling.iteration_complete;
-  if (ruling.failed()) {
+  const bool known = first().searches() && phase_ == Phase::kIterate &&
+                     leading().kind == IterationKind::kRefine && ruling.iteration_complete &&
+                     comparison_.isKnown(attempt_.camera_from_station(), leading().level,
+                                         first().context());
+  if (ruling.failed() || known) {
     report = retry(ruling.status, report);
   } else if (ruling.found() && phase_ == Phase::kAccept) {
     report = takePose(report);
@@ -307,7 +312,7 @@ StepReport ViewsLocalizer::decide(const Ruling& ruling) {
 /// After a failure: the next candidate, another attempt, or the end.
 StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& report) {
   const RunContext run = first().context();
-  if (first().searches()) return follow(trials_.takeFailure(run), status, report);
+  if (first().searches()) return follow(comparison_.takeFailure(run), status, report);
   if (attempt_.index() + 1 >= options_.loop.max_attempts) return finish(status, report);
   attempt_.restart();
   first().workspace().attempts = attempt_.index() + 1;
@@ -316,28 +321,46 @@ StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& re
   return report;
 }
 
-/// A pose that views support: as probable as in the view that supports it best.
+/// A pose that views support: its score is the sum over them, its probability that of the view that
+/// supports it best.
 StepReport ViewsLocalizer::takePose(const StepReport& report) {
-  const LocalizationStatus status = LocalizationStatus::kConverged;
+  LocalizationStatus status = LocalizationStatus::kConverged;
   if (!first().searches()) return finish(status, report);
+  double score = 0.0;
   double probability = 0.0;
-  for (const ViewReport& view : result_.views)
-    probability = std::max(probability, view.probability);
-  const CandidateTrials::Next next = trials_.takePose(
-      attempt_, leading().camera_from_station_before, probability, first().context());
-  if (next != CandidateTrials::Next::kConclude || !options_.support.gate)
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    if (views_[v].refines) score += views_[v].pass.workspace().evidence.score();
+    probability = std::max(probability, result_.views[v].probability);
+  }
+  // The views together determine the pose: none restarts along a weak direction.
+  const PoseComparison::Next next =
+      comparison_.takePose(attempt_, leading().camera_from_station_before, score, probability,
+                           WeakDirections(), first().context());
+  noteHypotheses();
+  if (next != PoseComparison::Next::kConclude || !options_.support.gate)
     return follow(next, status, report);
+  status = judgeGap(first().workspace(), options_);
+  if (status != LocalizationStatus::kConverged) return finish(status, report);
   phase_ = Phase::kCompare;
   startPlan();
   return report;
 }
 
-StepReport ViewsLocalizer::follow(CandidateTrials::Next next, LocalizationStatus status,
+/// Shows the hypotheses so far, in the first view.
+void ViewsLocalizer::noteHypotheses() {
+  Workspace& workspace = first().workspace();
+  workspace.hypotheses = comparison_.hypotheses();
+  workspace.best_hypothesis = comparison_.bestIndex();
+  workspace.competitor = comparison_.competitorIndex(first().context());
+  workspace.gap = comparison_.gap(first().context());
+}
+
+StepReport ViewsLocalizer::follow(PoseComparison::Next next, LocalizationStatus status,
                                   const StepReport& report) {
   const int index = attempt_.index() + 1;
-  if (next == CandidateTrials::Next::kConclude) return finish(status, report);
-  start(next == CandidateTrials::Next::kTry ? trials_.next(index, first().context())
-                                            : trials_.best(index, options_));
+  if (next == PoseComparison::Next::kConclude) return finish(status, report);
+  start(next == PoseComparison::Next::kTry ? comparison_.next(index, first().context())
+                                            : comparison_.best(index, options_));
   return report;
 }
 
@@ -419,9 +442,13 @@ StepReport ViewsLocalizer::stepSupport() {
     if (!views_[v].refines) continue;
     const Pass& pass = views_[v].pass;
     const Workspace& seen = pass.workspace();
-    const LocalizationStatus judged = judgeSupport(
-        seen, seedOf(pass.problem()), views_[v].camera_from_first * attempt_.camera_from_station(),
-        options_, pass.searches());
+    const bool left =
+        pass.searches() && leftUncertainty(seedOf(pass.problem()),
+                                           views_[v].camera_from_first *
+                                               attempt_.camera_from_station(),
+                                           options_.loop.leave_factor);
+    const LocalizationStatus judged = left ? LocalizationStatus::kLeftUncertainty
+                                           : judgeSupport(seen, options_, pass.searches());
     const bool good = judged == LocalizationStatus::kConverged;
     result_.views[v].support = seen.support;
     result_.views[v].probability = good ? seen.probability : 0.0;

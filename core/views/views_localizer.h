@@ -9,8 +9,8 @@
 
 #include "core/base/arena.h"
 #include "core/localizer/attempt.h"
-#include "core/localizer/candidate_trials.h"
 #include "core/localizer/pass.h"
+#include "core/localizer/pose_comparison.h"
 #include "core/pnp/correspondence.h"
 #include "core/pnp/pnp_ransac.h"
 #include "core/views/views_problem.h"
@@ -115,8 +115,8 @@ class ViewsLocalizer {
   bool stepView(std::size_t view, StepReport& report);
   StepReport retry(LocalizationStatus status, const StepReport& report);
   StepReport takePose(const StepReport& report);
-  StepReport follow(CandidateTrials::Next next, LocalizationStatus status,
-                    const StepReport& report);
+  StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
+  void noteHypotheses();
   StepReport decide(const Ruling& ruling);
   StepReport finish(LocalizationStatus status, StepReport report);
   StepReport finishFault(std::size_t view);
@@ -151,7 +151,7 @@ class ViewsLocalizer {
   Phase phase_ = Phase::kIterate;
   /// Of all views, in the first one's frame; the most evidence first.
   std::array<PoseCandidate, kMaxViews * PoseSearch::kMaxCandidates> candidates_;
-  CandidateTrials trials_;
+  PoseComparison comparison_;
 
   PnpRansac ransac_;
   bool pose_begun_ = false;

@@ -69,7 +69,12 @@ void noteTrace(const LocalizationTrace& trace, RunResult& result) {
     result.probability = trace.probability;
     result.evidence_nats = trace.evidence.strongest_nats();
     result.weakest_quadrant_nats = trace.evidence.weakest_nats();
+    result.region_nats = trace.evidence.region.nats;
+    result.evidence_share = trace.evidence.finest().shareOfExpected();
+    result.expected_nats = trace.evidence.finest().expected_nats;
   }
+  result.compared_poses = static_cast<std::int32_t>(trace.hypotheses.size());
+  if (trace.competitor >= 0) result.score_gap = trace.gap;
   result.competing_poses = static_cast<std::int32_t>(trace.competing_poses.size());
   if (const CompetingPose* closest = closestCompetingPose(trace))
     result.least_margin_nats = closest->margin_nats;
@@ -131,7 +136,12 @@ nlohmann::ordered_json toJson(const RunResult& result) {
     json["probability"] = *result.probability;
     json["evidence_nats"] = *result.evidence_nats;
     json["weakest_quadrant_nats"] = *result.weakest_quadrant_nats;
+    json["region_nats"] = *result.region_nats;
+    json["evidence_share"] = *result.evidence_share;
+    json["expected_nats"] = *result.expected_nats;
   }
+  json["compared_poses"] = result.compared_poses;
+  if (result.score_gap) json["score_gap"] = *result.score_gap;
   json["competing_poses"] = result.competing_poses;
   if (result.least_margin_nats) json["least_margin_nats"] = *result.least_margin_nats;
   if (result.image_quality) json["image_quality"] = toJson(*result.image_quality);

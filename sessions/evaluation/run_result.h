@@ -96,6 +96,11 @@ struct RunResult {
   std::optional<double> probability;
   std::optional<double> evidence_nats;          ///< ContourEvidence::strongest_nats()
   std::optional<double> weakest_quadrant_nats;  ///< ContourEvidence::weakest_nats()
+  std::optional<double> region_nats;            ///< RegionEvidence::nats
+  std::optional<double> evidence_share;         ///< ContourEvidence::shareOfExpected()
+  std::optional<double> expected_nats;          ///< ContourEvidence::expected_nats
+  std::int32_t compared_poses = 0;              ///< refined and measured
+  std::optional<double> score_gap;              ///< to the best other pose that was compared
   std::int32_t competing_poses = 0;             ///< that the image supports, too
   std::optional<double> least_margin_nats;      ///< of the pose's evidence beyond theirs
   std::optional<ImageQuality> image_quality;    ///< at the seed's projection of the station

@@ -211,6 +211,11 @@ std::vector<Column<RunResult>> makeRunColumns() {
       known("probability", &Run::probability),
       known("evidence_nats", &Run::evidence_nats),
       known("weakest_quadrant_nats", &Run::weakest_quadrant_nats),
+      known("region_nats", &Run::region_nats),
+      known("evidence_share", &Run::evidence_share),
+      known("expected_nats", &Run::expected_nats),
+      integer("compared_poses", &Run::compared_poses),
+      known("score_gap", &Run::score_gap),
       integer("competing_poses", &Run::competing_poses),
       known("least_margin_nats", &Run::least_margin_nats)};
   addImageQuality(columns);

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "core/localizer/candidate_trials.h"
 #include "core/localizer/pose_change.h"
+#include "core/localizer/pose_comparison.h"
 #include "core/localizer/schedule.h"
 #include "core/match/search_window.h"
 #include "core/pnp/correspondence.h"

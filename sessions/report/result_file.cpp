@@ -59,15 +59,22 @@ ordered_json acceptanceJson(const LocalizationTrace& trace, bool in_colour) {
   const SupportOptions& asked = trace.lastOptions().support;
   ordered_json json;
   if (hasProbability(trace)) {
-    const ContourEvidence& evidence = trace.evidence;
+    const PoseEvidence& evidence = trace.evidence;
+    const ContourEvidence& contours = evidence.finest();
     json["probability"] = trace.probability;
     json["min_probability"] = asked.min_probability;
+    json["score"] = evidence.score();
+    json["share_of_expected_evidence"] = contours.shareOfExpected();
     json["evidence_nats"] = evidence.strongest_nats();
-    json["edges_nats"] = evidence.edges_nats;
-    json["outline_nats"] = evidence.outline_nats;
+    json["edges_nats"] = contours.edges_nats;
+    json["edges_expected_nats"] = contours.expected_nats;
+    json["outline_nats"] = contours.outline_nats;
+    json["outline_expected_nats"] = contours.outline_expected_nats;
     json["weakest_quadrant_nats"] = evidence.weakest_nats();
-    json["quadrant_nats"] = evidence.quadrant_nats;
-    json["edge_places"] = evidence.places;
+    json["quadrant_nats"] = contours.quadrant_nats;
+    json["edge_places"] = contours.places;
+    json["region_nats"] = evidence.region.nats;
+    json["separated_share_of_outline"] = evidence.region.separatedShare();
     json["in_colour"] = in_colour;
   } else {
     json["min_edge_support"] = asked.min_support;
@@ -88,6 +95,21 @@ ordered_json candidatesJson(const LocalizationTrace& trace) {
       list.push_back({{"camera_from_station", toJson(alternative.camera_from_station)},
                       {"evidence_nats", alternative.evidence_nats},
                       {"taken", trace.converged() && alternative.chosen}});
+  return list;
+}
+
+/// Poses that the run refined and compared, in the order in which it found them.
+ordered_json comparedPosesJson(const LocalizationTrace& trace) {
+  ordered_json list = ordered_json::array();
+  for (std::size_t i = 0; i < trace.hypotheses.size(); ++i) {
+    const PoseHypothesis& hypothesis = trace.hypotheses[i];
+    list.push_back({{"camera_from_station", toJson(hypothesis.camera_from_station)},
+                    {"origin", originText(hypothesis)},
+                    {"score", hypothesis.score},
+                    {"probability", hypothesis.probability},
+                    {"best", static_cast<int>(i) == trace.best_hypothesis},
+                    {"competitor", static_cast<int>(i) == trace.competitor}});
+  }
   return list;
 }
 
@@ -178,6 +200,8 @@ ordered_json resultJson(const LocalizationTrace& trace, const std::optional<Pose
   json["acceptance"] =
       acceptanceJson(trace, trace.lastOptions().search.color && problem.color.data != nullptr);
   json["candidates"] = candidatesJson(trace);
+  json["compared_poses"] = comparedPosesJson(trace);
+  if (trace.competitor >= 0) json["score_gap"] = trace.gap;
   json["competing_poses"] = competingPosesJson(trace);
   if (const auto quality = imageQualityOf(problem)) json["image_quality"] = toJson(*quality);
   if (error) json["error"] = toJson(*error);

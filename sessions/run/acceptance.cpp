@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/run/alternatives.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
@@ -18,15 +17,18 @@ std::string supportText(const LocalizationTrace& trace) {
          percent(trace.lastOptions().support.min_support) + ".";
 }
 
-/// "The pose comes from candidate 1 of 3 of the search."
-std::string candidateText(const LocalizationTrace& trace) {
-  if (!trace.converged() || trace.candidates.empty()) return "";
-  const std::string all = std::to_string(trace.candidates.size());
-  for (const Alternative& alternative : alternativesOf(trace))
-    if (alternative.kind == AlternativeKind::kCandidate && alternative.chosen)
-      return " The pose comes from candidate " + std::to_string(alternative.number) + " of " + all +
-             " of the search.";
-  return " The pose comes from the seed; the search has " + all + " candidates.";
+/// "The pose has the most evidence of 3 compared poses; it comes from candidate 1 of the search."
+std::string comparisonText(const LocalizationTrace& trace) {
+  if (trace.best_hypothesis < 0) return "";
+  const std::size_t count = trace.hypotheses.size();
+  const PoseHypothesis& best = trace.hypotheses[static_cast<std::size_t>(trace.best_hypothesis)];
+  return (count == 1 ? std::string(" It is the only pose found")
+                     : " It has the most evidence of " + std::to_string(count) +
+                           " compared poses") +
+         " and comes from " + originText(best) + "." +
+         (trace.competitor < 0
+              ? ""
+              : " The next best pose is lower by a score of " + fixedText(trace.gap, 2) + ".");
 }
 
 std::string competingText(const LocalizationTrace& trace) {
@@ -43,7 +45,7 @@ std::string competingText(const LocalizationTrace& trace) {
 }  // namespace
 
 bool hasProbability(const LocalizationTrace& trace) {
-  if (trace.evidence.places == 0) return false;
+  if (trace.evidence.finest().places == 0) return false;
   switch (trace.status) {
     case LocalizationStatus::kConverged:
     case LocalizationStatus::kNotSupported:
@@ -64,11 +66,28 @@ const CompetingPose* closestCompetingPose(const LocalizationTrace& trace) {
   return closest == poses.end() ? nullptr : &*closest;
 }
 
+std::string originText(const PoseHypothesis& hypothesis) {
+  switch (hypothesis.origin) {
+    case HypothesisOrigin::kCandidate:
+      return "candidate " + std::to_string(hypothesis.number + 1) + " of the search";
+    case HypothesisOrigin::kTemplates:
+      return "templates around the best candidate";
+    case HypothesisOrigin::kSeed:
+      return "templates around the seed";
+    case HypothesisOrigin::kRestart:
+      break;
+  }
+  return "restart " + std::to_string(hypothesis.number + 1) + " of the best pose";
+}
+
 std::string probabilityText(const LocalizationTrace& trace) {
+  const PoseEvidence& evidence = trace.evidence;
   return "the probability that the pose is right is " + percent(trace.probability) + ", needed " +
-         percent(trace.lastOptions().support.min_probability) + ": evidence of its edges " +
-         nats(trace.evidence.strongest_nats()) + ", of the weakest quadrant " +
-         nats(trace.evidence.weakest_nats()) + ", edge support " + percent(trace.support.share());
+         percent(trace.lastOptions().support.min_probability) + ": edges show " +
+         fixedText(100.0 * std::max(0.0, evidence.finest().shareOfExpected()), 0) +
+         " % of the evidence that a right pose would have, inside and outside differ along " +
+         fixedText(100.0 * evidence.region.separatedShare(), 0) +
+         " % of the outline, edge support is " + percent(trace.support.share());
 }
 
 std::string acceptanceText(const LocalizationTrace& trace) {
@@ -84,7 +103,7 @@ std::string acceptanceText(const LocalizationTrace& trace) {
   if (trace.edge_width.widestDirection() >= 0)
     text += " The image's edges are " + fixedText(trace.edge_width.widest_px(), 1) +
             " px wide, at most " + fixedText(EdgeWidth::kWidest_px, 0) + " px are accepted.";
-  return text + candidateText(trace) + competingText(trace);
+  return text + comparisonText(trace) + competingText(trace);
 }
 
 }  // namespace boresight::sessions

@@ -14,13 +14,16 @@ bool hasProbability(const LocalizationTrace& trace);
 /// The competing pose with the smallest margin, or nullptr.
 const CompetingPose* closestCompetingPose(const LocalizationTrace& trace);
 
+/// Origin of a hypothesis, for the middle of a sentence: "candidate 2 of the search".
+std::string originText(const PoseHypothesis& hypothesis);
+
 /// Of a run that hasProbability(), for the middle of a sentence: "the probability that the pose is
-/// right is 99.1 %, needed 50.0 %: evidence of its edges 0.92 nats, ...".
+/// right is 99.1 %, needed 50.0 %: edges show 91 % of the evidence ...".
 std::string probabilityText(const LocalizationTrace& trace);
 
 /// Sentences: the probability with its parts (without a search the edge support), the width of the
-/// image's edges, the candidate that was taken, and the competing poses. Empty of a run that came
-/// to no pose.
+/// image's edges, the origin of the pose, and the competing poses. Empty of a run that came to no
+/// pose.
 std::string acceptanceText(const LocalizationTrace& trace);
 
 }  // namespace boresight::sessions

@@ -2,7 +2,7 @@
 #include "sessions/run/alternatives.h"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 namespace boresight::sessions {
 namespace {
@@ -52,35 +52,35 @@ Alternative ofCandidate(const PoseCandidate& from, std::size_t index) {
   return alternative;
 }
 
-/// The first iteration of an iteration's attempt. An attempt that repeats an earlier iteration
-/// counts as the attempt of that one.
-const IterationTrace& startOf(const LocalizationTrace& run, std::size_t index) {
-  const auto at = [&run](std::size_t i) -> const IterationTrace& { return *run.iterations[i]; };
-  std::size_t first = index;
-  while (first > 0 && at(first - 1).attempt == at(index).attempt) --first;
-  for (std::size_t i = 0; i < first; ++i)
-    if (at(i).camera_from_station_before == at(first).camera_from_station_before)
-      return startOf(run, i);
-  return at(first);
+Alternative ofCompared(const PoseHypothesis& from, std::size_t index) {
+  Alternative alternative;
+  alternative.kind = AlternativeKind::kCompared;
+  alternative.number = static_cast<std::int32_t>(index) + 1;
+  alternative.has_pose = true;
+  alternative.camera_from_station = from.camera_from_station;
+  alternative.score = from.score;
+  alternative.probability = from.probability;
+  alternative.origin = from.origin;
+  return alternative;
 }
 
-/// The candidate from which the run came to its pose, the nearest to where that attempt began; of a
-/// run without a pose the first. -1: the pose comes from the seed.
+/// The candidate that led to the best hypothesis; -1: it has another origin.
 int chosenCandidate(const LocalizationTrace& run) {
-  if (run.candidates.empty()) return -1;
-  if (!run.converged() || run.iterations.empty()) return 0;
-  const Pose start = startOf(run, run.iterations.size() - 1).camera_from_station_before;
-  if (start == run.camera_from_station_seed) return -1;
-  int nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < run.candidates.size(); ++i) {
-    Vector6d xi = perturbationBetween(run.candidates[i].camera_from_station, start);
-    xi.head<3>() *= start.translation_m.norm();  // a turn, seen at its distance
-    const double apart = xi.squaredNorm();
-    if (apart < least) nearest = static_cast<int>(i);
-    least = std::min(least, apart);
-  }
-  return nearest;
+  if (run.best_hypothesis < 0) return -1;
+  const PoseHypothesis& best = run.hypotheses[static_cast<std::size_t>(run.best_hypothesis)];
+  return best.origin == HypothesisOrigin::kCandidate ? best.number : -1;
+}
+
+/// The competitor first, then by descending score.
+std::vector<std::size_t> byScore(const LocalizationTrace& run) {
+  std::vector<std::size_t> order(run.hypotheses.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t first, std::size_t second) {
+    const auto competes = [&](std::size_t i) { return static_cast<int>(i) == run.competitor; };
+    if (competes(first) != competes(second)) return competes(first);
+    return run.hypotheses[first].score > run.hypotheses[second].score;
+  });
+  return order;
 }
 
 void addHypotheses(const LocalizationTrace& run, std::size_t index, std::vector<Alternative>& all) {
@@ -107,12 +107,19 @@ std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
     all.push_back(ofCompeting(run.competing_poses[i], i));
     compare(best, all.back());
   }
-  const int chosen = chosenCandidate(run);
-  const auto compared = static_cast<std::size_t>(std::max(chosen, 0));
+  const bool compares = run.best_hypothesis >= 0;
+  const Pose chosen =
+      compares ? run.hypotheses[static_cast<std::size_t>(run.best_hypothesis)].camera_from_station
+               : best;
+  for (const std::size_t i : byScore(run)) {
+    all.push_back(ofCompared(run.hypotheses[i], i));
+    all.back().chosen = static_cast<int>(i) == run.best_hypothesis;
+    compare(chosen, all.back());
+  }
   for (std::size_t i = 0; i < run.candidates.size(); ++i) {
     all.push_back(ofCandidate(run.candidates[i], i));
-    all.back().chosen = static_cast<int>(i) == chosen;
-    compare(run.candidates[compared].camera_from_station, all.back());
+    all.back().chosen = static_cast<int>(i) == chosenCandidate(run);
+    compare(chosen, all.back());
   }
   for (std::size_t i = 0; i < run.iterations.size(); ++i) addHypotheses(run, i, all);
   return all;

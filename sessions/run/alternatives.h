@@ -13,6 +13,7 @@ namespace boresight::sessions {
 enum class AlternativeKind : std::uint8_t {
   kRolled,     ///< a hypothesis of an iteration, turned about the ray to the station
   kCandidate,  ///< a pose that the search found
+  kCompared,   ///< a pose that was refined and compared with the run's result
   kCompeting,  ///< a pose that shows about the same edges as the run's result
 };
 
@@ -35,10 +36,14 @@ struct Alternative {
   double evidence_nats = kUnknown;  ///< of a candidate's contours, PoseCandidate::rank_nats()
   double similarity = kUnknown;     ///< of a competing pose's edges to the result's, [0, 1]
   double margin_nats = kUnknown;    ///< evidence of the result beyond a competing pose's
+  double score = kUnknown;          ///< of a compared pose, PoseEvidence::score()
+  double probability = kUnknown;    ///< that a compared pose is right
+  HypothesisOrigin origin = HypothesisOrigin::kCandidate;  ///< of a compared pose
 };
 
-/// Of a run as far as it has come: its competing poses, the candidates of its search, then
-/// iteration by iteration the rolled hypotheses of those that had several.
+/// Of a run as far as it has come: its competing poses, the poses that it compared (the best one
+/// that is not the result first, the others by descending score), the candidates of its search,
+/// then iteration by iteration the rolled hypotheses of those that had several.
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run);
 
 }  // namespace boresight::sessions

@@ -163,4 +163,11 @@ IterationTrace recordIteration(const Iteration& iteration, Stage reached, Record
   return trace;
 }
 
+void recordHypotheses(const Workspace& workspace, LocalizationTrace& trace) {
+  trace.hypotheses.assign(workspace.hypotheses.begin(), workspace.hypotheses.end());
+  trace.best_hypothesis = workspace.best_hypothesis;
+  trace.competitor = workspace.competitor;
+  trace.gap = workspace.gap;
+}
+
 }  // namespace boresight::sessions

@@ -11,6 +11,9 @@ namespace boresight::sessions {
 /// beyond still has the values of an earlier iteration and is left out.
 IterationTrace recordIteration(const Iteration& iteration, Stage reached, RecordLevel level);
 
+/// Copies the poses that a run has compared so far.
+void recordHypotheses(const Workspace& workspace, LocalizationTrace& trace);
+
 /// Whether a pose came out of an iteration that reached a stage.
 bool hasPose(const Iteration& iteration, Stage reached);
 

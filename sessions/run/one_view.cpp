@@ -115,6 +115,7 @@ class OneView final : public SteppedRun {
     trace.focal = workspace.focal;
     if (trace.candidates.empty()) noteSearch();
     trace.attempts = workspace.attempts;
+    recordHypotheses(workspace, trace);
     trace.competing_poses.assign(workspace.competing_poses.begin(),
                                  workspace.competing_poses.end());
     trace.status = workspace.status;

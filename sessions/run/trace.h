@@ -190,9 +190,13 @@ struct LocalizationTrace {
   std::vector<std::shared_ptr<const IterationTrace>> iterations;
   std::int32_t attempts = 1;
   std::vector<PoseCandidate> candidates;       ///< of the search, the most evidence first
+  std::vector<PoseHypothesis> hypotheses;      ///< refined and compared, of runs that search
+  std::int32_t best_hypothesis = -1;           ///< index of the one with the best score
+  std::int32_t competitor = -1;                ///< index of the best one that is another pose
+  double gap = 0.0;                            ///< between the scores of these two
   std::vector<CompetingPose> competing_poses;  ///< of the pose that converged
   EdgeSupport support;
-  ContourEvidence evidence;  ///< of the same pose, of runs that search
+  PoseEvidence evidence;     ///< of the same pose, of runs that search
   double probability = 0.0;  ///< that it is right, of runs that search
   EdgeWidth edge_width;      ///< where the same pose has its edges, of runs that search
   FocalFit focal;            ///< at the same pose, of runs that search

@@ -196,11 +196,28 @@ void fields(Archive& archive, Self& found) {
 
 template <class Archive, Is<ContourEvidence> Self>
 void fields(Archive& archive, Self& evidence) {
-  auto& [places, outline_places, edges_nats, outline_nats, quadrant_nats, quadrant_places] =
-      evidence;
-  numbers(archive, places, outline_places, edges_nats, outline_nats);
+  auto& [place_length_px, places, outline_places, edges_nats, outline_nats, expected_nats,
+         outline_expected_nats, quadrant_nats, quadrant_places] = evidence;
+  numbers(archive, place_length_px, places, outline_places, edges_nats, outline_nats, expected_nats,
+          outline_expected_nats);
   for (auto& nats : quadrant_nats) archive.number(nats);
   for (auto& count : quadrant_places) archive.number(count);
+}
+
+template <class Archive, Is<PoseEvidence> Self>
+void fields(Archive& archive, Self& evidence) {
+  auto& [contours, region, edge_support] = evidence;
+  for (auto& view : contours) fields(archive, view);
+  auto& [nats, lines, separated] = region;
+  numbers(archive, nats, lines, separated, edge_support);
+}
+
+template <class Archive, Is<PoseHypothesis> Self>
+void fields(Archive& archive, Self& hypothesis) {
+  auto& [camera_from_station, origin, number, score, probability] = hypothesis;
+  fields(archive, camera_from_station);
+  archive.choice(origin, kLastHypothesisOrigin);
+  numbers(archive, number, score, probability);
 }
 
 template <class Archive, Is<EdgeWidth> Self>
@@ -349,6 +366,11 @@ void fields(Archive& archive, Self& trace) {
   archive.list(trace.iterations, [&](auto& iteration) { sharedFields(archive, iteration); });
   archive.number(trace.attempts);
   archive.list(trace.candidates, [&](auto& candidate) { fields(archive, candidate); });
+  archive.list(trace.hypotheses, [&](auto& hypothesis) { fields(archive, hypothesis); });
+  numbers(archive, trace.best_hypothesis, trace.competitor, trace.gap);
+  for (const std::int32_t index : {trace.best_hypothesis, trace.competitor})
+    archive.require(index >= -1 && index < static_cast<std::int32_t>(trace.hypotheses.size()),
+                    "a hypothesis that does not exist");
   archive.list(trace.competing_poses, [&](auto& pose) { fields(archive, pose); });
   fields(archive, trace.support);
   fields(archive, trace.evidence);

@@ -10,7 +10,7 @@
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/search/facing_view.h"
-#include "core/search/pose_evidence.h"
+#include "core/search/pose_evidence_meter.h"
 #include "core/search/search_candidates.h"
 #include "tests/core/localizer/scene.h"
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/search/pose_evidence.h"
+#include "core/search/pose_evidence_meter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -9,7 +10,8 @@ namespace boresight {
 namespace {
 
 constexpr double kMargin = 0.1;          ///< around the object, of its size
-constexpr int kLongestView_px = 312;     ///< holds the object with its margins
+/// Longest side of each view: holds the object with its margins.
+constexpr std::array<int, kEvidenceViews> kLongestView_px = {312, 512};
 constexpr double kAlongNormal_px = 4.0;  ///< step that gives a normal's direction in the view
 
 std::int32_t strideOf(const EdgeRender& render) {
@@ -29,51 +31,63 @@ bool inView(const EdgeRender& render, const Eigen::Vector2d& pixel, const Facing
 
 }  // namespace
 
-ViewSize evidenceViewSize() {
+ViewSize evidenceViewSize(int view) {
+  const auto at = static_cast<std::size_t>(view);
   ViewSize size;
-  size.span_px = kEvidenceSpan_px;
-  size.margin_px = kMargin * kEvidenceSpan_px;
-  size.most_px = kLongestView_px;
+  size.span_px = kEvidenceSpan_px[at];
+  size.margin_px = kMargin * size.span_px;
+  size.most_px = kLongestView_px[at];
   return size;
 }
 
-void addPlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
-  for (const EdgePixel& pixel : render.eachPixel(strideOf(render))) {
+void takePlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
+  const std::int32_t stride = strideOf(render);
+  meter.clear(stride);
+  for (const EdgePixel& pixel : render.eachPixel(stride)) {
     meter.add({pixel.x, pixel.y,
                static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y)),
                isOutline(pixel)});
   }
 }
 
-Status PoseEvidence::create(int channels, Arena& arena) {
+Status PoseEvidenceMeter::create(int channels, Arena& arena) {
+  constexpr int kLongest_px = kLongestView_px.back();
   // The edges are complete when places are added.
-  const std::size_t after_edges = view_edges_.create(kLongestView_px, channels, arena);
+  const std::size_t after_edges = view_edges_.create(kLongest_px, channels, arena);
   const std::size_t end_of_view = arena.mark();
   arena.rewind(after_edges);
-  meter_.create(static_cast<std::size_t>(kLongestView_px) * kLongestView_px, arena);
+  meter_.create(static_cast<std::size_t>(kLongest_px) * kLongest_px, arena);
   arena.rewind(std::max(end_of_view, arena.mark()));
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
-bool PoseEvidence::begin(const SearchProblem& problem, const EdgeRender& render) {
+bool PoseEvidenceMeter::begin(const SearchProblem& problem, const EdgeRender& render) {
+  problem_ = &problem;
   render_ = &render;
-  evidence_ = {};
-  return view_edges_.begin(problem, render.camera_from_station, evidenceViewSize());
+  contours_ = {};
+  view_ = 0;
+  return beginView();
 }
 
-bool PoseEvidence::step() {
+bool PoseEvidenceMeter::beginView() {
+  return view_edges_.begin(*problem_, render_->camera_from_station, evidenceViewSize(view_));
+}
+
+bool PoseEvidenceMeter::step() {
   if (!view_edges_.step()) return false;
   meter_.begin(view_edges_.edges());
-  meter_.clear();
-  addPlacesOfRender();
-  evidence_ = meter_.measure(view_edges_.view().span_px);
-  return true;
+  takePlacesOfRender();
+  contours_[static_cast<std::size_t>(view_)] = meter_.measure(view_edges_.view().span_px);
+  return ++view_ == kEvidenceViews || !beginView();
 }
 
-void PoseEvidence::addPlacesOfRender() {
+void PoseEvidenceMeter::takePlacesOfRender() {
   const FacingView& view = view_edges_.view();
   const Eigen::Matrix3d view_from_camera = view.view_from_camera.matrix();
-  for (const EdgePixel& pixel : render_->eachPixel(strideOf(*render_))) {
+  const std::int32_t stride = strideOf(*render_);
+  const double scale = static_cast<double>(problem_->camera.width) / render_->camera.width;
+  meter_.clear(stride * scale * view.pixels_per_px);
+  for (const EdgePixel& pixel : render_->eachPixel(stride)) {
     const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
     const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
     Eigen::Vector2d at;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/accept/pose_evidence.h"
+
+#include <algorithm>
+
+#include "core/base/math.h"
+
+namespace boresight {
+namespace {
+
+/// Neighbouring edge pixels of the larger view that share their errors.
+constexpr double kAlong = 8.0;
+constexpr double kOfTotal = 0.03;
+constexpr double kOfWeakest = 0.5;
+
+// The probability's logistic function.
+constexpr double kIntercept = 3.49;
+constexpr double kOfContours = 3.78;
+constexpr double kOfRegion = 0.98;
+constexpr double kOfSupport = 2.41;
+constexpr double kMostShare = 1.5;
+constexpr double kLeastSupport = 0.02;
+constexpr double kLeastExpected_nats = 0.15;
+constexpr double kLeastLogSupport = -2.5;
+constexpr double kMostLogSupport = 0.2;
+
+}  // namespace
+
+double PoseEvidence::strongest_nats() const {
+  double sum = 0.0;
+  for (const ContourEvidence& view : contours) sum += view.strongest_nats();
+  return sum / kEvidenceViews;
+}
+
+double PoseEvidence::weakest_nats() const {
+  double sum = 0.0;
+  for (const ContourEvidence& view : contours) sum += view.weakest_nats();
+  return sum / kEvidenceViews;
+}
+
+double PoseEvidence::score() const {
+  return kOfTotal * finest().total_nats() / kAlong + strongest_nats() +
+         kOfWeakest * weakest_nats() + edge_support;
+}
+
+double PoseEvidence::probability() const {
+  const double contours_share = std::min(kMostShare, finest().shareOfExpected());
+  const double support = std::clamp(log(std::max(kLeastSupport, edge_support) /
+                                        std::max(kLeastExpected_nats, finest().expected_nats)),
+                                    kLeastLogSupport, kMostLogSupport);
+  return 1.0 / (1.0 + exp(kIntercept - kOfContours * contours_share - kOfRegion * region.nats -
+                          kOfSupport * support));
+}
+
+}  // namespace boresight

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "core/accept/contour_evidence.h"
+#include "core/accept/edge_support.h"
+#include "core/accept/region_evidence.h"
+
+namespace boresight {
+
+/// Number of views in which a pose's contours are measured, and the object's size in each, px.
+inline constexpr int kEvidenceViews = 2;
+inline constexpr std::array<double, kEvidenceViews> kEvidenceSpan_px = {256.0, 420.0};
+
+/// The image's evidence for a pose: contours in two small views, regions and edge support in the
+/// image itself.
+struct PoseEvidence {
+  std::array<ContourEvidence, kEvidenceViews> contours;  ///< by view, the larger one last
+  RegionEvidence region;                                 ///< of the outline's two sides
+  double edge_support = 0.0;                             ///< EdgeSupport::share()
+
+  /// Contours in the larger view.
+  const ContourEvidence& finest() const { return contours.back(); }
+  /// Mean over the views of the strongest kind of edges.
+  double strongest_nats() const;
+  /// Mean over the views of the weakest quadrant.
+  double weakest_nats() const;
+  /// Score by which poses of one image are compared: total evidence, which tells one basin from
+  /// another, and means and edge support, which tell minima of one basin apart
+  /// (resources/evidence/trust.md).
+  double score() const;
+  /// Probability that the pose is right: logistic in the contours' share of their expectation, in
+  /// the regions, and in the edge support over the evidence to be had; fitted to right and wrong
+  /// poses (resources/evidence/trust.md).
+  double probability() const;
+};
+
+}  // namespace boresight

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/localizer/pose_comparison.h"
+
+#include <algorithm>
+
+#include "core/base/math.h"
+#include "core/localizer/pose_change.h"
+#include "core/localizer/schedule.h"
+
+namespace boresight {
+namespace {
+
+// Uncertainty that remains after the search, as shares of the object's size and of its depth, and
+// in rotation.
+constexpr double kLateral = 0.03;
+constexpr double kDepth = 0.04;
+constexpr double kRotation_rad = 4.0 * kDegree_rad;
+
+/// Share of its search radius over which a refinement converges reliably.
+constexpr double kOfRadius = 0.67;
+/// Poses nearer than this are one hypothesis, px of the level.
+constexpr double kSame_px = 0.6;
+/// Poses farther apart are distinct: share of the object's longer side in the image, and px.
+constexpr double kDistinct = 0.03;
+constexpr double kDistinct_px = 2.0;
+/// Motion of a restart, px of the fine level, root mean square.
+constexpr double kRestart_px = 7.0;
+
+/// Whether a refinement on edges at the level converges from the candidate's pose.
+bool isWithinReach(const PoseCandidate& candidate, int level) {
+  return candidate.error_px <= kOfRadius * kFirstRadius_px * static_cast<double>(1 << level);
+}
+
+}  // namespace
+
+SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& seed,
+                                 const BoundingBox& scene) {
+  const Eigen::Vector3d middle_m = camera_from_station * scene.centre();
+  const double lateral_m = kLateral * scene.diagonal();
+  SeedUncertainty uncertainty;
+  uncertainty.translation_m =
+      Eigen::Vector3d(lateral_m, lateral_m, std::max(lateral_m, kDepth * middle_m.z()));
+  uncertainty.rotation_rad =
+      seed.uncertainty.rotation_rad.cwiseMin(Eigen::Vector3d::Constant(kRotation_rad));
+  uncertainty.pivot_in_camera_m = middle_m;
+  return uncertainty;
+}
+
+/// Whether the source has a further start.
+bool PoseComparison::offers(Source source, const RunContext& run) const {
+  switch (source) {
+    case Source::kCandidates:
+      return next_ < static_cast<int>(candidates_.size());
+    case Source::kTemplates:
+      return next_ == 0 && hasPose() && run.options.refinement.enabled &&
+             !isWithinReach(candidates_.front(), run.levels.fine);
+    case Source::kSeed:
+      return next_ == 0 &&
+             (!hasPose() ||
+              hypotheses_[best_index_].probability < run.options.support.min_probability);
+    case Source::kRestarts:
+      return next_ < kRestarts && hasPose() && (next_ > 0 ? restarted_ : weak_).known;
+    case Source::kNone:
+      break;
+  }
+  return false;
+}
+
+/// Moves to the next source that has a start; false when there is none.
+bool PoseComparison::findNext(const RunContext& run) {
+  while (source_ != Source::kNone && !offers(source_, run)) {
+    source_ = static_cast<Source>(static_cast<int>(source_) + 1);
+    next_ = 0;
+  }
+  return source_ != Source::kNone;
+}
+
+Attempt PoseComparison::next(int attempt, const RunContext& run) {
+  if (!findNext(run)) return Attempt(attempt, seed_);
+  const int number = next_++;
+  current_ = {};
+  current_.number = number;
+  const bool refines = run.options.refinement.enabled;
+  switch (source_) {
+    case Source::kCandidates: {
+      const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(number)];
+      // A direction that the image does not determine, such as a turn about an axis of symmetry,
+      // may have left the box.
+      const Pose start = pulledBack(seed_, candidate.camera_from_station);
+      if (!refines) return Attempt(attempt, {start, uncertaintyAbout(start, seed_, run.scene)});
+      return Attempt(attempt, seed_, start, !isWithinReach(candidate, run.levels.fine),
+                     run.options.loop);
+    }
+    case Source::kTemplates: {
+      current_.origin = HypothesisOrigin::kTemplates;
+      const Pose& start = hypotheses_[best_index_].camera_from_station;
+      return Attempt(attempt, {start, uncertaintyAbout(start, seed_, run.scene)});
+    }
+    case Source::kRestarts:
+      current_.origin = HypothesisOrigin::kRestart;
+      return restart(attempt, run);
+    case Source::kSeed:
+    case Source::kNone:
+      break;
+  }
+  current_.origin = HypothesisOrigin::kSeed;
+  return Attempt(attempt, seed_);
+}
+
+/// The best pose moved to either side along one of its weak directions.
+Attempt PoseComparison::restart(int attempt, const RunContext& run) {
+  if (current_.number == 0) {
+    restarted_ = weak_;
+    restarted_from_ = hypotheses_[best_index_].camera_from_station;
+  }
+  const double side = current_.number % 2 == 0 ? 1.0 : -1.0;
+  const double motion_px = side * kRestart_px * static_cast<double>(1 << run.levels.fine);
+  return Attempt(attempt, seed_,
+                 restarted_.moved(restarted_from_, current_.number / 2, motion_px), true,
+                 run.options.loop);
+}
+
+bool PoseComparison::isKnown(const Pose& camera_from_station, int level,
+                             const RunContext& run) const {
+  if (returns_) return false;
+  const double same_px = kSame_px * static_cast<double>(1 << level);
+  for (const PoseHypothesis& hypothesis : hypotheses_.items())
+    if (displacementBetween_px(hypothesis.camera_from_station, camera_from_station, run.scene,
+                               run.camera) < same_px)
+      return true;
+  return false;
+}
+
+PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,
+                                              const Pose& camera_from_station_before, double score,
+                                              double probability, const WeakDirections& weak,
+                                              const RunContext& run) {
+  if (returns_) return Next::kConclude;
+  current_.camera_from_station = attempt.camera_from_station();
+  current_.score = score;
+  current_.probability = probability;
+  if (best_index_ < 0 || score > hypotheses_[best_index_].score) {
+    best_index_ = hypotheses_.size();
+    best_ = attempt;
+    best_before_ = camera_from_station_before;
+    weak_ = weak;
+  }
+  hypotheses_.add(current_);
+  return takeFailure(run);
+}
+
+PoseComparison::Next PoseComparison::takeFailure(const RunContext& run) {
+  if (returns_) return Next::kConclude;
+  if (findNext(run)) return Next::kTry;
+  return hasPose() ? Next::kReturn : Next::kConclude;
+}
+
+Attempt PoseComparison::best(int attempt, const LocalizerOptions& options) {
+  returns_ = true;
+  return best_.beforeLastIteration(attempt, best_before_, options);
+}
+
+int PoseComparison::competitorIndex(const RunContext& run) const {
+  int competitor = -1;
+  if (best_index_ < 0) return competitor;
+  const Pose& best = hypotheses_[best_index_].camera_from_station;
+  const double apart_px =
+      std::max(kDistinct_px, kDistinct * longerSide_px(best, run.scene, run.camera));
+  for (int i = 0; i < hypotheses_.size(); ++i) {
+    const PoseHypothesis& other = hypotheses_[i];
+    if (i == best_index_ || (competitor >= 0 && other.score <= hypotheses_[competitor].score) ||
+        displacementBetween_px(best, other.camera_from_station, run.scene, run.camera) <= apart_px)
+      continue;
+    competitor = i;
+  }
+  return competitor;
+}
+
+double PoseComparison::gap(const RunContext& run) const {
+  if (best_index_ < 0) return 0.0;
+  const int competitor = competitorIndex(run);
+  const double other = competitor < 0 ? 0.0 : hypotheses_[competitor].score;
+  return hypotheses_[best_index_].score - std::max(0.0, other);
+}
+
+}  // namespace boresight

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/fixed_list.h"
+#include "core/localizer/attempt.h"
+#include "core/localizer/pass_plan.h"
+#include "core/localizer/pose_hypothesis.h"
+#include "core/localizer/problem.h"
+#include "core/search/pose_search.h"
+
+namespace boresight {
+
+/// Search policy: refines several poses of a run, measures the evidence of each, and takes the one
+/// with the best score. Hypotheses come from the candidates of the whole-object search, refined on
+/// edges; from templates matched around the best of them, where the object is too large for the
+/// search to resolve it; from the seed, where no pose is probable; and from restarts of the best
+/// pose along its two weakest directions, to both sides: a refinement may have stopped at
+/// neighbouring edges. An attempt that reaches a known hypothesis ends there. The run ends with the
+/// last iteration of the best hypothesis repeated, so that the records show it.
+class PoseComparison {
+ public:
+  /// Next action after an attempt.
+  enum class Next : std::uint8_t {
+    kTry = 0,   ///< the attempt of next()
+    kReturn,    ///< the attempt of best(): its last iteration again
+    kConclude,  ///< the run ends: with the pose of best(), or as a failure
+  };
+  static constexpr int kRestarts = 4;
+  static constexpr int kMostCandidates = 10;  ///< of all views
+  /// Candidates, two attempts with templates, restarts.
+  static constexpr int kMostHypotheses = kMostCandidates + 2 + kRestarts;
+
+  PoseComparison() = default;
+  /// The candidates must outlive this.
+  PoseComparison(std::span<const PoseCandidate> candidates, const Seed& seed)
+      : candidates_(candidates.first(std::min<std::size_t>(candidates.size(), kMostCandidates))),
+        seed_(seed) {}
+
+  /// The attempt of the next start.
+  Attempt next(int attempt, const RunContext& run);
+  /// Whether a pose of an attempt, refined at a level, is a known hypothesis.
+  bool isKnown(const Pose& camera_from_station, int level, const RunContext& run) const;
+  /// An attempt has converged on a pose with this evidence.
+  Next takePose(const Attempt& attempt, const Pose& camera_from_station_before, double score,
+                double probability, const WeakDirections& weak, const RunContext& run);
+  /// An attempt has failed, left the seed's uncertainty, or reached a known hypothesis.
+  Next takeFailure(const RunContext& run);
+  /// Whether there is a hypothesis.
+  bool hasPose() const { return hypotheses_.size() > 0; }
+  /// Whether the attempt of best() has been started.
+  bool returns() const { return returns_; }
+  /// The attempt that repeats the last iteration of the best hypothesis.
+  Attempt best(int attempt, const LocalizerOptions& options);
+
+  /// All hypotheses in the order in which they were found.
+  std::span<const PoseHypothesis> hypotheses() const { return hypotheses_.items(); }
+  /// Index of the best hypothesis; -1: there is none.
+  int bestIndex() const { return best_index_; }
+  /// Index of the best hypothesis that is another pose than the best one; -1: there is none.
+  int competitorIndex(const RunContext& run) const;
+  /// Score of the best hypothesis minus that of the competitor, 0 at least.
+  double gap(const RunContext& run) const;
+
+ private:
+  enum class Source : std::uint8_t { kCandidates = 0, kTemplates, kSeed, kRestarts, kNone };
+
+  bool findNext(const RunContext& run);
+  bool offers(Source source, const RunContext& run) const;
+  Attempt restart(int attempt, const RunContext& run);
+
+  std::span<const PoseCandidate> candidates_;
+  Seed seed_;
+  Source source_ = Source::kCandidates;
+  int next_ = 0;  ///< of the source
+  PoseHypothesis current_;  ///< origin and number of the attempt under way
+  bool returns_ = false;
+
+  FixedList<PoseHypothesis, kMostHypotheses> hypotheses_;
+  int best_index_ = -1;
+  Attempt best_;
+  Pose best_before_;       ///< start pose of the best attempt's last iteration
+  WeakDirections weak_;    ///< of the best hypothesis
+  WeakDirections restarted_;  ///< of the hypothesis that restarts begin from
+  Pose restarted_from_;
+};
+
+/// Uncertainty of a candidate whose templates are matched, about the scene's centre: in rotation at
+/// most the seed's; in translation by the object's size and depth.
+SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& seed,
+                                 const BoundingBox& scene);
+
+}  // namespace boresight
