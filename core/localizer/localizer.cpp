@@ -98,9 +98,13 @@ StepReport Localizer::weighed() {
   if (leftUncertainty(seedOf(problem()), pose, options().loop.leave_factor))
     return follow(comparison_.takeFailure(pass_.context()), LocalizationStatus::kLeftUncertainty,
                   report);
-  const PoseComparison::Next next = comparison_.takePose(
-      attempt_, workspace().iteration->camera_from_station_before, workspace().evidence.score(),
-      workspace().probability, pass_.outcome().weak, pass_.context());
+  PoseHypothesis measured;
+  measured.evidence = workspace().evidence;
+  measured.score = measured.evidence.score();
+  measured.probability = workspace().probability;
+  const PoseComparison::Next next =
+      comparison_.takePose(attempt_, workspace().iteration->camera_from_station_before, measured,
+                           pass_.outcome().weak, pass_.context());
   noteHypotheses();
   return follow(next, LocalizationStatus::kConverged, report);
 }

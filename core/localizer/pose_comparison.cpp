@@ -132,14 +132,15 @@ bool PoseComparison::isKnown(const Pose& camera_from_station, int level,
 }
 
 PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,
-                                              const Pose& camera_from_station_before, double score,
-                                              double probability, const WeakDirections& weak,
-                                              const RunContext& run) {
+                                              const Pose& camera_from_station_before,
+                                              const PoseHypothesis& measured,
+                                              const WeakDirections& weak, const RunContext& run) {
   if (returns_) return Next::kConclude;
   current_.camera_from_station = attempt.camera_from_station();
-  current_.score = score;
-  current_.probability = probability;
-  if (best_index_ < 0 || score > hypotheses_[best_index_].score) {
+  current_.evidence = measured.evidence;
+  current_.score = measured.score;
+  current_.probability = measured.probability;
+  if (best_index_ < 0 || current_.score > hypotheses_[best_index_].score) {
     best_index_ = hypotheses_.size();
     best_ = attempt;
     best_before_ = camera_from_station_before;

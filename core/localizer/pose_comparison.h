@@ -45,9 +45,9 @@ class PoseComparison {
   Attempt next(int attempt, const RunContext& run);
   /// Whether a pose of an attempt, refined at a level, is a known hypothesis.
   bool isKnown(const Pose& camera_from_station, int level, const RunContext& run) const;
-  /// An attempt has converged on a pose with this evidence.
-  Next takePose(const Attempt& attempt, const Pose& camera_from_station_before, double score,
-                double probability, const WeakDirections& weak, const RunContext& run);
+  /// An attempt has converged on a pose; `measured` has its evidence, score and probability.
+  Next takePose(const Attempt& attempt, const Pose& camera_from_station_before,
+                const PoseHypothesis& measured, const WeakDirections& weak, const RunContext& run);
   /// An attempt has failed, left the seed's uncertainty, or reached a known hypothesis.
   Next takeFailure(const RunContext& run);
   /// Whether there is a hypothesis.

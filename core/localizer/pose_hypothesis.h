@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/accept/pose_evidence.h"
 #include "core/geometry/pose.h"
 
 namespace boresight {
@@ -21,8 +22,9 @@ struct PoseHypothesis {
   Pose camera_from_station;  ///< refined
   HypothesisOrigin origin = HypothesisOrigin::kCandidate;
   std::int32_t number = 0;   ///< of its origin, from 0
-  double score = 0.0;        ///< PoseEvidence::score()
-  double probability = 0.0;  ///< PoseEvidence::probability()
+  PoseEvidence evidence;     ///< of the image; of several views that of the first one
+  double score = 0.0;        ///< PoseEvidence::score(), summed over several views
+  double probability = 0.0;  ///< PoseEvidence::probability(), the largest of several views
 };
 
 }  // namespace boresight

@@ -285,6 +285,7 @@ void digestHypotheses(std::span<const PoseHypothesis> hypotheses, DigestWriter& 
     digestPose(hypothesis.camera_from_station, writer);
     writer.u8(static_cast<std::uint8_t>(hypothesis.origin));
     writer.i32(hypothesis.number);
+    digestEvidence(hypothesis.evidence, writer);
     writer.f64(hypothesis.score);
     writer.f64(hypothesis.probability);
   }

@@ -326,15 +326,15 @@ StepReport ViewsLocalizer::retry(LocalizationStatus status, const StepReport& re
 StepReport ViewsLocalizer::takePose(const StepReport& report) {
   LocalizationStatus status = LocalizationStatus::kConverged;
   if (!first().searches()) return finish(status, report);
-  double score = 0.0;
-  double probability = 0.0;
+  PoseHypothesis measured;
+  measured.evidence = first().workspace().evidence;
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    if (views_[v].refines) score += views_[v].pass.workspace().evidence.score();
-    probability = std::max(probability, result_.views[v].probability);
+    if (views_[v].refines) measured.score += views_[v].pass.workspace().evidence.score();
+    measured.probability = std::max(measured.probability, result_.views[v].probability);
   }
   // The views together determine the pose: none restarts along a weak direction.
   const PoseComparison::Next next =
-      comparison_.takePose(attempt_, leading().camera_from_station_before, score, probability,
+      comparison_.takePose(attempt_, leading().camera_from_station_before, measured,
                            WeakDirections(), first().context());
   noteHypotheses();
   if (next != PoseComparison::Next::kConclude || !options_.support.gate)

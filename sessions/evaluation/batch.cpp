@@ -282,6 +282,11 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     result.status = "bad_seed";
   }
   result.error = errorOf(dataset_case, problem.camera, result.camera_from_station, scene);
+  for (ComparedPose& compared : result.compared)
+    if (const auto error = errorOf(dataset_case, problem.camera,
+                                   compared.hypothesis.camera_from_station, scene);
+        error && result.requirement)
+      compared.requirement_share = requirementShare(*error, *result.requirement);
   judge(options_.wrongMesh(), result);
 }
 

@@ -74,6 +74,10 @@ void noteTrace(const LocalizationTrace& trace, RunResult& result) {
     result.expected_nats = trace.evidence.finest().expected_nats;
   }
   result.compared_poses = static_cast<std::int32_t>(trace.hypotheses.size());
+  for (const PoseHypothesis& hypothesis : trace.hypotheses)
+    result.compared.push_back({hypothesis, false, std::nullopt});
+  if (trace.best_hypothesis >= 0)
+    result.compared[static_cast<std::size_t>(trace.best_hypothesis)].best = true;
   if (trace.competitor >= 0) result.score_gap = trace.gap;
   result.competing_poses = static_cast<std::int32_t>(trace.competing_poses.size());
   if (const CompetingPose* closest = closestCompetingPose(trace))
@@ -94,6 +98,24 @@ void judge(bool wrong_mesh, RunResult& result) {
   result.success = result.completed && within;
   result.false_positive = result.completed && !within;
   result.gross_false_positive = result.completed && isGross(*result.error, *result.requirement);
+}
+
+nlohmann::ordered_json toJson(const ComparedPose& compared) {
+  const PoseHypothesis& hypothesis = compared.hypothesis;
+  const PoseEvidence& evidence = hypothesis.evidence;
+  nlohmann::ordered_json json = {{"origin", originText(hypothesis)},
+                                 {"best", compared.best},
+                                 {"score", hypothesis.score},
+                                 {"probability", hypothesis.probability},
+                                 {"total_nats", evidence.finest().total_nats()},
+                                 {"strongest_nats", evidence.strongest_nats()},
+                                 {"weakest_quadrant_nats", evidence.weakest_nats()},
+                                 {"expected_nats", evidence.finest().expected_nats},
+                                 {"evidence_share", evidence.finest().shareOfExpected()},
+                                 {"region_nats", evidence.region.nats},
+                                 {"edge_support", evidence.edge_support}};
+  if (compared.requirement_share) json["requirement_share"] = *compared.requirement_share;
+  return json;
 }
 
 nlohmann::ordered_json toJson(const PoseError& error) {
@@ -141,6 +163,7 @@ nlohmann::ordered_json toJson(const RunResult& result) {
     json["expected_nats"] = *result.expected_nats;
   }
   json["compared_poses"] = result.compared_poses;
+  for (const ComparedPose& compared : result.compared) json["compared"].push_back(toJson(compared));
   if (result.score_gap) json["score_gap"] = *result.score_gap;
   json["competing_poses"] = result.competing_poses;
   if (result.least_margin_nats) json["least_margin_nats"] = *result.least_margin_nats;

@@ -68,6 +68,13 @@ struct RunStep {
 /// the trace was recorded in full.
 std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case);
 
+/// A pose that a run compared with others.
+struct ComparedPose {
+  PoseHypothesis hypothesis;
+  bool best = false;
+  std::optional<double> requirement_share;  ///< requirementShare() of its error, where it is known
+};
+
 /// What is kept of one run of a batch.
 struct RunResult {
   std::string case_id;
@@ -100,6 +107,7 @@ struct RunResult {
   std::optional<double> evidence_share;         ///< ContourEvidence::shareOfExpected()
   std::optional<double> expected_nats;          ///< ContourEvidence::expected_nats
   std::int32_t compared_poses = 0;              ///< refined and measured
+  std::vector<ComparedPose> compared;           ///< these poses; not in results files
   std::optional<double> score_gap;              ///< to the best other pose that was compared
   std::int32_t competing_poses = 0;             ///< that the image supports, too
   std::optional<double> least_margin_nats;      ///< of the pose's evidence beyond theirs

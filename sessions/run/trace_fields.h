@@ -214,10 +214,12 @@ void fields(Archive& archive, Self& evidence) {
 
 template <class Archive, Is<PoseHypothesis> Self>
 void fields(Archive& archive, Self& hypothesis) {
-  auto& [camera_from_station, origin, number, score, probability] = hypothesis;
+  auto& [camera_from_station, origin, number, evidence, score, probability] = hypothesis;
   fields(archive, camera_from_station);
   archive.choice(origin, kLastHypothesisOrigin);
-  numbers(archive, number, score, probability);
+  archive.number(number);
+  fields(archive, evidence);
+  numbers(archive, score, probability);
 }
 
 template <class Archive, Is<EdgeWidth> Self>
