@@ -11,7 +11,6 @@
 #include "sessions/io/json_writer.h"
 #include "sessions/review/pose_uncertainty.h"
 #include "sessions/run/acceptance.h"
-#include "sessions/run/alternatives.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/run_text.h"
 #include "sessions/session/named_poses.h"
@@ -90,11 +89,9 @@ ordered_json acceptanceJson(const LocalizationTrace& trace, bool in_colour) {
 /// Candidates of the search, the most evidence first.
 ordered_json candidatesJson(const LocalizationTrace& trace) {
   ordered_json list = ordered_json::array();
-  for (const Alternative& alternative : alternativesOf(trace))
-    if (alternative.kind == AlternativeKind::kCandidate)
-      list.push_back({{"camera_from_station", toJson(alternative.camera_from_station)},
-                      {"evidence_nats", alternative.evidence_nats},
-                      {"taken", trace.converged() && alternative.chosen}});
+  for (const PoseCandidate& candidate : trace.candidates)
+    list.push_back({{"camera_from_station", toJson(candidate.camera_from_station)},
+                    {"evidence_nats", candidate.rank_nats()}});
   return list;
 }
 

@@ -40,35 +40,16 @@ Alternative ofCompeting(const CompetingPose& from, std::size_t index) {
   return alternative;
 }
 
-/// The pose of a candidate as the search refined it.
-Alternative ofCandidate(const PoseCandidate& from, std::size_t index) {
-  Alternative alternative;
-  alternative.kind = AlternativeKind::kCandidate;
-  alternative.number = static_cast<std::int32_t>(index) + 1;
-  alternative.has_pose = true;
-  alternative.camera_from_station = from.camera_from_station;
-  alternative.roll_rad = from.found.roll_rad;
-  alternative.evidence_nats = from.rank_nats();
-  return alternative;
-}
-
-Alternative ofCompared(const PoseHypothesis& from, std::size_t index) {
+Alternative ofCompared(const PoseHypothesis& from) {
   Alternative alternative;
   alternative.kind = AlternativeKind::kCompared;
-  alternative.number = static_cast<std::int32_t>(index) + 1;
+  alternative.number = from.number + 1;
   alternative.has_pose = true;
   alternative.camera_from_station = from.camera_from_station;
   alternative.score = from.score;
   alternative.probability = from.probability;
   alternative.origin = from.origin;
   return alternative;
-}
-
-/// The candidate that led to the best hypothesis; -1: it has another origin.
-int chosenCandidate(const LocalizationTrace& run) {
-  if (run.best_hypothesis < 0) return -1;
-  const PoseHypothesis& best = run.hypotheses[static_cast<std::size_t>(run.best_hypothesis)];
-  return best.origin == HypothesisOrigin::kCandidate ? best.number : -1;
 }
 
 /// The competitor first, then by descending score.
@@ -112,13 +93,8 @@ std::vector<Alternative> alternativesOf(const LocalizationTrace& run) {
       compares ? run.hypotheses[static_cast<std::size_t>(run.best_hypothesis)].camera_from_station
                : best;
   for (const std::size_t i : byScore(run)) {
-    all.push_back(ofCompared(run.hypotheses[i], i));
+    all.push_back(ofCompared(run.hypotheses[i]));
     all.back().chosen = static_cast<int>(i) == run.best_hypothesis;
-    compare(chosen, all.back());
-  }
-  for (std::size_t i = 0; i < run.candidates.size(); ++i) {
-    all.push_back(ofCandidate(run.candidates[i], i));
-    all.back().chosen = static_cast<int>(i) == chosenCandidate(run);
     compare(chosen, all.back());
   }
   for (std::size_t i = 0; i < run.iterations.size(); ++i) addHypotheses(run, i, all);

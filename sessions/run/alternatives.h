@@ -12,7 +12,6 @@ namespace boresight::sessions {
 
 enum class AlternativeKind : std::uint8_t {
   kRolled,     ///< a hypothesis of an iteration, turned about the ray to the station
-  kCandidate,  ///< a pose that the search found
   kCompared,   ///< a pose that was refined and compared with the run's result
   kCompeting,  ///< a pose that shows about the same edges as the run's result
 };
@@ -22,7 +21,7 @@ enum class AlternativeKind : std::uint8_t {
 struct Alternative {
   AlternativeKind kind = AlternativeKind::kRolled;
   std::int32_t iteration = -1;  ///< that weighed it, an index into the run's; -1: competing
-  std::int32_t number = 1;      ///< in its iteration, or of its kind; from 1
+  std::int32_t number = 1;      ///< in its iteration, of its origin or of its kind; from 1
   bool chosen = false;          ///< what the run went on with
   bool has_pose = false;        ///< else there is nothing to draw
   Pose camera_from_station;
@@ -33,7 +32,6 @@ struct Alternative {
   double roll_rad = kUnknown;
   std::int32_t matches = 0;
   std::int32_t inliers = 0;
-  double evidence_nats = kUnknown;  ///< of a candidate's contours, PoseCandidate::rank_nats()
   double similarity = kUnknown;     ///< of a competing pose's edges to the result's, [0, 1]
   double margin_nats = kUnknown;    ///< evidence of the result beyond a competing pose's
   double score = kUnknown;          ///< of a compared pose, PoseEvidence::score()
@@ -42,8 +40,8 @@ struct Alternative {
 };
 
 /// Of a run as far as it has come: its competing poses, the poses that it compared (the best one
-/// that is not the result first, the others by descending score), the candidates of its search,
-/// then iteration by iteration the rolled hypotheses of those that had several.
+/// that is not the result first, the others by descending score), then iteration by iteration the
+/// rolled hypotheses of those that had several.
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run);
 
 }  // namespace boresight::sessions

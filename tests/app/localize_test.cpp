@@ -61,18 +61,22 @@ TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
   EXPECT_EQ(acceptance["edge_width_px"], trace.edge_width.widest_px());
   EXPECT_FALSE(acceptance["in_colour"].get<bool>()) << "the example is gray";
   ASSERT_EQ(result["candidates"].size(), trace.candidates.size());
-  int taken = 0;
   for (std::size_t i = 0; i < trace.candidates.size(); ++i) {
     EXPECT_EQ(result["candidates"][i]["evidence_nats"], trace.candidates[i].rank_nats());
-    taken += result["candidates"][i]["taken"].get<bool>() ? 1 : 0;
   }
-  EXPECT_EQ(taken, 1);
+  ASSERT_EQ(result["compared_poses"].size(), trace.hypotheses.size());
+  for (std::size_t i = 0; i < trace.hypotheses.size(); ++i) {
+    const nlohmann::json& compared = result["compared_poses"][i];
+    EXPECT_EQ(compared["score"], trace.hypotheses[i].score);
+    EXPECT_EQ(compared["best"], static_cast<int>(i) == trace.best_hypothesis);
+    EXPECT_EQ(compared["competitor"], static_cast<int>(i) == trace.competitor);
+  }
   ASSERT_EQ(result["competing_poses"].size(), trace.competing_poses.size());
   for (std::size_t i = 0; i < trace.competing_poses.size(); ++i)
     EXPECT_EQ(result["competing_poses"][i]["margin_nats"], trace.competing_poses[i].margin_nats);
   EXPECT_GT(result["image_quality"]["contrast_gray"], 10.0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("The probability that the pose is right is"),
-                             HasSubstr("of the search."), HasSubstr("image at the seed: noise")));
+                             HasSubstr("compared poses and comes from"), HasSubstr("image at the seed: noise")));
 }
 
 TEST(WhsLocalize, GivesTheSameDigestByAllKernelsAndThreadsAndWithRecording) {

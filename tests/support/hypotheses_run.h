@@ -8,7 +8,7 @@
 namespace boresight::test {
 
 /// The example's run as if two poses competed with its result, 22 mm to either side, and as if its
-/// search had found two candidates.
+/// search had found two candidates, which were compared.
 inline std::shared_ptr<const sessions::LocalizationTrace> runWithHypotheses() {
   auto run = std::make_shared<sessions::LocalizationTrace>(*exampleRun());
   PoseCandidate chosen;
@@ -19,6 +19,18 @@ inline std::shared_ptr<const sessions::LocalizationTrace> runWithHypotheses() {
   turned.camera_from_station.rotation =
       rotationExp({0.0, 0.0, 0.3}) * chosen.camera_from_station.rotation;
   run->candidates = {chosen, turned};
+  run->hypotheses.clear();
+  for (const PoseCandidate& candidate : run->candidates) {
+    PoseHypothesis hypothesis;
+    hypothesis.camera_from_station = candidate.camera_from_station;
+    hypothesis.number = static_cast<std::int32_t>(run->hypotheses.size());
+    hypothesis.score = 10.0 * candidate.rank_nats();
+    hypothesis.probability = candidate.rank_nats();
+    run->hypotheses.push_back(hypothesis);
+  }
+  run->best_hypothesis = 0;
+  run->competitor = 1;
+  run->gap = run->hypotheses[0].score - run->hypotheses[1].score;
   CompetingPose right;
   right.camera_from_station = run->camera_from_station;
   right.camera_from_station.translation_m.x() += 0.022;

@@ -33,14 +33,15 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
   return {
       {tr("Pose"),
        tr("Competing pose: it shows about the same edges as the result. Candidate: a pose of the "
-          "global search. Rolled hypothesis: the render turned about the view axis."),
+          "global search, refined. Restart: the best pose, moved along a weak direction and refined "
+          "again. Rolled hypothesis: the render turned about the view axis."),
        -1, alternativeTitle},
       {tr("Iteration"),
        tr("Iteration that evaluated it, counted from 1 over all attempts; competing poses are "
           "compared with the result."),
        -1,
        [](Row row) {
-         if (row.kind == AlternativeKind::kCandidate) return tr("search");
+         if (row.kind == AlternativeKind::kCompared) return tr("compared");
          return row.iteration < 0 ? tr("result") : QString::number(row.iteration + 1);
        }},
       {tr("Ended"), tr("Whether the run continued with it."), -1, endedText},
@@ -52,10 +53,14 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
       {tr("Similarity"),
        tr("Share of the rendered edges that a competing pose has in common with the result."), 2,
        [](Row row) { return row.similarity; }},
-      {tr("Evidence, nats"),
-       tr("Support of a candidate by the image's edges: mean over its edges and half of the "
-          "weakest quadrant, in nats."),
-       2, [](Row row) { return row.evidence_nats; }},
+      {tr("Score"),
+       tr("Evidence of the image for a compared pose: total and means of its edges, and edge "
+          "support. The pose with the best score is the result; within %1 of another pose the run "
+          "is ambiguous.")
+           .arg(kLeastGap),
+       2, [](Row row) { return row.score; }},
+      {tr("Probability, %"), tr("Probability that a compared pose is right, in percent."), 1,
+       [](Row row) { return 100.0 * row.probability; }},
       {tr("Inliers"), tr("Matches that agree with its pose."), 0,
        [=](Row row) { return ofOthers(row, row.inliers); }},
       {tr("Matches"), tr("Templates that could be searched."), 0,
@@ -90,16 +95,16 @@ HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(par
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
   table_ = named(new QTableView(this), "hypotheses");
-  table_->setAccessibleName(tr("Competing poses, candidates and rolled hypotheses"));
+  table_->setAccessibleName(tr("Competing poses, compared poses and rolled hypotheses"));
   setUpTable(*table_, model_);
   using Model = AlternativesModel;
   new ColumnFitter(
       *table_, {Model::kMatches, Model::kSimilarity, Model::kInliers, Model::kIteration,
-                Model::kEvidence_nats, Model::kApart_deg, Model::kMargin_nats, Model::kApart_mm});
+                Model::kProbability, Model::kScore, Model::kApart_deg, Model::kMargin_nats, Model::kApart_mm});
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(
-      tr("Other poses of the run: competing poses, candidates of the search, rolled hypotheses. "
+      tr("Other poses of the run: competing poses, compared poses, rolled hypotheses. "
          "The selected row is drawn on the image."));
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {

@@ -12,7 +12,7 @@ class QTableView;
 namespace boresight::ui {
 
 /// The poses that a run compared with those that it went on with, one row each: competing
-/// poses first, then candidates, then rolled hypotheses by iteration.
+/// poses first, then compared poses, then rolled hypotheses by iteration.
 class AlternativesModel : public RowsModel<sessions::Alternative> {
   Q_OBJECT
 
@@ -23,7 +23,8 @@ class AlternativesModel : public RowsModel<sessions::Alternative> {
     kEnded,
     kMargin_nats,
     kSimilarity,
-    kEvidence_nats,
+    kScore,
+    kProbability,
     kInliers,
     kMatches,
     kApart_mm,
@@ -39,7 +40,7 @@ class AlternativesModel : public RowsModel<sessions::Alternative> {
   QVariant look(const sessions::Alternative& row, int column, int role) const override;
 };
 
-/// What else a run compared: poses that compete with its result, candidates, rolled hypotheses. The
+/// What else a run compared: poses that compete with its result, compared poses, rolled hypotheses. The
 /// chosen one is drawn on the image with the pose that the run went on with; one that belongs to an
 /// iteration takes the cursor there.
 class HypothesesPanel : public QWidget {

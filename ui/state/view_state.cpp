@@ -132,16 +132,25 @@ void ViewState::setAlternative(const std::optional<sessions::Alternative>& alter
 QString alternativeTitle(const sessions::Alternative& alternative) {
   if (alternative.kind == AlternativeKind::kCompeting)
     return ViewState::tr("Competing pose %1").arg(alternative.number);
-  if (alternative.kind == AlternativeKind::kCandidate)
-    return ViewState::tr("Candidate %1").arg(alternative.number);
+  if (alternative.kind == AlternativeKind::kCompared)
+    switch (alternative.origin) {
+      case HypothesisOrigin::kCandidate:
+        return ViewState::tr("Candidate %1").arg(alternative.number);
+      case HypothesisOrigin::kTemplates:
+        return ViewState::tr("Templates");
+      case HypothesisOrigin::kSeed:
+        return ViewState::tr("Templates of the seed");
+      case HypothesisOrigin::kRestart:
+        return ViewState::tr("Restart %1").arg(alternative.number);
+    }
   return ViewState::tr("Rolled by %1 deg")
       .arg(QString::asprintf("%+.1f", alternative.roll_rad / kDegree_rad));
 }
 
 QString chosenTitle(const sessions::Alternative& alternative) {
-  return alternative.kind == AlternativeKind::kCompeting   ? ViewState::tr("Result of the run")
-         : alternative.kind == AlternativeKind::kCandidate ? ViewState::tr("Chosen candidate")
-                                                           : ViewState::tr("Chosen roll");
+  return alternative.kind == AlternativeKind::kCompeting  ? ViewState::tr("Result of the run")
+         : alternative.kind == AlternativeKind::kCompared ? ViewState::tr("Best pose")
+                                                          : ViewState::tr("Chosen roll");
 }
 
 }  // namespace boresight::ui

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/accept/pose_probability.h"
+#include "core/accept/contour_evidence.h"
 #include "core/base/random.h"
+#include "core/edges/direction_distance.h"
 
 namespace boresight {
 namespace {
@@ -109,21 +110,50 @@ TEST_F(ContourEvidenceTest, NoPlaces_GiveZero) {
   EXPECT_EQ(evidence.weakest_nats(), 0.0);
 }
 
-TEST(PoseProbability, GrowsWithEvidenceAndSupport) {
-  ContourEvidence evidence;
-  EdgeSupport support;
-  support.rendered = 100;
-  EXPECT_LT(poseProbability(evidence, support), 0.001);
-  double before = 0.0;
-  for (int i = 0; i <= 10; ++i) {
-    evidence.outline_nats = 0.1 * i;
-    support.covered = 5 * i;
-    const double probability = poseProbability(evidence, support);
-    EXPECT_GT(probability, before);
-    EXPECT_LE(probability, 1.0);
-    before = probability;
+/// The expectation of the evidence at random right poses, by drawing intervals from
+/// m = 0.6 p + 0.4 b with b counted by hand.
+TEST_F(ContourEvidenceTest, Expectation_IsTheMeanOverDrawnIntervals) {
+  drawSquare();
+  Random random(9);
+  for (auto& direction : direction_)
+    if (random.below(12) == 0) direction = static_cast<std::uint8_t>(random.below(8));
+  std::vector<std::uint8_t> distance(direction_.size());
+  const EvidencePlace place{60, 60, 0, false};
+  distanceToDirection(edges_, 0, distance);
+  const double window_px = 24.0;
+  const PlaceEvidence measured = evidenceOfPlace(place, edges_, distance, window_px);
+  // The nats of each interval, read by placing a distance of that interval at the place.
+  const double p[4] = {0.50, 0.33, 0.17, 0.0};
+  double share[4];
+  double nats[4];
+  const std::uint8_t inside[4] = {5, 18, 30, 50};
+  const auto at = static_cast<std::size_t>(60 * kSide + 60);
+  for (int k = 0; k < 4; ++k) {
+    distance[at] = inside[k];
+    nats[k] = evidenceOfPlace(place, edges_, distance, window_px).nats;
+    // exp(nats) = (0.6 p + 0.4 b) / b, solved for b.
+    const double b = 0.6 * p[k] / (std::exp(nats[k]) - 0.4);
+    share[k] = 0.6 * p[k] + 0.4 * b;
   }
-  EXPECT_GT(before, 0.99);
+  share[3] = 1.0 - share[0] - share[1] - share[2];
+  double expected_nats = 0.0;
+  for (int k = 0; k < 4; ++k) expected_nats += share[k] * nats[k];
+  EXPECT_NEAR(measured.expected_nats, expected_nats, 1e-9);
+  EXPECT_GT(expected_nats, 0.0);
+}
+
+TEST_F(ContourEvidenceTest, RightPoseAmongPrint_HasItsShareOfLittleEvidence) {
+  drawSquare();
+  const ContourEvidence plain = measure();
+  Random random(5);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      if (random.below(4) == 0 && edges_.at(x, y) == DirectedEdges::kNone)
+        set(x, y, static_cast<std::uint8_t>(random.below(8)));
+  const ContourEvidence print = measure();
+  EXPECT_LT(print.strongest_nats(), 0.6 * plain.strongest_nats());
+  EXPECT_GT(print.shareOfExpected(), 0.8);
+  EXPECT_LT(measure(7).shareOfExpected(), 0.5 * print.shareOfExpected());
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/localizer/attempt.h"
-#include "core/localizer/candidate_trials.h"
 #include "core/localizer/pass_plan.h"
+#include "core/localizer/pose_comparison.h"
 #include "core/localizer/workspace.h"
 
 namespace boresight {
@@ -121,138 +121,180 @@ TEST(Acceptance, CompetingPoseOutsideTheUncertainty_IsAmbiguousOnlyWhereItIsBett
 TEST(Acceptance, EachRequirementThatFails_IsTheReason) {
   Workspace measured;
   measured.probability = 0.9;
-  const Seed seed = seedInFront();
   const LocalizerOptions options = defaultProfile();
-  const auto judged = [&](const Pose& pose) {
-    return judgeSupport(measured, seed, pose, options, true);
-  };
-  const Pose& right = seed.camera_from_station;
-  EXPECT_EQ(judged(right), LocalizationStatus::kConverged);
-  EXPECT_EQ(judged(movedBy(right, 0.2)), LocalizationStatus::kLeftUncertainty);
+  const auto judged = [&] { return judgeSupport(measured, options, true); };
+  EXPECT_EQ(judged(), LocalizationStatus::kConverged);
   measured.focal = {0.05, 0.001, true};
-  EXPECT_EQ(judged(right), LocalizationStatus::kCameraMismatch);
+  EXPECT_EQ(judged(), LocalizationStatus::kCameraMismatch);
   measured.edge_width.width_px.fill(15.0);
   measured.edge_width.places.fill(1000);
-  EXPECT_EQ(judged(right), LocalizationStatus::kBlurred);
+  EXPECT_EQ(judged(), LocalizationStatus::kBlurred);
   measured.probability = 0.1;
-  EXPECT_EQ(judged(right), LocalizationStatus::kNotSupported);
+  EXPECT_EQ(judged(), LocalizationStatus::kNotSupported);
   LocalizerOptions ungated = options;
   ungated.support.gate = false;
-  EXPECT_EQ(judgeSupport(measured, seed, right, ungated, true), LocalizationStatus::kConverged);
+  EXPECT_EQ(judgeSupport(measured, ungated, true), LocalizationStatus::kConverged);
+}
+
+TEST(Acceptance, OtherPoseOfAboutTheSameScore_IsAmbiguous) {
+  Workspace measured;
+  measured.gap = 0.1;
+  EXPECT_EQ(judgeGap(measured, defaultProfile()), LocalizationStatus::kConverged) << "no other";
+  measured.competitor = 1;
+  EXPECT_EQ(judgeGap(measured, defaultProfile()), LocalizationStatus::kAmbiguous);
+  measured.gap = 0.5;
+  EXPECT_EQ(judgeGap(measured, defaultProfile()), LocalizationStatus::kConverged);
 }
 
 /// Without a search only edge support counts.
 TEST(Acceptance, WithoutASearch_RestsOnEdgeSupport) {
   Workspace measured;
-  const Seed seed = seedInFront();
-  EXPECT_EQ(judgeSupport(measured, seed, seed.camera_from_station, defaultProfile(), false),
-            LocalizationStatus::kNotSupported);
+  EXPECT_EQ(judgeSupport(measured, defaultProfile(), false), LocalizationStatus::kNotSupported);
   measured.support.rendered = measured.support.covered = 100;
   measured.support.seen = measured.support.explained = 100;
-  EXPECT_EQ(judgeSupport(measured, seed, seed.camera_from_station, defaultProfile(), false),
-            LocalizationStatus::kConverged);
+  EXPECT_EQ(judgeSupport(measured, defaultProfile(), false), LocalizationStatus::kConverged);
 }
 
-using TrialNext = CandidateTrials::Next;
+using ComparisonNext = PoseComparison::Next;
 
-class CandidateTrialsTest : public testing::Test {
+class PoseComparisonTest : public testing::Test {
  protected:
-  /// Candidates 1 mm apart, each with a little less evidence than the one before.
-  void offer(int count, double behind_nats, double error_px) {
+  /// Candidates 10 mm apart, 60 px in the image.
+  void offer(int count, double error_px = 1.0) {
     for (int i = 0; i < count; ++i) {
       PoseCandidate candidate;
-      candidate.camera_from_station = movedBy(seed.camera_from_station, 0.001 * (i + 1));
-      candidate.evidence.edges_nats = 0.8 - behind_nats * i;
+      candidate.camera_from_station = movedBy(seed.camera_from_station, 0.01 * i - 0.02);
       candidate.error_px = error_px;
       candidates.push_back(candidate);
     }
-    trials = CandidateTrials(candidates, seed);
+    comparison = PoseComparison(candidates, seed);
   }
-  PassKind kindOf(const Attempt& attempt) const { return attempt.plan(pass.context()).kind; }
+  PassPlan planOf(const Attempt& attempt) const { return attempt.plan(pass.context()); }
+  /// The attempt has converged where it started.
+  ComparisonNext take(const Attempt& attempt, double score, double probability = 0.9,
+                      bool has_weak = false) {
+    PoseHypothesis measured;
+    measured.score = score;
+    measured.probability = probability;
+    WeakDirections weak;
+    weak.known = has_weak;
+    weak.offset_per_px[0][3] = 1e-4;
+    weak.offset_per_px[1][0] = 1e-3;
+    weak.pivot_in_camera_m = attempt.camera_from_station() * Eigen::Vector3d::Zero();
+    return comparison.takePose(attempt, attempt.camera_from_station(), measured, weak,
+                               pass.context());
+  }
 
   ScriptedPass pass;
   const Seed seed = seedInFront();
   std::vector<PoseCandidate> candidates;
-  CandidateTrials trials;
+  PoseComparison comparison;
 };
 
-TEST_F(CandidateTrialsTest, ResolvedCandidate_IsRefinedAtOnce) {
-  offer(1, 0.0, 1.0);
-  const Attempt attempt = trials.next(0, pass.context());
-  EXPECT_EQ(kindOf(attempt), PassKind::kRefine);
-  EXPECT_EQ(attempt.camera_from_station(), candidates[0].camera_from_station);
+TEST_F(PoseComparisonTest, EveryCandidate_IsRefinedAndTheBestReturns) {
+  offer(3);
+  const double scores[] = {2.0, 5.0, 4.0};
+  for (int i = 0; i < 3; ++i) {
+    const Attempt attempt = comparison.next(i, pass.context());
+    EXPECT_EQ(planOf(attempt).kind, PassKind::kRefine);
+    EXPECT_EQ(attempt.camera_from_station(),
+              candidates[static_cast<std::size_t>(i)].camera_from_station);
+    EXPECT_EQ(take(attempt, scores[i]), i < 2 ? ComparisonNext::kTry : ComparisonNext::kReturn);
+  }
+  EXPECT_EQ(comparison.bestIndex(), 1);
+  EXPECT_EQ(comparison.competitorIndex(pass.context()), 2);
+  EXPECT_NEAR(comparison.gap(pass.context()), 1.0, 1e-12);
+  const Attempt back = comparison.best(3, pass.options);
+  EXPECT_EQ(back.index(), 3);
+  EXPECT_EQ(back.camera_from_station(), candidates[1].camera_from_station);
+  EXPECT_EQ(comparison.takeFailure(pass.context()), ComparisonNext::kConclude);
 }
 
-TEST_F(CandidateTrialsTest, CoarselyResolvedCandidate_IsMatchedInANarrowerBox) {
-  offer(1, 0.0, 20.0);
-  const Attempt attempt = trials.next(0, pass.context());
-  EXPECT_EQ(kindOf(attempt), PassKind::kMatch);
-  const SeedUncertainty box =
-      uncertaintyAbout(candidates[0].camera_from_station, seed, pass.context().scene);
-  for (int i = 0; i < 3; ++i) EXPECT_LE(box.rotation_rad[i], seed.uncertainty.rotation_rad[i]);
-}
-
-TEST_F(CandidateTrialsTest, NoCandidates_StartFromTheSeed) {
-  offer(0, 0.0, 0.0);
-  EXPECT_EQ(trials.next(0, pass.context()).camera_from_station(), seed.camera_from_station);
-  EXPECT_EQ(trials.takeFailure(pass.context()), TrialNext::kConclude);
-}
-
-TEST_F(CandidateTrialsTest, SurePose_EndsTheRun) {
-  offer(3, 0.01, 1.0);
-  const Attempt attempt = trials.next(0, pass.context());
-  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.99, pass.context()), TrialNext::kConclude);
-}
-
-TEST_F(CandidateTrialsTest, UnsurePose_IsComparedAndTheMostProbableReturns) {
-  offer(2, 0.01, 1.0);
-  Attempt attempt = trials.next(0, pass.context());
-  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.8, pass.context()), TrialNext::kTry);
-  attempt = trials.next(1, pass.context());
-  EXPECT_EQ(attempt.camera_from_station(), candidates[1].camera_from_station);
-  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.7, pass.context()), TrialNext::kReturn);
-  const Attempt back = trials.best(2, pass.options);
-  EXPECT_EQ(back.index(), 2);
-  EXPECT_EQ(trials.takePose(back, Pose(), 0.8, pass.context()), TrialNext::kConclude);
-}
-
-TEST_F(CandidateTrialsTest, CandidateWhoseTemplatesFail_IsRefinedFromTheCoarseLevelOn) {
-  offer(2, 0.01, 20.0);
-  EXPECT_EQ(kindOf(trials.next(0, pass.context())), PassKind::kMatch);
-  EXPECT_EQ(trials.takeFailure(pass.context()), TrialNext::kTry);
-  Attempt direct = trials.next(1, pass.context());
-  EXPECT_EQ(direct.camera_from_station(), candidates[0].camera_from_station);
-  const PassPlan coarse = direct.plan(pass.context());
+TEST_F(PoseComparisonTest, CandidateOutOfReach_IsRefinedFromTheCoarseLevelOnAndMatched) {
+  offer(1, 20.0);
+  Attempt direct = comparison.next(0, pass.context());
+  const PassPlan coarse = planOf(direct);
   EXPECT_EQ(coarse.kind, PassKind::kRefine);
   EXPECT_EQ(coarse.level, pass.context().levels.coarse);
   pass.refine(coarse, coarse.camera_from_station);
   (void)direct.take(pass.outcome, {}, pass.context(), pass.records);
-  const PassPlan fine = direct.plan(pass.context());
+  const PassPlan fine = planOf(direct);
   EXPECT_EQ(fine.kind, PassKind::kRefine);
   EXPECT_EQ(fine.level, pass.context().levels.fine);
   EXPECT_EQ(coarse.threshold_px, fine.threshold_px * (1 << (coarse.level - fine.level)));
-  EXPECT_EQ(trials.takeFailure(pass.context()), TrialNext::kTry);
-  EXPECT_EQ(kindOf(trials.next(2, pass.context())), PassKind::kMatch);
-}
-
-TEST_F(CandidateTrialsTest, CandidateOfMuchLessEvidence_IsNotCompared) {
-  offer(2, 0.5, 1.0);
-  const Attempt attempt = trials.next(0, pass.context());
-  EXPECT_EQ(trials.takePose(attempt, Pose(), 0.8, pass.context()), TrialNext::kConclude);
-}
-
-TEST_F(CandidateTrialsTest, Failures_GoThroughCandidatesThenTheSeed) {
-  offer(5, 0.01, 1.0);
-  const int most = pass.options.loop.max_attempts;
-  for (int i = 0; i < most; ++i) {
-    const Attempt attempt = trials.next(i, pass.context());
-    const Pose& expected = i + 1 < most
-                               ? candidates[static_cast<std::size_t>(i)].camera_from_station
-                               : seed.camera_from_station;
-    EXPECT_EQ(attempt.camera_from_station(), expected) << i;
-    EXPECT_EQ(trials.takeFailure(pass.context()),
-              i + 1 < most ? TrialNext::kTry : TrialNext::kConclude);
+  EXPECT_EQ(take(direct, 3.0), ComparisonNext::kTry);
+  const Attempt matched = comparison.next(1, pass.context());
+  EXPECT_EQ(planOf(matched).kind, PassKind::kMatch);
+  const SeedUncertainty box =
+      uncertaintyAbout(candidates[0].camera_from_station, seed, pass.context().scene);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LE(box.rotation_rad[i], seed.uncertainty.rotation_rad[i]);
+    EXPECT_EQ(planOf(matched).uncertainty.rotation_rad[i], box.rotation_rad[i]);
   }
+}
+
+TEST_F(PoseComparisonTest, NoCandidates_StartFromTheSeed) {
+  offer(0);
+  const Attempt attempt = comparison.next(0, pass.context());
+  EXPECT_EQ(attempt.camera_from_station(), seed.camera_from_station);
+  EXPECT_EQ(planOf(attempt).kind, PassKind::kMatch);
+  EXPECT_EQ(comparison.takeFailure(pass.context()), ComparisonNext::kConclude);
+}
+
+TEST_F(PoseComparisonTest, ImprobablePoses_AreFollowedByTheSeed) {
+  offer(1);
+  EXPECT_EQ(take(comparison.next(0, pass.context()), 1.0, 0.3), ComparisonNext::kTry);
+  const Attempt attempt = comparison.next(1, pass.context());
+  EXPECT_EQ(attempt.camera_from_station(), seed.camera_from_station);
+  EXPECT_EQ(take(attempt, 0.5, 0.2), ComparisonNext::kReturn);
+  EXPECT_EQ(comparison.hypotheses()[1].origin, HypothesisOrigin::kSeed);
+}
+
+/// To both sides of both directions, by the same motion in the image.
+TEST_F(PoseComparisonTest, BestPose_RestartsAlongItsWeakDirections) {
+  offer(2);
+  EXPECT_EQ(take(comparison.next(0, pass.context()), 5.0, 0.9, true), ComparisonNext::kTry);
+  EXPECT_EQ(take(comparison.next(1, pass.context()), 1.0, 0.9, true), ComparisonNext::kTry);
+  std::vector<Pose> starts;
+  for (int i = 0; i < PoseComparison::kRestarts; ++i) {
+    const Attempt attempt = comparison.next(2 + i, pass.context());
+    EXPECT_EQ(planOf(attempt).level, pass.context().levels.coarse);
+    starts.push_back(attempt.camera_from_station());
+    EXPECT_EQ(comparison.takeFailure(pass.context()), i + 1 < PoseComparison::kRestarts
+                                                          ? ComparisonNext::kTry
+                                                          : ComparisonNext::kReturn);
+  }
+  const double motion_px = 7.0 * (1 << pass.context().levels.fine);
+  const double x_m = candidates[0].camera_from_station.translation_m.x();
+  EXPECT_NEAR(starts[0].translation_m.x(), x_m + 1e-4 * motion_px, 1e-9);
+  EXPECT_NEAR(starts[1].translation_m.x(), x_m - 1e-4 * motion_px, 1e-9);
+  EXPECT_NEAR(starts[2].rotation.angularDistance(starts[3].rotation), 2e-3 * motion_px, 1e-6);
+}
+
+TEST_F(PoseComparisonTest, KnownPose_IsOneWithinAPixelOfTheLevel) {
+  offer(2);
+  const Attempt attempt = comparison.next(0, pass.context());
+  EXPECT_FALSE(comparison.isKnown(attempt.camera_from_station(), 1, pass.context()));
+  (void)take(attempt, 1.0);
+  // 0.1 mm are 0.6 px of the image.
+  const Pose near = movedBy(attempt.camera_from_station(), 0.0001);
+  EXPECT_TRUE(comparison.isKnown(near, 1, pass.context()));
+  EXPECT_FALSE(comparison.isKnown(movedBy(near, 0.0002), 1, pass.context()));
+  EXPECT_TRUE(comparison.isKnown(movedBy(near, 0.0002), 2, pass.context()));
+}
+
+/// 3 % of the 600 px that the object's box spans are 18 px.
+TEST_F(PoseComparisonTest, PosesNearTheBestOne_AreNotItsCompetitors) {
+  offer(1);
+  (void)take(comparison.next(0, pass.context()), 5.0, 0.3);
+  const Attempt near(1, {movedBy(candidates[0].camera_from_station, 0.001), seed.uncertainty});
+  (void)take(near, 4.9);
+  EXPECT_EQ(comparison.competitorIndex(pass.context()), -1);
+  EXPECT_NEAR(comparison.gap(pass.context()), 5.0, 1e-12);
+  const Attempt apart(2, {movedBy(candidates[0].camera_from_station, 0.005), seed.uncertainty});
+  (void)take(apart, -1.0);
+  EXPECT_EQ(comparison.competitorIndex(pass.context()), 2);
+  EXPECT_NEAR(comparison.gap(pass.context()), 5.0, 1e-12) << "below 0 counts as 0";
 }
 
 class AttemptTest : public testing::Test {

@@ -137,24 +137,39 @@ TEST(PoseSearch, StationBehindTheCamera_HasNoCandidates) {
   EXPECT_TRUE(run.run().empty());
 }
 
-TEST(PoseEvidence, RenderOfTheRealCamera_HasTheEvidenceOfTheTruth) {
+TEST(PoseEvidenceMeter, RenderOfTheRealCamera_HasTheEvidenceOfTheTruth) {
   const test::Case scene = test::stationCase(1, true);
   const SearchRun run(scene);
   const auto evidenceOf = [&](const Pose& pose) {
     const test::Rendering render = test::renderEdges(scene.solid, scene.camera, pose);
     std::vector<std::byte> block(4 << 20);
     Arena arena(block);
-    PoseEvidence evidence;
-    EXPECT_EQ(evidence.create(ColorView::kChannels, arena), Status::kOk);
-    EXPECT_TRUE(evidence.begin(run.problem(), render.edges));
-    while (!evidence.step()) {
+    PoseEvidenceMeter meter;
+    EXPECT_EQ(meter.create(ColorView::kChannels, arena), Status::kOk);
+    EXPECT_TRUE(meter.begin(run.problem(), render.edges));
+    while (!meter.step()) {
     }
-    return evidence.evidence();
+    PoseEvidence evidence;
+    evidence.contours = meter.contours();
+    return evidence;
   };
-  EXPECT_GT(evidenceOf(scene.truth).strongest_nats(), 0.6);
+  const PoseEvidence right = evidenceOf(scene.truth);
   Pose moved = scene.truth;
   moved.translation_m.x() += 0.008;
-  EXPECT_LT(evidenceOf(moved).strongest_nats(), 0.2);
+  const PoseEvidence wrong = evidenceOf(moved);
+  for (std::size_t view = 0; view < kEvidenceViews; ++view) {
+    SCOPED_TRACE(view);
+    EXPECT_GT(right.contours[view].strongest_nats(), 0.6);
+    EXPECT_LT(wrong.contours[view].strongest_nats(), 0.2);
+  }
+  // The same edges are as long as the object is larger.
+  const auto length_px = [](const ContourEvidence& contours) {
+    return contours.places * contours.place_length_px;
+  };
+  EXPECT_NEAR(length_px(right.contours[1]) / length_px(right.contours[0]),
+              kEvidenceSpan_px[1] / kEvidenceSpan_px[0], 0.03);
+  EXPECT_GT(right.finest().shareOfExpected(), 0.9);
+  EXPECT_LT(wrong.finest().shareOfExpected(), 0.3);
 }
 
 SearchCandidate at(double x_px, double distance_px) {

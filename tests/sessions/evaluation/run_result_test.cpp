@@ -70,7 +70,7 @@ TEST(RunResultJson, HasTheFieldsOfALine) {
 
 TEST(NoteTrace, TakesTheProbabilityWithItsPartsFromTheRun) {
   const LocalizationTrace& run = test::exampleTrace();
-  ASSERT_GT(run.evidence.places, 0);
+  ASSERT_GT(run.evidence.finest().places, 0);
   RunResult result;
   noteTrace(run, result);
   EXPECT_EQ(result.probability, run.probability);

@@ -26,10 +26,12 @@ TEST(AcceptanceText, SearchedRun_StatesTheProbabilityWithItsParts) {
   EXPECT_THAT(
       acceptanceText(run),
       AllOf(HasSubstr("right is " + fixedText(100.0 * run.probability, 1) + " %, needed 50.0 %"),
-            HasSubstr("its edges " + fixedText(run.evidence.strongest_nats(), 2) + " nats"),
-            HasSubstr("quadrant " + fixedText(run.evidence.weakest_nats(), 2) + " nats"),
-            HasSubstr("support " + fixedText(100.0 * run.support.share(), 1) + " %"),
-            HasSubstr("candidate 1 of " + std::to_string(run.candidates.size())),
+            HasSubstr("edges show " +
+                      fixedText(100.0 * run.evidence.finest().shareOfExpected(), 0) + " % of the"),
+            HasSubstr("differ along " +
+                      fixedText(100.0 * run.evidence.region.separatedShare(), 0) + " % of the"),
+            HasSubstr("support is " + fixedText(100.0 * run.support.share(), 1) + " %"),
+            HasSubstr("comes from candidate 1 of the search"),
             HasSubstr("2 competing poses are similar; the closest has 4.0 nats less evidence")));
   run.competing_poses = {competingPose(-2.5)};
   EXPECT_THAT(acceptanceText(run), HasSubstr("it has 2.5 nats more evidence"));
@@ -51,12 +53,26 @@ TEST(HasProbability, EvidenceOfAnEarlierAttempt_DoesNotCount) {
   EXPECT_EQ(acceptanceText(run), "");
 }
 
-TEST(AcceptanceText, PoseFromTheSeed_IsReportedSo) {
+TEST(AcceptanceText, ComparedPoses_AreCountedWithTheGapToTheNextBest) {
   LocalizationTrace run = test::exampleTrace();
-  test::editIteration(run, 0, [&](IterationTrace& first) {
-    first.camera_from_station_before = run.camera_from_station_seed;
-  });
-  EXPECT_THAT(acceptanceText(run), HasSubstr("The pose comes from the seed"));
+  PoseHypothesis best;
+  best.origin = HypothesisOrigin::kRestart;
+  best.number = 2;
+  run.hypotheses = {PoseHypothesis(), best};
+  run.best_hypothesis = 1;
+  run.competitor = -1;
+  EXPECT_THAT(acceptanceText(run),
+              AllOf(HasSubstr("most evidence of 2 compared poses"),
+                    HasSubstr("restart 3 of the best pose"), Not(HasSubstr("next best"))));
+  run.competitor = 0;
+  run.gap = 0.875;
+  EXPECT_THAT(acceptanceText(run), HasSubstr("lower by a score of 0.88"));
+  run.hypotheses = {best};
+  run.hypotheses[0].origin = HypothesisOrigin::kSeed;
+  run.best_hypothesis = 0;
+  run.competitor = -1;
+  EXPECT_THAT(acceptanceText(run), HasSubstr("the only pose found and comes from templates around "
+                                             "the seed"));
 }
 
 }  // namespace

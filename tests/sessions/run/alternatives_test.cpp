@@ -59,7 +59,7 @@ TEST(Alternatives, RolledHypotheses_AreListedPerIteration) {
     EXPECT_EQ(all[i].chosen, k == (iteration == 0 ? 2u : 0u));
     EXPECT_TRUE(std::isnan(all[i].similarity));
   }
-  EXPECT_TRUE(std::isnan(all[0].evidence_nats)) << "rolled hypotheses have none";
+  EXPECT_TRUE(std::isnan(all[0].score)) << "rolled hypotheses have none";
   EXPECT_FALSE(all[4].has_pose);
   EXPECT_TRUE(std::isnan(all[4].apart_m));
 }
@@ -96,43 +96,32 @@ TEST(Alternatives, OfAnAmbiguousRun_AreComparedWithItsLastIteration) {
   }
 }
 
-/// Those of the search; competing poses of the result come before them.
-std::vector<Alternative> candidatesOf(const LocalizationTrace& run) {
+std::vector<Alternative> alternativesOf(const LocalizationTrace& run, AlternativeKind kind) {
   std::vector<Alternative> all = alternativesOf(run);
-  std::erase_if(all, [](const Alternative& alternative) {
-    return alternative.kind != AlternativeKind::kCandidate;
-  });
+  std::erase_if(all, [&](const Alternative& alternative) { return alternative.kind != kind; });
   return all;
 }
 
-TEST(Alternatives, OfASearch_AreItsCandidates) {
-  const auto run = test::runOfExample("os", defaultProfile());
-  ASSERT_FALSE(run->candidates.empty());
-  const std::vector<Alternative> all = candidatesOf(*run);
-  ASSERT_EQ(all.size(), run->candidates.size());
-  int chosen = 0;
-  for (std::size_t i = 0; i < run->candidates.size(); ++i) {
-    chosen += all[i].chosen ? 1 : 0;
-    EXPECT_EQ(all[i].camera_from_station, run->candidates[i].camera_from_station);
-    EXPECT_EQ(all[i].evidence_nats, run->candidates[i].rank_nats());
-    EXPECT_LE(all[i].evidence_nats, all[0].evidence_nats);
+TEST(Alternatives, ComparedPoses_BeginWithTheCompetitorThenByScore) {
+  Random random = test::randomFor("Alternatives 4");
+  LocalizationTrace run = runWith(random);
+  for (const double score : {1.0, 4.0, 2.0, 3.0}) {
+    PoseHypothesis compared;
+    compared.camera_from_station = test::randomPose(random);
+    compared.score = score;
+    compared.number = static_cast<std::int32_t>(run.hypotheses.size());
+    run.hypotheses.push_back(compared);
   }
-  EXPECT_EQ(chosen, 1);
-}
-
-TEST(Alternatives, ResultFromALaterCandidate_MarksThatCandidateAsChosen) {
-  LocalizationTrace run = *test::runOfExample("os", defaultProfile());
-  run.candidates.resize(1);
-  PoseCandidate elsewhere = run.candidates.front();
-  elsewhere.camera_from_station.translation_m.x() += 0.02;
-  run.candidates.insert(run.candidates.begin(), elsewhere);
-  const std::vector<Alternative> all = candidatesOf(run);
-  EXPECT_FALSE(all[0].chosen);
-  EXPECT_TRUE(all[1].chosen);
-  EXPECT_EQ(all[0].camera_from_station_chosen, run.candidates[1].camera_from_station);
-  EXPECT_NEAR(all[0].apart_m, 0.02, 1e-9);
-  run.status = LocalizationStatus::kNotSupported;
-  EXPECT_TRUE(candidatesOf(run)[0].chosen) << "without a result the first";
+  run.best_hypothesis = 1;
+  run.competitor = 2;
+  const std::vector<Alternative> all = alternativesOf(run, AlternativeKind::kCompared);
+  ASSERT_EQ(all.size(), 4u);
+  const int numbers[] = {3, 2, 4, 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(all[i].number, numbers[i]);
+    EXPECT_EQ(all[i].chosen, numbers[i] == 2);
+    EXPECT_EQ(all[i].camera_from_station_chosen, run.hypotheses[1].camera_from_station);
+  }
 }
 
 }  // namespace

@@ -50,12 +50,12 @@ TEST_F(HypothesesPanelTest, ACompetingPoseIsShownWithTheResult) {
   EXPECT_EQ(view_.cursor().iteration, last_);
 }
 
-TEST_F(HypothesesPanelTest, ACandidateIsShownWithTheFirst) {
+TEST_F(HypothesesPanelTest, AComparedPoseIsShownWithTheBest) {
   clickRow(kCompeting + 1);
   ASSERT_TRUE(view_.alternative());
-  EXPECT_EQ(view_.alternative()->camera_from_station, run_->candidates[1].camera_from_station);
+  EXPECT_EQ(view_.alternative()->camera_from_station, run_->hypotheses[0].camera_from_station);
   EXPECT_EQ(view_.alternative()->camera_from_station_chosen,
-            run_->candidates[0].camera_from_station);
+            run_->hypotheses[0].camera_from_station);
   EXPECT_EQ(view_.cursor().iteration, last_);
   EXPECT_EQ(table().currentIndex().row(), kCompeting + 1) << "and stays chosen";
 }
@@ -69,10 +69,10 @@ TEST_F(HypothesesPanelTest, GoingElsewhereTakesItAway) {
   EXPECT_TRUE(view_.alternative());
   view_.setSnapshot(test::exampleRun());
   EXPECT_FALSE(view_.alternative());
-  // Competing poses of the result, and candidates of the search.
+  // Competing poses of the result, and poses that were compared.
   const auto run = test::exampleRun();
   EXPECT_EQ(panel_.model().rowCount(),
-            static_cast<int>(run->competing_poses.size() + run->candidates.size()));
+            static_cast<int>(run->competing_poses.size() + run->hypotheses.size()));
 }
 
 class AlternativesModelTest : public testing::Test {
@@ -86,11 +86,12 @@ class AlternativesModelTest : public testing::Test {
   Tester tester_{&model_, Tester::FailureReportingMode::Fatal};
 };
 
-TEST_F(AlternativesModelTest, ListsCompetingPosesThenCandidates) {
+TEST_F(AlternativesModelTest, ListsCompetingPosesThenComparedPoses) {
   ASSERT_EQ(model_.rowCount(), 4);
   EXPECT_EQ(text(0, AlternativesModel::kPose), QStringLiteral("Competing pose 1"));
   EXPECT_EQ(text(1, AlternativesModel::kPose), QStringLiteral("Competing pose 2"));
-  EXPECT_EQ(text(3, AlternativesModel::kPose), QStringLiteral("Candidate 2"));
+  EXPECT_EQ(text(2, AlternativesModel::kPose), QStringLiteral("Candidate 2")) << "the competitor";
+  EXPECT_EQ(text(3, AlternativesModel::kPose), QStringLiteral("Candidate 1"));
   EXPECT_EQ(text(0, AlternativesModel::kIteration), QStringLiteral("result"));
   EXPECT_EQ(model_.firstRowOf(1), -1);
   EXPECT_EQ(model_.firstRowOf(-1), -1) << "competing poses are of no iteration";
@@ -102,12 +103,13 @@ TEST_F(AlternativesModelTest, TellsHowEachEndedAndByHowMuch) {
   EXPECT_EQ(text(0, AlternativesModel::kSimilarity), QStringLiteral("0.45"));
   EXPECT_EQ(text(0, AlternativesModel::kApart_mm), QStringLiteral("22.00"));
   EXPECT_EQ(text(0, AlternativesModel::kInliers), QString());
-  EXPECT_EQ(text(2, AlternativesModel::kEnded), QStringLiteral("chosen"));
-  EXPECT_EQ(text(2, AlternativesModel::kEvidence_nats), QStringLiteral("0.90"));
-  EXPECT_TRUE(model_.index(2, 0).data(Qt::FontRole).value<QFont>().bold());
-  EXPECT_FALSE(model_.index(3, 0).data(Qt::FontRole).isValid());
-  EXPECT_EQ(text(3, AlternativesModel::kEnded), QStringLiteral("not chosen"));
-  EXPECT_EQ(text(3, AlternativesModel::kApart_deg), QStringLiteral("17.19"));
+  EXPECT_EQ(text(3, AlternativesModel::kEnded), QStringLiteral("chosen"));
+  EXPECT_EQ(text(3, AlternativesModel::kScore), QStringLiteral("9.00"));
+  EXPECT_EQ(text(3, AlternativesModel::kProbability), QStringLiteral("90.0"));
+  EXPECT_TRUE(model_.index(3, 0).data(Qt::FontRole).value<QFont>().bold());
+  EXPECT_FALSE(model_.index(2, 0).data(Qt::FontRole).isValid());
+  EXPECT_EQ(text(2, AlternativesModel::kEnded), QStringLiteral("not chosen"));
+  EXPECT_EQ(text(2, AlternativesModel::kApart_deg), QStringLiteral("17.19"));
 }
 
 }  // namespace
