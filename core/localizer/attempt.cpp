@@ -13,6 +13,8 @@ namespace {
 /// Factor on the matched pose's covariance when the refinement starts from that pose: templates
 /// overlap and share their errors.
 constexpr double kMatchInflation = 8.0;
+/// Edge places of a draft.
+constexpr std::int32_t kDraftSamples = 4000;
 
 Ruling failed(Stage stage, LocalizationStatus status, int record) {
   return {Ruling::Next::kFailed, status, stage, true, record};
@@ -73,6 +75,7 @@ PassPlan Attempt::plan(const RunContext& run) const {
   plan.template_factor = templateFactor(size_index_);
   const bool refined_before = refines && iteration_ > loop.match_iterations;
   plan.keep_render_px = refined_before ? loop.render_again_px : 0.0;
+  plan.most_samples = is_draft_ ? kDraftSamples : 0;
   plan.anchored = loop.anchored;
   plan.anchor = anchor_;
   plan.matched = matched_;
@@ -151,7 +154,7 @@ Ruling Attempt::finishIteration(Stage stage, const Pose& camera_from_station,
   if (leftUncertainty(seed_, camera_from_station_, loop.leave_factor))
     return failed(stage, LocalizationStatus::kLeftUncertainty, record_);
   if (iteration_ >= iterationsNeeded(run.options) &&
-      small_corrections_ >= loop.converged_iterations) {
+      small_corrections_ >= (is_draft_ ? 1 : loop.converged_iterations)) {
     ruling.next = Ruling::Next::kPose;
     return ruling;
   }
@@ -175,7 +178,9 @@ Attempt Attempt::beforeLastIteration(int index, const Pose& camera_from_station_
                                      const LocalizerOptions& options) const {
   Attempt again = *this;
   again.index_ = index;
-  --again.iteration_;
+  again.is_draft_ = false;
+  // With all iterations ahead that a refinement may need.
+  again.iteration_ = std::min(iteration_, iterationsNeeded(options)) - 1;
   again.camera_from_station_ = camera_from_station_before;
   again.small_corrections_ = options.loop.converged_iterations - 1;
   again.startIteration();

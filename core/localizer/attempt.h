@@ -39,9 +39,13 @@ class Attempt {
   /// limit.
   Ruling goOn(const RunContext& run);
 
-  /// The attempt as it was before its last iteration, which started from this pose.
+  /// The attempt as it was before its last iteration, which started from this pose; not as a draft.
   Attempt beforeLastIteration(int index, const Pose& camera_from_station_before,
                               const LocalizerOptions& options) const;
+
+  /// Refines with fewer edge places and ends at the first small correction: enough to compare poses
+  /// with each other. Until beforeLastIteration().
+  void draft() { is_draft_ = true; }
 
   /// Number of the attempt, from 0.
   int index() const { return index_; }
@@ -68,6 +72,7 @@ class Attempt {
   int iteration_ = 0;
   int hypothesis_ = 0;  ///< of the iteration
   int record_ = 0;
+  bool is_draft_ = false;
   bool coarse_first_ = false;  ///< the next refinement is at the coarse level
   bool has_best_ = false;      ///< the other record holds the best hypothesis so far
   int small_corrections_ = 0;

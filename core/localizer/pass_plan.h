@@ -41,7 +41,8 @@ struct PassPlan {
   double template_factor = 1.0;  ///< on the size of the templates
   /// A refinement keeps the last render when the hypothesis moved less since; px.
   double keep_render_px = 0.0;
-  bool anchored = false;  ///< whether the two below constrain a refinement
+  std::int32_t most_samples = 0;  ///< edge places of a refinement; 0: as many as the options allow
+  bool anchored = false;          ///< whether the two below constrain a refinement
   PosePrior anchor;       ///< the seed with its uncertainty as a Gaussian
   PoseEstimate matched;   ///< from the latest templates
 };

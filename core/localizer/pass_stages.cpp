@@ -235,7 +235,7 @@ Status Pass::beginRefinement() {
   const Status status = memory_.refinement.begin(
       problem_.image, problem_.ignore, problem_.camera, problem_.mesh, iteration.render,
       iteration.threshold_px, plan_.anchored ? &plan_.anchor : nullptr,
-      plan_.anchored ? &plan_.matched : nullptr, iteration.refinement);
+      plan_.anchored ? &plan_.matched : nullptr, iteration.refinement, plan_.most_samples);
   memory_.refinement.startFrom(plan_.camera_from_station);
   stage_begun_ = true;
   return status;

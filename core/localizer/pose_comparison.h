@@ -69,8 +69,10 @@ class PoseComparison {
  private:
   enum class Source : std::uint8_t { kCandidates = 0, kTemplates, kSeed, kRestarts, kNone };
 
+  int firstCandidateFrom(int index) const;
   bool findNext(const RunContext& run);
   bool offers(Source source, const RunContext& run) const;
+  Attempt start(int attempt, const RunContext& run);
   Attempt restart(int attempt, const RunContext& run);
 
   std::span<const PoseCandidate> candidates_;

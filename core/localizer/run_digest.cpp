@@ -311,6 +311,7 @@ void digestCompetingPoses(std::span<const CompetingPose> poses, DigestWriter& wr
     digestPose(pose.camera_from_station, writer);
     writer.f64(pose.similarity);
     writer.f64(pose.margin_nats);
+    writer.u8(pose.mirrored ? 1 : 0);
   }
 }
 

@@ -39,7 +39,7 @@ Status EdgeRefinement::create(const RefinementOptions& options, Arena& arena) {
 Status EdgeRefinement::begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                              const MeshView& mesh, const EdgeRender& render, double radius_px,
                              const PosePrior* anchor, const PoseEstimate* matched,
-                             RefinementResult& result) {
+                             RefinementResult& result, std::int32_t most_samples) {
   image_ = image;
   ignore_ = ignore;
   camera_ = camera;
@@ -56,15 +56,17 @@ Status EdgeRefinement::begin(const ImageView& image, const BitImage* ignore, con
   result.found_count = 0;
   result.used_count = 0;
   result.rms_px = 0.0;
-  takeSamples(mesh, render);
+  const bool limited = most_samples > 0 && most_samples < options_.max_samples;
+  takeSamples(mesh, render, limited ? most_samples : options_.max_samples);
   return result.sample_count < kMinFound ? Status::kTooFewEdges : Status::kOk;
 }
 
-void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render) {
+void EdgeRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render,
+                                 std::int32_t most) {
   // The render's pixels are 2^level pixels of the image long.
   const double scale = static_cast<double>(camera_.width) / std::max(1, render.camera.width);
   const int by_spacing = static_cast<int>(kSampleSpacing_px / scale + 0.5);
-  const int by_capacity = (render.pixel_count + options_.max_samples - 1) / options_.max_samples;
+  const int by_capacity = (render.pixel_count + most - 1) / most;
   const int by_need = render.pixel_count / kMinSamples;
   const int stride = std::max({1, std::min(by_spacing, by_need), by_capacity});
   RefinementResult& result = *result_;

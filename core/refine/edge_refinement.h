@@ -109,10 +109,12 @@ class EdgeRefinement {
   void setOptions(const RefinementOptions& options) { options_ = options; }
   /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
   /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are prior
-  /// knowledge of the pose: they hold directions that the edges do not determine.
+  /// knowledge of the pose: they hold directions that the edges do not determine. At most
+  /// `most_samples` are taken; 0: as many as the options allow.
   Status begin(const ImageView& image, const BitImage* ignore, const Camera& camera,
                const MeshView& mesh, const EdgeRender& render, double radius_px,
-               const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result);
+               const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result,
+               std::int32_t most_samples = 0);
   /// Another pose than the render's to start from, after begin().
   void startFrom(const Pose& camera_from_station) {
     result_->camera_from_station = camera_from_station;
@@ -148,7 +150,7 @@ class EdgeRefinement {
 
  private:
   static constexpr std::int32_t kChunk = 256;
-  void takeSamples(const MeshView& mesh, const EdgeRender& render);
+  void takeSamples(const MeshView& mesh, const EdgeRender& render, std::int32_t most);
   bool searches() const { return round_ == 0 || moved_px_ > kSearchAgain_px; }
   double robustScale();
   void addKnowledge(NormalEquations& equations) const;

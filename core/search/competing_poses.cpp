@@ -6,22 +6,18 @@
 
 #include "core/edges/direction_distance.h"
 #include "core/geometry/surface_axes.h"
+#include "core/search/mirror_image.h"
 #include "core/search/pose_evidence_meter.h"
 
 namespace boresight {
 namespace {
 
-/// The object's size, and the search radius of each render.
+/// The object's size, and the search radius of its refinement.
 struct Scale {
   double span_px = 0.0;
-  int passes = 0;
-  std::array<double, 3> radius_px{};
+  double radius_px = 0.0;
 };
-constexpr std::array<Scale, 3> kScales = {{
-    {88.0, 3, {6.0, 4.0, 3.0}},
-    {158.0, 2, {5.0, 3.0, 0.0}},
-    {kEvidenceSpan_px[0], 2, {4.0, 3.0, 0.0}},
-}};
+constexpr std::array<Scale, 3> kScales = {{{88.0, 6.0}, {158.0, 5.0}, {kEvidenceSpan_px[0], 4.0}}};
 constexpr int kLastScale = static_cast<int>(kScales.size()) - 1;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
 
@@ -87,6 +83,7 @@ bool CompetingPoseTest::begin(const SearchProblem& problem, const Pose& camera_f
   found_ = camera_from_station;
   competing_.clear();
   promising_.clear();
+  mirrors_ = false;
   competitor_ = 0;
   scale_ = 0;
   beginView(kScales[0].span_px, Purpose::kFound);
@@ -98,9 +95,10 @@ bool CompetingPoseTest::step() {
     case Phase::kView:
       if (view_edges_.step()) {
         meter_.begin(view_edges_.edges());
-        const bool finds = purpose_ == Purpose::kFound || purpose_ == Purpose::kFoundAgain;
-        if (!finds) current_ = view_edges_.inView(promising_[competitor_]);
-        beginRender(finds ? view_edges_.inView(found_) : current_, purpose_);
+        const bool finds = purpose_ == Purpose::kFound;
+        if (mirrors_) view_edges_.flip();
+        beginRender(finds ? view_edges_.inView(found_) : promising_[competitor_].view_from_station,
+                    purpose_);
       }
       break;
     case Phase::kSlides:
@@ -162,10 +160,9 @@ void CompetingPoseTest::takeRender() {
       const double least = found_rank_nats_ - (refined_ ? kBehindRefined_nats : kBehind_nats);
       if (rankOfRender() < least) return nextHypothesis();
       if (refined_) {
-        promising_.add(view_edges_.inCamera(current_));
+        promising_.add({current_, mirrors_});
         return nextHypothesis();
       }
-      pass_ = 0;
       refine();
       break;
     }
@@ -178,6 +175,7 @@ void CompetingPoseTest::takeRender() {
       break;
     case Purpose::kFoundAgain:
       markRender(own_.marks);
+      if (mirrors_) flipLeftRight(own_.marks);
       own_.all = own_.alone = other_.all = other_.alone = 0;
       own_.nats = other_.nats = 0.0;
       direction_ = 0;
@@ -223,17 +221,15 @@ void CompetingPoseTest::refine() {
   Pose moved = current_;
   const bool met =
       refinement_.refine(view_edges_.edges(), problem_.mesh, render_, priorOf(current_),
-                         scale.radius_px[static_cast<std::size_t>(pass_)], moved);
+                         scale.radius_px, moved);
   if (!met) return scale_ == 0 ? nextHypothesis() : nextPromising();
   current_ = moved;
-  if (++pass_ < scale.passes) return beginRender(current_, Purpose::kRefine);
   if (scale_ == 0) {
     refined_ = true;
     return beginRender(current_, Purpose::kScreen);
   }
-  promising_[competitor_] = view_edges_.inCamera(current_);
+  promising_[competitor_].view_from_station = current_;
   if (scale_ == kLastScale) return beginRender(current_, Purpose::kCompeting);
-  pass_ = 0;
   ++scale_;
   beginView(kScales[static_cast<std::size_t>(scale_)].span_px, Purpose::kRefine);
 }
@@ -243,15 +239,28 @@ void CompetingPoseTest::nextHypothesis() {
     refined_ = false;
     return beginRender(poses_[hypothesis_], Purpose::kScreen);
   }
+  if (!mirrors_) return takeMirrored();
   competitor_ = -1;
   nextPromising();
+}
+
+/// Lists the hypotheses of the mirror image, in the flipped view.
+void CompetingPoseTest::takeMirrored() {
+  mirrors_ = true;
+  view_edges_.flip();
+  meter_.begin(view_edges_.edges());
+  poses_.clear();
+  for (const Pose& pose : mirroredPoses(view_edges_.inView(found_), surfaceAxesOf(problem_.mesh)))
+    poses_.add(pose);
+  hypothesis_ = -1;
+  nextHypothesis();
 }
 
 void CompetingPoseTest::nextPromising() {
   phase_ = Phase::kDone;
   if (++competitor_ >= promising_.size()) return;
+  mirrors_ = promising_[competitor_].mirrored;
   scale_ = 1;
-  pass_ = 0;
   beginView(kScales[1].span_px, Purpose::kRefine);
 }
 
@@ -300,17 +309,19 @@ void CompetingPoseTest::compareDirection() {
 
 void CompetingPoseTest::conclude() {
   const double least = std::min(own_.share(), other_.share());
+  const Pose camera_from_station =
+      mirrors_ ? found_ : view_edges_.inCamera(promising_[competitor_].view_from_station);
   // A slid pose competes even when it shows the same edges: the object's ends are out of view.
-  if (least >= kVisible || slid_px() >= kSlid * view_edges_.view().span_px) {
-    competing_.add({promising_[competitor_], 1.0 - 0.5 * (own_.share() + other_.share()),
-                    (own_.nats - other_.nats) / kAlong});
+  if (least >= kVisible ||
+      slid_px(camera_from_station) >= kSlid * view_edges_.view().span_px) {
+    competing_.add({camera_from_station, 1.0 - 0.5 * (own_.share() + other_.share()),
+                    (own_.nats - other_.nats) / kAlong, mirrors_});
   }
   nextPromising();
 }
 
-/// Distance of the object's centre from that of the pose found, px of the view.
-double CompetingPoseTest::slid_px() const {
-  const Pose& camera_from_station = promising_[competitor_];
+/// Distance of the object's centre at a pose from that of the pose found, px of the view.
+double CompetingPoseTest::slid_px(const Pose& camera_from_station) const {
   const Eigen::Vector3d found_m = view_edges_.inView(found_) * problem_.scene.centre();
   const Eigen::Vector3d other_m = view_edges_.inView(camera_from_station) * problem_.scene.centre();
   return view_edges_.view().camera.fx *

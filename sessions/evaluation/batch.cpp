@@ -277,16 +277,16 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     const LocalizationTrace trace =
         methods_.localize(options_.method, problem, options, settings, stop);
     noteTrace(trace, result);
+    result.compared = comparedText(trace, [&](const Pose& pose) -> std::optional<double> {
+      const auto error = errorOf(dataset_case, problem.camera, pose, scene);
+      if (!error || !result.requirement) return std::nullopt;
+      return requirementShare(*error, *result.requirement);
+    });
     result.steps = runSteps(trace, dataset_case);
   } else {
     result.status = "bad_seed";
   }
   result.error = errorOf(dataset_case, problem.camera, result.camera_from_station, scene);
-  for (ComparedPose& compared : result.compared)
-    if (const auto error = errorOf(dataset_case, problem.camera,
-                                   compared.hypothesis.camera_from_station, scene);
-        error && result.requirement)
-      compared.requirement_share = requirementShare(*error, *result.requirement);
   judge(options_.wrongMesh(), result);
 }
 

@@ -74,10 +74,6 @@ void noteTrace(const LocalizationTrace& trace, RunResult& result) {
     result.expected_nats = trace.evidence.finest().expected_nats;
   }
   result.compared_poses = static_cast<std::int32_t>(trace.hypotheses.size());
-  for (const PoseHypothesis& hypothesis : trace.hypotheses)
-    result.compared.push_back({hypothesis, false, std::nullopt});
-  if (trace.best_hypothesis >= 0)
-    result.compared[static_cast<std::size_t>(trace.best_hypothesis)].best = true;
   if (trace.competitor >= 0) result.score_gap = trace.gap;
   result.competing_poses = static_cast<std::int32_t>(trace.competing_poses.size());
   if (const CompetingPose* closest = closestCompetingPose(trace))
@@ -100,22 +96,31 @@ void judge(bool wrong_mesh, RunResult& result) {
   result.gross_false_positive = result.completed && isGross(*result.error, *result.requirement);
 }
 
-nlohmann::ordered_json toJson(const ComparedPose& compared) {
-  const PoseHypothesis& hypothesis = compared.hypothesis;
-  const PoseEvidence& evidence = hypothesis.evidence;
-  nlohmann::ordered_json json = {{"origin", originText(hypothesis)},
-                                 {"best", compared.best},
-                                 {"score", hypothesis.score},
-                                 {"probability", hypothesis.probability},
-                                 {"total_nats", evidence.finest().total_nats()},
-                                 {"strongest_nats", evidence.strongest_nats()},
-                                 {"weakest_quadrant_nats", evidence.weakest_nats()},
-                                 {"expected_nats", evidence.finest().expected_nats},
-                                 {"evidence_share", evidence.finest().shareOfExpected()},
-                                 {"region_nats", evidence.region.nats},
-                                 {"edge_support", evidence.edge_support}};
-  if (compared.requirement_share) json["requirement_share"] = *compared.requirement_share;
-  return json;
+std::string comparedText(const LocalizationTrace& trace,
+                         const std::function<std::optional<double>(const Pose&)>& share_of) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < trace.hypotheses.size(); ++i) {
+    const PoseHypothesis& hypothesis = trace.hypotheses[i];
+    const PoseEvidence& evidence = hypothesis.evidence;
+    list.push_back({{"origin", originText(hypothesis)},
+                    {"best", static_cast<int>(i) == trace.best_hypothesis},
+                    {"competitor", static_cast<int>(i) == trace.competitor},
+                    {"score", hypothesis.score},
+                    {"probability", hypothesis.probability},
+                    {"total_nats", evidence.finest().total_nats()},
+                    {"strongest_nats", evidence.strongest_nats()},
+                    {"weakest_quadrant_nats", evidence.weakest_nats()},
+                    {"expected_nats", evidence.finest().expected_nats},
+                    {"evidence_share", evidence.finest().shareOfExpected()},
+                    {"region_nats", evidence.region.nats},
+                    {"edge_support", evidence.edge_support}});
+    if (hypothesis.origin == HypothesisOrigin::kCandidate)
+      list.back()["searched_nats"] =
+          trace.candidates[static_cast<std::size_t>(hypothesis.number)].evidence.total_nats();
+    if (const auto share = share_of(hypothesis.camera_from_station))
+      list.back()["requirement_share"] = *share;
+  }
+  return list.empty() ? "" : list.dump();
 }
 
 nlohmann::ordered_json toJson(const PoseError& error) {
@@ -163,7 +168,7 @@ nlohmann::ordered_json toJson(const RunResult& result) {
     json["expected_nats"] = *result.expected_nats;
   }
   json["compared_poses"] = result.compared_poses;
-  for (const ComparedPose& compared : result.compared) json["compared"].push_back(toJson(compared));
+  if (!result.compared.empty()) json["compared"] = nlohmann::json::parse(result.compared);
   if (result.score_gap) json["score_gap"] = *result.score_gap;
   json["competing_poses"] = result.competing_poses;
   if (result.least_margin_nats) json["least_margin_nats"] = *result.least_margin_nats;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -68,13 +69,6 @@ struct RunStep {
 /// the trace was recorded in full.
 std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case);
 
-/// A pose that a run compared with others.
-struct ComparedPose {
-  PoseHypothesis hypothesis;
-  bool best = false;
-  std::optional<double> requirement_share;  ///< requirementShare() of its error, where it is known
-};
-
 /// What is kept of one run of a batch.
 struct RunResult {
   std::string case_id;
@@ -107,7 +101,7 @@ struct RunResult {
   std::optional<double> evidence_share;         ///< ContourEvidence::shareOfExpected()
   std::optional<double> expected_nats;          ///< ContourEvidence::expected_nats
   std::int32_t compared_poses = 0;              ///< refined and measured
-  std::vector<ComparedPose> compared;           ///< these poses; not in results files
+  std::string compared;  ///< these poses as a JSON list, comparedText(); may be empty
   std::optional<double> score_gap;              ///< to the best other pose that was compared
   std::int32_t competing_poses = 0;             ///< that the image supports, too
   std::optional<double> least_margin_nats;      ///< of the pose's evidence beyond theirs
@@ -122,6 +116,12 @@ struct RunResult {
   bool inputFailed() const { return status == "input_error"; }
   bool hasTag(const std::string& tag) const;
 };
+
+/// The poses that a run compared, as a JSON list: origin, score, probability and evidence of each.
+/// `share_of` gives the largest part of the requirement that a pose's error takes up, where it is
+/// known.
+std::string comparedText(const LocalizationTrace& trace,
+                         const std::function<std::optional<double>(const Pose&)>& share_of);
 
 /// Takes over how a run ended.
 void noteTrace(const LocalizationTrace& trace, RunResult& result);

@@ -215,6 +215,7 @@ std::vector<Column<RunResult>> makeRunColumns() {
       known("evidence_share", &Run::evidence_share),
       known("expected_nats", &Run::expected_nats),
       integer("compared_poses", &Run::compared_poses),
+      text("compared", &Run::compared),
       known("score_gap", &Run::score_gap),
       integer("competing_poses", &Run::competing_poses),
       known("least_margin_nats", &Run::least_margin_nats)};

@@ -116,7 +116,8 @@ ordered_json competingPosesJson(const LocalizationTrace& trace) {
   for (const CompetingPose& pose : trace.competing_poses)
     list.push_back({{"camera_from_station", toJson(pose.camera_from_station)},
                     {"similarity", pose.similarity},
-                    {"margin_nats", pose.margin_nats}});
+                    {"margin_nats", pose.margin_nats},
+                    {"mirrored", pose.mirrored}});
   return list;
 }
 

@@ -39,7 +39,8 @@ std::string competingText(const LocalizationTrace& trace) {
               ? std::string(" One competing pose is similar; it has ")
               : " " + std::to_string(count) + " competing poses are similar; the closest has ") +
          nats(std::abs(closest->margin_nats), 1) +
-         (closest->margin_nats < 0.0 ? " more evidence." : " less evidence.");
+         (closest->margin_nats < 0.0 ? " more evidence" : " less evidence") +
+         (closest->mirrored ? " and shows the mesh mirrored." : ".");
 }
 
 }  // namespace

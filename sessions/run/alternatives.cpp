@@ -33,7 +33,8 @@ Alternative ofCompeting(const CompetingPose& from, std::size_t index) {
   Alternative alternative;
   alternative.kind = AlternativeKind::kCompeting;
   alternative.number = static_cast<std::int32_t>(index) + 1;
-  alternative.has_pose = true;
+  alternative.has_pose = !from.mirrored;
+  alternative.mirrored = from.mirrored;
   alternative.camera_from_station = from.camera_from_station;
   alternative.similarity = from.similarity;
   alternative.margin_nats = from.margin_nats;

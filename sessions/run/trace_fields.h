@@ -261,9 +261,9 @@ void fields(Archive& archive, Self& support) {
 
 template <class Archive, Is<CompetingPose> Self>
 void fields(Archive& archive, Self& pose) {
-  auto& [camera_from_station, similarity, margin_nats] = pose;
+  auto& [camera_from_station, similarity, margin_nats, mirrored] = pose;
   fields(archive, camera_from_station);
-  numbers(archive, similarity, margin_nats);
+  numbers(archive, similarity, margin_nats, mirrored);
 }
 
 template <class Archive, Is<IterationTrace> Self>

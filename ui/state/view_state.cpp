@@ -130,6 +130,7 @@ void ViewState::setAlternative(const std::optional<sessions::Alternative>& alter
 }
 
 QString alternativeTitle(const sessions::Alternative& alternative) {
+  if (alternative.mirrored) return ViewState::tr("Mirror image of the mesh");
   if (alternative.kind == AlternativeKind::kCompeting)
     return ViewState::tr("Competing pose %1").arg(alternative.number);
   if (alternative.kind == AlternativeKind::kCompared)

@@ -120,7 +120,7 @@ TEST_F(ContourEvidenceTest, Expectation_IsTheMeanOverDrawnIntervals) {
   std::vector<std::uint8_t> distance(direction_.size());
   const EvidencePlace place{60, 60, 0, false};
   distanceToDirection(edges_, 0, distance);
-  const double window_px = 24.0;
+  const double window_px = 30.0;  // no sample of the window is the place itself
   const PlaceEvidence measured = evidenceOfPlace(place, edges_, distance, window_px);
   // The nats of each interval, read by placing a distance of that interval at the place.
   const double p[4] = {0.50, 0.33, 0.17, 0.0};
@@ -131,11 +131,14 @@ TEST_F(ContourEvidenceTest, Expectation_IsTheMeanOverDrawnIntervals) {
   for (int k = 0; k < 4; ++k) {
     distance[at] = inside[k];
     nats[k] = evidenceOfPlace(place, edges_, distance, window_px).nats;
-    // exp(nats) = (0.6 p + 0.4 b) / b, solved for b.
-    const double b = 0.6 * p[k] / (std::exp(nats[k]) - 0.4);
+  }
+  // exp(nats) = (0.6 p + 0.4 b) / b, solved for b; the rest is in the last interval.
+  double around = 1.0;
+  for (int k = 0; k < 4; ++k) {
+    const double b = k < 3 ? 0.6 * p[k] / (std::exp(nats[k]) - 0.4) : around;
+    around -= b;
     share[k] = 0.6 * p[k] + 0.4 * b;
   }
-  share[3] = 1.0 - share[0] - share[1] - share[2];
   double expected_nats = 0.0;
   for (int k = 0; k < 4; ++k) expected_nats += share[k] * nats[k];
   EXPECT_NEAR(measured.expected_nats, expected_nats, 1e-9);

@@ -237,10 +237,12 @@ TEST(LocalizerSearch, ResultIsTheHypothesisWithTheBestScore) {
     const auto at = static_cast<std::size_t>(workspace.best_hypothesis);
     const PoseHypothesis& best = workspace.hypotheses[at];
     for (const PoseHypothesis& other : workspace.hypotheses) EXPECT_LE(other.score, best.score);
-    // The last iteration, repeated, gives the same pose and evidence to the bit.
-    EXPECT_EQ(workspace.camera_from_station, best.camera_from_station);
-    EXPECT_EQ(workspace.evidence.score(), best.score);
-    EXPECT_EQ(workspace.probability, best.probability);
+    // Its last iteration is repeated with a new render.
+    const PoseError moved =
+        poseError(scene.solid, best.camera_from_station, workspace.camera_from_station);
+    EXPECT_LT(moved.centre_m, 1e-5);
+    EXPECT_LT(moved.angle_rad, 1e-4);
+    EXPECT_NEAR(workspace.probability, best.probability, 0.01);
   }
 }
 

@@ -30,8 +30,8 @@ bool mayFollow(Stage before, Stage next) {
     case Stage::kPose:
     case Stage::kRefine:
       return next == Stage::kRender || next == Stage::kSupport;
-    case Stage::kSupport:  // of the pose, then of competing poses
-      return next == Stage::kSupport || next == Stage::kFinished;
+    case Stage::kSupport:  // of a pose, then another pose, or of competing poses
+      return next == Stage::kRender || next == Stage::kSupport || next == Stage::kFinished;
     case Stage::kFinished:
       return next == Stage::kFinished;
   }

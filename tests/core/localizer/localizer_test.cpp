@@ -214,6 +214,7 @@ TEST(Localizer, EndsAtTheIterationLimit) {
   LocalizerOptions options = defaultProfile();
   options.loop.max_iterations = 1;
   EXPECT_EQ(endOf(scene, options), LocalizationStatus::kIterationLimit);
+  options.search.enabled = false;
   options.loop.max_attempts = 1;
   OwnedRun run(scene.problem(), options);
   run.finish();
