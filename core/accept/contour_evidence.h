@@ -52,6 +52,8 @@ struct ContourEvidence {
   double shareOfExpected() const;
 };
 
+/// Neighbouring edge pixels of a small view that share their errors: their evidence counts once.
+inline constexpr double kAlongEdge_px = 8.0;
 /// The window around a place in which the image's shares are counted, of the object's size.
 inline constexpr double kEvidenceWindow = 0.2;
 /// The evidence of one place, nats.

@@ -8,8 +8,6 @@
 namespace boresight {
 namespace {
 
-/// Neighbouring edge pixels of the larger view that share their errors.
-constexpr double kAlong = 8.0;
 constexpr double kOfTotal = 0.03;
 constexpr double kOfWeakest = 0.5;
 
@@ -39,7 +37,7 @@ double PoseEvidence::weakest_nats() const {
 }
 
 double PoseEvidence::score() const {
-  return kOfTotal * finest().total_nats() / kAlong + strongest_nats() +
+  return kOfTotal * finest().total_nats() / kAlongEdge_px + strongest_nats() +
          kOfWeakest * weakest_nats() + edge_support;
 }
 

@@ -27,7 +27,7 @@ LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& o
 LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,
                                        const LocalizerOptions& options) {
   const bool ambiguous = std::any_of(poses.begin(), poses.end(), [&](const CompetingPose& pose) {
-    if (pose.mirrored) return pose.margin_nats < kLeastMarginMirrored_nats;
+    if (pose.mirrored) return true;
     const bool outside = leftUncertainty(seed, pose.camera_from_station, options.loop.leave_factor);
     return pose.margin_nats < (outside ? kLeastMarginOutside_nats : kLeastMargin_nats);
   });

@@ -14,9 +14,11 @@ namespace boresight {
 
 /// Least evidence margin of the final pose over a competing pose within the seed's uncertainty.
 inline constexpr double kLeastMargin_nats = 3.0;
-/// Least margin over the mesh's mirror image: only a mirror image that explains the image better
-/// says that the mesh is mirrored.
-inline constexpr double kLeastMarginMirrored_nats = -2.0;
+/// Poses of less probability are compared with the mesh's mirror image.
+inline constexpr double kUndoubted = 0.9;
+/// A mirror image with more total evidence than this multiple of the pose's says that the mesh is
+/// mirrored: symmetric meshes have about the same.
+inline constexpr double kMirrorExcess = 1.5;
 /// Least margin over a competing pose outside the seed's uncertainty, which the seed excludes. With
 /// a correct mesh no such pose has more evidence; with a mirrored mesh the half turn has 12 to 45
 /// nats more.

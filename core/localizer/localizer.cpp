@@ -42,6 +42,10 @@ PassPlan Localizer::plan() const {
       plan.kind = PassKind::kCompare;
       plan.camera_from_station = attempt_.camera_from_station();
       break;
+    case Phase::kMirror:  // compare with the mesh's mirror image
+      plan.kind = PassKind::kMirror;
+      plan.camera_from_station = attempt_.camera_from_station();
+      break;
   }
   return plan;
 }
@@ -67,8 +71,8 @@ StepReport Localizer::decide(StepReport report) {
     case Phase::kAccept:
       return accepted(judgeSupport(workspace(), options(), searches()), report);
     case Phase::kCompare:
-      return finish(judgeCompetingPoses(workspace().competing_poses, seedOf(problem()), options()),
-                    report);
+    case Phase::kMirror:
+      return compared(report);
     case Phase::kEnded:
       break;
   }
@@ -118,6 +122,16 @@ StepReport Localizer::accepted(LocalizationStatus status, const StepReport& repo
   status = judgeGap(workspace(), options());
   if (status != LocalizationStatus::kConverged) return finish(status, report);
   phase_ = Phase::kCompare;
+  return report;
+}
+
+/// Judges the competing poses, of a doubtful pose the mesh's mirror image among them.
+StepReport Localizer::compared(const StepReport& report) {
+  const LocalizationStatus status =
+      judgeCompetingPoses(workspace().competing_poses, seedOf(problem()), options());
+  const bool doubtful = workspace().probability < kUndoubted && phase_ == Phase::kCompare;
+  if (status != LocalizationStatus::kConverged || !doubtful) return finish(status, report);
+  phase_ = Phase::kMirror;
   return report;
 }
 

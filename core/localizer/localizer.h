@@ -109,6 +109,7 @@ class Localizer {
     kWeigh,
     kAccept,
     kCompare,
+    kMirror,
     kEnded
   };
 
@@ -118,6 +119,7 @@ class Localizer {
   StepReport iterated(const Ruling& ruling);
   StepReport weighed();
   StepReport accepted(LocalizationStatus status, const StepReport& report);
+  StepReport compared(const StepReport& report);
   StepReport fail(const Ruling& ruling);
   StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
   void noteHypotheses();

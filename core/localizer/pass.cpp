@@ -92,6 +92,7 @@ void Pass::begin(const PassPlan& plan) {
     case PassKind::kEvidence:
     case PassKind::kSupport:
     case PassKind::kCompare:
+    case PassKind::kMirror:
       stage_ = Stage::kSupport;
       break;
   }

@@ -149,6 +149,7 @@ class Pass {
   StepReport stepOutsideRound();
   StepReport stepSupport();
   StepReport stepCompare();
+  StepReport stepMirror();
   void beginSupport();
   void noteEvidence();
   Status beginPose();

@@ -26,6 +26,7 @@ enum class PassKind : std::uint8_t {
   kEvidence,   ///< measures the image's evidence for the pose of the record
   kSupport,    ///< the same for the final pose, with the width of its edges and the focal length
   kCompare,    ///< compares the final pose with others that show about the same edges
+  kMirror,     ///< compares the final pose with the mesh's mirror image
 };
 
 /// Input of a pass.

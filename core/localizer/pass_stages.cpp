@@ -2,10 +2,12 @@
 // The stages of a pass, in their order.
 #include <algorithm>
 
+#include "core/localizer/acceptance.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/run_digest.h"
 #include "core/localizer/schedule.h"
+#include "core/search/mirror_search.h"
 
 namespace boresight {
 
@@ -27,6 +29,7 @@ StepReport Pass::step() {
     case Stage::kRefine:
       return solve_outside_ ? stepOutsideRound() : stepRefine();
     case Stage::kSupport:
+      if (plan_.kind == PassKind::kMirror) return stepMirror();
       return plan_.kind == PassKind::kCompare ? stepCompare() : stepSupport();
     case Stage::kFinished:
       break;
@@ -325,6 +328,31 @@ StepReport Pass::stepCompare() {
   stage_begun_ = true;
   if (works && !competing.step()) return StepReport::of(Stage::kSupport, false);
   workspace_.competing_poses = works ? competing.poses() : std::span<const CompetingPose>();
+  digestCompetingPoses(workspace_.competing_poses, digest_);
+  return end(Stage::kSupport);
+}
+
+/// Searches for the mesh's mirror image, in the memory of the search.
+StepReport Pass::stepMirror() {
+  PoseSearch& search = memory_.search;
+  const bool works =
+      stage_begun_ ||
+      search.begin(mirrorSearch(searched_, plan_.camera_from_station), memory_.renderer);
+  stage_begun_ = true;
+  if (works && !search.step()) return StepReport::of(Stage::kSupport, false);
+  double most_nats = 0.0;
+  for (const PoseCandidate& candidate : search.candidates())
+    most_nats = std::max(most_nats, candidate.evidence.total_nats());
+  const double own_nats = workspace_.evidence.contours.front().total_nats();
+  if (most_nats > kMirrorExcess * std::max(own_nats, 0.0)) {
+    CompetingPose mirror;
+    mirror.camera_from_station = plan_.camera_from_station;
+    mirror.margin_nats = (own_nats - most_nats) / kAlongEdge_px;
+    mirror.mirrored = true;
+    memory_.competing.addMirrorImage(mirror);
+  }
+  workspace_.competing_poses = memory_.competing.poses();
+  workspace_.candidates = {};  // their memory was used
   digestCompetingPoses(workspace_.competing_poses, digest_);
   return end(Stage::kSupport);
 }

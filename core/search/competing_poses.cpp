@@ -6,7 +6,6 @@
 
 #include "core/edges/direction_distance.h"
 #include "core/geometry/surface_axes.h"
-#include "core/search/mirror_image.h"
 #include "core/search/pose_evidence_meter.h"
 
 namespace boresight {
@@ -28,7 +27,6 @@ constexpr double kBehindRefined_nats = 0.25;
 constexpr int kSamePlace = 30;
 /// Two renders differ visibly when each has at least this share of places without a counterpart.
 constexpr double kVisible = 0.1;
-constexpr double kAlong = 8.0;  ///< edge pixels that go together
 
 /// A pose counts as slid when the object's centre is farther from that of the pose found, as a
 /// share of the object's size.
@@ -83,7 +81,6 @@ bool CompetingPoseTest::begin(const SearchProblem& problem, const Pose& camera_f
   found_ = camera_from_station;
   competing_.clear();
   promising_.clear();
-  mirrors_ = false;
   competitor_ = 0;
   scale_ = 0;
   beginView(kScales[0].span_px, Purpose::kFound);
@@ -96,9 +93,7 @@ bool CompetingPoseTest::step() {
       if (view_edges_.step()) {
         meter_.begin(view_edges_.edges());
         const bool finds = purpose_ == Purpose::kFound;
-        if (mirrors_) view_edges_.flip();
-        beginRender(finds ? view_edges_.inView(found_) : promising_[competitor_].view_from_station,
-                    purpose_);
+        beginRender(finds ? view_edges_.inView(found_) : promising_[competitor_], purpose_);
       }
       break;
     case Phase::kSlides:
@@ -160,7 +155,7 @@ void CompetingPoseTest::takeRender() {
       const double least = found_rank_nats_ - (refined_ ? kBehindRefined_nats : kBehind_nats);
       if (rankOfRender() < least) return nextHypothesis();
       if (refined_) {
-        promising_.add({current_, mirrors_});
+        promising_.add(current_);
         return nextHypothesis();
       }
       refine();
@@ -175,7 +170,6 @@ void CompetingPoseTest::takeRender() {
       break;
     case Purpose::kFoundAgain:
       markRender(own_.marks);
-      if (mirrors_) flipLeftRight(own_.marks);
       own_.all = own_.alone = other_.all = other_.alone = 0;
       own_.nats = other_.nats = 0.0;
       direction_ = 0;
@@ -228,7 +222,7 @@ void CompetingPoseTest::refine() {
     refined_ = true;
     return beginRender(current_, Purpose::kScreen);
   }
-  promising_[competitor_].view_from_station = current_;
+  promising_[competitor_] = current_;
   if (scale_ == kLastScale) return beginRender(current_, Purpose::kCompeting);
   ++scale_;
   beginView(kScales[static_cast<std::size_t>(scale_)].span_px, Purpose::kRefine);
@@ -239,27 +233,13 @@ void CompetingPoseTest::nextHypothesis() {
     refined_ = false;
     return beginRender(poses_[hypothesis_], Purpose::kScreen);
   }
-  if (!mirrors_) return takeMirrored();
   competitor_ = -1;
   nextPromising();
-}
-
-/// Lists the hypotheses of the mirror image, in the flipped view.
-void CompetingPoseTest::takeMirrored() {
-  mirrors_ = true;
-  view_edges_.flip();
-  meter_.begin(view_edges_.edges());
-  poses_.clear();
-  for (const Pose& pose : mirroredPoses(view_edges_.inView(found_), surfaceAxesOf(problem_.mesh)))
-    poses_.add(pose);
-  hypothesis_ = -1;
-  nextHypothesis();
 }
 
 void CompetingPoseTest::nextPromising() {
   phase_ = Phase::kDone;
   if (++competitor_ >= promising_.size()) return;
-  mirrors_ = promising_[competitor_].mirrored;
   scale_ = 1;
   beginView(kScales[1].span_px, Purpose::kRefine);
 }
@@ -309,13 +289,12 @@ void CompetingPoseTest::compareDirection() {
 
 void CompetingPoseTest::conclude() {
   const double least = std::min(own_.share(), other_.share());
-  const Pose camera_from_station =
-      mirrors_ ? found_ : view_edges_.inCamera(promising_[competitor_].view_from_station);
+  const Pose camera_from_station = view_edges_.inCamera(promising_[competitor_]);
   // A slid pose competes even when it shows the same edges: the object's ends are out of view.
   if (least >= kVisible ||
       slid_px(camera_from_station) >= kSlid * view_edges_.view().span_px) {
     competing_.add({camera_from_station, 1.0 - 0.5 * (own_.share() + other_.share()),
-                    (own_.nats - other_.nats) / kAlong, mirrors_});
+                    (own_.nats - other_.nats) / kAlongEdge_px, false});
   }
   nextPromising();
 }

@@ -17,7 +17,7 @@ namespace boresight {
 
 /// A pose other than the one found that shows about the same edges, refined on the image.
 struct CompetingPose {
-  Pose camera_from_station;  ///< refined; the pose found where the mesh is mirrored
+  Pose camera_from_station;  ///< refined; of the mirror image the pose found
   double similarity = 0.0;   ///< share of the rendered edges that both poses have in common
   /// Evidence of the pose found minus that of this pose, over the edges that only one of them
   /// predicts.
@@ -28,16 +28,14 @@ struct CompetingPose {
 /// Looks for poses that show about the same edges as the pose found: half turns about the principal
 /// axes of the matched surface, the tilt of its flattest side reversed about the line of sight (the
 /// second pose of a plane: Oberkampf et al. 1996), and slides at which the outline lies near edges
-/// of its own render again (repeated features, long handles), and poses of the mesh's mirror image
-/// in its place. Poses that the image supports about as well at a small scale are refined on its edges and compared with the pose found where the
+/// of its own render again (repeated features, long handles). Poses that the image supports about
+/// as well at a small scale are refined on its edges and compared with the pose found where the
 /// renders differ. A pose whose render is the same within some pixels of a small view does not
 /// compete: the mesh is symmetric as far as the image can tell.
 class CompetingPoseTest {
  public:
   static constexpr int kTurned = 4;                               ///< turned poses that are tested
-  static constexpr int kMirrored = 4;                             ///< poses of the mirror image
-  /// Poses that are tested.
-  static constexpr int kMostPoses = kTurned + SelfSlides::kMost + kMirrored;
+  static constexpr int kMostPoses = kTurned + SelfSlides::kMost;  ///< poses that are tested
   static constexpr int kLongestView_px = 312;                     ///< of views
   static constexpr int kMaxEdgePixels = 12000;                    ///< of renders
 
@@ -52,14 +50,11 @@ class CompetingPoseTest {
 
   /// The competing poses whose renders differ visibly.
   std::span<const CompetingPose> poses() const { return competing_.items(); }
+  /// Adds the mesh's mirror image, found by a search of its own.
+  void addMirrorImage(const CompetingPose& pose) { competing_.add(pose); }
 
  private:
   enum class Phase : std::uint8_t { kView = 0, kSlides, kRender, kCompare, kDone };
-  /// A hypothesis that the image supports; of the mirror image as a pose in the flipped view.
-  struct Promising {
-    Pose view_from_station;
-    bool mirrored = false;
-  };
   /// Processing of a completed render.
   enum class Purpose : std::uint8_t { kFound = 0, kScreen, kRefine, kCompeting, kFoundAgain };
 
@@ -83,7 +78,6 @@ class CompetingPoseTest {
   void stepSlides();
   void nextHypothesis();
   void nextPromising();
-  void takeMirrored();
   void refine();
   double rankOfRender();
   void markRender(DirectedEdges& marks) const;
@@ -115,11 +109,10 @@ class CompetingPoseTest {
   int hypothesis_ = 0;
   bool refined_ = false;  ///< the hypothesis, at the first scale
   Pose current_;          ///< view_from_station of the current hypothesis
-  bool mirrors_ = false;  ///< the view is flipped, and the hypotheses are of the mirror image
-  FixedList<Promising, kMostPoses> promising_;
+  PoseList promising_;  ///< hypotheses that the image supports, in the view
   int competitor_ = 0;  ///< of the promising ones
 
-  FixedList<CompetingPose, kMostPoses> competing_;
+  FixedList<CompetingPose, kMostPoses + 1> competing_;
 };
 
 }  // namespace boresight

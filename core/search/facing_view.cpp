@@ -55,9 +55,10 @@ TangentBox boxOfScene(const MeshView& mesh, const Pose& view_from_station) {
 }
 
 /// Bounding box of the real image in the view, from a grid of its pixels.
-TangentBox boxOfImage(const Camera& camera, const Pose& view_from_camera) {
+TangentBox boxOfImage(const SearchProblem& problem, const Pose& view_from_camera) {
   constexpr int kSteps = 8;
   TangentBox box;
+  const Camera& camera = problem.camera;
   const Eigen::Matrix3d rotation = view_from_camera.matrix();
   for (int i = 0; i <= kSteps; ++i) {
     for (int j = 0; j <= kSteps; ++j) {
@@ -65,7 +66,7 @@ TangentBox boxOfImage(const Camera& camera, const Pose& view_from_camera) {
                                   j * (camera.height - 1.0) / kSteps);
       Eigen::Vector3d ray;
       if (!unproject(camera, pixel, ray)) continue;
-      const Eigen::Vector3d turned = rotation * ray;
+      const Eigen::Vector3d turned = rotation * problem.seenAlong(ray);
       if (turned.z() > kLeastZ) box.extend(turned);
     }
   }
@@ -227,7 +228,7 @@ void fillRows(const SearchProblem& problem, const Channels& image, const FacingV
           camera_from_view * Eigen::Vector3d((x - view.camera.cx) / view.camera.fx,
                                              (y - view.camera.cy) / view.camera.fy, 1.0);
       Eigen::Vector2d pixel;
-      if (!projectDirection(problem.camera, ray, pixel)) continue;
+      if (!projectDirection(problem.camera, problem.seenAlong(ray), pixel)) continue;
       const double left = pixel.x() - half;
       const double top = pixel.y() - half;
       if (!(left >= 0.0 && top >= 0.0 && left + block < problem.image.width &&
@@ -267,7 +268,7 @@ bool faceScene(const SearchProblem& problem, const Pose& camera_from_station, co
   if (!(middle_m.z() > 0.0)) return false;
   view.view_from_camera = viewTowards(middle_m);
   TangentBox seen = boxOfScene(problem.mesh, view.view_from_camera * camera_from_station);
-  const TangentBox image = boxOfImage(problem.camera, view.view_from_camera);
+  const TangentBox image = boxOfImage(problem, view.view_from_camera);
   seen.least = seen.least.cwiseMax(image.least);
   seen.most = seen.most.cwiseMin(image.most);
   if (!((seen.most - seen.least).minCoeff() > 0.0)) return false;

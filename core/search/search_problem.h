@@ -18,6 +18,15 @@ struct SearchProblem {
   BoundingBox scene;                 ///< of the matched parts
   Pose camera_from_station_seed;     ///< centre of the searched range
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
+  /// The image is seen flipped left-right about the camera's axis, and poses are those in front of
+  /// the flipped camera: what it shows of a mesh is its mirror image. Parts that are fixed to the
+  /// camera are not flipped.
+  bool flipped = false;
+
+  /// A ray of the camera whose image is seen, from one of the camera of the poses; or the reverse.
+  Eigen::Vector3d seenAlong(const Eigen::Vector3d& ray) const {
+    return flipped ? Eigen::Vector3d(-ray.x(), ray.y(), ray.z()) : ray;
+  }
 };
 
 }  // namespace boresight

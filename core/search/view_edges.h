@@ -5,7 +5,6 @@
 #include "core/edges/directed_edges.h"
 #include "core/render/ray_grid.h"
 #include "core/search/facing_view.h"
-#include "core/search/mirror_image.h"
 
 namespace boresight {
 
@@ -28,8 +27,6 @@ class ViewEdges {
   const RayGrid& rays() const { return rays_; }
   /// The edges of its image.
   const DirectedEdges& edges() const { return edges_; }
-  /// Flips the edges left-right, when they are complete.
-  void flip() { flipLeftRight(edges_); }
   /// A station pose of the real camera, in the view.
   Pose inView(const Pose& camera_from_station) const {
     return view_.view_from_camera * camera_from_station;

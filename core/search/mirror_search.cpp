@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/search/mirror_search.h"
+
+#include "core/base/math.h"
+#include "core/geometry/surface_axes.h"
+
+namespace boresight {
+namespace {
+
+// How far the mirror image may be from the reflected pose: shares of the object's size and of its
+// depth, and a tilt.
+constexpr double kLateral = 0.15;
+constexpr double kDepth = 0.1;
+constexpr double kTilt_rad = 10.0 * kDegree_rad;
+
+/// The pose that shows, in front of the flipped camera, the mesh mirrored across the principal plane
+/// that its flattest side is perpendicular to.
+Pose mirroredPose(const Pose& camera_from_station, const SurfaceAxes& surface) {
+  const Eigen::Vector3d flip(-1.0, 1.0, 1.0);
+  const Eigen::Vector3d axis = surface.axes.col(1);
+  const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2.0 * axis * axis.transpose();
+  // Two reflections: a rotation.
+  const Eigen::Matrix3d rotation = flip.asDiagonal() * camera_from_station.matrix() * mirror;
+  Pose pose;
+  pose.rotation = Eigen::Quaterniond(rotation).normalized();
+  pose.translation_m =
+      flip.cwiseProduct(camera_from_station * surface.middle_m) - rotation * surface.middle_m;
+  return pose;
+}
+
+}  // namespace
+
+SearchProblem mirrorSearch(const SearchProblem& problem, const Pose& camera_from_station) {
+  SearchProblem mirrored = problem;
+  mirrored.flipped = true;
+  mirrored.camera_from_station_seed =
+      mirroredPose(camera_from_station, surfaceAxesOf(problem.mesh));
+  const Eigen::Vector3d middle_m = mirrored.camera_from_station_seed * problem.scene.centre();
+  const double lateral_m = kLateral * problem.scene.diagonal();
+  mirrored.uncertainty.translation_m = {lateral_m, lateral_m, kDepth * middle_m.z()};
+  mirrored.uncertainty.rotation_rad = {kTilt_rad, kTilt_rad, kPi};
+  mirrored.uncertainty.pivot_in_camera_m = middle_m;
+  return mirrored;
+}
+
+}  // namespace boresight
