@@ -158,8 +158,7 @@ ContourEvidence ContourEvidenceMeter::measure(double size_px) {
   evidence.edges_nats = meanOf(evidence.edges_nats, evidence.places);
   evidence.outline_nats = meanOf(evidence.outline_nats, evidence.outline_places);
   evidence.expected_nats = meanOf(evidence.expected_nats, evidence.places);
-  evidence.outline_expected_nats =
-      meanOf(evidence.outline_expected_nats, evidence.outline_places);
+  evidence.outline_expected_nats = meanOf(evidence.outline_expected_nats, evidence.outline_places);
   for (std::size_t q = 0; q < evidence.quadrant_nats.size(); ++q)
     evidence.quadrant_nats[q] = meanOf(evidence.quadrant_nats[q], evidence.quadrant_places[q]);
   return evidence;

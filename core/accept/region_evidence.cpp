@@ -113,7 +113,8 @@ void RegionEvidenceMeter::takeLines(const EdgeRender& render, int level, const I
   for (const EdgePixel& pixel : render.eachPixel()) {
     if (!isOutline(pixel) || index++ % stride != 0 || count_ == kMostLines) continue;
     const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
-    const Eigen::Vector2d on_line = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
+    const Eigen::Vector2d on_line =
+        Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
     const Eigen::Vector2d place_px =
         (on_line.array() + 0.5).matrix() * scale - Eigen::Vector2d::Constant(0.5);
     Line& line = lines_[static_cast<std::size_t>(count_)];
@@ -125,8 +126,7 @@ void RegionEvidenceMeter::takeLines(const EdgeRender& render, int level, const I
       line.bin[static_cast<std::size_t>(sample)] = static_cast<std::uint8_t>(gray_256 >> 11);
     }
     if (!complete) continue;
-    line.sector =
-        static_cast<std::uint8_t>(sectorOf(pixel.x - centre.x(), pixel.y - centre.y()));
+    line.sector = static_cast<std::uint8_t>(sectorOf(pixel.x - centre.x(), pixel.y - centre.y()));
     ++count_;
   }
 }
@@ -153,7 +153,8 @@ void RegionEvidenceMeter::fillLogOdds() {
       const Histogram& histogram = of[static_cast<std::size_t>((sector + turn) % kSectors)];
       for (int next = -1; next <= 1; ++next)
         if (bin + next >= 0 && bin + next < kBins)
-          sum += (next == 0 ? 2 : 1) * std::int64_t{histogram[static_cast<std::size_t>(bin + next)]};
+          sum +=
+              (next == 0 ? 2 : 1) * std::int64_t{histogram[static_cast<std::size_t>(bin + next)]};
     }
     return sum;
   };

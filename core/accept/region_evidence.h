@@ -16,8 +16,8 @@ namespace boresight {
 /// surroundings differ, and whether they change at the outline rather than some pixels beside it.
 /// It does not use edges, so that it is a second witness of a pose.
 struct RegionEvidence {
-  /// Mean over the lines across the outline, nats: log-likelihood of the border at the outline minus
-  /// that of a border anywhere on the line; in [-0.8, 1.2].
+  /// Mean over the lines across the outline, nats: log-likelihood of the border at the outline
+  /// minus that of a border anywhere on the line; in [-0.8, 1.2].
   double nats = 0.0;
   std::int32_t lines = 0;      ///< lines across the outline that were measured
   std::int32_t separated = 0;  ///< of these, lines on which the outline is the likelier border

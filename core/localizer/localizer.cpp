@@ -95,9 +95,8 @@ StepReport Localizer::iterated(const Ruling& ruling) {
 
 /// Takes the pose as a hypothesis, unless a candidate's own box reached beyond the seed's.
 StepReport Localizer::weighed() {
-  const StepReport report =
-      show({Ruling::Next::kPose, LocalizationStatus::kRunning, Stage::kSupport, false,
-            attempt_.record()});
+  const StepReport report = show({Ruling::Next::kPose, LocalizationStatus::kRunning,
+                                  Stage::kSupport, false, attempt_.record()});
   const Pose& pose = attempt_.camera_from_station();
   if (leftUncertainty(seedOf(problem()), pose, options().loop.leave_factor))
     return follow(comparison_.takeFailure(pass_.context()), LocalizationStatus::kLeftUncertainty,
@@ -139,8 +138,7 @@ StepReport Localizer::compared(const StepReport& report) {
 StepReport Localizer::fail(const Ruling& ruling) {
   const StepReport report = show(ruling);
   if (ruling.status == LocalizationStatus::kFault) return finish(ruling.status, report);
-  if (searches())
-    return follow(comparison_.takeFailure(pass_.context()), ruling.status, report);
+  if (searches()) return follow(comparison_.takeFailure(pass_.context()), ruling.status, report);
   if (attempt_.index() + 1 >= options().loop.max_attempts) return finish(ruling.status, report);
   attempt_.restart();
   iterate(attempt_);

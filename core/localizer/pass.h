@@ -36,8 +36,8 @@ struct JointPose {
 };
 
 /// Runs the stages of one pass, one bounded slice per step: edges, or search, or
-/// render -> templates -> match -> pose, or render -> refine, or evidence, or support, or compare. It fills the
-/// plan's record and the digest. It contains no policy.
+/// render -> templates -> match -> pose, or render -> refine, or one of the measurements of a pose.
+/// It fills the plan's record and the digest. It contains no policy.
 ///
 /// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
 /// are done by step(). The results have the same bits with any number of workers.
@@ -103,9 +103,9 @@ class Pass {
               const Matrix6d& covariance);
 
   /// Context for the policies.
-  RunContext context() const { 
+  RunContext context() const {
     return {options_, problem_.camera, scene_, levels_, problem_.end_effector_in_camera_m};
-   }
+  }
   /// The problem of the run.
   const LocalizationProblem& problem() const { return problem_; }
   /// The options of the run.

@@ -181,9 +181,9 @@ Status PassMemory::Layout::layOutStages() {
   const int height = ((problem.image.height - 1) >> levels.fine) + 1;
   const int least = options.search.enabled ? PoseSearch::kLongestView_px : 1;
   const int widest = std::max(width, least);
-  Status status = to.renderer.create(problem.mesh, to.adjacency_, widest, std::max(height, least),
-                                     options.render, kept, scratch,
-                                     EdgeRenderer::bandRowsOf(widest), workers);
+  Status status =
+      to.renderer.create(problem.mesh, to.adjacency_, widest, std::max(height, least),
+                         options.render, kept, scratch, EdgeRenderer::bandRowsOf(widest), workers);
   shareBehindRenders(bytesOf(Stage::kRender));
   if (options.search.enabled) bytesOf(Stage::kSearch) = bytesOf(Stage::kRender);
   if (status == Status::kOk) status = to.selector.create(width, height, options.templates, scratch);

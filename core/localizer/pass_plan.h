@@ -44,8 +44,8 @@ struct PassPlan {
   double keep_render_px = 0.0;
   std::int32_t most_samples = 0;  ///< edge places of a refinement; 0: as many as the options allow
   bool anchored = false;          ///< whether the two below constrain a refinement
-  PosePrior anchor;       ///< the seed with its uncertainty as a Gaussian
-  PoseEstimate matched;   ///< from the latest templates
+  PosePrior anchor;               ///< the seed with its uncertainty as a Gaussian
+  PoseEstimate matched;           ///< from the latest templates
 };
 
 /// Outcome of a pass. Its record (Iteration) holds the results; `status` there is kRunning when
@@ -81,10 +81,10 @@ struct Ruling {
 
 /// Data that does not change during a run, for all policies.
 struct RunContext {
-  const LocalizerOptions& options;  ///< of the run
-  const Camera& camera;             ///< of the full image
-  const BoundingBox& scene;         ///< of the matched parts, station frame
-  RunLevels levels;                 ///< of the image pyramid
+  const LocalizerOptions& options;                  ///< of the run
+  const Camera& camera;                             ///< of the full image
+  const BoundingBox& scene;                         ///< of the matched parts, station frame
+  RunLevels levels;                                 ///< of the image pyramid
   const Eigen::Vector3d& end_effector_in_camera_m;  ///< of the problem
 };
 

@@ -311,8 +311,8 @@ void Pass::noteEvidence() {
   const Iteration& iteration = record();
   PoseEvidence& evidence = workspace_.evidence;
   evidence.contours = memory_.evidence.contours();
-  evidence.region = memory_.region.measure(iteration.render, iteration.level, problem_.image,
-                                           problem_.ignore);
+  evidence.region =
+      memory_.region.measure(iteration.render, iteration.level, problem_.image, problem_.ignore);
   evidence.edge_support = workspace_.support.share();
   workspace_.probability = evidence.probability();
   digestEvidence(evidence, digest_);

@@ -58,9 +58,8 @@ bool PoseComparison::offers(Source source, const RunContext& run) const {
       return next_ == 0 && hasPose() && run.options.refinement.enabled &&
              !isWithinReach(candidates_.front(), run.levels.fine);
     case Source::kSeed:
-      return next_ == 0 &&
-             (!hasPose() ||
-              hypotheses_[best_index_].probability < run.options.support.min_probability);
+      return next_ == 0 && (!hasPose() || hypotheses_[best_index_].probability <
+                                              run.options.support.min_probability);
     case Source::kRestarts:
       return next_ < kRestarts && hasPose() && (next_ > 0 ? restarted_ : weak_).known;
     case Source::kNone:
@@ -137,9 +136,8 @@ Attempt PoseComparison::restart(int attempt, const RunContext& run) {
   }
   const double side = current_.number % 2 == 0 ? 1.0 : -1.0;
   const double motion_px = side * kRestart_px * static_cast<double>(1 << run.levels.fine);
-  return Attempt(attempt, seed_,
-                 restarted_.moved(restarted_from_, current_.number / 2, motion_px), true,
-                 run.options.loop);
+  return Attempt(attempt, seed_, restarted_.moved(restarted_from_, current_.number / 2, motion_px),
+                 true, run.options.loop);
 }
 
 bool PoseComparison::isKnown(const Pose& camera_from_station, int level,

@@ -78,15 +78,15 @@ class PoseComparison {
   std::span<const PoseCandidate> candidates_;
   Seed seed_;
   Source source_ = Source::kCandidates;
-  int next_ = 0;  ///< of the source
+  int next_ = 0;            ///< of the source
   PoseHypothesis current_;  ///< origin and number of the attempt under way
   bool returns_ = false;
 
   FixedList<PoseHypothesis, kMostHypotheses> hypotheses_;
   int best_index_ = -1;
   Attempt best_;
-  Pose best_before_;       ///< start pose of the best attempt's last iteration
-  WeakDirections weak_;    ///< of the best hypothesis
+  Pose best_before_;          ///< start pose of the best attempt's last iteration
+  WeakDirections weak_;       ///< of the best hypothesis
   WeakDirections restarted_;  ///< of the hypothesis that restarts begin from
   Pose restarted_from_;
 };

@@ -123,8 +123,8 @@ struct Workspace {
   /// invalid after the test of competing poses.
   const Iteration* iteration = nullptr;
   std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
-  EdgeSupport support;    ///< of the latest pose that was measured
-  PoseEvidence evidence;  ///< of the latest pose that was measured; empty without a search
+  EdgeSupport support;                        ///< of the latest pose that was measured
+  PoseEvidence evidence;     ///< of the latest pose that was measured; empty without a search
   double probability = 0.0;  ///< that this pose is right; 0 without a search
   /// Poses that were compared; those of the search. Valid until the run restarts.
   std::span<const PoseHypothesis> hypotheses;

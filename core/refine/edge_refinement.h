@@ -47,12 +47,12 @@ struct PoseEstimate {
 /// One place on a rendered edge and its measurement in the image.
 struct EdgeSample {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();  ///< on the model's edge
-  double residual_px = 0.0;     ///< along the normal, found minus predicted
-  double gradient = 0.0;        ///< signed, gray/px along the normal; 0 where nothing was found
-  double weight = 0.0;          ///< robust, of the last round
-  std::int8_t normal_x = 0;     ///< as of the edge pixel: times 127
-  std::int8_t normal_y = 0;     ///< likewise
-  std::uint8_t kind = 0;        ///< EdgeKind bits
+  double residual_px = 0.0;  ///< along the normal, found minus predicted
+  double gradient = 0.0;     ///< signed, gray/px along the normal; 0 where nothing was found
+  double weight = 0.0;       ///< robust, of the last round
+  std::int8_t normal_x = 0;  ///< as of the edge pixel: times 127
+  std::int8_t normal_y = 0;  ///< likewise
+  std::uint8_t kind = 0;     ///< EdgeKind bits
 
   /// In the image, from the nearer surface outwards.
   Eigen::Vector2d normal() const { return Eigen::Vector2d(normal_x, normal_y) / 127.0; }

@@ -23,9 +23,9 @@ struct WeakDirections {
 
   /// The pose moved along a direction by that many pixels, root mean square.
   Pose moved(const Pose& camera_from_station, int direction, double motion_px) const {
-    return displacedAboutPivot(
-        camera_from_station, motion_px * offset_per_px[static_cast<std::size_t>(direction)],
-        pivot_in_camera_m);
+    return displacedAboutPivot(camera_from_station,
+                               motion_px * offset_per_px[static_cast<std::size_t>(direction)],
+                               pivot_in_camera_m);
   }
 };
 

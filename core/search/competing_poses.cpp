@@ -213,9 +213,8 @@ void CompetingPoseTest::stepSlides() {
 void CompetingPoseTest::refine() {
   const Scale& scale = kScales[static_cast<std::size_t>(scale_)];
   Pose moved = current_;
-  const bool met =
-      refinement_.refine(view_edges_.edges(), problem_.mesh, render_, priorOf(current_),
-                         scale.radius_px, moved);
+  const bool met = refinement_.refine(view_edges_.edges(), problem_.mesh, render_,
+                                      priorOf(current_), scale.radius_px, moved);
   if (!met) return scale_ == 0 ? nextHypothesis() : nextPromising();
   current_ = moved;
   if (scale_ == 0) {
@@ -291,8 +290,7 @@ void CompetingPoseTest::conclude() {
   const double least = std::min(own_.share(), other_.share());
   const Pose camera_from_station = view_edges_.inCamera(promising_[competitor_]);
   // A slid pose competes even when it shows the same edges: the object's ends are out of view.
-  if (least >= kVisible ||
-      slid_px(camera_from_station) >= kSlid * view_edges_.view().span_px) {
+  if (least >= kVisible || slid_px(camera_from_station) >= kSlid * view_edges_.view().span_px) {
     competing_.add({camera_from_station, 1.0 - 0.5 * (own_.share() + other_.share()),
                     (own_.nats - other_.nats) / kAlongEdge_px, false});
   }

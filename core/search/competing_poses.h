@@ -109,8 +109,8 @@ class CompetingPoseTest {
   int hypothesis_ = 0;
   bool refined_ = false;  ///< the hypothesis, at the first scale
   Pose current_;          ///< view_from_station of the current hypothesis
-  PoseList promising_;  ///< hypotheses that the image supports, in the view
-  int competitor_ = 0;  ///< of the promising ones
+  PoseList promising_;    ///< hypotheses that the image supports, in the view
+  int competitor_ = 0;    ///< of the promising ones
 
   FixedList<CompetingPose, kMostPoses + 1> competing_;
 };

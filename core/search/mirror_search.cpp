@@ -9,12 +9,12 @@ namespace {
 
 // How far the mirror image may be from the reflected pose: shares of the object's size and of its
 // depth, and a tilt.
-constexpr double kLateral = 0.15;
+constexpr double kLateral = 0.2;
 constexpr double kDepth = 0.1;
-constexpr double kTilt_rad = 10.0 * kDegree_rad;
+constexpr double kTilt_rad = 15.0 * kDegree_rad;
 
-/// The pose that shows, in front of the flipped camera, the mesh mirrored across the principal plane
-/// that its flattest side is perpendicular to.
+/// The pose that shows, in front of the flipped camera, the mesh mirrored across the principal
+/// plane that its flattest side is perpendicular to.
 Pose mirroredPose(const Pose& camera_from_station, const SurfaceAxes& surface) {
   const Eigen::Vector3d flip(-1.0, 1.0, 1.0);
   const Eigen::Vector3d axis = surface.axes.col(1);

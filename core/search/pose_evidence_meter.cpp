@@ -9,7 +9,7 @@
 namespace boresight {
 namespace {
 
-constexpr double kMargin = 0.1;          ///< around the object, of its size
+constexpr double kMargin = 0.1;  ///< around the object, of its size
 /// Longest side of each view: holds the object with its margins.
 constexpr std::array<int, kEvidenceViews> kLongestView_px = {312, 512};
 constexpr double kAlongNormal_px = 4.0;  ///< step that gives a normal's direction in the view

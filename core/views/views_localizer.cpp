@@ -290,10 +290,10 @@ StepReport ViewsLocalizer::decide(const Ruling& ruling) {
   first().show(ruling);
   StepReport report = StepReport::of(ruling.stage, true);
   report.iteration_complete = ruling.iteration_complete;
-  const bool known = first().searches() && phase_ == Phase::kIterate &&
-                     leading().kind == IterationKind::kRefine && ruling.iteration_complete &&
-                     comparison_.isKnown(attempt_.camera_from_station(), leading().level,
-                                         first().context());
+  const bool known =
+      first().searches() && phase_ == Phase::kIterate && leading().kind == IterationKind::kRefine &&
+      ruling.iteration_complete &&
+      comparison_.isKnown(attempt_.camera_from_station(), leading().level, first().context());
   if (ruling.failed() || known) {
     report = retry(ruling.status, report);
   } else if (ruling.found() && phase_ == Phase::kAccept) {
@@ -360,7 +360,7 @@ StepReport ViewsLocalizer::follow(PoseComparison::Next next, LocalizationStatus 
   const int index = attempt_.index() + 1;
   if (next == PoseComparison::Next::kConclude) return finish(status, report);
   start(next == PoseComparison::Next::kTry ? comparison_.next(index, first().context())
-                                            : comparison_.best(index, options_));
+                                           : comparison_.best(index, options_));
   return report;
 }
 
@@ -442,13 +442,12 @@ StepReport ViewsLocalizer::stepSupport() {
     if (!views_[v].refines) continue;
     const Pass& pass = views_[v].pass;
     const Workspace& seen = pass.workspace();
-    const bool left =
-        pass.searches() && leftUncertainty(seedOf(pass.problem()),
-                                           views_[v].camera_from_first *
-                                               attempt_.camera_from_station(),
-                                           options_.loop.leave_factor);
-    const LocalizationStatus judged = left ? LocalizationStatus::kLeftUncertainty
-                                           : judgeSupport(seen, options_, pass.searches());
+    const bool left = pass.searches() &&
+                      leftUncertainty(seedOf(pass.problem()),
+                                      views_[v].camera_from_first * attempt_.camera_from_station(),
+                                      options_.loop.leave_factor);
+    const LocalizationStatus judged =
+        left ? LocalizationStatus::kLeftUncertainty : judgeSupport(seen, options_, pass.searches());
     const bool good = judged == LocalizationStatus::kConverged;
     result_.views[v].support = seen.support;
     result_.views[v].probability = good ? seen.probability : 0.0;

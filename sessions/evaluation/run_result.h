@@ -101,11 +101,11 @@ struct RunResult {
   std::optional<double> evidence_share;         ///< ContourEvidence::shareOfExpected()
   std::optional<double> expected_nats;          ///< ContourEvidence::expected_nats
   std::int32_t compared_poses = 0;              ///< refined and measured
-  std::string compared;  ///< these poses as a JSON list, comparedText(); may be empty
-  std::optional<double> score_gap;              ///< to the best other pose that was compared
-  std::int32_t competing_poses = 0;             ///< that the image supports, too
-  std::optional<double> least_margin_nats;      ///< of the pose's evidence beyond theirs
-  std::optional<ImageQuality> image_quality;    ///< at the seed's projection of the station
+  std::string compared;              ///< these poses as a JSON list, comparedText(); may be empty
+  std::optional<double> score_gap;   ///< to the best other pose that was compared
+  std::int32_t competing_poses = 0;  ///< that the image supports, too
+  std::optional<double> least_margin_nats;    ///< of the pose's evidence beyond theirs
+  std::optional<ImageQuality> image_quality;  ///< at the seed's projection of the station
   std::optional<PoseError> error;
   std::optional<PoseError> seed_error;
   std::optional<Requirement> requirement;

@@ -22,9 +22,9 @@ std::string comparisonText(const LocalizationTrace& trace) {
   if (trace.best_hypothesis < 0) return "";
   const std::size_t count = trace.hypotheses.size();
   const PoseHypothesis& best = trace.hypotheses[static_cast<std::size_t>(trace.best_hypothesis)];
-  return (count == 1 ? std::string(" It is the only pose found")
-                     : " It has the most evidence of " + std::to_string(count) +
-                           " compared poses") +
+  return (count == 1
+              ? std::string(" It is the only pose found")
+              : " It has the most evidence of " + std::to_string(count) + " compared poses") +
          " and comes from " + originText(best) + "." +
          (trace.competitor < 0
               ? ""

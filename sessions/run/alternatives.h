@@ -32,11 +32,11 @@ struct Alternative {
   double roll_rad = kUnknown;
   std::int32_t matches = 0;
   std::int32_t inliers = 0;
-  double similarity = kUnknown;     ///< of a competing pose's edges to the result's, [0, 1]
-  double margin_nats = kUnknown;    ///< evidence of the result beyond a competing pose's
-  bool mirrored = false;            ///< a competing pose of the mesh's mirror image
-  double score = kUnknown;          ///< of a compared pose, PoseEvidence::score()
-  double probability = kUnknown;    ///< that a compared pose is right
+  double similarity = kUnknown;   ///< of a competing pose's edges to the result's, [0, 1]
+  double margin_nats = kUnknown;  ///< evidence of the result beyond a competing pose's
+  bool mirrored = false;          ///< a competing pose of the mesh's mirror image
+  double score = kUnknown;        ///< of a compared pose, PoseEvidence::score()
+  double probability = kUnknown;  ///< that a compared pose is right
   HypothesisOrigin origin = HypothesisOrigin::kCandidate;  ///< of a compared pose
 };
 

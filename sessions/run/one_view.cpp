@@ -57,7 +57,7 @@ class OneView final : public SteppedRun {
                                              settings.threads, settings.kernels);
     if (settings.onboard_record != nullptr)
       settings.onboard_record->begin(recordInputs(withoutUnusedInputs(problem, plan.options)),
-                                      problem, plan.options);
+                                     problem, plan.options);
   }
 
   StepReport step(const std::stop_token& stop) override {

@@ -128,16 +128,39 @@ std::string notSupportedText(const LocalizationTrace& trace) {
       100.0 * support.chanceExplanation());
 }
 
+/// "12.0 mm and 3.00 deg away" from the run's last pose.
+std::string awayText(const LocalizationTrace& trace, const Pose& camera_from_station) {
+  const Pose& best = trace.iterations.back()->camera_from_station;
+  const Eigen::Quaterniond turn =
+      (camera_from_station.rotation * best.rotation.conjugate()).normalized();
+  return format("%.1f mm and %.2f deg away",
+                toMillimetres((camera_from_station.translation_m - best.translation_m).norm()),
+                toDegrees(rotationLog(turn).norm()));
+}
+
+/// Of a run whose next best pose has about the same score.
+std::string closeScoresText(const LocalizationTrace& trace) {
+  const PoseHypothesis& other = trace.hypotheses[static_cast<std::size_t>(trace.competitor)];
+  return "another pose, " + awayText(trace, other.camera_from_station) +
+         format(
+             ", has about the same evidence: its score is lower by %.2f, needed %.2f; show more "
+             "distinct features, give a closer seed, or add a view",
+             trace.gap, kLeastGap);
+}
+
 std::string ambiguousText(const LocalizationTrace& trace) {
   const CompetingPose* other = closestCompetingPose(trace);
-  if (other == nullptr || trace.iterations.empty())
-    return "a competing pose explains the image as well";
-  const Pose& best = trace.iterations.back()->camera_from_station;
-  const Pose& competing = other->camera_from_station;
-  const Eigen::Quaterniond turn = (competing.rotation * best.rotation.conjugate()).normalized();
-  return format("a competing pose, %.1f mm and %.2f deg away, explains the image ",
-                toMillimetres((competing.translation_m - best.translation_m).norm()),
-                toDegrees(rotationLog(turn).norm())) +
+  if (trace.iterations.empty()) return "a competing pose explains the image as well";
+  if (other == nullptr)
+    return trace.competitor >= 0 ? closeScoresText(trace)
+                                 : "a competing pose explains the image as well";
+  if (other->mirrored)
+    return format(
+        "the mirror image of the mesh explains the image better, by %.0f nats of "
+        "evidence; check that the mesh is not mirrored",
+        -other->margin_nats);
+  return "a competing pose, " + awayText(trace, other->camera_from_station) +
+         ", explains the image " +
          (other->margin_nats < 0.0
               ? format("better, by %.1f nats of evidence; ", -other->margin_nats)
               : format("nearly as well: %.1f nats less evidence, needed %.1f; ", other->margin_nats,

@@ -208,8 +208,7 @@ void SeveralViews::finish(std::size_t view) {
   trace.arena_bytes = of_view.memory().highWaterBytes();
   recordHypotheses(localizer_->view(0).workspace(), trace);
   for (PoseHypothesis& hypothesis : trace.hypotheses)
-    hypothesis.camera_from_station =
-        camera_from_first_[view] * hypothesis.camera_from_station;
+    hypothesis.camera_from_station = camera_from_first_[view] * hypothesis.camera_from_station;
   trace.competing_poses.clear();
   for (CompetingPose pose : result.competing_poses.items()) {
     pose.camera_from_station = problem_.views[view].camera_from_rig * pose.camera_from_station;

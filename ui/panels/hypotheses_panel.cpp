@@ -33,7 +33,8 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
   return {
       {tr("Pose"),
        tr("Competing pose: it shows about the same edges as the result. Candidate: a pose of the "
-          "global search, refined. Restart: the best pose, moved along a weak direction and refined "
+          "global search, refined. Restart: the best pose, moved along a weak direction and "
+          "refined "
           "again. Rolled hypothesis: the render turned about the view axis."),
        -1, alternativeTitle},
       {tr("Iteration"),
@@ -98,9 +99,9 @@ HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(par
   table_->setAccessibleName(tr("Competing poses, compared poses and rolled hypotheses"));
   setUpTable(*table_, model_);
   using Model = AlternativesModel;
-  new ColumnFitter(
-      *table_, {Model::kMatches, Model::kSimilarity, Model::kInliers, Model::kIteration,
-                Model::kProbability, Model::kScore, Model::kApart_deg, Model::kMargin_nats, Model::kApart_mm});
+  new ColumnFitter(*table_, {Model::kMatches, Model::kSimilarity, Model::kInliers,
+                             Model::kIteration, Model::kProbability, Model::kScore,
+                             Model::kApart_deg, Model::kMargin_nats, Model::kApart_mm});
   column->addWidget(table_);
   auto* hint = new EmptyHint(*table_);
   hint->setText(

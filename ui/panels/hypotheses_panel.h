@@ -40,9 +40,9 @@ class AlternativesModel : public RowsModel<sessions::Alternative> {
   QVariant look(const sessions::Alternative& row, int column, int role) const override;
 };
 
-/// What else a run compared: poses that compete with its result, compared poses, rolled hypotheses. The
-/// chosen one is drawn on the image with the pose that the run went on with; one that belongs to an
-/// iteration takes the cursor there.
+/// What else a run compared: poses that compete with its result, compared poses, rolled hypotheses.
+/// The chosen one is drawn on the image with the pose that the run went on with; one that belongs
+/// to an iteration takes the cursor there.
 class HypothesesPanel : public QWidget {
   Q_OBJECT
 

@@ -133,8 +133,7 @@ QString alternativeTitle(const sessions::Alternative& alternative) {
   if (alternative.mirrored) return ViewState::tr("Mirror image of the mesh");
   if (alternative.kind == AlternativeKind::kCompeting)
     return ViewState::tr("Competing pose %1").arg(alternative.number);
-  if (alternative.kind == AlternativeKind::kCompared)
-    switch (alternative.origin) {
+  if (alternative.kind == AlternativeKind::kCompared) switch (alternative.origin) {
       case HypothesisOrigin::kCandidate:
         return ViewState::tr("Candidate %1").arg(alternative.number);
       case HypothesisOrigin::kTemplates:

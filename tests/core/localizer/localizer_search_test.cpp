@@ -246,6 +246,19 @@ TEST(LocalizerSearch, ResultIsTheHypothesisWithTheBestScore) {
   }
 }
 
+TEST(LocalizerSearch, MirroredMesh_IsRefused) {
+  for (const std::uint64_t seed : {1U, 3U, 4U}) {
+    Case scene = stationCase(seed);
+    const auto twice_middle_m =
+        static_cast<float>(2.0 * matchedBounds(scene.solid.view()).centre().x());
+    for (Eigen::Vector3f& vertex : scene.solid.vertices) vertex.x() = twice_middle_m - vertex.x();
+    for (Face& face : scene.solid.faces) std::swap(face.vertex[1], face.vertex[2]);
+    LocalizerOptions options = defaultProfile();
+    options.support.min_probability = 0.0;  // only the comparison refuses it
+    EXPECT_NE(endOf(scene, options), LocalizationStatus::kConverged);
+  }
+}
+
 TEST(LocalizerSearch, Noise_HasNoPose) {
   const Picture noise = noisePicture(512, 512, 5);
   Case scene = stationCase(1);

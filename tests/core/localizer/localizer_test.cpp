@@ -121,8 +121,7 @@ TEST(Localizer, ConvergesBehindAnOccluder) {
   run.finish([&](const StepReport& report) {
     if (report.stage != Stage::kRender || !report.stage_complete) return;
     const EdgeRender& render = run.localizer.workspace().iteration->render;
-    for (int i = 0; i < render.pixel_count; ++i)
-      ASSERT_LT(render.pixel(i).face, first_occluder);
+    for (int i = 0; i < render.pixel_count; ++i) ASSERT_LT(render.pixel(i).face, first_occluder);
     ++renders;
   });
   EXPECT_GE(renders, 4);

@@ -29,7 +29,9 @@ class ScriptedPass {
     levels_ = levelsOf(size, options);
   }
 
-  RunContext context() const { return {options, camera_, scene_, levels_, end_effector_in_camera_m_}; }
+  RunContext context() const {
+    return {options, camera_, scene_, levels_, end_effector_in_camera_m_};
+  }
 
   /// The record of a match pass that found a pose.
   Agreement match(const PassPlan& plan, const Pose& found, int inliers, int matches = 90) {
@@ -260,9 +262,8 @@ TEST_F(PoseComparisonTest, BestPose_RestartsAlongItsWeakDirections) {
     const Attempt attempt = comparison.next(2 + i, pass.context());
     EXPECT_EQ(planOf(attempt).level, pass.context().levels.coarse);
     starts.push_back(attempt.camera_from_station());
-    EXPECT_EQ(comparison.takeFailure(pass.context()), i + 1 < PoseComparison::kRestarts
-                                                          ? ComparisonNext::kTry
-                                                          : ComparisonNext::kReturn);
+    EXPECT_EQ(comparison.takeFailure(pass.context()),
+              i + 1 < PoseComparison::kRestarts ? ComparisonNext::kTry : ComparisonNext::kReturn);
   }
   const double motion_px = 7.0 * (1 << pass.context().levels.fine);
   const double x_m = candidates[0].camera_from_station.translation_m.x();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/search/facing_view.h"
+#include "core/search/mirror_search.h"
 #include "core/search/pose_evidence_meter.h"
 #include "core/search/search_candidates.h"
 #include "tests/core/localizer/scene.h"
@@ -36,9 +38,10 @@ class SearchRun {
               Status::kOk);
     EXPECT_EQ(search_.create(ColorView::kChannels, arena_), Status::kOk);
   }
-  std::span<const PoseCandidate> run() {
+  std::span<const PoseCandidate> run() { return run(problem_); }
+  std::span<const PoseCandidate> run(const SearchProblem& problem) {
     int steps = 0;
-    if (search_.begin(problem_, renderer_))
+    if (search_.begin(problem, renderer_))
       while (!search_.step() && steps < 1000000) ++steps;
     EXPECT_LT(steps, 1000000);
     return search_.candidates();
@@ -171,10 +174,86 @@ TEST(PoseEvidenceMeter, RenderOfTheRealCamera_HasTheEvidenceOfTheTruth) {
   const auto length_px = [](const ContourEvidence& contours) {
     return contours.places * contours.place_length_px;
   };
-  EXPECT_NEAR(length_px(right.contours[1]) / length_px(right.contours[0]),
-              spanOf(1) / spanOf(0), 0.03);
+  EXPECT_NEAR(length_px(right.contours[1]) / length_px(right.contours[0]), spanOf(1) / spanOf(0),
+              0.03);
   EXPECT_GT(right.finest().shareOfExpected(), 0.9);
   EXPECT_LT(wrong.finest().shareOfExpected(), 0.3);
+}
+
+/// The station mirrored across the x axis through its middle, faces still turned outwards.
+test::Solid mirrored(test::Solid solid) {
+  const auto twice_middle_m = static_cast<float>(2.0 * matchedBounds(solid.view()).centre().x());
+  for (Eigen::Vector3f& vertex : solid.vertices) vertex.x() = twice_middle_m - vertex.x();
+  for (Face& face : solid.faces) std::swap(face.vertex[1], face.vertex[2]);
+  return solid;
+}
+
+/// A flipped view of a mesh shows what the flipped view of a picture shows.
+TEST(FacingView, OfAFlippedProblem_IsTheMirrorImageOfTheView) {
+  const test::Case scene = test::stationCase(1, true);
+  const SearchRun run(scene);
+  // A pose whose scene lies across the camera's axis from the seed's.
+  SearchProblem flipped = run.problem();
+  flipped.flipped = true;
+  Pose across = scene.truth;
+  across.rotation = {scene.truth.rotation.w(), scene.truth.rotation.x(), -scene.truth.rotation.y(),
+                     -scene.truth.rotation.z()};
+  across.translation_m.x() *= -1.0;
+  // Its mesh is the station across its own plane x = 0, so that only the middles agree.
+  const Eigen::Vector3d middle_m = run.problem().scene.centre();
+  const Eigen::Vector3d seen_m = scene.truth * middle_m;
+  across.translation_m =
+      Eigen::Vector3d(-seen_m.x(), seen_m.y(), seen_m.z()) - across.matrix() * middle_m;
+  ViewSize size;
+  size.span_px = 88.0;
+  size.margin_px = 9.0;
+  size.most_px = 200;
+  size.least_half = 0.3;
+  FacingView view;
+  FacingView other;
+  ASSERT_TRUE(faceScene(run.problem(), scene.truth, size, view));
+  ASSERT_TRUE(faceScene(flipped, across, size, other));
+  other.camera = view.camera;
+  std::vector<std::byte> block(1 << 20);
+  Arena arena(block);
+  SmallImage image = SmallImage::create(200 * 200, arena);
+  SmallImage mirror = SmallImage::create(200 * 200, arena);
+  fillViewRows(run.problem(), view, 0, view.camera.height, image);
+  fillViewRows(flipped, other, 0, view.camera.height, mirror);
+  int compared = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const auto at = static_cast<std::size_t>(y * image.width + x);
+      const auto opposite = static_cast<std::size_t>(y * image.width + image.width - 1 - x);
+      if (image.seen[at] == 0 || mirror.seen[opposite] == 0) continue;
+      ++compared;
+      ASSERT_NEAR(image.value[at], mirror.value[opposite], 1) << x << ' ' << y;
+    }
+  EXPECT_GT(compared, 4000);
+}
+
+TEST(MirrorSearch, MirroredMesh_HasAMirrorImageThatExplainsFarMore) {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    test::Case scene = test::stationCase(seed);
+    SearchRun right(scene);
+    const double right_nats = right.run()[0].evidence.total_nats();
+    scene.solid = mirrored(scene.solid);
+    SearchRun wrong(scene);
+    const PoseCandidate found = wrong.run()[0];
+    const auto mirror = wrong.run(mirrorSearch(wrong.problem(), found.camera_from_station));
+    ASSERT_FALSE(mirror.empty());
+    EXPECT_GT(mirror[0].evidence.total_nats(), 0.9 * right_nats);
+    EXPECT_GT(mirror[0].evidence.total_nats(), 2.0 * found.evidence.total_nats());
+  }
+}
+
+TEST(MirrorSearch, RightMesh_HasNoBetterMirrorImage) {
+  const test::Case scene = test::stationCase(3);
+  SearchRun run(scene);
+  const PoseCandidate found = run.run()[0];
+  for (const PoseCandidate& mirror :
+       run.run(mirrorSearch(run.problem(), found.camera_from_station)))
+    EXPECT_LT(mirror.evidence.total_nats(), 0.8 * found.evidence.total_nats());
 }
 
 SearchCandidate at(double x_px, double distance_px) {

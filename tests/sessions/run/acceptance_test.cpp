@@ -28,8 +28,8 @@ TEST(AcceptanceText, SearchedRun_StatesTheProbabilityWithItsParts) {
       AllOf(HasSubstr("right is " + fixedText(100.0 * run.probability, 1) + " %, needed 50.0 %"),
             HasSubstr("edges show " +
                       fixedText(100.0 * run.evidence.finest().shareOfExpected(), 0) + " % of the"),
-            HasSubstr("differ along " +
-                      fixedText(100.0 * run.evidence.region.separatedShare(), 0) + " % of the"),
+            HasSubstr("differ along " + fixedText(100.0 * run.evidence.region.separatedShare(), 0) +
+                      " % of the"),
             HasSubstr("support is " + fixedText(100.0 * run.support.share(), 1) + " %"),
             HasSubstr("comes from candidate 1 of the search"),
             HasSubstr("2 competing poses are similar; the closest has 4.0 nats less evidence")));

@@ -123,6 +123,23 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 3.0"));
   trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better, by 7.5 nats of evidence"));
+  trace.competing_poses[1].mirrored = true;
+  EXPECT_THAT(explanation(trace), HasSubstr("the mirror image of the mesh explains the image"));
+}
+
+TEST(Explanation, SaysThatAnotherPoseHasAboutTheSameScore) {
+  LocalizationTrace trace = endedWith(LocalizationStatus::kAmbiguous);
+  PoseHypothesis best;
+  best.camera_from_station = trace.iterations.back()->camera_from_station;
+  PoseHypothesis other = best;
+  other.camera_from_station.translation_m.x() += 0.012;
+  trace.hypotheses = {best, other};
+  trace.best_hypothesis = 0;
+  trace.competitor = 1;
+  trace.gap = 0.0625;
+  trace.competing_poses.clear();
+  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("another pose, 12.0 mm and 0.00 deg away"),
+                                        HasSubstr("lower by 0.06, needed 0.15")));
 }
 
 TEST(Explanation, SaysWhichFocalLengthTheEdgesAskFor) {
