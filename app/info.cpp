@@ -263,6 +263,9 @@ std::string sigmaText(const Matrix6d& covariance) {
   return text;
 }
 
+/// Transforms, and chains of them, that are printed.
+constexpr std::size_t kMostPrinted = 50;
+
 void describeTransform(const sessions::FrameTransform& transform) {
   std::string text = "from " + frameText(transform.source) + " to " + frameText(transform.target) +
                      ": " + transform.comment;
@@ -280,9 +283,14 @@ void describeChains(const sessions::FrameTree& tree) {
   const bool camera =
       std::find(frames.begin(), frames.end(), sessions::kCameraFrame) != frames.end();
   const sessions::FrameName& first = camera ? sessions::kCameraFrame : frames.front();
+  std::size_t printed = 0;
   for (const sessions::FrameName& frame : frames) {
     const auto chain = tree.chain(first, frame);
     if (!chain || chain->links.empty()) continue;
+    if (++printed > kMostPrinted) {
+      line("... chains to further frames of " + std::to_string(frames.size()) + " are left out");
+      break;
+    }
     line(chain->path());
     printPose(chain->a_from_b, "first_from_last");
     if (!chain->covariance_stated) continue;
@@ -294,7 +302,10 @@ void describeChains(const sessions::FrameTree& tree) {
 
 void describeFrames(const path& file) {
   const auto transforms = sessions::readFrameTransforms(file);
-  for (const sessions::FrameTransform& transform : transforms) describeTransform(transform);
+  for (std::size_t i = 0; i < std::min(transforms.size(), kMostPrinted); ++i)
+    describeTransform(transforms[i]);
+  if (transforms.size() > kMostPrinted)
+    line("... " + std::to_string(transforms.size() - kMostPrinted) + " more transforms");
   if (transforms.size() > 1) describeChains(sessions::FrameTree(transforms));
 }
 

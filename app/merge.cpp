@@ -27,7 +27,7 @@ void addMerge(CLI::App& app, int& exit_code) {
                  "Merges results of `whs evaluate`, e.g. of shards, into one file; runs that "
                  "contradict each other are refused",
                  merge);
-  addFile(*command, "OUT", arguments->out, "Output file; runs in an existing file are kept")
+  addFile(*command, "OUT", arguments->out, "Output file; runs in an existing file are kept, also when it is one of the inputs")
       ->required();
   addFile(*command, "IN", arguments->inputs, "Results files")->required();
 }

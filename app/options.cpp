@@ -114,11 +114,12 @@ void writeDictionary(const std::string& file) {
 }
 
 int printOptions(const OptionsArguments& arguments) {
-  if (!arguments.table.empty()) writeTable(arguments.table, arguments.options.read());
+  const LocalizerOptions options = arguments.options.read();  // an input is never an output
+  if (!arguments.table.empty()) writeTable(arguments.table, options);
   if (!arguments.dictionary.empty()) writeDictionary(arguments.dictionary);
   if (!arguments.table.empty() || !arguments.dictionary.empty()) return kDone;
   const std::string profile = arguments.options.profileName();
-  printList(sessions::listOptions(arguments.options.read()));
+  printList(sessions::listOptions(options));
   std::cout << "\nOptions of the other methods (" << sessions::methodNames() << "):\n";
   printList(sessions::listOptions(methodProfile(profile)));
   return kDone;

@@ -113,6 +113,22 @@ std::optional<PoseError> errorOf(const Case& dataset_case, const Camera& camera,
                     {scene.matched_vertices, &scene.symmetries});
 }
 
+/// What of the requirement the error takes up. Without the costly errors of BOP, unless the station
+/// has symmetries.
+std::optional<double> shareOf(const Case& dataset_case, const Camera& camera, const Pose& estimate,
+                              const StationScene& scene) {
+  if (!dataset_case.truth_camera_from_station || !dataset_case.requirement) return std::nullopt;
+  const Pose& truth = *dataset_case.truth_camera_from_station;
+  PoseError error;
+  if (scene.symmetries.empty()) {
+    error = poseError(truth, estimate, dataset_case.camera_from_end_effector);
+    error.projection_px = projectionError(camera, truth, estimate, scene.matched_vertices);
+  } else {
+    error = *errorOf(dataset_case, camera, estimate, scene);
+  }
+  return requirementShare(error, *dataset_case.requirement);
+}
+
 class Batch {
  public:
   Batch(const Dataset& dataset, const BatchOptions& options, const std::vector<PlannedRun>& plan,
@@ -277,10 +293,8 @@ void Batch::runLoaded(const Item& item, const std::stop_token& stop, RunResult& 
     const LocalizationTrace trace =
         methods_.localize(options_.method, problem, options, settings, stop);
     noteTrace(trace, result);
-    result.compared = comparedText(trace, [&](const Pose& pose) -> std::optional<double> {
-      const auto error = errorOf(dataset_case, problem.camera, pose, scene);
-      if (!error || !result.requirement) return std::nullopt;
-      return requirementShare(*error, *result.requirement);
+    result.compared = comparedText(trace, [&](const Pose& pose) {
+      return shareOf(dataset_case, problem.camera, pose, scene);
     });
     result.steps = runSteps(trace, dataset_case);
   } else {

@@ -20,7 +20,7 @@ namespace boresight::sessions {
 
 /// Annotations an SQLite file as ours ("BSRT"), and of which form.
 inline constexpr std::int64_t kResultsApplication = 0x42535254;
-inline constexpr std::int64_t kResultsVersion = 4;
+inline constexpr std::int64_t kResultsVersion = 5;
 
 /// A results file but its runs.
 struct ResultsFacts {

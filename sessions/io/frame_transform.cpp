@@ -3,9 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
-#include "sessions/io/json_writer.h"
 #include "sessions/io/json_reader.h"
+#include "sessions/io/json_writer.h"
 #include "sessions/io/pose_file.h"
 
 namespace boresight::sessions {
@@ -16,6 +17,11 @@ constexpr const char* kFramesFormat = "boresight-frames";
 constexpr int kVersion = 1;
 constexpr double kMaxSigma_mm = 1e4;
 constexpr double kMaxSigma_mrad = 1e3;
+
+std::string tooManyText(std::size_t count) {
+  return std::to_string(count) + " exceed the limit of " + std::to_string(kMostFrameTransforms) +
+         ": give those that join the frames of these cases";
+}
 
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   return Eigen::Matrix3d{{0.0, -v.z(), v.y()}, {v.z(), 0.0, -v.x()}, {-v.y(), v.x(), 0.0}};
@@ -54,14 +60,15 @@ FrameTransform readTransformMembers(const JsonReader& json) {
   if (covariance) transform.covariance = readCovariance(*covariance);
   if (sigma) transform.covariance = readSigma(*sigma, transform.target_from_source);
   if (const auto origin = json.find("origin")) transform.origin = readOrigin(*origin);
-  transform.comment = json.at("comment").nonEmptyText();
+  if (const auto comment = json.find("comment")) transform.comment = comment->nonEmptyText();
   return transform;
 }
 
 std::vector<FrameTransform> readList(const JsonReader& root) {
   std::vector<FrameTransform> transforms;
-  for (const JsonReader& item : root.at("transforms").elements())
-    transforms.push_back(readTransformMembers(item));
+  const auto items = root.at("transforms").elements();
+  if (items.size() > kMostFrameTransforms) root.failMember("transforms", tooManyText(items.size()));
+  for (const JsonReader& item : items) transforms.push_back(readTransformMembers(item));
   if (transforms.empty()) root.failMember("transforms", "is empty");
   return transforms;
 }
@@ -81,6 +88,7 @@ std::vector<FrameTransform> readFrameTransforms(const std::filesystem::path& fil
   for (FrameTransform& transform : transforms) {
     transform.file = file;
     transform.file_sha256 = sha256Text(bytes);
+    if (transform.comment.empty()) transform.comment = file.filename().string();
   }
   return transforms;
 }
@@ -90,6 +98,8 @@ std::vector<FrameTransform> readFrameTransforms(const std::vector<std::string>& 
   for (const std::string& file : files)
     for (FrameTransform& transform : readFrameTransforms(std::filesystem::path(file)))
       transforms.push_back(std::move(transform));
+  if (transforms.size() > kMostFrameTransforms)
+    throw InputError(files.back(), "transforms of all files", tooManyText(transforms.size()));
   return transforms;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ enum class TransformSource { kUnstated, kTelemetry, kCalibration, kLabel, kComma
 inline constexpr const char* kTransformSourceNames[] = {"unstated", "telemetry", "calibration",
                                                         "label", "commanded"};
 
+/// Largest number of transforms of a case, in all its files: a rover has some dozens of frames.
+inline constexpr std::size_t kMostFrameTransforms = 1000;
+
 /// A transform between two named frames.
 struct FrameTransform {
   FrameName target;
@@ -26,7 +30,7 @@ struct FrameTransform {
   /// Over (rotation rad, translation m), left perturbation, target frame; nothing: exact.
   std::optional<Matrix6d> covariance = std::nullopt;
   TransformSource origin = TransformSource::kUnstated;
-  std::string comment;  ///< where it comes from, not empty
+  std::string comment;  ///< where it comes from, not empty; unless stated the name of its file
   std::filesystem::path file;
   std::string file_sha256;
 

@@ -157,6 +157,10 @@ void JsonReader::requireUsed() const {
 
 void JsonReader::requireFormat(std::string_view format, int version) const {
   if (!isObject()) fail("not a JSON object");
+  for (const char* key : {"format", "version"})
+    if (!find(key))
+      failMember(key, "missing: a file of its own begins with \"format\": \"" +
+                          std::string(format) + "\", \"version\": " + std::to_string(version));
   const std::string found = at("format").text();
   if (found != format)
     failMember("format", "is '" + found + "', not '" + std::string(format) + "'");

@@ -36,6 +36,9 @@ struct MeshDeclaration {
   std::optional<std::int64_t> polygon_count;
   /// Where the data of a binary PLY begin, when their first byte looks like the end of a line.
   std::optional<std::size_t> newline_as_data = {};
+  /// A PLY mesh with triangle strips, or with faces before vertices: importers read plainPly() of
+  /// it.
+  bool needs_plain_ply = false;
 };
 
 /// Checks that the bytes are of the format that the extension promises, and complete as far as the

@@ -25,6 +25,7 @@
 #include "sessions/io/mesh_container.h"
 #include "sessions/io/mesh_faces.h"
 #include "sessions/io/mesh_file.h"
+#include "sessions/io/ply_header.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // Importers of assimp leak when they refuse a file; our own leaks must still be seen.
@@ -133,6 +134,7 @@ std::vector<std::uint8_t> gltfGeometry(std::span<const std::uint8_t> bytes, Mesh
 /// that follows: it gets one more to drop.
 std::vector<std::uint8_t> rewrittenFor(const MeshFiles& files, const MeshDeclaration& declared) {
   if (carriesUnit(files.format)) return gltfGeometry(files.bytes, files.format);
+  if (declared.needs_plain_ply) return plainPly(files.file, files.bytes);
   if (!declared.newline_as_data) return {};
   std::vector<std::uint8_t> longer = files.bytes;
   longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(*declared.newline_as_data), '\n');

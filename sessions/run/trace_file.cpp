@@ -15,7 +15,7 @@ namespace boresight::sessions {
 namespace {
 
 constexpr std::string_view kMagic = "BSTRACE\n";
-constexpr std::uint32_t kFormatVersion = 10;
+constexpr std::uint32_t kFormatVersion = 11;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 8;
 constexpr std::size_t kChecksumBytes = 32;
 constexpr std::size_t kMaxTraceBytes = 2048 * kMegabyte;

@@ -351,6 +351,13 @@ TEST_F(Overwrite, OfResultsByTablesIsRefused) {
   expectRefused({"tables", results, "--out", results}, {"RESULTS and --out"});
 }
 
+TEST_F(Overwrite, OfAConfigurationByOptionsIsRefused) {
+  const std::string config =
+      folder_.write("c.json", R"({"format": "boresight-config", "version": 1})").string();
+  for (const char* output : {"--dictionary", "--table"})
+    expectRefused({"options", "--config", config, output, config}, {"--config", output});
+}
+
 TEST_F(Overwrite, OfWhatACommandKeepsUpToDateGoesOn) {
   const std::string session = newSession(), results = file("r.sqlite");
   runWhs({"run", session, "--case", kOsCase}, 0);

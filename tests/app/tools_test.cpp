@@ -260,6 +260,24 @@ TEST(WhsInfo, DescribesRigsAndLandmarks) {
 }
 
 /// A tree of nodes so deep that an importer's recursion ended the program.
+TEST(WhsInfo, PrintsABoundedPartOfManyFrames) {
+  const TemporaryFolder folder;
+  const auto framesOf = [&](int count) {
+    std::string text = R"({"format": "boresight-frames", "version": 1, "transforms": [)";
+    for (int i = 0; i < count; ++i)
+      text += std::string(i == 0 ? "" : ",") + R"({"target": {"name": "F)" + std::to_string(i) +
+              R"("}, "source": {"name": "F)" + std::to_string(i + 1) +
+              R"("}, "target_from_source": [[1,0,0,0.1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})";
+    return folder.write("frames.json", text + "]}").string();
+  };
+  const ProgramRun printed = runWhs({"info", framesOf(800)}, 0);
+  EXPECT_THAT(printed.out, AllOf(HasSubstr("... 750 more transforms"),
+                                 HasSubstr("further frames of 801 are left out")));
+  EXPECT_LT(printed.out.size(), 200'000u);
+  const ProgramRun refused = runWhs({"info", framesOf(10'000)}, 3);
+  EXPECT_THAT(refused.err, HasSubstr("10000 exceed the limit of 1000"));
+}
+
 TEST(WhsInfo, RefusesADeepChainOfNodesInOneSentence) {
   const TemporaryFolder folder;
   std::string nodes;

@@ -104,7 +104,7 @@ TEST_F(FrameTransforms, WrittenTransformReadsBackTheSame) {
 }
 
 TEST_F(FrameTransforms, NamesWhatIsWrong) {
-  for (const char* key : {"target", "source", "target_from_source", "comment"}) {
+  for (const char* key : {"target", "source", "target_from_source"}) {
     nlohmann::ordered_json json = transformJson();
     json.erase(key);
     EXPECT_EQ(error(json), std::string("t.json: ") + key + ": missing");
@@ -118,6 +118,35 @@ TEST_F(FrameTransforms, NamesWhatIsWrong) {
   json = transformJson();
   json["target"]["name"] = "";
   EXPECT_THAT(error(json), HasSubstr("t.json: target.name"));
+}
+
+TEST_F(FrameTransforms, WithoutComment_AreNamedByTheirFile) {
+  nlohmann::ordered_json json = transformJson();
+  json.erase("comment");
+  EXPECT_EQ(readFrameTransforms(std::filesystem::path(folder_.write("t.json", json.dump())))
+                .front()
+                .comment,
+            "t.json");
+}
+
+TEST_F(FrameTransforms, MoreThanTheLimit_AreRefused) {
+  nlohmann::ordered_json json = {{"format", "boresight-frames"}, {"version", 1}};
+  nlohmann::ordered_json item = transformJson();
+  item.erase("format");
+  item.erase("version");
+  for (std::size_t i = 0; i < kMostFrameTransforms; ++i) {
+    item["target"]["name"] = "FRAME_" + std::to_string(i);
+    item["source"]["name"] = "FRAME_" + std::to_string(i + 1);
+    json["transforms"].push_back(item);
+  }
+  const std::filesystem::path file = folder_.write("t.json", json.dump());
+  EXPECT_EQ(readFrameTransforms(file).size(), kMostFrameTransforms);
+  const std::filesystem::path other = folder_.write("other.json", transformJson().dump());
+  const std::vector<std::string> both = {file.string(), other.string()};
+  EXPECT_THAT(folder_.message([&] { (void)readFrameTransforms(both); }),
+              HasSubstr("1001 exceed the limit of 1000"));
+  json["transforms"].push_back(item);
+  EXPECT_THAT(error(json), HasSubstr("t.json: transforms: 1001 exceed the limit of 1000"));
 }
 
 TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {

@@ -88,8 +88,14 @@ TEST(JsonDocument, ChecksFormatAndVersion) {
     return messageOf(text, [](const JsonReader& json) { json.requireFormat("boresight-pose", 1); });
   };
   EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 1})"), "(nothing)");
-  EXPECT_EQ(message(R"({"version": 1})"), "f.json: format: missing");
-  EXPECT_EQ(message(R"({"format": "boresight-pose"})"), "f.json: version: missing");
+  EXPECT_EQ(
+      message(R"({"version": 1})"),
+      "f.json: format: missing: a file of its own begins with \"format\": \"boresight-pose\", "
+      "\"version\": 1");
+  EXPECT_EQ(
+      message(R"({"format": "boresight-pose"})"),
+      "f.json: version: missing: a file of its own begins with \"format\": \"boresight-pose\", "
+      "\"version\": 1");
   EXPECT_EQ(message(R"({"format": "boresight-camera", "version": 1})"),
             "f.json: format: is 'boresight-camera', not 'boresight-pose'");
   EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 2})"),

@@ -80,6 +80,59 @@ void expectCube(const Mesh& mesh, double scale = 1.0) {
   EXPECT_EQ(validity(mesh), Status::kOk);
 }
 
+/// The cube's quads as one list of strips, each ended by -1, with the elements in either order.
+std::string stripsPly(bool ascii, bool big_endian) {
+  const PolygonMesh mesh = cube();
+  std::vector<std::int32_t> strips;
+  for (const auto& quad : mesh.polygons)
+    for (const std::int32_t index : {quad[0], quad[1], quad[3], quad[2], -1})
+      strips.push_back(index);
+  // A strip that turns around at doubled vertices has no further triangles.
+  strips.insert(strips.end(), {0, 0, 0, 1, 1});
+  std::string text = plyHeader(ascii        ? "ascii"
+                               : big_endian ? "binary_big_endian"
+                                            : "binary_little_endian",
+                               8, 0);
+  const std::string face = "element face 0\nproperty list uchar int vertex_indices\n";
+  text.replace(text.find(face), face.size(),
+               "property uchar red\nelement tristrips 1\nproperty list int int vertex_indices\n");
+  const auto add = [&](auto value) {
+    if (ascii)
+      text += std::to_string(value) + " ";
+    else
+      appendNumber(text, value, big_endian);
+  };
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    for (const float value : vertex) add(value);
+    add(std::uint8_t{200});
+  }
+  add(static_cast<std::int32_t>(strips.size()));
+  for (const std::int32_t index : strips) add(index);
+  return text;
+}
+
+TEST_F(ReadMesh, PlyWithTriangleStrips_IsReadAsTriangles) {
+  expectCube(read("ascii.ply", stripsPly(true, false)));
+  expectCube(read("little.ply", stripsPly(false, false)));
+  expectCube(read("big.ply", stripsPly(false, true)));
+  std::string outside = stripsPly(true, false);
+  outside.replace(outside.rfind("0 0 0 1 1"), 9, "0 1 8 1 1");
+  EXPECT_THAT(error("outside.ply", outside), HasSubstr("vertex 8 does not exist"));
+  const std::string whole = stripsPly(false, false);
+  EXPECT_THAT(error("cut.ply", whole.substr(0, whole.size() - 3)), HasSubstr("truncated"));
+}
+
+TEST_F(ReadMesh, PlyWithFacesBeforeVertices_IsRead) {
+  const std::string text = asciiPly(cube());
+  const std::size_t vertex = text.find("element vertex");
+  const std::size_t face = text.find("element face");
+  const std::size_t body = text.find("end_header\n") + 11;
+  const std::size_t faces = text.find("\n4 ", body) + 1;
+  expectCube(read("faces.ply", text.substr(0, vertex) + text.substr(face, body - 11 - face) +
+                                   text.substr(vertex, face - vertex) + "end_header\n" +
+                                   text.substr(faces) + text.substr(body, faces - body)));
+}
+
 TEST_F(ReadMesh, ReadsEveryFormat) {
   const std::string node = R"([{"mesh":0}])";
   expectCube(read("ascii.ply", asciiPly(cube())));
