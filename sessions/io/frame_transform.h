@@ -20,7 +20,7 @@ inline constexpr const char* kTransformSourceNames[] = {"unstated", "telemetry",
                                                         "label", "commanded"};
 
 /// Largest number of transforms of a case, in all its files: a rover has some dozens of frames.
-inline constexpr std::size_t kMostFrameTransforms = 1000;
+inline constexpr std::size_t kMostFrameTransforms = 200;
 
 /// A transform between two named frames.
 struct FrameTransform {

@@ -270,12 +270,12 @@ TEST(WhsInfo, PrintsABoundedPartOfManyFrames) {
               R"("}, "target_from_source": [[1,0,0,0.1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})";
     return folder.write("frames.json", text + "]}").string();
   };
-  const ProgramRun printed = runWhs({"info", framesOf(800)}, 0);
-  EXPECT_THAT(printed.out, AllOf(HasSubstr("... 750 more transforms"),
-                                 HasSubstr("further frames of 801 are left out")));
+  const ProgramRun printed = runWhs({"info", framesOf(150)}, 0);
+  EXPECT_THAT(printed.out, AllOf(HasSubstr("... 100 more transforms"),
+                                 HasSubstr("further frames of 151 are left out")));
   EXPECT_LT(printed.out.size(), 200'000u);
   const ProgramRun refused = runWhs({"info", framesOf(10'000)}, 3);
-  EXPECT_THAT(refused.err, HasSubstr("10000 exceed the limit of 1000"));
+  EXPECT_THAT(refused.err, HasSubstr("10000 exceed the limit of 200"));
 }
 
 TEST(WhsInfo, RefusesADeepChainOfNodesInOneSentence) {

@@ -144,9 +144,9 @@ TEST_F(FrameTransforms, MoreThanTheLimit_AreRefused) {
   const std::filesystem::path other = folder_.write("other.json", transformJson().dump());
   const std::vector<std::string> both = {file.string(), other.string()};
   EXPECT_THAT(folder_.message([&] { (void)readFrameTransforms(both); }),
-              HasSubstr("1001 exceed the limit of 1000"));
+              HasSubstr("201 exceed the limit of 200"));
   json["transforms"].push_back(item);
-  EXPECT_THAT(error(json), HasSubstr("t.json: transforms: 1001 exceed the limit of 1000"));
+  EXPECT_THAT(error(json), HasSubstr("t.json: transforms: 201 exceed the limit of 200"));
 }
 
 TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {
