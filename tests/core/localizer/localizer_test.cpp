@@ -328,7 +328,7 @@ TEST(Localizer, SmallMotion_ReusesTheRender) {
     const Case scene = stationCase(seed);
     Pose final_pose[2];
     for (const bool again : {true, false}) {
-      LocalizerOptions options;
+      LocalizerOptions options = withoutSearch();
       options.loop.render_again_px = again ? 0.0 : 0.25;
       OwnedRun run(scene.problem(), options);
       run.finish([&](const StepReport& report) {
