@@ -55,7 +55,7 @@ bool PoseComparison::offers(Source source, const RunContext& run) const {
     case Source::kCandidates:
       return firstCandidateFrom(next_) < static_cast<int>(candidates_.size());
     case Source::kTemplates:
-      return next_ == 0 && hasPose() && run.options.refinement.enabled &&
+      return next_ == 0 && !candidates_.empty() && run.options.refinement.enabled &&
              !isWithinReach(candidates_.front(), run.levels.fine);
     case Source::kSeed:
       return next_ == 0 && (!hasPose() || hypotheses_[best_index_].probability <
@@ -80,10 +80,14 @@ int PoseComparison::firstCandidateFrom(int index) const {
   return index;
 }
 
-/// Moves to the next source that has a start; false when there is none.
+/// Moves to the next source that has a start; false when there is none. Templates of a large object
+/// come first, then candidates, the seed and restarts.
 bool PoseComparison::findNext(const RunContext& run) {
   while (source_ != Source::kNone && !offers(source_, run)) {
-    source_ = static_cast<Source>(static_cast<int>(source_) + 1);
+    source_ = source_ == Source::kTemplates    ? Source::kCandidates
+              : source_ == Source::kCandidates ? Source::kSeed
+              : source_ == Source::kSeed       ? Source::kRestarts
+                                               : Source::kNone;
     next_ = 0;
   }
   return source_ != Source::kNone;
@@ -96,6 +100,7 @@ Attempt PoseComparison::next(int attempt, const RunContext& run) {
 }
 
 Attempt PoseComparison::start(int attempt, const RunContext& run) {
+  if (attempt == 0) source_ = Source::kTemplates;
   if (!findNext(run)) return Attempt(attempt, seed_);
   if (source_ == Source::kCandidates) next_ = firstCandidateFrom(next_);
   const int number = next_++;
@@ -114,7 +119,7 @@ Attempt PoseComparison::start(int attempt, const RunContext& run) {
     }
     case Source::kTemplates: {
       current_.origin = HypothesisOrigin::kTemplates;
-      const Pose& start = hypotheses_[best_index_].camera_from_station;
+      const Pose start = pulledBack(seed_, candidates_.front().camera_from_station);
       return Attempt(attempt, {start, uncertaintyAbout(start, seed_, run.scene)});
     }
     case Source::kRestarts:

@@ -212,9 +212,19 @@ TEST_F(PoseComparisonTest, EveryCandidate_IsRefinedAndTheBestReturns) {
   EXPECT_EQ(comparison.takeFailure(pass.context()), ComparisonNext::kConclude);
 }
 
-TEST_F(PoseComparisonTest, CandidateOutOfReach_IsRefinedFromTheCoarseLevelOnAndMatched) {
+TEST_F(PoseComparisonTest, CandidateOutOfReach_IsMatchedThenRefinedFromTheCoarseLevelOn) {
   offer(1, 20.0);
-  Attempt direct = comparison.next(0, pass.context());
+  const Attempt matched = comparison.next(0, pass.context());
+  EXPECT_EQ(planOf(matched).kind, PassKind::kMatch);
+  EXPECT_EQ(matched.camera_from_station(), candidates[0].camera_from_station);
+  const SeedUncertainty box =
+      uncertaintyAbout(candidates[0].camera_from_station, seed, pass.context().scene);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LE(box.rotation_rad[i], seed.uncertainty.rotation_rad[i]);
+    EXPECT_EQ(planOf(matched).uncertainty.rotation_rad[i], box.rotation_rad[i]);
+  }
+  EXPECT_EQ(comparison.takeFailure(pass.context()), ComparisonNext::kTry);
+  Attempt direct = comparison.next(1, pass.context());
   const PassPlan coarse = planOf(direct);
   EXPECT_EQ(coarse.kind, PassKind::kRefine);
   EXPECT_EQ(coarse.level, pass.context().levels.coarse);
@@ -224,15 +234,7 @@ TEST_F(PoseComparisonTest, CandidateOutOfReach_IsRefinedFromTheCoarseLevelOnAndM
   EXPECT_EQ(fine.kind, PassKind::kRefine);
   EXPECT_EQ(fine.level, pass.context().levels.fine);
   EXPECT_EQ(coarse.threshold_px, fine.threshold_px * (1 << (coarse.level - fine.level)));
-  EXPECT_EQ(take(direct, 3.0), ComparisonNext::kTry);
-  const Attempt matched = comparison.next(1, pass.context());
-  EXPECT_EQ(planOf(matched).kind, PassKind::kMatch);
-  const SeedUncertainty box =
-      uncertaintyAbout(candidates[0].camera_from_station, seed, pass.context().scene);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_LE(box.rotation_rad[i], seed.uncertainty.rotation_rad[i]);
-    EXPECT_EQ(planOf(matched).uncertainty.rotation_rad[i], box.rotation_rad[i]);
-  }
+  EXPECT_EQ(take(direct, 3.0), ComparisonNext::kReturn);
 }
 
 TEST_F(PoseComparisonTest, NoCandidates_StartFromTheSeed) {
