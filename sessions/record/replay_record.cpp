@@ -138,6 +138,7 @@ class Replayer {
   void finish();
   void startAttempt(const IterationTrace& iteration);
   void startFromCandidate(const IterationTrace& iteration);
+  Seed seedOfRepeated(const IterationTrace& iteration) const;
   IterationTrace iterationOf(const RecordedIteration& recorded);
   Pose renderedPose(const IterationTrace& iteration);
   void renderAgain(const RecordedIteration& recorded, IterationTrace& iteration);
@@ -163,6 +164,7 @@ class Replayer {
   std::int32_t attempt_ = -1;
   std::optional<std::int32_t> attempt_begin_;  ///< index of its first iteration, if known
   Seed attempt_seed_;                          ///< where it started, and within what
+  std::map<std::int32_t, Seed> seeds_;         ///< of the attempts of a run that searched
   std::optional<Pose> refined_render_;         ///< pose of the last refinement's render
   bool noted_render_ = false;
   bool noted_refinement_ = false;
@@ -237,10 +239,21 @@ void Replayer::startFromCandidate(const IterationTrace& iteration) {
   attempt_seed_ = seedOf(given_);
   if (!optionsAt(iteration.index).search.enabled || !attempt_begin_) return;
   const Pose& before = iteration.camera_from_station_before;
-  if (iteration.kind == IterationKind::kRefine)
+  if (iteration.kind == IterationKind::kRefine) {
     *attempt_begin_ -= optionsAt(iteration.index).loop.match_iterations;
-  else if (before != given_.camera_from_station_seed && isUsable(before))
+    attempt_seed_ = seedOfRepeated(iteration);
+  } else if (before != given_.camera_from_station_seed && isUsable(before))
     attempt_seed_ = {before, uncertaintyAbout(before, seedOf(given_), bounds_)};
+  seeds_[iteration.attempt] = attempt_seed_;
+}
+
+/// The last attempt repeats an iteration of the best one, in the box of that one.
+Seed Replayer::seedOfRepeated(const IterationTrace& iteration) const {
+  for (const auto& earlier : run_.iterations)
+    if (earlier->kind == IterationKind::kRefine && seeds_.contains(earlier->attempt) &&
+        earlier->camera_from_station_before == iteration.camera_from_station_before)
+      return seeds_.at(earlier->attempt);
+  return seedOf(given_);
 }
 
 /// Of a match the pose before it, rolled; of a refinement perhaps that of the last render.

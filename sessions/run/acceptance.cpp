@@ -85,7 +85,7 @@ std::string probabilityText(const LocalizationTrace& trace) {
   const PoseEvidence& evidence = trace.evidence;
   return "the probability that the pose is right is " + percent(trace.probability) + ", needed " +
          percent(trace.lastOptions().support.min_probability) + ": edges show " +
-         fixedText(100.0 * std::max(0.0, evidence.finest().shareOfExpected()), 0) +
+         fixedText(100.0 * std::clamp(evidence.finest().shareOfExpected(), 0.0, 1.0), 0) +
          " % of the evidence that a right pose would have, inside and outside differ along " +
          fixedText(100.0 * evidence.region.separatedShare(), 0) +
          " % of the outline, edge support is " + percent(trace.support.share());

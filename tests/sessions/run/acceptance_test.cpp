@@ -26,12 +26,12 @@ TEST(AcceptanceText, SearchedRun_StatesTheProbabilityWithItsParts) {
   EXPECT_THAT(
       acceptanceText(run),
       AllOf(HasSubstr("right is " + fixedText(100.0 * run.probability, 1) + " %, needed 50.0 %"),
-            HasSubstr("edges show " +
-                      fixedText(100.0 * run.evidence.finest().shareOfExpected(), 0) + " % of the"),
+            HasSubstr("edges show 100 % of the evidence"),
             HasSubstr("differ along " + fixedText(100.0 * run.evidence.region.separatedShare(), 0) +
                       " % of the"),
             HasSubstr("support is " + fixedText(100.0 * run.support.share(), 1) + " %"),
-            HasSubstr("comes from candidate 1 of the search"),
+            HasSubstr("comes from " +
+                      originText(run.hypotheses[static_cast<std::size_t>(run.best_hypothesis)])),
             HasSubstr("2 competing poses are similar; the closest has 4.0 nats less evidence")));
   run.competing_poses = {competingPose(-2.5)};
   EXPECT_THAT(acceptanceText(run), HasSubstr("it has 2.5 nats more evidence"));
