@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/search/mirror_search.h"
 
+#include <algorithm>
+
 #include "core/base/math.h"
 #include "core/geometry/surface_axes.h"
 
@@ -12,6 +14,7 @@ namespace {
 constexpr double kLateral = 0.2;
 constexpr double kDepth = 0.1;
 constexpr double kTilt_rad = 15.0 * kDegree_rad;
+constexpr double kMostTilt_rad = 60.0 * kDegree_rad;
 
 /// The pose that shows, in front of the flipped camera, the mesh mirrored across the principal
 /// plane that its flattest side is perpendicular to.
@@ -28,17 +31,26 @@ Pose mirroredPose(const Pose& camera_from_station, const SurfaceAxes& surface) {
   return pose;
 }
 
+/// Half a turn about the flattest side's normal is half a turn about the line of sight and a tilt
+/// of twice the angle between the two.
+double tiltOf(const Pose& camera_from_station, const SurfaceAxes& surface) {
+  const Eigen::Vector3d normal = camera_from_station.matrix() * surface.axes.col(0);
+  const Eigen::Vector3d sight = (camera_from_station * surface.middle_m).normalized();
+  return std::min(kTilt_rad + 2.0 * asin(normal.cross(sight).norm()), kMostTilt_rad);
+}
+
 }  // namespace
 
 SearchProblem mirrorSearch(const SearchProblem& problem, const Pose& camera_from_station) {
+  const SurfaceAxes surface = surfaceAxesOf(problem.mesh);
   SearchProblem mirrored = problem;
   mirrored.flipped = true;
-  mirrored.camera_from_station_seed =
-      mirroredPose(camera_from_station, surfaceAxesOf(problem.mesh));
+  mirrored.camera_from_station_seed = mirroredPose(camera_from_station, surface);
   const Eigen::Vector3d middle_m = mirrored.camera_from_station_seed * problem.scene.centre();
   const double lateral_m = kLateral * problem.scene.diagonal();
   mirrored.uncertainty.translation_m = {lateral_m, lateral_m, kDepth * middle_m.z()};
-  mirrored.uncertainty.rotation_rad = {kTilt_rad, kTilt_rad, kPi};
+  const double tilt_rad = tiltOf(camera_from_station, surface);
+  mirrored.uncertainty.rotation_rad = {tilt_rad, tilt_rad, kPi};
   mirrored.uncertainty.pivot_in_camera_m = middle_m;
   return mirrored;
 }
