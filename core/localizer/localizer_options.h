@@ -47,11 +47,11 @@ struct LoopOptions {
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"loop.max_iterations", "", 1, 50, "Iterations of an attempt, at most."},
           self.max_iterations);
-    visit(OptionInfo{"loop.max_attempts", "", 1, 3,
-                     "Attempts of a run, at most: from candidates of the search, the last one from "
-                     "the seed. Without a search: from the seed, with templates of the same, twice "
-                     "and half the size."},
-          self.max_attempts);
+    visit(
+        OptionInfo{"loop.max_attempts", "", 1, 3,
+                   "Attempts of a run without a search, at most: from the seed, with templates of "
+                   "the same, twice and half the size."},
+        self.max_attempts);
     visit(
         OptionInfo{
             "loop.match_iterations", "", 1, 50,
@@ -86,11 +86,12 @@ struct LoopOptions {
     visit(OptionInfo{"loop.shrink_iterations", "", 0, 10,
                      "Iterations that shrink threshold and uncertainty."},
           self.shrink_iterations);
-    visit(OptionInfo{"loop.correction_point", "", 0, 2,
-                     "Where corrections are measured: at the camera's centre, the station's, or the "
-                     "end effector.",
-                     kCorrectionPointNames},
-          self.correction_point);
+    visit(
+        OptionInfo{"loop.correction_point", "", 0, 2,
+                   "Where corrections are measured: at the camera's centre, the station's, or the "
+                   "end effector.",
+                   kCorrectionPointNames},
+        self.correction_point);
     visit(OptionInfo{"loop.converged_translation_m", "m", 0.0, 1.0,
                      "A correction below this is small."},
           self.converged_translation_m);

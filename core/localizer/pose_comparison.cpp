@@ -84,10 +84,7 @@ int PoseComparison::firstCandidateFrom(int index) const {
 /// come first, then candidates, the seed and restarts.
 bool PoseComparison::findNext(const RunContext& run) {
   while (source_ != Source::kNone && !offers(source_, run)) {
-    source_ = source_ == Source::kTemplates    ? Source::kCandidates
-              : source_ == Source::kCandidates ? Source::kSeed
-              : source_ == Source::kSeed       ? Source::kRestarts
-                                               : Source::kNone;
+    source_ = static_cast<Source>(static_cast<int>(source_) + 1);
     next_ = 0;
   }
   return source_ != Source::kNone;
@@ -100,7 +97,6 @@ Attempt PoseComparison::next(int attempt, const RunContext& run) {
 }
 
 Attempt PoseComparison::start(int attempt, const RunContext& run) {
-  if (attempt == 0) source_ = Source::kTemplates;
   if (!findNext(run)) return Attempt(attempt, seed_);
   if (source_ == Source::kCandidates) next_ = firstCandidateFrom(next_);
   const int number = next_++;

@@ -17,7 +17,7 @@ namespace boresight {
 
 /// Search policy: refines several poses of a run, measures the evidence of each, and takes the one
 /// with the best score. Hypotheses come from the candidates of the whole-object search, refined on
-/// edges; from templates matched around the best of them, where the object is too large for the
+/// edges; from templates matched around the first of them, where the object is too large for the
 /// search to resolve it; from the seed, where no pose is probable; and from restarts of the best
 /// pose along its two weakest directions, to both sides: a refinement may have stopped at
 /// neighbouring edges. An attempt that reaches a known hypothesis ends there. The run ends with the
@@ -67,7 +67,7 @@ class PoseComparison {
   double gap(const RunContext& run) const;
 
  private:
-  enum class Source : std::uint8_t { kCandidates = 0, kTemplates, kSeed, kRestarts, kNone };
+  enum class Source : std::uint8_t { kTemplates = 0, kCandidates, kSeed, kRestarts, kNone };
 
   int firstCandidateFrom(int index) const;
   bool findNext(const RunContext& run);
@@ -77,7 +77,7 @@ class PoseComparison {
 
   std::span<const PoseCandidate> candidates_;
   Seed seed_;
-  Source source_ = Source::kCandidates;
+  Source source_ = Source::kTemplates;
   int next_ = 0;            ///< of the source
   PoseHypothesis current_;  ///< origin and number of the attempt under way
   bool returns_ = false;

@@ -11,7 +11,7 @@ namespace boresight {
 /// Start of the attempt that found a hypothesis.
 enum class HypothesisOrigin : std::uint8_t {
   kCandidate = 0,  ///< a candidate of the search
-  kTemplates,      ///< templates matched around the best candidate
+  kTemplates,      ///< templates matched around the first candidate
   kSeed,           ///< templates matched around the seed
   kRestart,        ///< the best pose, moved along a direction that the image determines weakly
 };

@@ -72,7 +72,7 @@ std::string originText(const PoseHypothesis& hypothesis) {
     case HypothesisOrigin::kCandidate:
       return "candidate " + std::to_string(hypothesis.number + 1) + " of the search";
     case HypothesisOrigin::kTemplates:
-      return "templates around the best candidate";
+      return "templates around the first candidate";
     case HypothesisOrigin::kSeed:
       return "templates around the seed";
     case HypothesisOrigin::kRestart:

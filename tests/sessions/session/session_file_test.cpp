@@ -107,7 +107,7 @@ TEST(SessionFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message([](json&) {}), "(nothing)");
   const std::vector<std::pair<std::function<void(json&)>, const char*>> spoilt = {
       {[](json& s) { s = json::array(); }, "s.json: not a JSON object"},
-      {[](json& s) { s.erase("format"); }, "s.json: format: missing: a file of its own begins with"},
+      {[](json& s) { s.erase("format"); }, "s.json: format: missing"},
       {[](json& s) { s["format"] = "boresight-pose"; }, "format: is 'boresight-pose'"},
       {[](json& s) { s["version"] = 2; }, "version: version 2 was written by a newer program"},
       {[](json& s) { s["version"] = 0; }, "version: there is no version 0"},
