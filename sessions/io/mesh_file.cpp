@@ -93,7 +93,9 @@ Mesh readMesh(const MeshFiles& files, const std::string& unit) {
   const MeshDeclaration declared = checkMeshContainer(file, files.bytes, files.format);
   requireAtMost(file, declared.vertex_count.value_or(0), kMaxMeshVertices, "vertices");
   requireAtMost(file, declared.polygon_count.value_or(0), kMaxMeshFaces, "faces");
-  if (declared.polygon_count.value_or(1) == 0 || (declared.vertex_count && !declared.polygon_count))
+  const bool states_none =
+      declared.vertex_count && !declared.polygon_count && !declared.needs_plain_ply;
+  if (declared.polygon_count.value_or(1) == 0 || states_none)
     throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
 
   const ImportedMesh imported = importMesh(files, declared, info.metres_per_unit);
