@@ -76,7 +76,7 @@ TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
     EXPECT_EQ(result["competing_poses"][i]["margin_nats"], trace.competing_poses[i].margin_nats);
   EXPECT_GT(result["image_quality"]["contrast_gray"], 10.0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("The probability that the pose is right is"),
-                             HasSubstr("compared poses and comes from"),
+                             HasSubstr(" and comes from "),
                              HasSubstr("image at the seed: noise")));
 }
 
