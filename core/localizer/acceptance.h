@@ -14,11 +14,15 @@ namespace boresight {
 
 /// Least evidence margin of the final pose over a competing pose within the seed's uncertainty.
 inline constexpr double kLeastMargin_nats = 3.0;
-/// Poses of less probability are compared with the mesh's mirror image.
+/// Poses of less probability are compared with the mesh's mirror image, and with poses within twice
+/// the seed's uncertainty.
 inline constexpr double kUndoubted = 0.9;
 /// A mirror image with more total evidence than this multiple of the pose's says that the mesh is
 /// mirrored: symmetric meshes have about the same.
 inline constexpr double kMirrorExcess = 1.5;
+/// Another pose within twice the seed's uncertainty with more total evidence than this multiple of
+/// the pose's says that the seed is farther off than stated.
+inline constexpr double kOtherExcess = 1.2;
 /// Least margin over a competing pose outside the seed's uncertainty, which the seed excludes. With
 /// a correct mesh no such pose has more evidence; with a mirrored mesh the half turn has 12 to 45
 /// nats more.

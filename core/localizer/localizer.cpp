@@ -46,6 +46,10 @@ PassPlan Localizer::plan() const {
       plan.kind = PassKind::kMirror;
       plan.camera_from_station = attempt_.camera_from_station();
       break;
+    case Phase::kWider:  // compare with poses within twice the seed's uncertainty
+      plan.kind = PassKind::kWider;
+      plan.camera_from_station = attempt_.camera_from_station();
+      break;
   }
   return plan;
 }
@@ -72,6 +76,7 @@ StepReport Localizer::decide(StepReport report) {
       return accepted(judgeSupport(workspace(), options(), searches()), report);
     case Phase::kCompare:
     case Phase::kMirror:
+    case Phase::kWider:
       return compared(report);
     case Phase::kEnded:
       break;
@@ -124,13 +129,20 @@ StepReport Localizer::accepted(LocalizationStatus status, const StepReport& repo
   return report;
 }
 
-/// Judges the competing poses, of a doubtful pose the mesh's mirror image among them.
+/// Judges the competing poses; of a doubtful pose also the mesh's mirror image, and poses within
+/// twice the seed's uncertainty. A pose beyond the stated uncertainty is doubtful for the latter.
 StepReport Localizer::compared(const StepReport& report) {
   const LocalizationStatus status =
       judgeCompetingPoses(workspace().competing_poses, seedOf(problem()), options());
-  const bool doubtful = workspace().probability < kUndoubted && phase_ == Phase::kCompare;
-  if (status != LocalizationStatus::kConverged || !doubtful) return finish(status, report);
-  phase_ = Phase::kMirror;
+  if (status != LocalizationStatus::kConverged || phase_ == Phase::kWider)
+    return finish(status, report);
+  const bool is_probable = workspace().probability >= kUndoubted;
+  if (!is_probable && phase_ == Phase::kCompare)
+    phase_ = Phase::kMirror;
+  else if (!is_probable || leftUncertainty(seedOf(problem()), attempt_.camera_from_station(), 1.0))
+    phase_ = Phase::kWider;
+  else
+    return finish(status, report);
   return report;
 }
 

@@ -110,6 +110,7 @@ class Localizer {
     kAccept,
     kCompare,
     kMirror,
+    kWider,
     kEnded
   };
 

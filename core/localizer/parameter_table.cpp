@@ -45,8 +45,7 @@ ProblemCheck decodeParameters(std::span<const std::uint8_t> bytes, LocalizerOpti
   const std::uint32_t size = header.u32();
   if (header.failed()) return {ProblemFault::kNotAProblem, nullptr};
   if (version != kParameterVersion) return {ProblemFault::kVersion, nullptr};
-  if (size != bytes.size() || header.left() < kChecksumBytes)
-    return {ProblemFault::kSize, nullptr};
+  if (size != bytes.size() || header.left() < kChecksumBytes) return {ProblemFault::kSize, nullptr};
   const std::span<const std::uint8_t> summed = bytes.first(bytes.size() - kChecksumBytes);
   if (ByteReader(bytes.last(kChecksumBytes)).u32() != crc32(summed))
     return {ProblemFault::kChecksum, nullptr};

@@ -93,6 +93,7 @@ void Pass::begin(const PassPlan& plan) {
     case PassKind::kSupport:
     case PassKind::kCompare:
     case PassKind::kMirror:
+    case PassKind::kWider:
       stage_ = Stage::kSupport;
       break;
   }

@@ -149,7 +149,9 @@ class Pass {
   StepReport stepOutsideRound();
   StepReport stepSupport();
   StepReport stepCompare();
-  StepReport stepMirror();
+  StepReport stepSearchAgain();
+  void takeMirrorImage(std::span<const PoseCandidate> candidates);
+  void takeOther(std::span<const PoseCandidate> candidates);
   void beginSupport();
   void noteEvidence();
   Status beginPose();

@@ -27,6 +27,7 @@ enum class PassKind : std::uint8_t {
   kSupport,    ///< the same for the final pose, with the width of its edges and the focal length
   kCompare,    ///< compares the final pose with others that show about the same edges
   kMirror,     ///< compares the final pose with the mesh's mirror image
+  kWider,      ///< compares the final pose with those within twice the seed's uncertainty
 };
 
 /// Input of a pass.

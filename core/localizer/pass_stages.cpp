@@ -8,6 +8,7 @@
 #include "core/localizer/run_digest.h"
 #include "core/localizer/schedule.h"
 #include "core/search/mirror_search.h"
+#include "core/search/wider_search.h"
 
 namespace boresight {
 
@@ -29,8 +30,9 @@ StepReport Pass::step() {
     case Stage::kRefine:
       return solve_outside_ ? stepOutsideRound() : stepRefine();
     case Stage::kSupport:
-      if (plan_.kind == PassKind::kMirror) return stepMirror();
-      return plan_.kind == PassKind::kCompare ? stepCompare() : stepSupport();
+      if (plan_.kind == PassKind::kCompare) return stepCompare();
+      return plan_.kind == PassKind::kMirror || plan_.kind == PassKind::kWider ? stepSearchAgain()
+                                                                               : stepSupport();
     case Stage::kFinished:
       break;
   }
@@ -332,29 +334,59 @@ StepReport Pass::stepCompare() {
   return end(Stage::kSupport);
 }
 
-/// Searches for the mesh's mirror image, in the memory of the search.
-StepReport Pass::stepMirror() {
+/// Searches for what would contradict the pose: the mesh's mirror image, or a pose beyond the
+/// seed's uncertainty. Works in the memory of the search.
+StepReport Pass::stepSearchAgain() {
   PoseSearch& search = memory_.search;
+  const bool is_mirror = plan_.kind == PassKind::kMirror;
   const bool works =
-      stage_begun_ ||
-      search.begin(mirrorSearch(searched_, plan_.camera_from_station), memory_.renderer);
+      stage_begun_ || search.begin(is_mirror ? mirrorSearch(searched_, plan_.camera_from_station)
+                                             : widerSearch(searched_),
+                                   memory_.renderer);
   stage_begun_ = true;
   if (works && !search.step()) return StepReport::of(Stage::kSupport, false);
-  double most_nats = 0.0;
-  for (const PoseCandidate& candidate : search.candidates())
-    most_nats = std::max(most_nats, candidate.evidence.total_nats());
-  const double own_nats = workspace_.evidence.contours.front().total_nats();
-  if (most_nats > kMirrorExcess * std::max(own_nats, 0.0)) {
-    CompetingPose mirror;
-    mirror.camera_from_station = plan_.camera_from_station;
-    mirror.margin_nats = (own_nats - most_nats) / kAlongEdge_px;
-    mirror.mirrored = true;
-    memory_.competing.addMirrorImage(mirror);
-  }
+  if (is_mirror)
+    takeMirrorImage(search.candidates());
+  else
+    takeOther(search.candidates());
   workspace_.competing_poses = memory_.competing.poses();
   workspace_.candidates = {};  // their memory was used
   digestCompetingPoses(workspace_.competing_poses, digest_);
   return end(Stage::kSupport);
+}
+
+void Pass::takeMirrorImage(std::span<const PoseCandidate> candidates) {
+  double most_nats = 0.0;
+  for (const PoseCandidate& candidate : candidates)
+    most_nats = std::max(most_nats, candidate.evidence.total_nats());
+  const double own_nats = workspace_.evidence.contours.front().total_nats();
+  if (most_nats <= kMirrorExcess * std::max(own_nats, 0.0)) return;
+  CompetingPose mirror;
+  mirror.camera_from_station = plan_.camera_from_station;
+  mirror.margin_nats = (own_nats - most_nats) / kAlongEdge_px;
+  mirror.mirrored = true;
+  memory_.competing.add(mirror);
+}
+
+/// The candidate with most evidence that is another answer, when it has clearly more than the pose:
+/// than the final pose, and than candidates at the same place, which are refined as coarsely.
+void Pass::takeOther(std::span<const PoseCandidate> candidates) {
+  const double own_nats = std::max(0.0, workspace_.evidence.contours.front().total_nats());
+  double same_nats = own_nats;
+  const PoseCandidate* other = nullptr;
+  for (const PoseCandidate& candidate : candidates) {
+    const double nats = candidate.evidence.total_nats();
+    if (!areDistinct(plan_.camera_from_station, candidate.camera_from_station, scene_,
+                     problem_.camera))
+      same_nats = std::max(same_nats, nats);
+    else if (other == nullptr || nats > other->evidence.total_nats())
+      other = &candidate;
+  }
+  if (other == nullptr || other->evidence.total_nats() <= kOtherExcess * same_nats) return;
+  CompetingPose competing;
+  competing.camera_from_station = other->camera_from_station;
+  competing.margin_nats = (own_nats - other->evidence.total_nats()) / kAlongEdge_px;
+  memory_.competing.add(competing);
 }
 
 }  // namespace boresight

@@ -70,6 +70,14 @@ double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
   return seen.isEmpty() ? 0.0 : seen.sizes().maxCoeff();
 }
 
+bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene,
+                 const Camera& camera) {
+  constexpr double kOfLongerSide = 0.03;
+  constexpr double kLeast_px = 2.0;
+  return displacementBetween_px(first, second, scene, camera) >
+         std::max(kLeast_px, kOfLongerSide * longerSide_px(first, scene, camera));
+}
+
 Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene) {
   const Eigen::Vector3d axis = (camera_from_station * scene.centre()).normalized();
   const Eigen::Quaterniond turn = rotationExp(axis * roll_rad);

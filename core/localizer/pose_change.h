@@ -24,6 +24,10 @@ double displacementBetween_px(const Pose& before, const Pose& after, const Bound
 /// when none of them is seen.
 double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
                      const Camera& camera);
+/// Whether the poses are so far apart in the image that they are different answers: more than 3 %
+/// of the object's longer side, and than 2 px.
+bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene,
+                 const Camera& camera);
 
 /// The pose turned about the ray through the scene's middle, so that the scene stays where it is.
 Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene);

@@ -23,9 +23,6 @@ constexpr double kOfBestTotal = 0.5;
 constexpr double kOfRadius = 0.67;
 /// Poses nearer than this are one hypothesis, px of the level.
 constexpr double kSame_px = 0.6;
-/// Poses farther apart are distinct: share of the object's longer side in the image, and px.
-constexpr double kDistinct = 0.03;
-constexpr double kDistinct_px = 2.0;
 /// Motion of a restart, px of the fine level, root mean square.
 constexpr double kRestart_px = 7.0;
 
@@ -186,12 +183,10 @@ int PoseComparison::competitorIndex(const RunContext& run) const {
   int competitor = -1;
   if (best_index_ < 0) return competitor;
   const Pose& best = hypotheses_[best_index_].camera_from_station;
-  const double apart_px =
-      std::max(kDistinct_px, kDistinct * longerSide_px(best, run.scene, run.camera));
   for (int i = 0; i < hypotheses_.size(); ++i) {
     const PoseHypothesis& other = hypotheses_[i];
     if (i == best_index_ || (competitor >= 0 && other.score <= hypotheses_[competitor].score) ||
-        displacementBetween_px(best, other.camera_from_station, run.scene, run.camera) <= apart_px)
+        !areDistinct(best, other.camera_from_station, run.scene, run.camera))
       continue;
     competitor = i;
   }

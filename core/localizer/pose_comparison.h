@@ -30,7 +30,7 @@ class PoseComparison {
     kReturn,    ///< the attempt of best(): its last iteration again
     kConclude,  ///< the run ends: with the pose of best(), or as a failure
   };
-  static constexpr int kRestarts = 4;
+  static constexpr int kRestarts = 4;         ///< along two directions, to both sides
   static constexpr int kMostCandidates = 10;  ///< of all views
   /// Candidates, two attempts with templates, restarts.
   static constexpr int kMostHypotheses = kMostCandidates + 2 + kRestarts;

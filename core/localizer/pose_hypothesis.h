@@ -19,9 +19,9 @@ inline constexpr HypothesisOrigin kLastHypothesisOrigin = HypothesisOrigin::kRes
 
 /// A pose of a run that was refined and whose evidence was measured.
 struct PoseHypothesis {
-  Pose camera_from_station;  ///< refined
-  HypothesisOrigin origin = HypothesisOrigin::kCandidate;
-  std::int32_t number = 0;   ///< of its origin, from 0
+  Pose camera_from_station;                                ///< refined
+  HypothesisOrigin origin = HypothesisOrigin::kCandidate;  ///< start of its attempt
+  std::int32_t number = 0;                                 ///< of its origin, from 0
   PoseEvidence evidence;     ///< of the image; of several views that of the first one
   double score = 0.0;        ///< PoseEvidence::score(), summed over several views
   double probability = 0.0;  ///< PoseEvidence::probability(), the largest of several views

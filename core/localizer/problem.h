@@ -17,7 +17,8 @@ struct LocalizationProblem {
   MeshView mesh;                     ///< the scene
   Pose camera_from_station_seed;     ///< where the search begins
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
-  /// Fixed to the camera; its centre when no end effector is known. For CorrectionPoint::kEndEffector.
+  /// Fixed to the camera; its centre when no end effector is known. For
+  /// CorrectionPoint::kEndEffector.
   Eigen::Vector3d end_effector_in_camera_m = Eigen::Vector3d::Zero();
 };
 

@@ -50,8 +50,8 @@ class CompetingPoseTest {
 
   /// The competing poses whose renders differ visibly.
   std::span<const CompetingPose> poses() const { return competing_.items(); }
-  /// Adds the mesh's mirror image, found by a search of its own.
-  void addMirrorImage(const CompetingPose& pose) { competing_.add(pose); }
+  /// Adds a pose found by a search of its own.
+  void add(const CompetingPose& pose) { competing_.add(pose); }
 
  private:
   enum class Phase : std::uint8_t { kView = 0, kSlides, kRender, kCompare, kDone };
@@ -112,7 +112,7 @@ class CompetingPoseTest {
   PoseList promising_;    ///< hypotheses that the image supports, in the view
   int competitor_ = 0;    ///< of the promising ones
 
-  FixedList<CompetingPose, kMostPoses + 1> competing_;
+  FixedList<CompetingPose, kMostPoses + 2> competing_;
 };
 
 }  // namespace boresight

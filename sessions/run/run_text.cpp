@@ -165,8 +165,8 @@ std::string ambiguousText(const LocalizationTrace& trace) {
               ? format("better, by %.1f nats of evidence; ", -other->margin_nats)
               : format("nearly as well: %.1f nats less evidence, needed %.1f; ", other->margin_nats,
                        kLeastMargin_nats)) +
-         "both poses look alike: show more distinct features, give a closer seed, or check that "
-         "the mesh is not mirrored";
+         "both poses look alike: show more distinct features, give a closer seed, state a larger "
+         "uncertainty, or check that the mesh is not mirrored";
 }
 
 /// The widest edges, measured along their normals.

@@ -91,6 +91,21 @@ TEST(LocalizerSearch, RailWhoseTruthIsOutsideTheUncertainty_IsRefused) {
   EXPECT_STRNE(localizationStatusText(endOf(scene, defaultProfile())), "converged");
 }
 
+/// The memory of the candidates is that of the wider search.
+TEST(LocalizerSearch, RightPoseBeyondTheStatedUncertainty_IsComparedWithAWiderSearchAndAccepted) {
+  for (const double share : {0.5, 1.2}) {
+    Case scene = stationCase(1);
+    scene.seed = scene.truth;
+    scene.seed.translation_m.x() += share * scene.uncertainty.translation_m.x();
+    OwnedRun run(scene.problem(), defaultProfile());
+    run.finish();
+    const Workspace& workspace = run.localizer.workspace();
+    EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
+    EXPECT_GT(workspace.probability, kUndoubted);
+    EXPECT_EQ(workspace.candidates.empty(), share > 1.0);
+  }
+}
+
 /// Poses that the seed excludes are not ambiguous.
 TEST(LocalizerSearch, RailWhoseSeedExcludesOtherPitches_IsNotAmbiguous) {
   const Case scene = railCase(Ends::kOutside, 0.0, 0.6, 2);

@@ -14,6 +14,7 @@
 #include "core/search/mirror_search.h"
 #include "core/search/pose_evidence_meter.h"
 #include "core/search/search_candidates.h"
+#include "core/search/wider_search.h"
 #include "tests/core/localizer/scene.h"
 
 namespace boresight {
@@ -253,6 +254,32 @@ TEST(MirrorSearch, RightMesh_HasNoBetterMirrorImage) {
   for (const PoseCandidate& mirror :
        run.run(mirrorSearch(run.problem(), found.camera_from_station)))
     EXPECT_LT(mirror.evidence.total_nats(), 0.8 * found.evidence.total_nats());
+}
+
+TEST(WiderSearch, TruthBeyondTheUncertainty_HasFarMoreEvidenceThanPosesWithin) {
+  for (const std::uint64_t seed : {1U, 2U, 5U}) {
+    test::Case scene = test::stationCase(seed);
+    scene.seed = scene.truth;
+    scene.uncertainty.translation_m *= 2.0;
+    scene.seed.translation_m.head<2>() += 1.8 * scene.uncertainty.translation_m.head<2>();
+    SearchRun run(scene);
+    double within_nats = 0.0;
+    for (const PoseCandidate& candidate : run.run())
+      within_nats = std::max(within_nats, candidate.evidence.total_nats());
+    const auto wider = run.run(widerSearch(run.problem()));
+    ASSERT_FALSE(wider.empty());
+    EXPECT_LT(run.error_px(wider[0].camera_from_station), 2.0);
+    EXPECT_GT(wider[0].evidence.total_nats(), 2.0 * within_nats);
+  }
+}
+
+TEST(WiderSearch, DoublesTheRangeUpToAllRotations) {
+  const test::Case scene = test::stationCase(1);
+  SearchProblem problem = SearchRun(scene).problem();
+  problem.uncertainty.rotation_rad = {0.5, 2.0, kPi};
+  const SearchProblem wider = widerSearch(problem);
+  EXPECT_EQ(wider.uncertainty.rotation_rad, Eigen::Vector3d(1.0, kPi, kPi));
+  EXPECT_EQ(wider.uncertainty.translation_m, 2.0 * problem.uncertainty.translation_m);
 }
 
 SearchCandidate at(double x_px, double distance_px) {
