@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python module against the program whs, and against arithmetic of its own."""
 
+import gc
 import json
 import os
 import subprocess
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -100,6 +102,43 @@ class Module(unittest.TestCase):
             boresight.localize(self.case, profile="none")
         stopped = boresight.localize(self.case, options={"loop.max_iterations": 1})
         self.assertNotEqual(stopped.digest, self.run_.digest)
+
+    def test_wrong_shapes_and_values_raise(self):
+        pose = self.case.camera_from_station_truth
+        for wrong in (pose[:3], pose[:3, :3], pose.ravel(), pose * 2.0, pose * np.nan,
+                      np.diag([1.0, 1.0, -1.0, 1.0]), np.stack([pose, pose]), "pose"):
+            with self.assertRaises((TypeError, ValueError)):
+                boresight.render_edges(self.case, wrong)
+        camera = EXAMPLES / "bc" / "camera.json"
+        points, pixels = np.zeros((8, 3)), np.zeros((8, 2))
+        for a, b in ((points.T, pixels), (points, pixels.T), (points[:7], pixels),
+                     (points.ravel(), pixels), (points[:, :2], pixels), (points, pixels[:, :1]),
+                     (points * np.nan, pixels), (points, pixels + np.inf), (points, pixels),
+                     (np.zeros((0, 3)), np.zeros((0, 2)))):
+            with self.assertRaises((TypeError, ValueError)):
+                boresight.solve_pnp(a, b, camera)
+
+    def test_threads_share_a_case(self):
+        with ThreadPoolExecutor(4) as pool:
+            digests = list(pool.map(lambda _: boresight.localize(self.case).digest, range(4)))
+        self.assertEqual(set(digests), {self.run_.digest})
+
+    def test_arrays_outlive_what_they_were_taken_from(self):
+        case = example("os")
+        image, vertices = case.image, case.vertices_in_station_m
+        run = boresight.localize(case, options={"loop.max_iterations": 1})
+        del case
+        gc.collect()
+        iterations, edges = run.iterations, run.edges(0)
+        again = boresight.localize(self.case, options={"loop.max_iterations": 1})
+        del run
+        gc.collect()
+        whole = example("os")
+        np.testing.assert_array_equal(image, whole.image)
+        np.testing.assert_array_equal(vertices, whole.vertices_in_station_m)
+        self.assertGreater(len(iterations), 0)
+        self.assertEqual(edges.shape, image.shape)
+        self.assertGreater(len(again.iterations), 0)
 
     def test_wrong_files_raise(self):
         with self.assertRaises(boresight.InputError) as raised:

@@ -116,6 +116,18 @@ TEST_F(FrameTransforms, NamesWhatIsWrong) {
   json["target_from_source"][0][0] = 3.0;
   EXPECT_THAT(error(json), HasSubstr("target_from_source: not a rotation"));
   json = transformJson();
+  json["target_from_source"][2][2] = -1.0;
+  EXPECT_THAT(error(json), HasSubstr("target_from_source: not a rotation")) << "mirrored";
+  json = transformJson();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      json["target_from_source"][row][column] =
+          1.001 * json["target_from_source"][row][column].get<double>();
+  EXPECT_THAT(error(json), HasSubstr("target_from_source: not a rotation")) << "scaled";
+  json = transformJson();
+  json["target_from_source"][3][3] = 1000.0;
+  EXPECT_THAT(error(json), HasSubstr("target_from_source")) << "scaled by its last row";
+  json = transformJson();
   json["target"]["name"] = "";
   EXPECT_THAT(error(json), HasSubstr("t.json: target.name"));
 }

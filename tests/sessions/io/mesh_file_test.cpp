@@ -14,6 +14,7 @@
 
 #include "core/base/random.h"
 #include "sessions/io/errors.h"
+#include "tests/sessions/io/expect_cube.h"
 #include "tests/sessions/io/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 
@@ -28,35 +29,6 @@ using ::testing::StartsWith;
 using ::testing::UnorderedElementsAreArray;
 using namespace boresight::sessions::test;  // NOLINT: the samples are this file's vocabulary
 
-/// Sum over the faces of what `part` makes of their corners.
-template <class Part>
-double sumOver(const Mesh& mesh, Part&& part) {
-  double sum = 0.0;
-  for (const Face& face : mesh.faces) {
-    const auto corner = [&](std::size_t i) -> Eigen::Vector3d {
-      return mesh.vertices_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
-    };
-    sum += part(corner(0), corner(1), corner(2));
-  }
-  return sum;
-}
-
-double signedVolume_m3(const Mesh& mesh) {
-  using V = const Eigen::Vector3d&;
-  return sumOver(mesh, [](V a, V b, V c) { return a.dot(b.cross(c)) / 6.0; });
-}
-
-double area_m2(const Mesh& mesh) {
-  using V = const Eigen::Vector3d&;
-  return sumOver(mesh, [](V a, V b, V c) { return 0.5 * (b - a).cross(c - a).norm(); });
-}
-
-Status validity(const Mesh& mesh) {
-  const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), 0);
-  const std::array<ScenePart, 1> parts = {};
-  return validateMesh({mesh.vertices_m, mesh.faces, part_of_face, parts});
-}
-
 class ReadMesh : public ::testing::Test {
  protected:
   Mesh read(const std::string& name, const std::string& content, const std::string& unit = "m") {
@@ -68,17 +40,6 @@ class ReadMesh : public ::testing::Test {
   }
   TemporaryFolder folder_;
 };
-
-/// A closed, outward cube whatever the format: 8 vertices, 12 faces, the right place and volume.
-void expectCube(const Mesh& mesh, double scale = 1.0) {
-  EXPECT_EQ(mesh.vertices_m.size(), 8u);
-  EXPECT_EQ(mesh.faces.size(), 12u);
-  EXPECT_TRUE(mesh.info.minimum_m.isApprox(scale * Eigen::Vector3d(-1, -1, 9), 1e-6));
-  EXPECT_TRUE(mesh.info.maximum_m.isApprox(scale * Eigen::Vector3d(1, 1, 11), 1e-6));
-  EXPECT_NEAR(signedVolume_m3(mesh) / std::pow(scale, 3), 8.0, 1e-5);
-  EXPECT_NEAR(area_m2(mesh) / (scale * scale), 24.0, 1e-5);
-  EXPECT_EQ(validity(mesh), Status::kOk);
-}
 
 /// The cube's quads as one list of strips, each ended by -1, with the elements in either order.
 std::string stripsPly(bool ascii, bool big_endian) {

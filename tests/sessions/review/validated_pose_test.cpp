@@ -486,29 +486,64 @@ TEST_F(ValidatedPose, AnInputThatIsMissingOrChangedIsNamed) {
 }
 
 /// Keys are made for the test. A name has blanks, and characters of a shell.
-TEST_F(ValidatedPose, SignaturesOfThoseWhoDecidedAreChecked) {
-  if (std::system("command -v ssh-keygen >/dev/null") != 0) GTEST_SKIP() << "no ssh-keygen";
-  const fs::path file = writeValidated();
-  const std::string by = session_.decisionOn(id_)->by;
-  const std::string key = (folder_.path() / "key").string();
-  ASSERT_EQ(std::system(("ssh-keygen -q -t ed25519 -N '' -C x -f " + key).c_str()), 0);
-  std::ifstream stream(key + ".pub");
-  const std::string public_key((std::istreambuf_iterator<char>(stream)), {});
-  const fs::path signers = folder_.write("signers", "\"" + by + "\" " + public_key);
-  const fs::path of_another = folder_.write("others", "\"$(whoami); B.\" " + public_key);
-  const auto verify = [&](const fs::path& allowed) {
-    return sessions::verifyPose(file, false, false, {std::nullopt, allowed});
-  };
-  EXPECT_THAT(wrongsOf(verify(signers)), HasSubstr("key: no signature of " + by));
-  ASSERT_EQ(std::system(("ssh-keygen -q -Y sign -n boresight -f " + key + " " + file.string() +
-                         " 2>/dev/null")
-                            .c_str()),
-            0);
-  EXPECT_TRUE(verify(signers).good()) << wrongsOf(verify(signers));
-  EXPECT_THAT(wrongsOf(verify(of_another)), HasSubstr("key: no signature of " + by));
+class SignedPose : public ValidatedPose {
+ protected:
+  void SetUp() override {
+    ValidatedPose::SetUp();
+    if (std::system("command -v ssh-keygen >/dev/null") != 0) GTEST_SKIP() << "no ssh-keygen";
+    file_ = writeValidated();
+    by_ = session_.decisionOn(id_)->by;
+    key_ = newKey("key");
+    signers_ = folder_.write("signers", "\"" + by_ + "\" " + publicKey("key"));
+  }
+  std::string newKey(const std::string& name) {
+    const std::string key = (folder_.path() / name).string();
+    EXPECT_EQ(std::system(("ssh-keygen -q -t ed25519 -N '' -C x -f " + key).c_str()), 0);
+    return key;
+  }
+  std::string publicKey(const std::string& name) const { return folder_.read(name + ".pub"); }
+  void sign(const std::string& key, const std::string& space = "boresight") {
+    fs::remove(file_.string() + ".sig");
+    const std::string command =
+        "ssh-keygen -q -Y sign -n " + space + " -f " + key + " " + file_.string() + " 2>/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+  }
+  VerifyReport verify(const fs::path& allowed) const {
+    return sessions::verifyPose(file_, false, false, {std::nullopt, allowed});
+  }
+  void expectNotSigned(const fs::path& allowed, const std::string& why) const {
+    EXPECT_THAT(wrongsOf(verify(allowed)), HasSubstr("key: no signature of " + by_)) << why;
+  }
+  fs::path file_;
+  fs::path signers_;
+  std::string by_;
+  std::string key_;
+};
+
+TEST_F(SignedPose, IsSignedOnlyByAListedKeyOfWhoDecided) {
+  expectNotSigned(signers_, "no signature");
+  sign(key_);
+  EXPECT_TRUE(verify(signers_).good()) << wrongsOf(verify(signers_));
+  expectNotSigned(folder_.write("others", "\"$(whoami); B.\" " + publicKey("key")), "another name");
+  expectNotSigned(folder_.write("empty", ""), "nobody is listed");
+  expectNotSigned(folder_.write("space", "\"" + by_ + "\" namespaces=\"file\" " + publicKey("key")),
+                  "listed for another namespace");
+  expectNotSigned(
+      folder_.write("expired", "\"" + by_ + "\" valid-before=\"20200101\" " + publicKey("key")),
+      "expired");
   EXPECT_THROW((void)verify(folder_.path() / "none"), sessions::InputError);
-  std::ofstream(file, std::ios::app) << "\n";  // the JSON is the same, the signed bytes are not
-  EXPECT_THAT(wrongsOf(verify(signers)), HasSubstr("key: no signature of " + by));
+  const std::string other = newKey("other");
+  sign(other);
+  expectNotSigned(signers_, "another key");
+  sign(key_, "file");
+  expectNotSigned(signers_, "another namespace");
+  sign(key_);
+  const std::string signature = folder_.read(file_.filename().string() + ".sig");
+  folder_.write(file_.filename().string() + ".sig", signature.substr(0, signature.size() / 2));
+  expectNotSigned(signers_, "half a signature");
+  sign(key_);
+  std::ofstream(file_, std::ios::app) << "\n";  // the JSON is the same, the signed bytes are not
+  expectNotSigned(signers_, "edited after signing");
 }
 
 TEST_F(ValidatedPose, MovedAndRenamedFilesAreFoundByTheirHash) {
