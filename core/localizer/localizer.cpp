@@ -122,6 +122,8 @@ StepReport Localizer::accepted(LocalizationStatus status, const StepReport& repo
   if (status != LocalizationStatus::kConverged)
     return fail({Ruling::Next::kFailed, status, Stage::kSupport, false, attempt_.record()});
   show({Ruling::Next::kPose, status, Stage::kSupport, false, attempt_.record()});
+  covariance_ =
+      withUndetermined(attempt_.covariance(), pass_.outcome().weak, problem().uncertainty);
   if (!searches() || !options().support.gate) return finish(status, report);
   status = judgeGap(workspace(), options());
   if (status != LocalizationStatus::kConverged) return finish(status, report);

@@ -136,6 +136,7 @@ class Localizer {
   Kernels kernels_;
   Status status_ = Status::kOk;
   Pass pass_;
+  Matrix6d covariance_ = Matrix6d::Zero();  ///< of the final pose
   Phase phase_ = Phase::kEdges;
   Attempt attempt_;
   PoseComparison comparison_;

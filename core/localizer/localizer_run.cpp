@@ -103,7 +103,7 @@ StepReport Localizer::finish(LocalizationStatus status, StepReport report) {
     status = LocalizationStatus::kFault;
     pass_.workspace().fault = Status::kMemoryChanged;
   }
-  pass_.finish(status, attempt_.camera_from_station(), attempt_.covariance());
+  pass_.finish(status, attempt_.camera_from_station(), covariance_);
   phase_ = Phase::kEnded;
   report.finished = true;
   return report;

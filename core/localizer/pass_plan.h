@@ -54,7 +54,7 @@ struct PassPlan {
 struct PassOutcome {
   Stage reached = Stage::kEdges;  ///< the last stage that ran
   Status fault = Status::kOk;     ///< the capacity that was exceeded
-  WeakDirections weak;            ///< with kEvidence, of a refined pose
+  WeakDirections weak;            ///< of a refined pose, with kEvidence and kSupport of a search
 };
 
 /// Number of matches that agree with a pose: of all views when several views share the pose.

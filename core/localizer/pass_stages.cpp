@@ -318,7 +318,7 @@ void Pass::noteEvidence() {
   evidence.edge_support = workspace_.support.share();
   workspace_.probability = evidence.probability();
   digestEvidence(evidence, digest_);
-  if (plan_.kind == PassKind::kEvidence && iteration.kind == IterationKind::kRefine)
+  if (iteration.kind == IterationKind::kRefine)
     outcome_.weak = weakDirections(iteration.refinement, problem_.camera, scene_.centre());
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/pnp/normal_equations.h"
 
@@ -58,6 +59,28 @@ Vector6d solveUpper(const Matrix6d& factor, Vector6d b) {
   return b;
 }
 
+/// A small offset about the pivot as one about the camera's centre.
+Vector6d aboutCamera(const Vector6d& offset, const Eigen::Vector3d& pivot_in_camera_m) {
+  Vector6d moved = offset;
+  moved.tail<3>() -= offset.head<3>().cross(pivot_in_camera_m);
+  return moved;
+}
+
+/// Variance of the motion along a direction (about the camera's centre) that the seed's
+/// uncertainty, taken as a Gaussian, leaves.
+double varianceAlong(const Vector6d& direction, const SeedUncertainty& uncertainty) {
+  const Vector6d offset = aboutCamera(direction, -uncertainty.pivot_in_camera_m);
+  double information = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    const double sigma =
+        kUniformSigma * (i < 3 ? uncertainty.rotation_rad[i] : uncertainty.translation_m[i - 3]);
+    constexpr double kLeast = 1e-9;  // rad or m: known exactly
+    const double ratio = offset[i] / std::max(sigma, kLeast);
+    information += ratio * ratio;
+  }
+  return information > 0.0 ? 1.0 / information : 0.0;
+}
+
 }  // namespace
 
 WeakDirections weakDirections(const RefinementResult& refined, const Camera& camera,
@@ -95,6 +118,19 @@ WeakDirections weakDirections(const RefinementResult& refined, const Camera& cam
   }
   weak.known = true;
   return weak;
+}
+
+Matrix6d withUndetermined(const Matrix6d& covariance, const WeakDirections& weak,
+                          const SeedUncertainty& uncertainty) {
+  Matrix6d sum = covariance;
+  for (std::size_t i = 0; i < weak.offset_per_px.size(); ++i) {
+    if (!weak.isUndetermined(i)) continue;
+    const Vector6d direction = aboutCamera(weak.offset_per_px[i], weak.pivot_in_camera_m);
+    const double variance_px2 = varianceAlong(direction, uncertainty);
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b) sum(a, b) += variance_px2 * direction[a] * direction[b];
+  }
+  return sum;
 }
 
 }  // namespace boresight

@@ -16,10 +16,18 @@ struct WeakDirections {
   /// Offsets (rotation rad, translation m) about the pivot, camera axes; each moves the edge places
   /// by 1 px, root mean square.
   std::array<Vector6d, 2> offset_per_px{Vector6d::Zero(), Vector6d::Zero()};
-  /// Share of that motion which is along the edges' normals, root mean square: 0 is undetermined.
+  /// Share of that motion which is along the edges' normals, root mean square.
   std::array<double, 2> seen{};
   Eigen::Vector3d pivot_in_camera_m = Eigen::Vector3d::Zero();  ///< centre of the scene
   bool known = false;  ///< false when the places determine no directions at all
+
+  /// A smaller share leaves a direction undetermined: the facets of a coarse tube show up to 0.1 of
+  /// a turn about its axis, and agree with each other in a wrong turn.
+  static constexpr double kUndetermined = 0.12;
+  /// Whether the edges leave the direction undetermined.
+  bool isUndetermined(std::size_t direction) const {
+    return known && seen[direction] < kUndetermined;
+  }
 
   /// The pose moved along a direction by that many pixels, root mean square.
   Pose moved(const Pose& camera_from_station, int direction, double motion_px) const {
@@ -34,5 +42,10 @@ struct WeakDirections {
 /// places' motion. `camera` is the image's.
 WeakDirections weakDirections(const RefinementResult& refined, const Camera& camera,
                               const Eigen::Vector3d& centre_in_station_m);
+
+/// The covariance of a refined pose (camera axes, about the camera's centre), with the variance
+/// that the seed's uncertainty leaves added along undetermined directions.
+Matrix6d withUndetermined(const Matrix6d& covariance, const WeakDirections& weak,
+                          const SeedUncertainty& uncertainty);
 
 }  // namespace boresight

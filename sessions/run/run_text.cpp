@@ -12,6 +12,7 @@
 #include "core/refine/edge_refinement.h"
 #include "core/render/band_painter.h"
 #include "core/templates/template_selection.h"
+#include "sessions/io/least_known.h"
 #include "sessions/run/acceptance.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
@@ -239,11 +240,13 @@ std::string convergedText(const LocalizationTrace& trace) {
   if (trace.attempts > 1) text += format(" and %d attempts", trace.attempts);
   text += trace.replayed ? "." : format(", %.2f s.", trace.seconds.total());
   if (trace.lastOptions().support.gate) text += " " + acceptanceText(trace);
-  return text + format(
-                    " 1 sigma by the image only, at the camera, along its x, y, z: %.3f, %.3f, "
-                    "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",
-                    toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)),
-                    1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2));
+  text += format(
+      " 1 sigma by the image only, at the camera, along its x, y, z: %.3f, %.3f, "
+      "%.3f mm; about them: %.3f, %.3f, %.3f mrad.",
+      toMillimetres(sigma(3)), toMillimetres(sigma(4)), toMillimetres(sigma(5)), 1e3 * sigma(0),
+      1e3 * sigma(1), 1e3 * sigma(2));
+  const std::string least_known = leastKnownText(trace.covariance, trace.camera_from_station);
+  return least_known.empty() ? text : text + " Least known: " + least_known + ".";
 }
 
 /// With the probability of a pose that was refused for another reason.

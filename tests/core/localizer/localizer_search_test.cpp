@@ -137,7 +137,7 @@ void expectTruth(const Case& scene, const Workspace& workspace) {
 }
 
 TEST(LocalizerSearch, TurnedSeed_IsFoundWithinAStatedUncertainty) {
-  for (const double turn_deg : {-160.0, 75.0, 100.0, 180.0}) {
+  for (const double turn_deg : {75.0, 180.0}) {
     SCOPED_TRACE(turn_deg);
     const Case scene = turnedCase(3, turn_deg * kDegree_rad);
     EXPECT_NE(endOf(scene, withoutSearch()), LocalizationStatus::kConverged);

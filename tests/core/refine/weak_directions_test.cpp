@@ -104,6 +104,65 @@ TEST(WeakDirections, NoOtherDirection_IsWeaker) {
   }
 }
 
+/// A slide along the bar is known as the seed knows it, and nothing else has changed.
+TEST(WeakDirections, UndeterminedDirection_KeepsTheSeedsVariance) {
+  Places places;
+  for (int i = -50; i <= 50; ++i)
+    for (const double side : {-1.0, 1.0})
+      for (const double z_m : {0.45, 0.55}) places.add({0.002 * i, 0.05 * side, z_m}, 0.0, side);
+  const WeakDirections weak = weakDirections(places.result(), camera(), {0.0, 0.0, 0.5});
+  ASSERT_TRUE(weak.isUndetermined(0));
+  EXPECT_FALSE(weak.isUndetermined(1));
+  SeedUncertainty uncertainty;
+  uncertainty.translation_m = {0.03, 0.02, 0.01};
+  const Matrix6d before = 1e-10 * Matrix6d::Identity();
+  const Matrix6d after = withUndetermined(before, weak, uncertainty);
+  EXPECT_NEAR(std::sqrt(after(3, 3)), 0.03 / std::sqrt(3.0), 2e-4);
+  for (const int other : {4, 5}) EXPECT_LT(std::sqrt(after(other, other)), 1e-3);
+  EXPECT_LT((after - after.transpose()).norm(), 1e-18);
+  uncertainty.translation_m.x() = 0.0;  // known by the seed
+  EXPECT_LT((withUndetermined(before, weak, uncertainty) - before).norm(), 1e-12);
+}
+
+/// Circles about an axis along the line of sight, off the camera's own axis.
+TEST(WeakDirections, UndeterminedTurn_IsAboutItsOwnAxis) {
+  Places places;
+  const Eigen::Vector3d middle_m(0.05, 0.02, 0.5);
+  for (int i = 0; i < 100; ++i)
+    for (const double z_m : {0.45, 0.55}) {
+      const double angle_rad = 0.0628318 * i;
+      const Eigen::Vector2d out(std::cos(angle_rad), std::sin(angle_rad));
+      places.add({middle_m.x() + 0.03 * out.x(), middle_m.y() + 0.03 * out.y(), z_m}, out.x(),
+                 out.y());
+    }
+  const WeakDirections weak = weakDirections(places.result(), camera(), middle_m);
+  ASSERT_TRUE(weak.isUndetermined(0));
+  EXPECT_FALSE(weak.isUndetermined(1));
+  SeedUncertainty uncertainty;
+  uncertainty.pivot_in_camera_m = middle_m;
+  const Matrix6d after = withUndetermined(1e-12 * Matrix6d::Identity(), weak, uncertainty);
+  EXPECT_NEAR(std::sqrt(after(2, 2)), uncertainty.rotation_rad.z() / std::sqrt(3.0), 1e-3);
+  for (const int other : {0, 1}) EXPECT_LT(std::sqrt(after(other, other)), 1e-3);
+  Eigen::Matrix<double, 3, 6> moves;  // of the middle
+  moves << 0.0, middle_m.z(), -middle_m.y(), 1.0, 0.0, 0.0, -middle_m.z(), 0.0, middle_m.x(), 0.0,
+      1.0, 0.0, middle_m.y(), -middle_m.x(), 0.0, 0.0, 0.0, 1.0;
+  EXPECT_LT((moves * after * moves.transpose()).diagonal().maxCoeff(), 1e-7);
+}
+
+/// Edges in all directions determine everything.
+TEST(WeakDirections, DeterminedPose_KeepsItsCovariance) {
+  Random random(5);
+  Places places;
+  for (int i = 0; i < 300; ++i) {
+    const double angle_rad = random.uniform(0.0, 6.283);
+    places.add({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.3, 0.6)},
+               std::cos(angle_rad), std::sin(angle_rad));
+  }
+  const WeakDirections weak = weakDirections(places.result(), camera(), {0.0, 0.0, 0.45});
+  const Matrix6d covariance = 1e-8 * Matrix6d::Identity();
+  EXPECT_EQ(withUndetermined(covariance, weak, SeedUncertainty()), covariance);
+}
+
 TEST(WeakDirections, TooFewPlaces_DetermineNothing) {
   Places places;
   for (int i = 0; i < 5; ++i) places.add({0.01 * i, 0.0, 0.5}, 0.0, 1.0);
