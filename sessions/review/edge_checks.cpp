@@ -19,7 +19,7 @@ namespace {
 
 constexpr CheckName kCoverage{"edge_coverage", "Predicted edges that are seen"};
 constexpr CheckName kClutter{"edge_clutter", "Edges on the station that are not predicted"};
-constexpr CheckName kExplained{"edge_explained", "Larger of seen and predicted share of edges"};
+constexpr CheckName kEvidence{"edge_evidence", "Evidence of the edges beyond chance"};
 constexpr CheckName kFallOff{"edge_fall_off", "Edge-coverage sensitivity to displacement"};
 constexpr CheckName kWidth{"edge_width", "Sharpness of the image"};
 constexpr CheckName kFocal{"camera_focal", "Focal length estimated from the edges"};
@@ -52,17 +52,17 @@ Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       "the mesh is not.");
 }
 
-/// A label or a screw that the mesh lacks leaves much unpredicted, a shadow or an obstacle leaves
-/// much unseen; of a right pose one of the two is well explained.
-Check explainedCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
-  const double seen = evidence.coverage.value();
-  const double predicted = evidence.clutter.whole > 0.0 ? 1.0 - evidence.clutter.value() : 0.0;
-  return measuredCheck(kExplained, "%", 100.0 * std::max(seen, predicted), limits.explained_percent,
-                       LimitSide::kAtLeast,
-                       percentText(seen) + " of the predicted edges are seen, and " +
-                           percentText(predicted) +
-                           " of the edges seen on the station are predicted.",
-                       "Rendered and image edges disagree: check the overlay.");
+/// In print and texture every outline is seen, and little evidence is to be had; what there is must
+/// be there.
+Check evidenceCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
+  if (evidence.evidence.whole <= 0.0)
+    return notAskedCheck(kEvidence, "Displaced outlines are seen as often as a right pose's.");
+  const double share = evidence.evidence.value();
+  return measuredCheck(kEvidence, "%", 100.0 * share, limits.evidence_percent, LimitSide::kAtLeast,
+                       "Beyond chance, the predicted edges show " +
+                           percentText(std::max(0.0, share)) +
+                           " of the evidence that those of a right pose would.",
+                       "Other poses explain the image about as well: check the overlay.");
 }
 
 Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
@@ -115,11 +115,13 @@ double unexplained(const AskedChange& asked, double sigmas) {
 Check cameraCheck(const CheckName& name, const std::string& what, const AskedChange& asked,
                   double limit, double sigmas) {
   const double figure = unexplained(asked, sigmas);
+  const double unseen = sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
   const bool undecided = !asked.stated && std::abs(asked.change) <= limit + sigmas * asked.sigma;
   return measuredCheck(name, asked.unit, figure, limit, LimitSide::kAtMost,
                        "Estimated freely, the " + what + sentenceNumber(asked.change) + " " +
                            asked.unit + " (one sigma " + sentenceNumber(asked.sigma) + " " +
-                           asked.unit + ").",
+                           asked.unit + "). Errors below " + sentenceNumber(unseen) + " " +
+                           asked.unit + " cannot be seen.",
                        undecided ? kUndecidedRemedy : kCameraRemedy);
 }
 
@@ -274,7 +276,7 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
     const std::string why = measurable ? "The pose shows no edge of the station in the image."
                                        : "No image has the camera's size.";
     addAll(kCoverage, measurable, why, checks);
-    for (const CheckName& name : {kClutter, kExplained, kFallOff, kWidth, kFocal, kCentre})
+    for (const CheckName& name : {kClutter, kEvidence, kFallOff, kWidth, kFocal, kCentre})
       addAll(name, false, why, checks);
     return;
   }
@@ -286,10 +288,11 @@ void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
   EdgeEvidence evidence;
   evidence.coverage = coverageOf(looked);
   evidence.clutter = clutterOf(image, edges, looked);
+  evidence.evidence = evidenceOf(image, looked);
   evidence.fall_off = fallOffOf(image, places, loaded.source.camera, subject.camera_from_station);
   checks.push_back(coverageCheck(evidence, limits));
   checks.push_back(clutterCheck(evidence, limits));
-  checks.push_back(explainedCheck(evidence, limits));
+  checks.push_back(evidenceCheck(evidence, limits));
   checks.push_back(fallOffCheck(evidence, limits));
   checks.push_back(widthCheck(loaded, places, limits));
   if (asksForMetric(subject.requirement)) {

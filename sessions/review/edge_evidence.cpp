@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <opencv2/imgproc.hpp>
 
+#include "core/base/math.h"
 #include "core/render/edge_render.h"
 #include "sessions/review/checks.h"
 #include "sessions/run/scene_render.h"
@@ -27,6 +28,14 @@ constexpr int kMostSteps = 128;
 constexpr double kExplained_px = 2.0;
 constexpr double kSameDirection = 0.866;  // cos 30 deg
 constexpr double kShareOfSlope = 0.5;
+
+// Chance is what displaced outlines show.
+constexpr std::array<double, 2> kChanceReach = {0.05, 0.1};  ///< of the outline's longer side
+constexpr std::array<double, 2> kLeastChanceReach_px = {12.0, 24.0};
+constexpr int kChanceWays = 8;
+constexpr std::size_t kChancePlaces = 1500;
+/// Share of a right pose's edges that the image shows beyond chance, at least.
+constexpr double kShownAtRight = 0.4;
 
 /// Index of the predicted place that is nearest to each pixel of a region, within kExplained_px;
 /// -1: none.
@@ -58,6 +67,29 @@ double clutterSlope(const std::vector<LookedPlace>& looked) {
       slopes.push_back(looked_place.found->slope);
   if (slopes.empty()) return 2.0 * kLeastSlope;
   return std::max(kLeastSlope, kShareOfSlope * medianOf(slopes));
+}
+
+bool isSeen(const std::optional<FoundEdge>& found) {
+  return found && std::abs(found->offset_px) <= kNearEdge_px;
+}
+
+double longerSideOf(const std::vector<LookedPlace>& looked) {
+  Eigen::AlignedBox2d box;
+  for (const LookedPlace& looked_place : looked) box.extend(looked_place.place.pixel);
+  return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+}
+
+std::vector<Eigen::Vector2d> chanceOffsets_px(double longer_side_px) {
+  std::vector<Eigen::Vector2d> offsets_px;
+  for (std::size_t ring = 0; ring < kChanceReach.size(); ++ring) {
+    const double reach_px =
+        std::max(kLeastChanceReach_px[ring], kChanceReach[ring] * longer_side_px);
+    for (int way = 0; way < kChanceWays; ++way) {
+      const double angle_rad = 2.0 * kPi * way / kChanceWays;
+      offsets_px.emplace_back(reach_px * std::cos(angle_rad), reach_px * std::sin(angle_rad));
+    }
+  }
+  return offsets_px;
 }
 
 /// In the order of a perturbation's coordinates.
@@ -239,8 +271,31 @@ Share coverageOf(const std::vector<LookedPlace>& looked) {
   Share share;
   for (const LookedPlace& looked_place : looked) {
     share.whole += looked_place.place.length_px;
-    if (looked_place.found && std::abs(looked_place.found->offset_px) <= kNearEdge_px)
-      share.part += looked_place.place.length_px;
+    if (isSeen(looked_place.found)) share.part += looked_place.place.length_px;
+  }
+  return share;
+}
+
+Share evidenceOf(const ImageEdges& image, const std::vector<LookedPlace>& looked) {
+  Share share;
+  const auto offsets_px = chanceOffsets_px(longerSideOf(looked));
+  const std::size_t stride = std::max<std::size_t>(1, (looked.size() - 1) / kChancePlaces + 1);
+  for (std::size_t i = 0; i < looked.size(); i += stride) {
+    const EdgePlace& place = looked[i].place;
+    double seen = 0.5;  // one look more, half seen
+    double looks = 1.0;
+    for (const Eigen::Vector2d& offset_px : offsets_px) {
+      const Eigen::Vector2d at = place.pixel + offset_px;
+      if (!image.canLook(at, kEdgeRadius_px)) continue;
+      looks += 1.0;
+      if (isSeen(image.across(at, place.normal, kEdgeRadius_px, kLeastSlope))) seen += 1.0;
+    }
+    const double chance = seen / looks;
+    const double right = kShownAtRight + (1.0 - kShownAtRight) * chance;
+    const double if_seen = std::log(right / chance);
+    const double if_not = std::log1p(-kShownAtRight);
+    share.part += place.length_px * (isSeen(looked[i].found) ? if_seen : if_not);
+    share.whole += place.length_px * (right * if_seen + (1.0 - right) * if_not);
   }
   return share;
 }
@@ -280,8 +335,11 @@ cv::Rect regionOf(const PredictedEdges& edges) {
   if (edges.places.empty()) return {};
   Eigen::AlignedBox2d box;
   for (const EdgePlace& place : edges.places) box.extend(place.pixel);
-  // Displaced places move by a few times the root of the mean square at most.
-  const double margin = kEdgeRadius_px + 4.0 * kDisplaced_px + 2.0;
+  // Displaced places move by a few times the root of the mean square at most; chance is looked for
+  // farther out.
+  const double displaced_px = std::max({4.0 * kDisplaced_px, kLeastChanceReach_px.back(),
+                                        kChanceReach.back() * box.sizes().maxCoeff()});
+  const double margin = kEdgeRadius_px + displaced_px + 2.0;
   return {cv::Point(cvRound(box.min().x() - margin), cvRound(box.min().y() - margin)),
           cv::Point(cvRound(box.max().x() + margin) + 1, cvRound(box.max().y() + margin) + 1)};
 }

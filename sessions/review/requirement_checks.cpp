@@ -7,6 +7,8 @@
 #include <string>
 
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/io/least_known.h"
+#include "sessions/review/mesh_scale.h"
 #include "sessions/session/check.h"
 #include "sessions/session/input_sigmas.h"
 
@@ -16,6 +18,7 @@ namespace {
 constexpr CheckName kAnnotation{"agreement_annotation", "Agreement with the annotation"};
 constexpr CheckName kTruth{"agreement_truth", "Agreement with the truth"};
 constexpr CheckName kCamera{"agreement_camera", "Agreement with the other camera"};
+constexpr CheckName kScale{"mesh_scale", "Mesh scale estimated by the rig"};
 
 std::optional<Pose> endEffector(const ReviewSubject& subject) {
   if (subject.loaded == nullptr) return {};
@@ -117,6 +120,27 @@ Check camerasCheck(const ReviewSubject& subject, const CheckLimits& limits) {
       worst = std::move(check);
   }
   return *worst;
+}
+
+/// One image cannot tell the mesh's scale from its distance; cameras with a baseline can.
+Check meshScaleCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.loaded == nullptr || subject.other_cameras.empty())
+    return notAskedCheck(kScale,
+                         "One camera cannot see the mesh's scale: it needs a rig whose other "
+                         "camera has run on its own.");
+  const auto scale = meshScaleByRig(subject, matchedBounds(subject.loaded->scene.view()).centre());
+  if (!scale) return notAskedCheck(kScale, "The rig's cameras have no baseline or no covariance.");
+  const InputSigmas known(subject.loaded->source);
+  const double known_to = limits.sigmas * std::hypot(scale->sigma, known.mesh_scale);
+  const double figure = 100.0 * std::max(0.0, std::abs(scale->change) - known_to);
+  return measuredCheck(
+      kScale, "%", figure, limits.scale_percent, LimitSide::kAtMost,
+      "By the rig's baseline the object is " + sentenceNumber(100.0 * std::abs(scale->change)) +
+          " % " + (scale->change < 0.0 ? "larger" : "smaller") + " than its mesh (one sigma " +
+          sentenceNumber(100.0 * scale->sigma) + " %). Errors below " +
+          sentenceNumber(100.0 * known_to) + " % cannot be seen.",
+      "The mesh has another scale than the object, or the rig's camera positions are wrong: "
+      "measure a length of the object.");
 }
 
 Check annotationCheck(const ReviewSubject& subject, const CheckLimits& limits) {
@@ -221,7 +245,15 @@ class PrecisionChecks {
     return measuredCheck(name, unit, figure, *required, LimitSide::kAtMost,
                          sigmasText(limits_.sigmas) + " sigma" + place + " are " +
                              sentenceNumber(figure) + " " + unit + ". " + inputsText(*sigma, unit),
-                         by_inputs ? kInputsRemedy : kPictureRemedy);
+                         by_inputs ? kInputsRemedy : pictureRemedy());
+  }
+
+  /// Names the motion that the image leaves undetermined, where one stands out.
+  std::string pictureRemedy() const {
+    const std::string least_known =
+        leastKnownText(subject_.covariance.picture, subject_.camera_from_station);
+    return least_known.empty() ? kPictureRemedy
+                               : "Least known: " + least_known + ". " + kPictureRemedy;
   }
 
   std::string inputsText(const Sigmas& sigma, const std::string& unit) const {
@@ -249,6 +281,7 @@ void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
   checks.push_back(annotationCheck(subject, limits));
   checks.push_back(truthCheck(subject, limits));
   checks.push_back(camerasCheck(subject, limits));
+  checks.push_back(meshScaleCheck(subject, limits));
 }
 
 bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_station) {

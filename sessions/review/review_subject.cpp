@@ -57,7 +57,8 @@ std::optional<OtherPose> seenByOther(const Session& session, const LoadedCase& l
   };
   return OtherPose{other.id,
                    one_from_other * seen.camera_from_station,
-                   {turned(own.picture), turned(own.mesh_scale), turned(own.calibration)}};
+                   {turned(own.picture), turned(own.mesh_scale), turned(own.calibration)},
+                   one_from_other.translation_m};
 }
 
 std::vector<OtherPose> otherCameras(const Session& session, const LoadedCase& loaded,

@@ -22,6 +22,8 @@ struct OtherPose {
   std::string from;  ///< for display: "the annotation", "bc-right"
   Pose camera_from_station;
   PoseCovariance covariance = {};  ///< of the annotation only the annotations' own part
+  /// Of another camera of the rig: its centre, in this camera's frame.
+  Eigen::Vector3d centre_in_camera_m = Eigen::Vector3d::Zero();
 };
 
 /// A pose of a case, and all that it can be checked by. A value: it may be checked on any thread.

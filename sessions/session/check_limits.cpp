@@ -17,6 +17,8 @@ CheckPreset sampleTransfer() {
   preset.requirement.normal_mm = 0.4;
   preset.requirement.lateral_mm = 0.4;
   preset.requirement.rotation_deg = 0.25;
+  // Rendered stations show nearly all of their edges: 120 % and more.
+  preset.limits.evidence_percent = 70.0;
   return preset;
 }
 
@@ -28,7 +30,8 @@ CheckPreset photographs() {
   // Meshes of toys and castings, glossy or printed surfaces: less is seen, more is not predicted.
   preset.limits.inlier_ratio_percent = 14.0;
   preset.limits.coverage_percent = 25.0;
-  preset.limits.clutter_percent = 90.0;
+  preset.limits.clutter_percent = 97.0;
+  preset.limits.evidence_percent = 25.0;
   preset.limits.fall_off_percent = 8.0;
   // Printed boxes and things that look alike from many sides are hard to find.
   preset.limits.convergence_percent = 30.0;

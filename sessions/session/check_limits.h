@@ -27,11 +27,12 @@ struct CheckLimits {
   double range_gray = 10.0;
   double coverage_percent = 30.0;
   double clutter_percent = 95.0;
-  double explained_percent = 40.0;
+  double evidence_percent = 40.0;
   double fall_off_percent = 15.0;
   double edge_width_px = EdgeWidth::kWidest_px;
   double focal_percent = 0.5;
   double centre_px = 4.0;
+  double scale_percent = 0.1;
   double agreement_percent = 100.0;
   double convergence_percent = 90.0;
   double competing_percent = 115.0;
@@ -83,10 +84,10 @@ struct CheckLimits {
             "check.clutter_percent", "%", 0.0, 100.0,
             "Largest share of the image's edges on the station that the pose does not predict."},
         self.clutter_percent);
-    visit(OptionInfo{"check.explained_percent", "%", 0.0, 100.0,
-                     "Least value of the larger share: predicted edges that are seen, or seen "
-                     "edges that are predicted."},
-          self.explained_percent);
+    visit(OptionInfo{"check.evidence_percent", "%", 0.0, 1000.0,
+                     "Least evidence of the predicted edges beyond chance, relative to that of a "
+                     "right pose."},
+          self.evidence_percent);
     visit(OptionInfo{"check.edge_width_px", "px", 0.5, 100.0,
                      "Largest width of the image's edges in the least sharp direction."},
           self.edge_width_px);
@@ -102,6 +103,10 @@ struct CheckLimits {
                      "Largest significant shift of the principal point when estimated from the "
                      "edges; without calibration_sigma also its largest uncertainty."},
           self.centre_px);
+    visit(OptionInfo{"check.scale_percent", "%", 0.0, 100.0,
+                     "Largest significant change of the mesh's scale when estimated from the rig's "
+                     "baseline."},
+          self.scale_percent);
     visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
                      "Largest distance to another pose (annotation, truth, second camera), "
                      "relative to requirement and covariances."},

@@ -55,7 +55,7 @@ const std::map<std::string, double CheckLimits::*>& limitsByCheck() {
       {"peak_margin", &CheckLimits::peak_margin_percent},
       {"edge_coverage", &CheckLimits::coverage_percent},
       {"edge_clutter", &CheckLimits::clutter_percent},
-      {"edge_explained", &CheckLimits::explained_percent},
+      {"edge_evidence", &CheckLimits::evidence_percent},
       {"convergence_returned", &CheckLimits::convergence_percent},
       {"convergence_competing", &CheckLimits::competing_percent},
       {"edge_fall_off", &CheckLimits::fall_off_percent},
