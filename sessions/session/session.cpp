@@ -113,6 +113,13 @@ Session withCase(const Session& session, SessionCase changed) {
   return next;
 }
 
+std::string freeCaseId(const Session& session, const std::string& id) {
+  std::string free = id;
+  for (int number = 2; session.findCase(free) != nullptr; ++number)
+    free = id + "-" + std::to_string(number);
+  return free;
+}
+
 Session withoutCase(const Session& session, const std::string& case_id) {
   Session next = session;
   next.cases.eraseIf([&](const auto& item) { return item->id == case_id; });
@@ -145,13 +152,13 @@ Session withPartState(const Session& session, const std::string& case_id, std::s
   std::vector<PartSource> parts = partsOf(session_case);
   parts[part_index].state = state;
   const PartConcern concern = partConcern(parts[part_index], framesOf(session_case));
-  if (concern.member == "role") throw InputError(place, partName(parts[part_index]), concern.reason);
+  if (concern.member == "role")
+    throw InputError(place, partName(parts[part_index]), concern.reason);
   if (!anyMatched(parts))
     throw InputError(place, partName(parts[part_index]),
                      "is the only matched part: switch another one on first");
-  return withChanged(session, case_id, [&](SessionCase& changed) {
-    changed.parts[part_index].source.state = state;
-  });
+  return withChanged(session, case_id,
+                     [&](SessionCase& changed) { changed.parts[part_index].source.state = state; });
 }
 
 Session withOptions(const Session& session, const std::string& profile,

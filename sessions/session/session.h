@@ -173,6 +173,8 @@ Session withChanged(const Session& session, const std::string& case_id,
                     const std::function<void(SessionCase&)>& change);
 /// The same session with this case in place of the one of its id, or at the end.
 Session withCase(const Session& session, SessionCase changed);
+/// The id itself when no case has it, else with the first free number from 2 on: "bc-2".
+std::string freeCaseId(const Session& session, const std::string& id);
 /// The same session without a case and all that refers to it.
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is taken away.

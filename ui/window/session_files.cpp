@@ -12,6 +12,7 @@
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_of_results.h"
+#include "ui/panels/widgets.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/review/pose_export.h"
 #include "ui/run/task_runner.h"
@@ -244,18 +245,23 @@ void SessionFiles::addCase(const QString& kept) {
         return session_case;
       },
       [this, kept](sessions::SessionCase session_case) {
-        // Until now: whatever was wrong may be mended by a further file, e.g. a transform.
+        // The collected files stay when they make no case yet: a further file may be needed.
+        if (!takeCase(std::move(session_case))) {
+          Q_EMIT noted({});
+          return;
+        }
         forgetCollected();
         Q_EMIT noted(kept.isEmpty() ? QString() : tr("Also of earlier drops: %1").arg(kept));
-        takeCase(std::move(session_case));
       });
 }
 
-void SessionFiles::takeCase(sessions::SessionCase session_case) {
-  const QString id = QString::fromStdString(session_case.id);
+/// False when the operator has cancelled.
+bool SessionFiles::takeCase(sessions::SessionCase session_case) {
   Document& document = parts_.document;
   const bool alone = makes_new_session_ || !document.isEditable();
-  if (alone && document.isEditable() && !mayLeave()) return;
+  if (alone && document.isEditable() && !mayLeave()) return false;
+  if (!alone && !askForId(session_case)) return false;
+  const QString id = QString::fromStdString(session_case.id);
   const sessions::Session session =
       sessions::withCase(alone ? sessions::Session() : document.session(), std::move(session_case));
   if (alone) {
@@ -263,6 +269,28 @@ void SessionFiles::takeCase(sessions::SessionCase session_case) {
   } else if (document.edit(session, tr("Add %1").arg(id))) {
     parts_.cases.chooseCase(id);
   }
+  return true;
+}
+
+/// A case of the same id may be replaced, or both kept. False: neither.
+bool SessionFiles::askForId(sessions::SessionCase& session_case) {
+  const sessions::Session& session = parts_.document.session();
+  if (session.findCase(session_case.id) == nullptr) return true;
+  const std::string free = sessions::freeCaseId(session, session_case.id);
+  const QString id = QString::fromStdString(session_case.id);
+  QMessageBox box(QMessageBox::Question, tr("Boresight"),
+                  tr("The session has a case %1. Replace it, or keep both?").arg(id),
+                  QMessageBox::Cancel, &window_);
+  box.setInformativeText(tr("Replacing drops its inputs; its runs become outdated. Keeping both "
+                            "names the new case %1.")
+                             .arg(QString::fromStdString(free)));
+  QAbstractButton* both =
+      named(box.addButton(tr("Keep both"), QMessageBox::AcceptRole), "keepBoth");
+  QAbstractButton* replace =
+      named(box.addButton(tr("Replace"), QMessageBox::DestructiveRole), "replaceCase");
+  box.exec();
+  if (box.clickedButton() == both) session_case.id = free;
+  return box.clickedButton() == both || box.clickedButton() == replace;
 }
 
 bool SessionFiles::askForUnits() {

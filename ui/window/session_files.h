@@ -91,7 +91,8 @@ class SessionFiles : public QObject {
  private:
   void makeFrom(const std::filesystem::path& file, bool results);
   void addCase(const QString& kept);
-  void takeCase(sessions::SessionCase session_case);
+  [[nodiscard]] bool takeCase(sessions::SessionCase session_case);
+  [[nodiscard]] bool askForId(sessions::SessionCase& session_case);
   void makeCollected();
   void measureMesh();
   bool askForUnits();

@@ -7,6 +7,7 @@
 
 #include "sessions/review/checks.h"
 #include "sessions/session/case_annotations.h"
+#include "sessions/session/pose_quality.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
 #include "ui/review/onboard_panel.h"
@@ -92,6 +93,7 @@ AnnotationSituation VerdictController::annotationSituation() const {
   const auto& solution = annotation.solution();
   if (!solution || !solution->result.solution) return situation;
   situation.rms_px = solution->result.solution->rms_px;
+  situation.concern = fromText(sessions::annotationConcern(*solution));
   for (const auto& [id, sigmas] : solution->outlierAnnotations())
     if (std::abs(sigmas) > situation.bad_sigmas) {
       situation.bad_pair = fromText(id);
@@ -132,6 +134,9 @@ Situation VerdictController::situation() const {
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
   situation.trace = parts_.state.snapshot();
   situation.stale = parts_.cases.staleness();
+  if (const auto* shown = shownCase(parts_.document, parts_.state); shown && situation.trace)
+    situation.sigma_excess =
+        fromText(sessions::runSigmaExcess(parts_.document.session(), *shown, *situation.trace));
   situation.annotation = annotationSituation();
   situation.review = reviewSituation();
   situation.comparison = parts_.onboard.comparison();

@@ -69,10 +69,12 @@ Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
     verdict.step = Step::kDisablePair;
     verdict.step_text = tr("Switch off %1").arg(annotation.bad_pair);
   } else if (annotation.has_pose) {
-    verdict.tone = VerdictTone::kGood;
-    verdict.icon = Icon::kCheck;
+    const bool good = annotation.concern.isEmpty();
+    verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
+    verdict.icon = good ? Icon::kCheck : Icon::kWarning;
     verdict.sentence = has_seed ? tr("The annotations give a pose.")
                                 : tr("The annotations give a pose; the case has no seed yet.");
+    if (!good) verdict.sentence += QLatin1Char(' ') + annotation.concern;
     verdict.step = Step::kSeedFromAnnotation;
   } else {
     verdict.sentence =
@@ -113,6 +115,12 @@ std::optional<Verdict> ofReview(const Situation& situation) {
     verdict.head = good ? tr("Validated") : tr("Rejected");
     verdict.sentence = review.decision;
     verdict.step = Step::kNextCase;
+    if (good && !situation.stale.isEmpty()) {
+      verdict.tone = VerdictTone::kCaution;
+      verdict.icon = Icon::kWarning;
+      verdict.head = tr("Validated; outdated");
+      verdict.sentence += QLatin1Char(' ') + situation.stale;
+    }
     return verdict;
   }
   if (review.testing) {
@@ -151,8 +159,10 @@ Verdict ofRun(const Situation& situation) {
   verdict.head = fromText(headline.head);
   verdict.sentence = fromText(headline.sentence);
   if (trace.converged()) {
-    verdict.tone = VerdictTone::kGood;
-    verdict.icon = Icon::kCheck;
+    const bool good = situation.sigma_excess.isEmpty();
+    verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
+    verdict.icon = good ? Icon::kCheck : Icon::kWarning;
+    if (!good) verdict.sentence += tr(" Three sigma: %1.").arg(situation.sigma_excess);
     const bool validated = situation.review.state == ReviewState::kValidated;
     verdict.sentence += validated ? tr(" Validated.") : tr(" Not yet validated.");
     verdict.step = Step::kReview;

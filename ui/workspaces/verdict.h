@@ -44,6 +44,7 @@ struct AnnotationSituation {
   QString bad_pair;  ///< the annotation that stands out, or empty
   double bad_sigmas = 0.0;
   bool has_pose = false;
+  QString concern;  ///< why the pose is not good enough, or empty
 };
 
 struct ReviewSituation {
@@ -69,7 +70,8 @@ struct Situation {
   RunState run = RunState::kEmpty;
   bool in_batch = false;  ///< the batch is at the shown case
   std::shared_ptr<const sessions::LocalizationTrace> trace;
-  QString stale;  ///< what has changed since the run, or empty
+  QString stale;         ///< what has changed since the run, or empty
+  QString sigma_excess;  ///< by how much three sigma of the run's pose exceed what is required
   AnnotationSituation annotation;
   ReviewSituation review;
   std::shared_ptr<const sessions::RecordComparison> comparison;

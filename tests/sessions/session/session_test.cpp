@@ -21,6 +21,16 @@ using sessions::Session;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+TEST(FreeCaseId, IsTheFirstThatNoCaseHas) {
+  Random random = randomFor("FreeCaseId");
+  Session session;
+  EXPECT_EQ(freeCaseId(session, "a"), "a");
+  for (const char* id : {"a", "a-2", "b"}) session = withCase(session, randomCase(random, id));
+  EXPECT_EQ(freeCaseId(session, "a"), "a-3");
+  EXPECT_EQ(freeCaseId(session, "b"), "b-2");
+  EXPECT_EQ(freeCaseId(session, "c"), "c");
+}
+
 TEST(ChangedCases, ListsEditedCases) {
   Random random = randomFor("ChangedCases");
   Session before;

@@ -53,6 +53,43 @@ TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
   ASSERT_TRUE(rests());
 }
 
+/// Adds the four files of os to the open session, and answers what it asks.
+TEST_F(SessionSavingTest, CaseOfAKnownName_IsNeverReplacedWithoutAnAnswer) {
+  openExample();
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  const auto add = [&](const char* button) {
+    bool asked = false;
+    const Answer answer([&asked, button](QWidget* modal) {
+      auto* box = qobject_cast<QMessageBox*>(modal);
+      if (!box) return false;
+      asked = true;
+      auto* chosen = box->findChild<QAbstractButton*>(QString::fromUtf8(button));
+      (chosen ? chosen : box->button(QMessageBox::Cancel))->click();
+      return true;
+    });
+    window_.takeFiles({os / "image.png", os / "camera.json", os / "model.ply"});
+    files().setMeshUnit("m");
+    window_.takeFiles({os / "seed.json"});
+    EXPECT_TRUE(rests());
+    return asked;
+  };
+  const auto count = [&] { return window_.document().session().cases.size(); };
+  const std::size_t before = count();
+  EXPECT_FALSE(add(""));
+  EXPECT_EQ(count(), before + 1);
+  const std::string id = window_.document().session().cases[before]->id;
+  EXPECT_TRUE(add("cancel"));
+  EXPECT_EQ(count(), before + 1);
+  EXPECT_EQ(files().situation().added, 4) << "the slots are kept";
+  EXPECT_TRUE(add("keepBoth"));
+  EXPECT_EQ(count(), before + 2);
+  EXPECT_EQ(window_.document().session().cases[before + 1]->id, id + "-2");
+  EXPECT_EQ(files().situation().added, 0);
+  EXPECT_TRUE(add("replaceCase"));
+  EXPECT_EQ(count(), before + 2);
+  window_.document().save();
+}
+
 TEST_F(SessionSavingTest, ExportsOfAnUnnamedSessionAreNotProposedInAHiddenFolder) {
   ASSERT_TRUE(window_.document().createUntitled(
       sessions::makeSession(test::exampleFolder() / "dataset.json")));

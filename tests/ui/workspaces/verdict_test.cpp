@@ -67,6 +67,45 @@ TEST(Verdict, RunUnderWay_TellsTheStageAndStops) {
   EXPECT_TRUE(verdict.plain);
 }
 
+TEST(Verdict, PoseBeyondTheRequirement_IsNoSuccess) {
+  Situation situation = ready();
+  situation.run = RunState::kFinished;
+  situation.trace = ended(LocalizationStatus::kConverged);
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
+  situation.sigma_excess =
+      QStringLiteral("1.2 mm across the view axis, 3 times the 0.4 mm required");
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
+  EXPECT_TRUE(test::has(verdict.sentence, "Three sigma: 1.2 mm across the view axis"));
+}
+
+TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdated) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kReview;
+  situation.run = RunState::kFinished;
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.review.state = sessions::ReviewState::kValidated;
+  situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
+  situation.stale = QStringLiteral("The shown run was made with other options.");
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
+  EXPECT_EQ(verdict.head, QStringLiteral("Validated; outdated"));
+  EXPECT_TRUE(test::has(verdict.sentence, "other options"));
+}
+
+TEST(Verdict, AnnotationsThatAreTooCoarse_AreNoSuccess) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kAnnotate;
+  situation.annotation.pairs = 7;
+  situation.annotation.has_pose = true;
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
+  situation.annotation.concern = QStringLiteral("The residuals are 16.0 times the stated sigmas.");
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
+  EXPECT_TRUE(test::has(verdict.sentence, "16.0 times the stated sigmas"));
+}
+
 TEST(Verdict, HaltedRun_GoesOn) {
   Situation situation = ready();
   situation.run = RunState::kHalted;
@@ -104,7 +143,8 @@ TEST(Verdict, StaleRun_IsRunAgain) {
 TEST(Verdict, EveryFailure_IsBadAndLeadsOn) {
   for (int i = 0; i <= static_cast<int>(LocalizationStatus::kFault); ++i) {
     const auto status = static_cast<LocalizationStatus>(i);
-    if (status == LocalizationStatus::kConverged || status == LocalizationStatus::kRunning) continue;
+    if (status == LocalizationStatus::kConverged || status == LocalizationStatus::kRunning)
+      continue;
     Situation situation = ready();
     situation.run = RunState::kFinished;
     situation.trace = ended(status);
@@ -168,7 +208,7 @@ TEST(Verdict, ReviewOfAFailedRun_TellsTheFailure) {
 TEST(Verdict, BadAnnotation_IsSwitchedOff) {
   Situation situation = ready();
   situation.workspace = Workspace::kAnnotate;
-  situation.annotation = {8, 1.72, QStringLiteral("p6"), 12.0, true};
+  situation.annotation = {8, 1.72, QStringLiteral("p6"), 12.0, true, {}};
   const Verdict verdict = verdictOf(situation);
   EXPECT_EQ(verdict.head, QStringLiteral("8 pairs, rms 1.72 px"));
   EXPECT_TRUE(test::has(verdict.sentence, "p6 stands out"));
