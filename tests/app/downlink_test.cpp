@@ -103,7 +103,7 @@ TEST_F(Downlink, IsLocalizedJudgedHandedOverAndVerified) {
   // Three sigma across the view axis are 0.42 mm at the camera, 0.4 mm are required.
   const ProgramRun decided =
       runWhs({"decide", session_, "--case", "sol12", "--validate", "--by", "Ada", "--comment",
-              "right", "--waive", "covariance_lateral=0.02 mm over"});
+              "right", "--waive", "covariance_lateral=0.02 mm over", "--convergence-test", "1"});
   EXPECT_EQ(decided.exit_code, 0) << decided.out << decided.err
                                   << runWhs({"check", session_, "--convergence-test", "0"}).out;
   const std::string file = folder_ / "pose.json";

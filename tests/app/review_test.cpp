@@ -33,14 +33,15 @@ class ReviewCommands : public ::testing::Test {
 };
 
 TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
-  runWhs({"check", session_, "--case", kOsCase}, 0);
-  const ProgramRun decided = decide({"--validate", "--by", "Ada", "--comment", "right"});
+  runWhs({"check", session_, "--case", kOsCase, "--convergence-test", "1"}, 0);
+  const ProgramRun decided =
+      decide({"--validate", "--by", "Ada", "--comment", "right", "--convergence-test", "1"});
   EXPECT_EQ(decided.exit_code, 0) << decided.err;
   EXPECT_THAT(decided.out, HasSubstr("validated by Ada"));
   const std::string file = exportPose();
   EXPECT_THAT(runWhs({"verify", file}, 0).out,
               AllOf(HasSubstr("the run gives the same digest"), HasSubstr("not proved  who: Ada"),
-                    HasSubstr("not proved  convergence test: its 8 further seeds"),
+                    HasSubstr("not proved  convergence test: its 1 further seeds"),
                     HasSubstr("stated: validated by Ada")));
   EXPECT_THAT(runWhs({"verify", file, "--full"}).out, Not(HasSubstr("convergence test")));
   runWhs({"verify", file, "--full", "--no-run"}, 2);
@@ -54,7 +55,9 @@ TEST_F(ReviewCommands, APoseIsCheckedValidatedHandedOverAndVerified) {
 
 /// The other differences that are found: ValidatedPose.ASessionEditedByHandIsNotSigned and others.
 TEST_F(ReviewCommands, PoseThatDiffersFromItsMeasurement_IsNeitherSignedNorReported) {
-  EXPECT_EQ(decide({"--validate", "--by", "Ada", "--comment", "right"}).exit_code, 0);
+  EXPECT_EQ(decide({"--validate", "--by", "Ada", "--comment", "right", "--convergence-test", "1"})
+                .exit_code,
+            0);
   nlohmann::json session = nlohmann::json::parse(folder_.read("s.boresight.json"));
   session["decisions"][0]["pose"]["camera_from_station"]["translation_m"][2] = 0.5;
   folder_.write("s.boresight.json", session.dump());
@@ -73,8 +76,8 @@ TEST_F(ReviewCommands, InvalidDecision_IsRefusedAndChangesNothing) {
   EXPECT_EQ(approval.exit_code, 4);
   EXPECT_EQ(approval.errorLines(), 1) << approval.err;
   EXPECT_THAT(approval.err, HasSubstr("no validation"));
-  const ProgramRun unknown =
-      decide({"--validate", "--by", "Ada", "--comment", "yes", "--waive", "nothing=because"});
+  const ProgramRun unknown = decide({"--validate", "--by", "Ada", "--comment", "yes", "--waive",
+                                     "nothing=because", "--convergence-test", "0"});
   EXPECT_EQ(unknown.exit_code, 4);
   EXPECT_THAT(unknown.err, HasSubstr("no check 'nothing'"));
   EXPECT_EQ(decide({"--validate", "--reject", "--by", "A", "--comment", "b"}).exit_code, 2);

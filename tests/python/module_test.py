@@ -119,8 +119,8 @@ class Module(unittest.TestCase):
                 boresight.solve_pnp(a, b, camera)
 
     def test_threads_share_a_case(self):
-        with ThreadPoolExecutor(4) as pool:
-            digests = list(pool.map(lambda _: boresight.localize(self.case).digest, range(4)))
+        with ThreadPoolExecutor(2) as pool:
+            digests = list(pool.map(lambda _: boresight.localize(self.case).digest, range(2)))
         self.assertEqual(set(digests), {self.run_.digest})
 
     def test_arrays_outlive_what_they_were_taken_from(self):
