@@ -41,8 +41,10 @@ std::string directionText(const Eigen::Vector3d& direction) {
   direction.cwiseAbs().maxCoeff(&longest);
   if (std::abs(direction[longest]) > kAlong) return kAxes[static_cast<std::size_t>(longest)];
   const Eigen::Vector3d shown = direction[longest] < 0.0 ? Eigen::Vector3d(-direction) : direction;
-  return "direction (" + fixedText(shown.x(), 2) + ", " + fixedText(shown.y(), 2) + ", " +
-         fixedText(shown.z(), 2) + ")";
+  const auto part = [&](int axis) {
+    return fixedText(std::abs(shown[axis]) < 0.005 ? 0.0 : shown[axis], 2);  // not "-0.00"
+  };
+  return "direction (" + part(0) + ", " + part(1) + ", " + part(2) + ")";
 }
 
 }  // namespace
