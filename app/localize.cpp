@@ -46,7 +46,7 @@ void LocalizeArguments::addTo(CLI::App& command) {
   addFile(command, "--record", record,
           "Writes the onboard record of the run, run.whsr (core/record/FORMAT.md)");
   addFile(command, "--overlay", overlay,
-          "Writes a PNG: seed red, result green, truth blue over the image");
+          "Writes a PNG: seed orange, result blue, truth white over the image");
 }
 
 sessions::RunProvenance provenance(const LocalizeArguments& arguments, const ReadCase& input,

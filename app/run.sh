@@ -30,7 +30,7 @@ localizeExample() {
     --feature-size 0.015 \
     --out "$out/result.json" --trace "$out/trace.bin" --overlay "$out/overlay.png"
   echo
-  echo "Wrote $out/overlay.png (seed red, result green, truth blue), $out/result.json, $out/trace.bin"
+  echo "Wrote $out/overlay.png (seed orange, result blue, truth white), $out/result.json, $out/trace.bin"
 }
 
 installPackages

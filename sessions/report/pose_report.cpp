@@ -94,7 +94,7 @@ double drawOverlayPicture(PdfCanvas& canvas, const PdfBox& box, const PoseReport
   canvas.frame(taken, kFaintInk);
   const double below = taken.bottom() + 2.0;
   return below + canvas.text(box.x, below, box.width,
-                             formatted("Edges of the seed (red) and of the pose (green) over the "
+                             formatted("Edges of the seed (orange) and of the pose (blue) over the "
                                        "image; %d x %d px from (%d, %d).",
                                        picture.image.width, picture.image.height, picture.left_px,
                                        picture.top_px),

@@ -43,7 +43,7 @@ struct ReportPicture {
   int top_px = 0;
 };
 
-/// The station's surroundings, with the edges of the seed in red and of the pose in green.
+/// The station's surroundings, with the edges of the seed in orange and of the pose in blue.
 ReportPicture overlayPicture(const PoseReport& report);
 /// The same place in pale gray, to draw residuals on.
 ReportPicture palePicture(const PoseReport& report);

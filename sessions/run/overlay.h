@@ -17,9 +17,12 @@ namespace boresight::sessions {
 
 /// Blue, green, red, as OpenCV keeps them.
 using ColorBgr = std::array<std::uint8_t, 3>;
-inline constexpr ColorBgr kSeedColor = {40, 40, 255};
-inline constexpr ColorBgr kResultColor = {60, 230, 60};
-inline constexpr ColorBgr kTruthColor = {255, 120, 30};
+/// The colours of the window, told apart also without red or green (Okabe and Ito 2008).
+///@{
+inline constexpr ColorBgr kSeedColor = {0, 159, 230};     ///< orange
+inline constexpr ColorBgr kResultColor = {233, 180, 86};  ///< blue
+inline constexpr ColorBgr kTruthColor = {255, 255, 255};
+///@}
 
 /// 8-bit colour, row-major, 3 bytes a pixel.
 struct ColorImage {

@@ -225,7 +225,7 @@ void drawTitle(PdfCanvas& canvas, std::size_t page, std::size_t pages, std::size
                   std::to_string(pages) + ")",
               {11.0, true, false, kInk, 1});
   canvas.text(kMargin, kMargin + 14.0, PdfCanvas::kWidth - 2.0 * kMargin,
-              "Edges: seed red, truth blue, where the run ended green (or its nearest, first or "
+              "Edges: seed orange, truth white, where the run ended blue (or its nearest, first or "
               "last iteration).",
               {7.5, false, false, kFaintInk, 1});
 }

@@ -40,7 +40,7 @@ TESTS = {
     "sessions/annotation": ["annotation_test", "session_test"],
     "sessions/review": ["queue_test", "review_test"],
 }
-TIMEOUT_S = 900
+TIMEOUT_S = 150
 
 SWAPS = {
     "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&",

@@ -61,26 +61,26 @@ TEST_F(Overlay, DrawsEachPoseInItsColour) {
   ASSERT_EQ(image.width, kWidth);
   ASSERT_EQ(image.height, kHeight);
   // Row 250 crosses the upright sides: of the result at 299.5 +- 100, of the seed 50 px further.
-  const std::vector<int> green = columnsOf(image, 250, kResultColor);
-  const std::vector<int> red = columnsOf(image, 250, kSeedColor);
-  ASSERT_FALSE(green.empty());
-  ASSERT_FALSE(red.empty());
-  EXPECT_NEAR(green.front(), 199.5, 2.0);
-  EXPECT_NEAR(green.back(), 399.5, 2.0);
-  EXPECT_NEAR(red.front(), 249.5, 2.0);
-  EXPECT_NEAR(red.back(), 449.5, 2.0);
+  const std::vector<int> result = columnsOf(image, 250, kResultColor);
+  const std::vector<int> seed = columnsOf(image, 250, kSeedColor);
+  ASSERT_FALSE(result.empty());
+  ASSERT_FALSE(seed.empty());
+  EXPECT_NEAR(result.front(), 199.5, 2.0);
+  EXPECT_NEAR(result.back(), 399.5, 2.0);
+  EXPECT_NEAR(seed.front(), 249.5, 2.0);
+  EXPECT_NEAR(seed.back(), 449.5, 2.0);
   EXPECT_EQ(at(image, 300, 250), (ColorBgr{kGray, kGray, kGray}));
 }
 
 TEST_F(Overlay, ThinLayer_LeavesTheLayerBelowVisible) {
   const ColorImage image =
       draw({{"result", shifted(0.0), kResultColor}, {"truth", shifted(0.0), kTruthColor, true}});
-  const std::vector<int> blue = columnsOf(image, 250, kTruthColor);
-  const std::vector<int> green = columnsOf(image, 250, kResultColor);
-  ASSERT_FALSE(blue.empty());
-  ASSERT_FALSE(green.empty());
-  EXPECT_EQ(green.front(), blue.front() - 1);
-  EXPECT_EQ(green.back(), blue.back() + 1);
+  const std::vector<int> truth = columnsOf(image, 250, kTruthColor);
+  const std::vector<int> result = columnsOf(image, 250, kResultColor);
+  ASSERT_FALSE(truth.empty());
+  ASSERT_FALSE(result.empty());
+  EXPECT_EQ(result.front(), truth.front() - 1);
+  EXPECT_EQ(result.back(), truth.back() + 1);
 }
 
 TEST_F(Overlay, HasALegendOnlyWithLayers) {
