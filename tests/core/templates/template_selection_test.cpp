@@ -189,6 +189,60 @@ TEST(TemplateSelector, RejectsTemplatesWhoseAreaIsIgnored) {
   }
 }
 
+/// Small corners far apart, under random ignored rectangles: a corner has a template exactly when a
+/// square around one of its pixels is ignored by no more than the limit, counted pixel by pixel.
+TEST(TemplateSelector, IgnoredShare_IsThatOfCountingPixels) {
+  constexpr int kSide_px = 32;
+  std::vector<DrawnPixel> pixels;
+  for (int top = 40; top < 470; top += 64)
+    for (int left = 40; left < 470; left += 64)
+      for (int i = 0; i < 12; ++i) {
+        pixels.push_back({left + i, top, 0.0, 1.0});
+        pixels.push_back({left, top + i, 1.0, 0.0});
+      }
+  DrawnRender drawn(512, 512);
+  drawn.set(pixels);
+  Random random(7);
+  int left_out = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const int level = trial % 3;
+    const int scale = 1 << level;
+    std::vector<std::byte> memory(4 << 20);
+    Arena arena(memory);
+    BitImage ignore = BitImage::create(arena, 512 * scale, 512 * scale);
+    for (int i = 0; i < 60; ++i) {
+      const int x0 = static_cast<int>(random.below(512));
+      const int y0 = static_cast<int>(random.below(512));
+      for (int y = y0 * scale; y < std::min(512, y0 + 24) * scale; ++y)
+        for (int x = x0 * scale; x < std::min(512, x0 + 37) * scale; ++x) ignore.set(x, y);
+    }
+    const auto share = [&](int center_x, int center_y) {
+      int count = 0;
+      for (int y = (center_y - kSide_px / 2) * scale; y < (center_y + kSide_px / 2) * scale; ++y)
+        for (int x = (center_x - kSide_px / 2) * scale; x < (center_x + kSide_px / 2) * scale; ++x)
+          count += ignore.get(x, y) ? 1 : 0;
+      return static_cast<double>(count) / (kSide_px * scale * kSide_px * scale);
+    };
+    TemplateOptions options;
+    options.count = 1024;
+    Selector selector(options);
+    ASSERT_EQ(selector.select(drawn.render, kSide_px, &ignore, level), Status::kOk);
+    std::set<std::pair<int, int>> selected;
+    for (int i = 0; i < selector.set.count; ++i) {
+      const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
+      EXPECT_LE(share(item.center_x, item.center_y), 0.3);
+      selected.insert({(item.center_x - 40) / 64, (item.center_y - 40) / 64});
+    }
+    std::set<std::pair<int, int>> allowed;
+    for (const DrawnPixel& pixel : pixels)
+      if (share(pixel.x, pixel.y) <= 0.3)
+        allowed.insert({(pixel.x - 40) / 64, (pixel.y - 40) / 64});
+    EXPECT_EQ(selected, allowed) << "level " << level;
+    left_out += 49 - static_cast<int>(allowed.size());
+  }
+  EXPECT_GT(left_out, 20);  // else the masks show nothing
+}
+
 TEST(TemplateSelector, TooFewTemplates_AreReported) {
   DrawnRender drawn(512, 512);
   drawn.set({});
