@@ -336,7 +336,12 @@ void describeRig(const path& file) {
 
 void describeJson(const path& file) {
   const sessions::JsonDocument document(file);
-  const std::string format = document.root().at("format").nonEmptyText();
+  const auto stated = document.root().find("format");
+  if (!stated)
+    throw sessions::InputError(file, "format",
+                               "missing: state what the file is, e.g. \"format\": "
+                               "\"boresight-camera\", \"version\": 1");
+  const std::string format = stated->nonEmptyText();
   line(format);
   if (format == "boresight-camera") {
     describeCamera(sessions::readCameraFile(file));

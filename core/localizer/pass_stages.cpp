@@ -368,8 +368,8 @@ void Pass::takeMirrorImage(std::span<const PoseCandidate> candidates) {
   memory_.competing.add(mirror);
 }
 
-/// The candidate with most evidence that is another answer, when it has clearly more than the pose:
-/// than the final pose, and than candidates at the same place, which are refined as coarsely.
+/// Adds the distinct candidate with most evidence as a competing pose, when it has clearly more
+/// evidence than the final pose, and than the candidates near it, which are refined as coarsely.
 void Pass::takeOther(std::span<const PoseCandidate> candidates) {
   const double own_nats = std::max(0.0, workspace_.evidence.contours.front().total_nats());
   double same_nats = own_nats;

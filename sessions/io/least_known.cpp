@@ -15,7 +15,7 @@ namespace boresight::sessions {
 namespace {
 
 constexpr double kStandsOut = 5.0;
-// Smaller sigmas are worth no sentence.
+// Smaller sigmas are not named.
 constexpr double kLeast_rad = 0.5 * kDegree_rad;
 constexpr double kLeast_m = 1e-3;
 
@@ -57,7 +57,7 @@ std::string leastKnownText(const Matrix6d& covariance, const Pose& camera_from_s
   if (turn.stands_out)
     return fixedText(turn.sigma / kDegree_rad, 1) + " deg (1 sigma) about the station's " +
            directionText(station_from_camera * turn.direction_in_camera);
-  // Of a known rotation, so that no place is preferred.
+  // Slides for a known rotation: they do not depend on the point that is moved.
   const Eigen::FullPivLU<Eigen::Matrix3d> factors(rotation);
   if (!factors.isInvertible()) return "";
   const Eigen::Matrix3d mixed = covariance.bottomLeftCorner<3, 3>();

@@ -52,8 +52,8 @@ Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
       "the mesh is not.");
 }
 
-/// In print and texture every outline is seen, and little evidence is to be had; what there is must
-/// be there.
+/// In print and texture the displaced outlines are seen, too: the evidence expected of a right pose
+/// is then small, and a right pose still has it.
 Check evidenceCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
   if (evidence.evidence.whole <= 0.0)
     return notAskedCheck(kEvidence, "Displaced outlines are seen as often as a right pose's.");
@@ -104,25 +104,28 @@ struct AskedChange {
   std::string unit;
 };
 
+/// A change of this size may be chance.
+double byChance(const AskedChange& asked, double sigmas) {
+  return sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
+}
+
 /// What exceeds chance. Where nothing is stated of the calibration the image must confirm it: then
 /// what the image cannot exclude counts as well.
 double unexplained(const AskedChange& asked, double sigmas) {
-  const double chance = sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
-  const double beyond = std::max(0.0, std::abs(asked.change) - chance);
+  const double beyond = std::max(0.0, std::abs(asked.change) - byChance(asked, sigmas));
   return asked.stated ? beyond : std::max(beyond, sigmas * asked.sigma);
 }
 
 Check cameraCheck(const CheckName& name, const std::string& what, const AskedChange& asked,
                   double limit, double sigmas) {
   const double figure = unexplained(asked, sigmas);
-  const double unseen = sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
   const bool undecided = !asked.stated && std::abs(asked.change) <= limit + sigmas * asked.sigma;
-  return measuredCheck(name, asked.unit, figure, limit, LimitSide::kAtMost,
-                       "Estimated freely, the " + what + sentenceNumber(asked.change) + " " +
-                           asked.unit + " (one sigma " + sentenceNumber(asked.sigma) + " " +
-                           asked.unit + "). Errors below " + sentenceNumber(unseen) + " " +
-                           asked.unit + " cannot be seen.",
-                       undecided ? kUndecidedRemedy : kCameraRemedy);
+  return measuredCheck(
+      name, asked.unit, figure, limit, LimitSide::kAtMost,
+      "Estimated freely, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
+          " (one sigma " + sentenceNumber(asked.sigma) + " " + asked.unit + "). Errors below " +
+          sentenceNumber(byChance(asked, sigmas)) + " " + asked.unit + " cannot be seen.",
+      undecided ? kUndecidedRemedy : kCameraRemedy);
 }
 
 void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,

@@ -279,10 +279,11 @@ Share coverageOf(const std::vector<LookedPlace>& looked) {
 Share evidenceOf(const ImageEdges& image, const std::vector<LookedPlace>& looked) {
   Share share;
   const auto offsets_px = chanceOffsets_px(longerSideOf(looked));
-  const std::size_t stride = std::max<std::size_t>(1, (looked.size() - 1) / kChancePlaces + 1);
+  const std::size_t stride =
+      std::max<std::size_t>(1, (looked.size() + kChancePlaces - 1) / kChancePlaces);
   for (std::size_t i = 0; i < looked.size(); i += stride) {
     const EdgePlace& place = looked[i].place;
-    double seen = 0.5;  // one look more, half seen
+    double seen = 0.5;  // one look more that is half seen: chance is neither 0 nor 1
     double looks = 1.0;
     for (const Eigen::Vector2d& offset_px : offsets_px) {
       const Eigen::Vector2d at = place.pixel + offset_px;

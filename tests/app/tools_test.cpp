@@ -55,10 +55,10 @@ TEST(WhsOptions, TableForUplinkIsReadAsAConfiguration) {
   const auto ownOptions = [](const std::string& out) {
     return out.substr(0, out.find("Options of the other methods"));
   };
-  EXPECT_EQ(ownOptions(runWhs({"options", "--config", table}, 0).out),
-            ownOptions(runWhs({"options", "--profile", "paper", "--set", "loop.max_iterations=7"},
-                              0)
-                           .out));
+  EXPECT_EQ(
+      ownOptions(runWhs({"options", "--config", table}, 0).out),
+      ownOptions(
+          runWhs({"options", "--profile", "paper", "--set", "loop.max_iterations=7"}, 0).out));
   const auto json = nlohmann::json::parse(folder.read("dictionary.json"));
   std::size_t count = 0;
   const LocalizerOptions options;
@@ -290,6 +290,14 @@ TEST(WhsInfo, RefusesADeepChainOfNodesInOneSentence) {
   const ProgramRun run = runWhs({"info", file}, 3);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr("deep.gltf: nodes[256]: is nested deeper than 256 nodes"));
+}
+
+TEST(WhsInfo, JsonWithoutAFormat_SaysWhatToWrite) {
+  const TemporaryFolder folder;
+  const ProgramRun run = runWhs({"info", folder.write("cut.json", R"({"model": "pinhole"})")}, 3);
+  EXPECT_EQ(run.errorLines(), 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("cut.json: format: missing: state what the file is, e.g. "
+                                 "\"format\": \"boresight-camera\", \"version\": 1"));
 }
 
 TEST(WhsInfo, TellsOfWhatIsInAnImageAndNotUsed) {

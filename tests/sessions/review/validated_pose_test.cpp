@@ -525,7 +525,7 @@ TEST_F(SignedPose, IsSignedOnlyByAListedKeyOfWhoDecided) {
   sign(key_);
   EXPECT_TRUE(verify(signers_).good()) << wrongsOf(verify(signers_));
   expectNotSigned(folder_.write("others", "\"$(whoami); B.\" " + publicKey("key")), "another name");
-  expectNotSigned(folder_.write("empty", ""), "nobody is listed");
+  expectNotSigned(folder_.write("empty", ""), "no key is listed");
   expectNotSigned(folder_.write("space", "\"" + by_ + "\" namespaces=\"file\" " + publicKey("key")),
                   "listed for another namespace");
   expectNotSigned(
