@@ -34,4 +34,13 @@ LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, con
   return ambiguous ? LocalizationStatus::kAmbiguous : LocalizationStatus::kConverged;
 }
 
+std::optional<PassKind> comparisonAfter(PassKind last, double probability, const Seed& seed,
+                                        const Pose& camera_from_station) {
+  if (last == PassKind::kWider) return std::nullopt;
+  const bool is_probable = probability >= kUndoubted;
+  if (!is_probable && last == PassKind::kCompare) return PassKind::kMirror;
+  if (!is_probable || leftUncertainty(seed, camera_from_station, 1.0)) return PassKind::kWider;
+  return std::nullopt;
+}
+
 }  // namespace boresight

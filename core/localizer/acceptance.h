@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
+#include "core/localizer/pass_plan.h"
 #include "core/localizer/problem.h"
 #include "core/localizer/workspace.h"
 #include "core/search/competing_poses.h"
@@ -40,8 +42,16 @@ LocalizationStatus judgeSupport(const Workspace& measured, const LocalizerOption
 /// kConverged, or kAmbiguous when another hypothesis of the run has about the same score.
 LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& options);
 
-/// kConverged, or kAmbiguous when a competing pose has about as much evidence.
+/// kConverged, or kAmbiguous when a competing pose has about as much evidence, or the mesh's mirror
+/// image has more.
 LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,
                                        const LocalizerOptions& options);
+
+/// The comparison of a pose that passes after another one has passed; none after the last. Every
+/// pose is compared with others that show about the same edges; a doubtful one also with the mesh's
+/// mirror image, and with poses within twice the seed's uncertainty. A pose beyond the stated
+/// uncertainty is doubtful for the latter.
+std::optional<PassKind> comparisonAfter(PassKind last, double probability, const Seed& seed,
+                                        const Pose& camera_from_station);
 
 }  // namespace boresight

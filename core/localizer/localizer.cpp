@@ -2,6 +2,8 @@
 // The loop: a policy plans a pass, the pass runs in slices, the policy rules on its outcome.
 #include "core/localizer/localizer.h"
 
+#include <optional>
+
 #include "core/localizer/acceptance.h"
 #include "core/localizer/pose_change.h"
 
@@ -38,16 +40,8 @@ PassPlan Localizer::plan() const {
       plan.kind = PassKind::kSupport;
       plan.record = attempt_.record();
       break;
-    case Phase::kCompare:  // compare with other poses that show about the same edges
-      plan.kind = PassKind::kCompare;
-      plan.camera_from_station = attempt_.camera_from_station();
-      break;
-    case Phase::kMirror:  // compare with the mesh's mirror image
-      plan.kind = PassKind::kMirror;
-      plan.camera_from_station = attempt_.camera_from_station();
-      break;
-    case Phase::kWider:  // compare with poses within twice the seed's uncertainty
-      plan.kind = PassKind::kWider;
+    case Phase::kCompare:  // compare the final pose with what may contradict it
+      plan.kind = comparison_kind_;
       plan.camera_from_station = attempt_.camera_from_station();
       break;
   }
@@ -75,8 +69,6 @@ StepReport Localizer::decide(StepReport report) {
     case Phase::kAccept:
       return accepted(judgeSupport(workspace(), options(), searches()), report);
     case Phase::kCompare:
-    case Phase::kMirror:
-    case Phase::kWider:
       return compared(report);
     case Phase::kEnded:
       break;
@@ -128,23 +120,19 @@ StepReport Localizer::accepted(LocalizationStatus status, const StepReport& repo
   status = judgeGap(workspace(), options());
   if (status != LocalizationStatus::kConverged) return finish(status, report);
   phase_ = Phase::kCompare;
+  comparison_kind_ = PassKind::kCompare;
   return report;
 }
 
-/// Judges the competing poses; of a doubtful pose also the mesh's mirror image, and poses within
-/// twice the seed's uncertainty. A pose beyond the stated uncertainty is doubtful for the latter.
+/// Judges the competing poses.
 StepReport Localizer::compared(const StepReport& report) {
+  const Seed seed = seedOf(problem());
   const LocalizationStatus status =
-      judgeCompetingPoses(workspace().competing_poses, seedOf(problem()), options());
-  if (status != LocalizationStatus::kConverged || phase_ == Phase::kWider)
-    return finish(status, report);
-  const bool is_probable = workspace().probability >= kUndoubted;
-  if (!is_probable && phase_ == Phase::kCompare)
-    phase_ = Phase::kMirror;
-  else if (!is_probable || leftUncertainty(seedOf(problem()), attempt_.camera_from_station(), 1.0))
-    phase_ = Phase::kWider;
-  else
-    return finish(status, report);
+      judgeCompetingPoses(workspace().competing_poses, seed, options());
+  const std::optional<PassKind> next = comparisonAfter(comparison_kind_, workspace().probability,
+                                                       seed, attempt_.camera_from_station());
+  if (status != LocalizationStatus::kConverged || !next) return finish(status, report);
+  comparison_kind_ = *next;
   return report;
 }
 

@@ -109,8 +109,6 @@ class Localizer {
     kWeigh,
     kAccept,
     kCompare,
-    kMirror,
-    kWider,
     kEnded
   };
 
@@ -138,6 +136,7 @@ class Localizer {
   Pass pass_;
   Matrix6d covariance_ = Matrix6d::Zero();  ///< of the final pose
   Phase phase_ = Phase::kEdges;
+  PassKind comparison_kind_ = PassKind::kCompare;  ///< of the final pose
   Attempt attempt_;
   PoseComparison comparison_;
 };

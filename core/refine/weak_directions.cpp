@@ -83,31 +83,34 @@ double varianceAlong(const Vector6d& direction, const SeedUncertainty& uncertain
 
 }  // namespace
 
-WeakDirections weakDirections(const RefinementResult& refined, const Camera& camera,
-                              const Eigen::Vector3d& centre_in_station_m) {
-  WeakDirections weak;
+void EdgeMotion::add(const RefinementResult& refined, const Camera& camera,
+                     const Pose& camera_from_first) {
   const Pose& pose = refined.camera_from_station;
-  weak.pivot_in_camera_m = pose * centre_in_station_m;
   const Eigen::Matrix3d rotation = pose.matrix();
+  const Eigen::Matrix3d from_first = camera_from_first.matrix();
+  const Eigen::Vector3d pivot_m = camera_from_first * pivot_in_camera_m_;
   const std::int32_t stride = std::max(1, (refined.sample_count + kMostPlaces - 1) / kMostPlaces);
-  Matrix6d normal = Matrix6d::Zero();
-  Matrix6d motion = Matrix6d::Zero();
-  std::int32_t places = 0;
   for (std::int32_t i = 0; i < refined.sample_count; i += stride) {
     const EdgeSample& sample = refined.samples[static_cast<std::size_t>(i)];
     const Eigen::Vector3d point_m = rotation * sample.point_in_station_m + pose.translation_m;
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> jacobian;
     if (!projectWithJacobian(camera, point_m, pixel, jacobian)) continue;
-    const Eigen::Vector3d arm_m = point_m - weak.pivot_in_camera_m;
-    addSquare(lineRow(arm_m, sample.normal(), jacobian), normal);
-    addSquare(lineRow(arm_m, Eigen::Vector2d::UnitX(), jacobian), motion);
-    addSquare(lineRow(arm_m, Eigen::Vector2d::UnitY(), jacobian), motion);
-    ++places;
+    const Eigen::Vector3d arm_m = from_first.transpose() * (point_m - pivot_m);
+    jacobian = (jacobian * from_first).eval();
+    addSquare(lineRow(arm_m, sample.normal(), jacobian), along_normals_);
+    addSquare(lineRow(arm_m, Eigen::Vector2d::UnitX(), jacobian), in_image_);
+    addSquare(lineRow(arm_m, Eigen::Vector2d::UnitY(), jacobian), in_image_);
+    ++places_;
   }
+}
+
+WeakDirections EdgeMotion::weakDirections() const {
+  WeakDirections weak;
+  weak.pivot_in_camera_m = pivot_in_camera_m_;
   Matrix6d factor;
-  if (places < kLeastPlaces || !factorize(motion / places, factor)) return weak;
-  const Matrix6d mean = normal / places;
+  if (places_ < kLeastPlaces || !factorize(in_image_ / places_, factor)) return weak;
+  const Matrix6d mean = along_normals_ / places_;
   const Matrix6d full = mean.selfadjointView<Eigen::Lower>();
   const Matrix6d half = solveLower(factor, full);
   const SymmetricEigen<6> eigen(solveLower(factor, half.transpose()));
@@ -118,6 +121,13 @@ WeakDirections weakDirections(const RefinementResult& refined, const Camera& cam
   }
   weak.known = true;
   return weak;
+}
+
+WeakDirections weakDirections(const RefinementResult& refined, const Camera& camera,
+                              const Eigen::Vector3d& centre_in_station_m) {
+  EdgeMotion motion(refined.camera_from_station * centre_in_station_m);
+  motion.add(refined, camera);
+  return motion.weakDirections();
 }
 
 Matrix6d withUndetermined(const Matrix6d& covariance, const WeakDirections& weak,

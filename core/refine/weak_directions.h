@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
@@ -37,9 +38,29 @@ struct WeakDirections {
   }
 };
 
-/// The weak directions of a refined pose from its samples: generalized eigenvectors of the least
-/// eigenvalues of (H, M), H the mean of J_n' J_n over the edges' normals, M the mean of J' J of the
-/// places' motion. `camera` is the image's.
+/// How edge places move in their images with a pose, summed over the places of one or several
+/// views. Offsets are about the pivot, in the axes of the first view's camera.
+class EdgeMotion {
+ public:
+  /// Offsets about a point of the first view's camera frame.
+  explicit EdgeMotion(const Eigen::Vector3d& pivot_in_camera_m)
+      : pivot_in_camera_m_(pivot_in_camera_m) {}
+
+  /// Adds the samples of a refined pose. `camera` is the image's.
+  void add(const RefinementResult& refined, const Camera& camera,
+           const Pose& camera_from_first = Pose());
+  /// Generalized eigenvectors of the least eigenvalues of (H, M), H the mean of J_n' J_n over the
+  /// edges' normals, M the mean of J' J of the places' motion.
+  WeakDirections weakDirections() const;
+
+ private:
+  Eigen::Vector3d pivot_in_camera_m_;
+  Matrix6d along_normals_ = Matrix6d::Zero();  ///< lower triangle
+  Matrix6d in_image_ = Matrix6d::Zero();       ///< lower triangle
+  std::int32_t places_ = 0;
+};
+
+/// The weak directions of a pose that one view refined. `camera` is the image's.
 WeakDirections weakDirections(const RefinementResult& refined, const Camera& camera,
                               const Eigen::Vector3d& centre_in_station_m);
 

@@ -25,7 +25,7 @@ using JointCompetingPoses = FixedList<CompetingPose, CompetingPoseTest::kMostPos
 /// pose does not compete excludes it. Margins are sums over the views; the similarity is the
 /// smallest of the views. `first_from_station`: the pose found; `scene`: station frame. Two views
 /// name the same pose when it moves the corners of the scene less in the image than a quarter of
-/// their distance from the pose found.
+/// their distance from the pose found; mirror images of the mesh are the same.
 JointCompetingPoses jointCompetingPoses(std::span<const CompetingPosesOfView> views,
                                         const Pose& first_from_station, const BoundingBox& scene);
 

@@ -150,10 +150,10 @@ PassPlan ViewsLocalizer::planOf(std::size_t index) const {
   return plan;
 }
 
-/// Starts the pass that the attempt plans next.
+/// Starts the next pass of the current phase.
 void ViewsLocalizer::startPlan() {
   plan_ = PassPlan();
-  plan_.kind = phase_ == Phase::kAccept ? PassKind::kSupport : PassKind::kCompare;
+  plan_.kind = phase_ == Phase::kAccept ? PassKind::kSupport : comparison_kind_;
   plan_.record = attempt_.record();
   plan_.camera_from_station = attempt_.camera_from_station();
   if (phase_ == Phase::kIterate) plan_ = attempt_.plan(first().context());
@@ -175,10 +175,10 @@ StepReport ViewsLocalizer::step() {
       return stepPose();
     case PassKind::kRefine:
       return stepRound();
-    case PassKind::kCompare:
-      return stepCompare();
-    default:
+    case PassKind::kSupport:
       return stepSupport();
+    default:
+      return stepCompare();
   }
 }
 
@@ -332,16 +332,34 @@ StepReport ViewsLocalizer::takePose(const StepReport& report) {
     if (views_[v].refines) measured.score += views_[v].pass.workspace().evidence.score();
     measured.probability = std::max(measured.probability, result_.views[v].probability);
   }
-  // The views together determine the pose: none restarts along a weak direction.
-  const PoseComparison::Next next =
-      comparison_.takePose(attempt_, leading().camera_from_station_before, measured,
-                           WeakDirections(), first().context());
+  weak_ = weakDirectionsOfAll();
+  probability_ = measured.probability;
+  const PoseComparison::Next next = comparison_.takePose(
+      attempt_, leading().camera_from_station_before, measured, weak_, first().context());
   noteHypotheses();
   if (next != PoseComparison::Next::kConclude || !options_.support.gate)
     return follow(next, status, report);
   status = judgeGap(first().workspace(), options_);
   if (status != LocalizationStatus::kConverged) return finish(status, report);
+  return compare(PassKind::kCompare, report);
+}
+
+/// Of the latest refined pose, from the edges of all views that refined it.
+WeakDirections ViewsLocalizer::weakDirectionsOfAll() const {
+  const RunContext run = view(0).context();
+  EdgeMotion motion(attempt_.camera_from_station() * run.scene.centre());
+  if (leading().kind != IterationKind::kRefine) return motion.weakDirections();
+  for (std::size_t v = 0; v < views_.size(); ++v)
+    if (views_[v].refines)
+      motion.add(views_[v].pass.record().refinement, problem_.views[v].camera,
+                 views_[v].camera_from_first);
+  return motion.weakDirections();
+}
+
+/// Compares the final pose in all views.
+StepReport ViewsLocalizer::compare(PassKind kind, const StepReport& report) {
   phase_ = Phase::kCompare;
+  comparison_kind_ = kind;
   startPlan();
   return report;
 }
@@ -371,7 +389,8 @@ StepReport ViewsLocalizer::finish(LocalizationStatus status, StepReport report) 
     status = LocalizationStatus::kFault;
     first().workspace().fault = Status::kMemoryChanged;
   }
-  first().finish(status, attempt_.camera_from_station(), attempt_.covariance());
+  first().finish(status, attempt_.camera_from_station(),
+                 withUndetermined(attempt_.covariance(), weak_, first().problem().uncertainty));
   finished_ = true;
   report.finished = true;
   return report;
@@ -475,8 +494,13 @@ StepReport ViewsLocalizer::stepCompare() {
   }
   result_.competing_poses = jointCompetingPoses(
       std::span(of_views).first(count), attempt_.camera_from_station(), first().context().scene);
+  const Seed seed = seedOf(first().problem());
   const LocalizationStatus status =
-      judgeCompetingPoses(result_.competing_poses.items(), seedOf(first().problem()), options_);
+      judgeCompetingPoses(result_.competing_poses.items(), seed, options_);
+  const std::optional<PassKind> next =
+      comparisonAfter(comparison_kind_, probability_, seed, attempt_.camera_from_station());
+  if (status == LocalizationStatus::kConverged && next)
+    return compare(*next, StepReport::of(Stage::kSupport, false));
   const StepReport report = finish(status, StepReport::of(Stage::kSupport, true));
   finishResult();
   return report;

@@ -34,9 +34,10 @@ namespace boresight {
 /// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
 /// The result is the pose for which all remaining views have support.
 ///
-/// A run that searches does so in every view; attempts start from the candidates of all views. The
-/// result is ambiguous when another pose competes with it in every view (jointCompetingPoses).
-/// Not offered: matches from outside.
+/// A run that searches does so in every view; attempts start from the candidates of all views, and
+/// from the best pose moved along the directions that all views together determine least. The
+/// result is ambiguous when another pose, or the mesh's mirror image, competes with it in every
+/// view (jointCompetingPoses). Not offered: matches from outside.
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten
@@ -117,6 +118,8 @@ class ViewsLocalizer {
   StepReport takePose(const StepReport& report);
   StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
   void noteHypotheses();
+  WeakDirections weakDirectionsOfAll() const;
+  StepReport compare(PassKind kind, const StepReport& report);
   StepReport decide(const Ruling& ruling);
   StepReport finish(LocalizationStatus status, StepReport report);
   StepReport finishFault(std::size_t view);
@@ -149,9 +152,12 @@ class ViewsLocalizer {
   Attempt attempt_;
   PassPlan plan_;  ///< of the first view
   Phase phase_ = Phase::kIterate;
+  PassKind comparison_kind_ = PassKind::kCompare;  ///< of the final pose
   /// Of all views, in the first one's frame; the most evidence first.
   std::array<PoseCandidate, kMaxViews * PoseSearch::kMaxCandidates> candidates_;
   PoseComparison comparison_;
+  WeakDirections weak_;       ///< of the latest pose that views support
+  double probability_ = 0.0;  ///< of that pose, by the view that supports it best
 
   PnpRansac ransac_;
   bool pose_begun_ = false;

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ RigRun localizeViews(const Rig& rig) {
     view.image = item->image.view();
     view.ignore = item->ignore ? &item->ignore_bits : nullptr;
     view.camera = item->source.camera;
+    view.mesh = item->scene.view();
     view.camera_from_rig = item->source.rig->camera_from_rig;
     loaded.views.push_back(view);
     loaded.cases.push_back(item);
@@ -58,7 +60,10 @@ RigRun localizeViews(const Rig& rig) {
   sessions::Runner run(loaded.problem(), options, loaded.ids(),
                        {.level = sessions::RecordLevel::kSummary});
   run.advance(sessions::StepUntil::kEnd);
-  return {run.joint().result, run.trace().seconds.total()};
+  const ViewsResult& result = run.joint().result;
+  if (result.status == LocalizationStatus::kFault)
+    throw std::runtime_error(rig.front()->source.id + ": " + statusText(result.fault));
+  return {result, run.trace().seconds.total()};
 }
 
 struct Row {

@@ -120,6 +120,31 @@ TEST(Acceptance, CompetingPoseOutsideTheUncertainty_IsAmbiguousOnlyWhereItIsBett
   }
 }
 
+TEST(Acceptance, MirrorImage_IsAmbiguousWithAnyMargin) {
+  CompetingPose mirror = competingAt(0.0, 100.0);
+  mirror.mirrored = true;
+  EXPECT_EQ(judgeCompetingPoses(std::span(&mirror, 1), seedInFront(), defaultProfile()),
+            LocalizationStatus::kAmbiguous);
+}
+
+TEST(Acceptance, DoubtfulPose_IsComparedWithMoreThanAProbableOne) {
+  using Kinds = std::vector<PassKind>;
+  const auto kinds = [](double probability, double x_m) {
+    const Pose pose = movedBy(seedInFront().camera_from_station, x_m);
+    Kinds all = {PassKind::kCompare};
+    while (const auto next = comparisonAfter(all.back(), probability, seedInFront(), pose)) {
+      all.push_back(*next);
+      if (all.size() > 5) break;
+    }
+    return all;
+  };
+  const double outside_m = 1.01 * seedInFront().uncertainty.translation_m.x();
+  EXPECT_EQ(kinds(0.9, 0.0), Kinds({PassKind::kCompare}));
+  EXPECT_EQ(kinds(0.89, 0.0), Kinds({PassKind::kCompare, PassKind::kMirror, PassKind::kWider}));
+  EXPECT_EQ(kinds(0.99, outside_m), Kinds({PassKind::kCompare, PassKind::kWider}));
+  EXPECT_EQ(kinds(0.5, outside_m), kinds(0.89, 0.0));
+}
+
 TEST(Acceptance, EachRequirementThatFails_IsTheReason) {
   Workspace measured;
   measured.probability = 0.9;

@@ -149,6 +149,51 @@ TEST(WeakDirections, UndeterminedTurn_IsAboutItsOwnAxis) {
   EXPECT_LT((moves * after * moves.transpose()).diagonal().maxCoeff(), 1e-7);
 }
 
+/// The second camera sees the bar's ends: together the two views determine the slide.
+TEST(WeakDirections, SecondView_DeterminesWhatTheFirstLeaves) {
+  Places along;
+  Places ends;
+  for (int i = -50; i <= 50; ++i)
+    for (const double side : {-1.0, 1.0}) {
+      along.add({0.002 * i, 0.01 * side, 0.5 + 0.0005 * i}, 0.0, side);
+      ends.add({0.1 * side, 0.0002 * i, 0.5}, 0.0, 1.0);
+    }
+  // The second camera is rolled by a right angle: the first one's x axis is its y axis.
+  const Pose second_from_first{rotationExp({0.0, 0.0, 1.5707963267948966}), {0.01, 0.02, 0.0}};
+  RefinementResult seen_by_second = ends.result();
+  seen_by_second.camera_from_station = second_from_first;
+  const Eigen::Vector3d pivot_m(0.0, 0.0, 0.5);
+  EdgeMotion first_alone(pivot_m);
+  first_alone.add(along.result(), camera());
+  EXPECT_TRUE(first_alone.weakDirections().isUndetermined(0));
+  EdgeMotion both = first_alone;
+  both.add(seen_by_second, camera(), second_from_first);
+  const WeakDirections weak = both.weakDirections();
+  ASSERT_TRUE(weak.known);
+  // Whatever is weak now is not the slide: it moves the ends along their normals.
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Pose moved = weak.moved(Pose(), static_cast<int>(k), 0.01);
+    const Motion of_first = motionOf(along, moved);
+    Motion of_second;
+    for (const EdgeSample& sample : ends.samples) {
+      Eigen::Vector2d before;
+      Eigen::Vector2d after;
+      ASSERT_TRUE(project(camera(), second_from_first * sample.point_in_station_m, before));
+      ASSERT_TRUE(project(camera(), second_from_first * moved * sample.point_in_station_m, after));
+      of_second.all_px += (after - before).squaredNorm();
+      of_second.normal_px += std::pow(sample.normal().dot(after - before), 2);
+    }
+    const double count = static_cast<double>(ends.samples.size());
+    const double all2 = 0.5 * (of_first.all_px * of_first.all_px + of_second.all_px / count);
+    const double normal2 =
+        0.5 * (of_first.normal_px * of_first.normal_px + of_second.normal_px / count);
+    EXPECT_NEAR(std::sqrt(all2), 0.01, 1e-4);
+    EXPECT_NEAR(std::sqrt(normal2 / all2), weak.seen[k], 0.01);
+  }
+  const WeakDirections alone = first_alone.weakDirections();
+  EXPECT_GT(weak.seen[0], alone.seen[0] + 0.05);
+}
+
 /// Edges in all directions determine everything.
 TEST(WeakDirections, DeterminedPose_KeepsItsCovariance) {
   Random random(5);

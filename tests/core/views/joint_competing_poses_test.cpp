@@ -53,5 +53,28 @@ TEST_F(JointCompetingPosesTest, PoseInTheSecondViewOnly_DoesNotCompete) {
   EXPECT_EQ(joint().size(), 0);
 }
 
+CompetingPose mirrorImage(const Pose& found, double margin_nats) {
+  CompetingPose mirror{found, 0.0, margin_nats};
+  mirror.mirrored = true;
+  return mirror;
+}
+
+TEST_F(JointCompetingPosesTest, MirrorImage_CompetesWhereEveryViewShowsIt) {
+  first = {mirrorImage(found, -5.0)};
+  second = {{second_from_first * slid(0.001), 0.7, -8.0},
+            mirrorImage(second_from_first * found, -2.0)};
+  ASSERT_EQ(joint().size(), 1);
+  EXPECT_TRUE(joint()[0].mirrored);
+  EXPECT_DOUBLE_EQ(joint()[0].margin_nats, -7.0);
+  second.pop_back();
+  EXPECT_EQ(joint().size(), 0);
+}
+
+TEST_F(JointCompetingPosesTest, MirrorImage_IsNotAPoseOfTheMesh) {
+  first = {{slid(0.02), 0.9, 4.0}};
+  second = {mirrorImage(second_from_first * slid(0.02), -2.0)};
+  EXPECT_EQ(joint().size(), 0);
+}
+
 }  // namespace
 }  // namespace boresight::test

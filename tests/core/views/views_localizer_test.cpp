@@ -287,6 +287,36 @@ TEST(ViewsLocalizer, TurnedSeedBeforeABlackFirstView_IsFoundInTheSecond) {
   EXPECT_LT(poseError(scene.solid, scene.truth, result.rig_from_station).centre_m, 0.0006);
 }
 
+/// As with one view, whatever the probability says.
+TEST(ViewsLocalizer, MirroredMesh_IsRefused) {
+  for (const std::uint64_t seed : {1U, 3U}) {
+    Case scene = stationCase(seed);
+    const View first = viewOf(scene);
+    const View second = secondView(scene);  // of the mesh as it is
+    const auto twice_middle_m =
+        static_cast<float>(2.0 * matchedBounds(scene.solid.view()).centre().x());
+    for (Eigen::Vector3f& vertex : scene.solid.vertices) vertex.x() = twice_middle_m - vertex.x();
+    for (Face& face : scene.solid.faces) std::swap(face.vertex[1], face.vertex[2]);
+    LocalizerOptions options = defaultProfile();
+    options.support.min_probability = 0.0;
+    ViewsRun run(scene, {first, second}, options);
+    EXPECT_NE(run.finish().status, LocalizationStatus::kConverged);
+  }
+}
+
+/// The memory of the candidates is that of the wider search.
+TEST(ViewsLocalizer, PoseBeyondTheStatedUncertainty_IsComparedWithAWiderSearchInAllViews) {
+  for (const double share : {0.5, 1.2}) {
+    Case scene = stationCase(1);
+    scene.seed = scene.truth;
+    scene.seed.translation_m.x() += share * scene.uncertainty.translation_m.x();
+    ViewsRun run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
+    EXPECT_STREQ(localizationStatusText(run.finish().status), "converged");
+    for (int v = 0; v < 2; ++v)
+      EXPECT_EQ(run.localizer->view(v).workspace().candidates.empty(), share > 1.0);
+  }
+}
+
 /// A second picture of a rail.
 View secondRailView(const Case& scene, const Picture& picture) {
   return {picture.view(), nullptr, scene.camera, {}, secondFromRig()};
