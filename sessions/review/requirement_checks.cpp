@@ -126,8 +126,9 @@ Check camerasCheck(const ReviewSubject& subject, const CheckLimits& limits) {
 Check meshScaleCheck(const ReviewSubject& subject, const CheckLimits& limits) {
   if (subject.loaded == nullptr || subject.other_cameras.empty())
     return notAskedCheck(kScale,
-                         "One camera cannot see the mesh's scale: it needs a rig whose other "
-                         "camera has run on its own.");
+                         "One image cannot see the mesh's scale: it needs a rig, or an image from "
+                         "another place on the arm, linked by frames, whose case has run on its "
+                         "own.");
   const auto scale = meshScaleByRig(subject, matchedBounds(subject.loaded->scene.view()).centre());
   if (!scale) return notAskedCheck(kScale, "The rig's cameras have no baseline or no covariance.");
   const InputSigmas known(subject.loaded->source);

@@ -13,6 +13,12 @@ Session withRig(const Session& session, const std::string& case_id, std::optiona
                      [&](SessionCase& session_case) { session_case.rig = std::move(rig); });
 }
 
+/// Frames that have a name in every case, and another place in each.
+bool isOfOneImage(const FrameName& frame) {
+  return frame.name.empty() || frame == kCameraFrame || frame == kStationFrame ||
+         frame == kEndEffectorFrame;
+}
+
 /// A rig's name that no other rig has.
 std::string unusedRigId(const Session& session, const std::string& wanted) {
   const auto taken = [&](const std::string& id) {
@@ -60,11 +66,21 @@ std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionC
   return *other.camera_from_station_truth * session_case.camera_from_station_truth->inverse();
 }
 
-std::optional<Pose> linkOfLabels(const SessionCase& session_case, const SessionCase& other) {
-  const auto& from = session_case.camera_reference;
-  const auto& to = other.camera_reference;
-  if (!from || !to || from->frame.name.empty() || !(from->frame == to->frame)) return {};
-  return to->camera_from_reference * from->camera_from_reference.inverse();
+std::optional<FrameLinkOfCases> linkOfFrames(const SessionCase& session_case,
+                                             const SessionCase& other) {
+  const FrameTree own = framesOf(session_case);
+  const FrameTree others = framesOf(other);
+  std::optional<FrameLinkOfCases> link;
+  std::size_t farthest = 0;
+  for (const FrameName& frame : own.frames()) {
+    if (isOfOneImage(frame)) continue;
+    const auto to_own = own.chain(kCameraFrame, frame);
+    const auto to_other = others.chain(kCameraFrame, frame);
+    if (!to_own || !to_other || to_own->links.size() <= farthest) continue;
+    farthest = to_own->links.size();
+    link = {frame, to_other->a_from_b * to_own->a_from_b.inverse()};
+  }
+  return link;
 }
 
 Session withRigLink(const Session& session, const std::string& case_id, const std::string& other_id,

@@ -25,9 +25,14 @@ std::optional<Pose> linkOfRig(const SessionCase& session_case, const SessionCase
 /// The same as the true poses of both say; nothing where one of them has none.
 std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other);
 
-/// The same as the images' labels say: both camera models are in one named frame. Nothing where
-/// they are not.
-std::optional<Pose> linkOfLabels(const SessionCase& session_case, const SessionCase& other);
+/// The same by the named frame, farthest from the camera, that both cases join with their cameras:
+/// by image labels, telemetry of an arm, calibrations. Nothing where they have none in common.
+struct FrameLinkOfCases {
+  FrameName frame;
+  Pose other_from_case;
+};
+std::optional<FrameLinkOfCases> linkOfFrames(const SessionCase& session_case,
+                                             const SessionCase& other);
 
 /// The same session with `other_id` linked to the rig of `case_id`; a case without one becomes the
 /// reference of a new rig that has its name. `other_from_case` maps points of the case's camera

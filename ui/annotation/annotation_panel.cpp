@@ -267,9 +267,10 @@ void RigMenu::addLinks(QMenu& menu, const sessions::SessionCase& shown,
   if (const auto other_from_shown = sessions::linkOfTruths(shown, other))
     menu.addAction(tr("As the true poses say"), this,
                    [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
-  if (const auto other_from_shown = sessions::linkOfLabels(shown, other))
-    menu.addAction(tr("As the labels say (%1)").arg(fromText(shown.camera_reference->frame.name)),
-                   this, [this, id, link = *other_from_shown] { controller_.linkCase(id, link); });
+  if (const auto link = sessions::linkOfFrames(shown, other))
+    menu.addAction(tr("As the frames say (%1)").arg(fromText(sessions::frameText(link->frame))),
+                   this,
+                   [this, id, link = link->other_from_case] { controller_.linkCase(id, link); });
   menu.addAction(tr("By a pose from the clipboard ..."), this, [this, id] { askForPose(id); });
 }
 

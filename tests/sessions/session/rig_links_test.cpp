@@ -14,16 +14,45 @@ SessionCase cameraIn(const std::string& frame, double x_m) {
   return session_case;
 }
 
-TEST(LinkOfLabels, IsBetweenCamerasInOneNamedFrame) {
-  const auto link = linkOfLabels(cameraIn("ROVER_FRAME", 0.0), cameraIn("ROVER_FRAME", 0.2));
+void expectLink(const SessionCase& one, const SessionCase& other, double x_m,
+                const std::string& frame) {
+  const auto link = linkOfFrames(one, other);
   ASSERT_TRUE(link);
-  EXPECT_LT((link->translation_m - Eigen::Vector3d(-0.2, 0.0, 0.0)).norm(), 1e-12);
+  EXPECT_EQ(link->frame.name, frame);
+  EXPECT_LT((link->other_from_case.translation_m - Eigen::Vector3d(x_m, 0.0, 0.0)).norm(), 1e-12);
 }
 
-TEST(LinkOfLabels, IsNothingAcrossFramesOrWithoutAName) {
-  EXPECT_FALSE(linkOfLabels(cameraIn("ROVER_FRAME", 0.0), cameraIn("SITE_FRAME", 0.2)));
-  EXPECT_FALSE(linkOfLabels(cameraIn("", 0.0), cameraIn("", 0.2)));
-  EXPECT_FALSE(linkOfLabels(SessionCase(), cameraIn("ROVER_FRAME", 0.2)));
+TEST(LinkOfFrames, IsBetweenCamerasInOneNamedFrame) {
+  expectLink(cameraIn("ROVER_FRAME", 0.0), cameraIn("ROVER_FRAME", 0.2), -0.2, "ROVER_FRAME");
+}
+
+TEST(LinkOfFrames, IsNothingAcrossFramesOrWithoutAName) {
+  EXPECT_FALSE(linkOfFrames(cameraIn("ROVER_FRAME", 0.0), cameraIn("SITE_FRAME", 0.2)));
+  EXPECT_FALSE(linkOfFrames(cameraIn("", 0.0), cameraIn("", 0.2)));
+  EXPECT_FALSE(linkOfFrames(SessionCase(), cameraIn("ROVER_FRAME", 0.2)));
+}
+
+FrameTransform shifted(const FrameName& target, const FrameName& source, double x_m) {
+  FrameTransform transform;
+  transform.target = target;
+  transform.source = source;
+  transform.target_from_source.translation_m = {x_m, 0.0, 0.0};
+  return transform;
+}
+
+/// A camera on an arm: where its wrist is in the rover's frame.
+SessionCase onArm(double wrist_in_rover_m) {
+  const FrameName wrist{"WRIST", {}};
+  SessionCase session_case;
+  session_case.frames = {shifted(kCameraFrame, wrist, 0.05),
+                         shifted(wrist, {"ROVER", {}}, -wrist_in_rover_m),
+                         shifted(kEndEffectorFrame, kCameraFrame, 0.01)};
+  return session_case;
+}
+
+/// The wrist moves with the camera: the rover's frame, beyond it, joins the two images.
+TEST(LinkOfFrames, IsByTheFrameFarthestFromTheCamera) {
+  expectLink(onArm(0.0), onArm(0.3), -0.3, "ROVER");
 }
 
 SessionCase inRig(const std::string& name, double x_m) {
