@@ -137,7 +137,7 @@ void describeAnnotations(const sessions::Annotations& annotations) {
 
 std::string stalenessText(const sessions::Staleness& staleness) {
   if (!staleness.stale()) return "";
-  return std::string(", stale: ") + (staleness.inputs_changed ? "inputs" : "") +
+  return std::string(", outdated: ") + (staleness.inputs_changed ? "inputs" : "") +
          (staleness.inputs_changed && staleness.options_changed ? " and " : "") +
          (staleness.options_changed ? "options" : "") + " changed since";
 }

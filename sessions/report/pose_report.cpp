@@ -9,14 +9,15 @@
 #include <utility>
 
 #include "core/base/math.h"
-#include "sessions/evaluation/pose_error.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/checks.h"
+#include "sessions/review/pose_quality.h"
 #include "sessions/review/pose_uncertainty.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/check.h"
+#include "sessions/session/check_limits.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/version.h"
@@ -58,10 +59,12 @@ void drawHead(PdfCanvas& canvas, const PoseReport& report) {
       "Pose of " + session_case.id +
       (session_case.station.empty() ? "" : ", station " + session_case.station);
   canvas.text(kLeft, 28.0, kTextWidth, title, {14.0, true, false, kInk, 1});
-  const PdfColor& color = report.pose.validated ? kPdfBlue : kPdfOrange;
+  const bool plain =
+      report.pose.validated && reviewStatusOf(*report.session, session_case.id).outdated.empty();
+  const PdfColor& color = plain ? kPdfBlue : kPdfOrange;
   const PdfBox bar = {kLeft, 48.0, kTextWidth, 17.0};
   canvas.fill(bar, color);
-  const char* sign = report.pose.validated ? "\xE2\x9C\x94  " : "\xE2\x9A\xA0  ";
+  const char* sign = plain ? "\xE2\x9C\x94  " : "\xE2\x9A\xA0  ";
   canvas.text(bar.x + 6.0, bar.y + 3.0, bar.width - 12.0, sign + report.pose.review_status,
               {9.0, true, false, {1.0, 1.0, 1.0}, 1});
 }
@@ -134,10 +137,6 @@ class Rows {
   void addRotation(const Pose& pose) {
     add("rotation vector", vectorText(rotationLog(pose.rotation) / kDegree_rad, "deg", "%.5f"));
   }
-  void addSigma(const std::string& name, const PoseSigma& sigma) {
-    add(name, formatted("normal %.4f mm, lateral %.4f mm, axis %.4f mrad", sigma.normal_mm,
-                        sigma.lateral_mm, sigma.out_of_plane_mrad));
-  }
   double below() const { return box_.y; }
 
  private:
@@ -145,16 +144,14 @@ class Rows {
   PdfBox box_;
 };
 
-std::string requirementText(const Requirement& requirement) {
-  std::string text;
-  const auto add = [&text](const std::optional<double>& value, const char* name, const char* unit) {
-    if (value) text += formatted("%s%s %.4g %s", text.empty() ? "" : ", ", name, *value, unit);
-  };
-  add(requirement.normal_mm, "normal", "mm");
-  add(requirement.lateral_mm, "lateral", "mm");
-  add(requirement.rotation_deg, "axis", "deg");
-  add(requirement.projection_px, "projection", "px");
-  return text;
+PoseQuality qualityOf(const PoseReport& report) {
+  ReviewSubject subject;
+  subject.loaded = report.loaded;
+  subject.requirement = requirementOf(*report.session, caseOf(report));
+  subject.camera_from_station = report.pose.camera_from_station;
+  subject.covariance = report.pose.covariance;
+  const ReviewSettings& review = report.session->review;
+  return poseQuality(subject, checkLimits(review.preset, review.limits).sigmas);
 }
 
 double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
@@ -163,17 +160,12 @@ double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) 
   rows.add("translation", vectorText(1e3 * pose.translation_m, "mm", "%.4f"));
   rows.addRotation(pose);
   rows.add("quaternion wxyz", quaternionText(pose));
-  const auto& end_effector = caseOf(report).camera_from_end_effector;
-  if (const auto sigma = poseSigma(report.pose.covariance.total(), end_effector)) {
-    rows.addSigma("1 sigma", *sigma);
-    rows.add("1 sigma of", end_effector ? "the end effector's origin" : "the camera's centre");
-    if (const auto picture = poseSigma(report.pose.covariance.picture, end_effector))
-      rows.addSigma("image only", *picture);
-  } else {
-    rows.add("1 sigma", "not known");
-  }
-  if (const auto& requirement = caseOf(report).requirement)
-    rows.add("requirement", requirementText(*requirement));
+  const PoseQuality quality = qualityOf(report);
+  rows.add("quality", quality.text());
+  for (const PrecisionFigure& figure : quality.figures)
+    if (figure.judged())
+      rows.add(figure.where,
+               figure.text() + formatted("; image alone %.2g %s", *figure.by_image, figure.unit));
   return rows.below();
 }
 
@@ -193,9 +185,8 @@ double drawNamedPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& rep
 void drawEndEffector(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const SessionCase& session_case = caseOf(report);
   if (!session_case.camera_from_end_effector || !session_case.has_seed) return;
-  const EndEffectorPose end_effector_pose =
-      endEffectorPose(session_case, report.pose.camera_from_station,
-                      report.pose.covariance.total());
+  const EndEffectorPose end_effector_pose = endEffectorPose(
+      session_case, report.pose.camera_from_station, report.pose.covariance.total());
   const Pose& correction = end_effector_pose.end_effector_seed_from_end_effector_estimated;
   Rows rows(canvas, box, "Correction of the commanded pose");
   rows.addText("end_effector_seed_from_end_effector_estimated");
@@ -235,10 +226,10 @@ double drawInputs(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
   const InputSigmas sigmas(session_case);
   row("known to", "scale " + meshScaleText(sigmas) + "; calibration " + calibrationText(sigmas));
   if (session_case.ignore || !session_case.ignore_strokes.empty()) row("ignored pixels", "a mask");
-  row("seed", session_case.has_seed
-                  ? vectorText(1e3 * session_case.camera_from_station_seed.translation_m, "mm",
-                               "%.1f")
-                  : "none");
+  row("seed",
+      session_case.has_seed
+          ? vectorText(1e3 * session_case.camera_from_station_seed.translation_m, "mm", "%.1f")
+          : "none");
   if (report.trace) {
     row("run",
         formatted("%s, %zu iterations, version %s", localizationStatusText(report.trace->status),

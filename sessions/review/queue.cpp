@@ -191,6 +191,7 @@ void takeReviewStatus(const Session& session, QueueRow& row) {
   const ReviewStatus status = reviewStatusOf(session, row.case_id);
   row.review_state = status.state;
   row.review_status_text = reviewStatusText(status);
+  row.outdated = !status.outdated.empty();
   row.group = groupOf(status, row);
 }
 

@@ -48,6 +48,7 @@ struct QueueRow {
   QueueGroup group = QueueGroup::kNotRun;
   ReviewState review_state = ReviewState::kNew;
   std::string review_status_text;  ///< as reviewStatusText says
+  bool outdated = false;           ///< a validation of a run with other options
   std::string run_digest;          ///< empty without a run
   std::vector<Check> checks;       ///< of the last run, as checkPose orders them
   int passed = 0;

@@ -9,6 +9,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/io/least_known.h"
 #include "sessions/review/mesh_scale.h"
+#include "sessions/review/pose_quality.h"
 #include "sessions/session/check.h"
 #include "sessions/session/input_sigmas.h"
 
@@ -166,11 +167,6 @@ Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
                             : "The pose does not meet the requirement: reject it.");
 }
 
-constexpr CheckName kNormal{"covariance_normal", "Covariance along the view axis"};
-constexpr CheckName kLateral{"covariance_lateral", "Covariance across the view axis"};
-constexpr CheckName kRotation{"covariance_rotation", "Covariance of the axis's direction"};
-constexpr CheckName kProjection{"covariance_projection", "Covariance in the image"};
-
 constexpr const char* kNotRequired = "The requirement does not limit this value.";
 constexpr const char* kNoCovariance = "The pose has no covariance.";
 constexpr const char* kPictureRemedy =
@@ -180,100 +176,35 @@ constexpr const char* kInputsRemedy =
     "The image alone would pass: state mesh_scale_sigma and calibration_sigma after measurement, "
     "or take a nearer image.";
 
-/// One sigma of what is judged, of the picture alone and with mesh and camera.
-struct Sigmas {
-  double picture = 0.0;
-  double total = 0.0;
-};
-
-/// "3", "2.5".
-std::string sigmasText(double sigmas) {
-  std::string text = sentenceNumber(sigmas);
-  if (text.find('.') == std::string::npos) return text;
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
+/// Names the motion that the image leaves undetermined, where one stands out.
+std::string imageRemedy(const ReviewSubject& subject) {
+  const std::string least_known =
+      leastKnownText(subject.covariance.picture, subject.camera_from_station);
+  return least_known.empty() ? kPictureRemedy
+                             : "Least known: " + least_known + ". " + kPictureRemedy;
 }
 
-class PrecisionChecks {
- public:
-  PrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits)
-      : subject_(subject), limits_(limits) {
-    if (!subject.covariance.known()) return;
-    picture_ = poseSigma(subject.covariance.picture, endEffector(subject));
-    total_ = poseSigma(subject.covariance.total(), endEffector(subject));
-  }
+std::string inputsText(const ReviewSubject& subject, const PrecisionFigure& figure) {
+  const double inputs =
+      std::sqrt(std::max(0.0, *figure.found * *figure.found - *figure.by_image * *figure.by_image));
+  std::string text = "The image alone gives " + sentenceNumber(*figure.by_image) + " " +
+                     figure.unit + "; the pose is limited by the mesh's scale";
+  if (subject.loaded == nullptr) return text + " and the camera's calibration allow.";
+  const InputSigmas known(subject.loaded->source);
+  return text + " (" + meshScaleText(known) + ") and the camera's calibration (" +
+         calibrationText(known) + ") allow: " + sentenceNumber(inputs) + " " + figure.unit + ".";
+}
 
-  /// At the end effector, or at the camera.
-  Check ofTranslation(const CheckName& name, double PoseSigma::*member,
-                      std::optional<double> required_mm) const {
-    return check(name, sigmasOf(member), required_mm, "mm",
-                 std::string(" at the ") + judgedPlace(endEffector(subject_)));
-  }
-
-  Check ofRotation(std::optional<double> required_mrad) const {
-    return check(kRotation, sigmasOf(&PoseSigma::out_of_plane_mrad), required_mrad, "mrad", "");
-  }
-
-  Check inImage(std::optional<double> required_px) const {
-    std::optional<Sigmas> sigmas;
-    if (required_px && picture_ && total_ && subject_.loaded != nullptr) {
-      const auto vertices = matchedVertices(subject_.loaded->scene.view());
-      const auto sigma_px = [&](const Matrix6d& covariance) {
-        return projectionSigma(subject_.loaded->source.camera, subject_.camera_from_station,
-                               vertices, covariance);
-      };
-      const auto picture_px = sigma_px(subject_.covariance.picture);
-      const auto total_px = sigma_px(subject_.covariance.total());
-      if (picture_px && total_px) sigmas = {*picture_px, *total_px};
-    }
-    return check(kProjection, sigmas, required_px, "px", "");
-  }
-
- private:
-  std::optional<Sigmas> sigmasOf(double PoseSigma::*member) const {
-    if (!picture_ || !total_) return {};
-    return Sigmas{*picture_.*member, *total_.*member};
-  }
-
-  Check check(const CheckName& name, const std::optional<Sigmas>& sigma,
-              std::optional<double> required, const std::string& unit,
-              const std::string& place) const {
-    if (!required) return notAskedCheck(name, kNotRequired);
-    if (!sigma) return notAskedCheck(name, kNoCovariance);
-    const double figure = limits_.sigmas * sigma->total;
-    const bool by_inputs = limits_.sigmas * sigma->picture <= *required;
-    return measuredCheck(name, unit, figure, *required, LimitSide::kAtMost,
-                         sigmasText(limits_.sigmas) + " sigma" + place + " are " +
-                             sentenceNumber(figure) + " " + unit + ". " + inputsText(*sigma, unit),
-                         by_inputs ? kInputsRemedy : pictureRemedy());
-  }
-
-  /// Names the motion that the image leaves undetermined, where one stands out.
-  std::string pictureRemedy() const {
-    const std::string least_known =
-        leastKnownText(subject_.covariance.picture, subject_.camera_from_station);
-    return least_known.empty() ? kPictureRemedy
-                               : "Least known: " + least_known + ". " + kPictureRemedy;
-  }
-
-  std::string inputsText(const Sigmas& sigma, const std::string& unit) const {
-    const double inputs =
-        std::sqrt(std::max(0.0, sigma.total * sigma.total - sigma.picture * sigma.picture));
-    std::string text = "The image alone gives " + sentenceNumber(limits_.sigmas * sigma.picture) +
-                       " " + unit + "; the pose is limited by the mesh's scale";
-    if (subject_.loaded == nullptr) return text + " and the camera's calibration allow.";
-    const InputSigmas known(subject_.loaded->source);
-    return text + " (" + meshScaleText(known) + ") and the camera's calibration (" +
-           calibrationText(known) + ") allow: " + sentenceNumber(limits_.sigmas * inputs) + " " +
-           unit + ".";
-  }
-
-  const ReviewSubject& subject_;
-  const CheckLimits& limits_;
-  std::optional<PoseSigma> picture_;
-  std::optional<PoseSigma> total_;
-};
+Check precisionCheck(const ReviewSubject& subject, const PrecisionFigure& figure,
+                     const std::string& sigmas) {
+  if (!figure.required) return notAskedCheck(figure.check, kNotRequired);
+  if (!figure.found) return notAskedCheck(figure.check, kNoCovariance);
+  return measuredCheck(figure.check, figure.unit, *figure.found, *figure.required,
+                       LimitSide::kAtMost,
+                       sigmas + figure.place + " are " + sentenceNumber(*figure.found) + " " +
+                           figure.unit + ". " + inputsText(subject, figure),
+                       *figure.by_image <= *figure.required ? kInputsRemedy : imageRemedy(subject));
+}
 
 }  // namespace
 
@@ -292,14 +223,9 @@ bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_sta
 
 void addPrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits,
                         std::vector<Check>& checks) {
-  const PrecisionChecks precision_checks(subject, limits);
-  const Requirement& required = subject.requirement;
-  checks.push_back(
-      precision_checks.ofTranslation(kNormal, &PoseSigma::normal_mm, required.normal_mm));
-  checks.push_back(
-      precision_checks.ofTranslation(kLateral, &PoseSigma::lateral_mm, required.lateral_mm));
-  checks.push_back(precision_checks.ofRotation(rotationLimit_mrad(required)));
-  checks.push_back(precision_checks.inImage(required.projection_px));
+  const PoseQuality quality = poseQuality(subject, limits.sigmas);
+  for (const PrecisionFigure& figure : quality.figures)
+    checks.push_back(precisionCheck(subject, figure, quality.sigmasText()));
 }
 
 }  // namespace boresight::sessions

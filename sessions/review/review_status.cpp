@@ -42,6 +42,16 @@ std::string droppedText(const Session& session, const Decision& decision) {
                            inputFingerprint(session, decision.case_id, decision.digest));
 }
 
+/// The options are no part of the fingerprint: the pose stays validated as the run found it.
+std::string outdatedText(const Session& session, const Decision& decision) {
+  const RunRecord* run = findRun(session, decision.case_id, decision.digest);
+  const SessionCase* session_case = session.findCase(decision.case_id);
+  if (decision.digest.empty() || run == nullptr || session_case == nullptr) return "";
+  const bool same =
+      run->options_sha256 == optionsDigest(caseOptions(session, *session_case, "session"));
+  return same ? "" : "the run was made with other options";
+}
+
 std::string byText(const Decision& decision) {
   std::string text = " by " + decision.by;
   if (decision.approval) text += ", approved by " + decision.approval->by;
@@ -214,21 +224,26 @@ ReviewStatus reviewStatusOf(const Session& session, const std::string& case_id) 
   if (!status.holds()) return status;
   if (decision->verdict == Verdict::kRejected) {
     status.state = ReviewState::kRejected;
-  } else if (session.review.second_person && !decision->approval) {
-    status.awaits_approval = true;
-  } else {
-    status.state = ReviewState::kValidated;
+    return status;
   }
+  status.outdated = outdatedText(session, *decision);
+  if (session.review.second_person && !decision->approval)
+    status.awaits_approval = true;
+  else
+    status.state = ReviewState::kValidated;
   return status;
 }
 
 std::string reviewStatusText(const ReviewStatus& status) {
-  if (status.state == ReviewState::kValidated) return "validated" + byText(*status.decision);
+  const std::string outdated = status.outdated.empty() ? "" : "; outdated: " + status.outdated;
+  if (status.state == ReviewState::kValidated)
+    return "validated" + byText(*status.decision) + outdated;
   if (status.state == ReviewState::kRejected)
     return "NOT VALIDATED: rejected" + byText(*status.decision);
   const std::string text = std::string("NOT VALIDATED: ") + reviewStateText(status.state);
   if (status.awaits_approval)
-    return text + "; validated" + byText(*status.decision) + ", a second person must approve";
+    return text + "; validated" + byText(*status.decision) + ", a second person must approve" +
+           outdated;
   if (status.decision == nullptr) return text;
   const char* what = status.decision->verdict == Verdict::kValidated ? "validation" : "rejection";
   return text + "; the " + what + byText(*status.decision) + " no longer holds: " + status.dropped;

@@ -23,6 +23,9 @@ struct ReviewStatus {
   /// Points into the session.
   const Decision* decision = nullptr;
   std::string dropped;  ///< why it does not hold: "the annotations have changed"; "": it does
+  /// Why the run of a validation that holds would be another one now: "the run was made with other
+  /// options"; "": it would not.
+  std::string outdated;
   bool awaits_approval = false;  ///< validated by one person where two are asked for
 
   bool holds() const { return decision != nullptr && dropped.empty(); }
@@ -34,9 +37,9 @@ struct ReviewStatus {
 /// come after. A validation that awaits its second person holds, but the case is not validated yet.
 ReviewStatus reviewStatusOf(const Session& session, const std::string& case_id);
 
-/// The status in words, never less than the truth: "validated by A, approved by B", "NOT
-/// VALIDATED: converged", "NOT VALIDATED: converged; the validation by A no longer holds, as the
-/// annotations have changed".
+/// The status in words, never less than the truth: "validated by A, approved by B", "validated by
+/// A; outdated: the run was made with other options", "NOT VALIDATED: converged", "NOT
+/// VALIDATED: converged; the validation by A no longer holds: the annotations have changed".
 std::string reviewStatusText(const ReviewStatus& status);
 
 /// SHA-256 by name: "inputs" (of runs), "run" (its digest), "annotations" (of the case and its

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/run/run_headline.h"
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "sessions/run/acceptance.h"
 #include "sessions/run/run_text.h"
@@ -29,14 +27,11 @@ std::string acceptedText(const LocalizationTrace& trace) {
 }
 
 std::string convergedSentence(const LocalizationTrace& trace) {
-  double variance = 0.0;
-  for (int i = 3; i < 6; ++i) variance = std::max(variance, trace.covariance(i, i));
   std::string text = "in " + countText(trace.iterations.size(), "iteration");
   if (trace.attempts > 1)
     text += " and " + countText(static_cast<std::size_t>(trace.attempts), "attempt");
   if (!trace.replayed) text += ", " + fixedText(trace.seconds.total(), 2) + " s";
-  return text + "." + acceptedText(trace) + " Position good to " +
-         fixedText(1e3 * std::sqrt(variance), 3) + " mm (1 sigma at the camera).";
+  return text + "." + acceptedText(trace);
 }
 
 std::string notSupportedSentence(const LocalizationTrace& trace) {

@@ -118,7 +118,7 @@ TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
   ProgramRun info = runWhs({"info", file}, 0);
   EXPECT_THAT(info.out,
               AllOf(HasSubstr("run " + session.runs[0].digest + ": converged"),
-                    HasSubstr("field of view: "), HasSubstr("seed: "), Not(HasSubstr("stale"))));
+                    HasSubstr("field of view: "), HasSubstr("seed: "), Not(HasSubstr("outdated"))));
   {
     SessionDocument document = SessionDocument::open(file);
     LocalizerOptions options = defaultProfile();
@@ -127,7 +127,7 @@ TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
     document.save();
   }
   info = runWhs({"info", file});
-  EXPECT_THAT(info.out, HasSubstr("stale: options changed since"));
+  EXPECT_THAT(info.out, HasSubstr("outdated: options changed since"));
 }
 
 TEST(WhsRun, RunsARecordedRunAgainWithTheOptionsThatItTookUp) {

@@ -19,8 +19,8 @@ namespace boresight::ui {
 namespace {
 
 constexpr double kShortestScale = 50.0;  ///< on the screen
-constexpr int kNoteMargin = 8;
-constexpr int kBesideTools = 56;  ///< clear of the strip of tools
+constexpr int kNoteMargin = 40;          ///< clear of the title
+constexpr int kBesideTools = 56;         ///< clear of the strip of tools
 
 std::optional<QPointF> placeOf(const AnnotationController& controller) {
   const sessions::PointPair* point = controller.selectedPoint();

@@ -25,7 +25,7 @@ QString tooltipOf(const CaseRow& row) {
   if (!row.station.isEmpty()) text += CasesModel::tr(", station %1").arg(row.station);
   text += QLatin1Char('\n') + CasesModel::stateText(row.state);
   if (row.stale)
-    text += CasesModel::tr("\nStale: the inputs or options have changed since its run.");
+    text += CasesModel::tr("\nOutdated: the run was made with other inputs or options.");
   if (!row.detail.isEmpty()) text += QLatin1Char('\n') + row.detail;
   return text;
 }
@@ -42,11 +42,11 @@ std::vector<TableColumn<CaseRow>> caseColumns() {
       {tr("Case"), tr("The image's name."), -1, [](Row row) { return row.id; }},
       {tr("State"),
        tr("State of the case: new, running, converged, failed, annotated, validated, rejected. "
-          "Stale: its inputs or options have changed since its run."),
+          "Outdated: the run was made with other inputs or options."),
        -1,
        [](Row row) {
          return CasesModel::stateText(row.state) +
-                (row.stale ? CasesModel::tr(", stale") : QString());
+                (row.stale ? CasesModel::tr(", outdated") : QString());
        },
        [](Row row) { return static_cast<int>(row.state); }},
       {tr("Normal,\nmm"),
@@ -90,7 +90,7 @@ QVariant CasesModel::look(const CaseRow& row, int column, int role) const {
 namespace {
 
 constexpr int kThumbnail_px = 40;
-constexpr int kUsualName = 20;  ///< letters
+constexpr int kUsualName = 20;      ///< letters
 constexpr int kMeasuredRows = 100;  ///< of a list of thousands, for the widths of columns
 
 /// A case's name with its state below it: both stay in sight in a narrow list. Names of one dataset

@@ -34,7 +34,7 @@ struct CaseRow {
   QString station;  ///< may be empty
   QImage thumbnail;
   CaseState state = CaseState::kNew;
-  bool stale = false;  ///< its last run was made with other inputs or options
+  bool stale = false;  ///< outdated: its last run was made with other inputs or options
   QString detail;      ///< e.g. why it failed, for the tooltip
   /// Against the truth, where it is known and a pose came out.
   std::optional<double> normal_mm;

@@ -46,7 +46,7 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
          return row.iteration < 0 ? tr("result") : QString::number(row.iteration + 1);
        }},
       {tr("Ended"), tr("Whether the run continued with it."), -1, endedText},
-      {tr("Behind, nats"),
+      {tr("Evidence behind"),
        tr("Evidence of the result minus that of the competing pose, in nats; below %1 the run is "
           "ambiguous, below zero the competing pose is better.")
            .arg(kLeastMargin_nats),

@@ -108,7 +108,8 @@ void styleTable(QTableView& table) {
   QObject::connect(table.horizontalHeader(), &QWidget::customContextMenuRequested, &table,
                    [&table](const QPoint& at) { showColumnsMenu(table, at); });
   // When the panel has hidden what it hides at first.
-  QMetaObject::invokeMethod(&table, [&table] { restoreColumns(table); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      &table, [&table] { restoreColumns(table); }, Qt::QueuedConnection);
   if (table.contextMenuPolicy() != Qt::DefaultContextMenu) return;  // it has a menu of its own
   table.setContextMenuPolicy(Qt::CustomContextMenu);
   QObject::connect(&table, &QWidget::customContextMenuRequested, &table,
@@ -148,15 +149,12 @@ FoldButton::FoldButton(QWidget* parent) : QToolButton(parent) {
     setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
     Q_EMIT foldedChanged();
   });
-  connect(this, &QToolButton::clicked, this,
-          [this] { QSettings().setValue(key(), isFolded()); });
+  connect(this, &QToolButton::clicked, this, [this] { QSettings().setValue(key(), isFolded()); });
 }
 
 QString FoldButton::key() const { return QStringLiteral("folds/") + objectName(); }
 
-void FoldButton::restore(bool folded) {
-  setChecked(!QSettings().value(key(), folded).toBool());
-}
+void FoldButton::restore(bool folded) { setChecked(!QSettings().value(key(), folded).toBool()); }
 
 void FoldButton::setContent(const QString& text) {
   setText(text);
@@ -206,7 +204,7 @@ constexpr int kMostShown = 2;  // warnings
 /// A tick next to "NOT VALIDATED" would be read as a yes: what converged, but has not been
 /// validated, is an open circle here.
 QString signOf(const sessions::ReviewStatus& status) {
-  if (!status.dropped.empty()) return QStringLiteral("⚠");
+  if (!status.dropped.empty() || !status.outdated.empty()) return QStringLiteral("⚠");
   const bool open =
       status.state == ReviewState::kConverged || status.state == ReviewState::kAnnotated;
   return CasesModel::stateText(open ? CaseState::kNew : caseStateOf(status.state)).left(1);
@@ -264,15 +262,16 @@ void Banner::showReviewStatus(const sessions::ReviewStatus* status) {
     setMessage({}, tr("No case is shown."), Tone::kPlain);
     return;
   }
-  // The decision that no longer holds stands out: it was relied on.
+  // The decision that no longer holds, or is outdated, stands out: it was relied on.
   const bool bad = status->state == ReviewState::kFailed ||
-                   status->state == ReviewState::kRejected || !status->dropped.empty();
+                   status->state == ReviewState::kRejected || !status->dropped.empty() ||
+                   !status->outdated.empty();
   QString text = fromText(sessions::reviewStatusText(*status));
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   setMessage(signOf(*status), text,
-             status->state == ReviewState::kValidated ? Tone::kGood
-             : bad                                    ? Tone::kBad
-                                                      : Tone::kPlain);
+             bad                                        ? Tone::kBad
+             : status->state == ReviewState::kValidated ? Tone::kGood
+                                                        : Tone::kPlain);
 }
 
 void Banner::setMessage(const QString& sign, const QString& text, Tone tone) {

@@ -74,8 +74,18 @@ bool PoseExport::isValidated(const std::string& case_id) const {
 }
 
 QString PoseExport::poseFileName() const {
-  return isValidated(caseId()) ? QStringLiteral("validated_pose.json")
-                               : QStringLiteral("pose_NOT_VALIDATED.json");
+  return caseFileName() + (isValidated(caseId()) ? QStringLiteral("_validated_pose.json")
+                                                 : QStringLiteral("_pose_NOT_VALIDATED.json"));
+}
+
+QString PoseExport::reportFileName() const {
+  return caseFileName() + (isValidated(caseId())
+                               ? QStringLiteral("_pose_report.pdf")
+                               : QStringLiteral("_pose_report_NOT_VALIDATED.pdf"));
+}
+
+QString PoseExport::caseFileName() const {
+  return fromText(caseId()).replace(QLatin1Char('/'), QLatin1Char('_'));
 }
 
 QString PoseExport::bopResultsFileName() const {
@@ -91,6 +101,8 @@ QString PoseExport::bopResultsFileName() const {
 template <class Write>
 void PoseExport::exportOne(const QString& key, const std::filesystem::path& file,
                            const QString& note, Write write) {
+  Q_EMIT noted(
+      tr("Measuring the pose of %1 again for %2 ...").arg(fromText(caseId()), fileNameOf(file)));
   tasks_.start(
       key,
       [write, session = document_.session(), id = caseId()](const std::stop_token&) {
@@ -174,11 +186,7 @@ void PoseExport::askForPose() {
 }
 
 void PoseExport::askForReport() {
-  const auto file =
-      askForFile(tr("Report of %1 (%2)"),
-                 isValidated(caseId()) ? QStringLiteral("pose_report.pdf")
-                                       : QStringLiteral("pose_report_NOT_VALIDATED.pdf"),
-                 tr("PDF (*.pdf)"));
+  const auto file = askForFile(tr("Report of %1 (%2)"), reportFileName(), tr("PDF (*.pdf)"));
   if (!file.empty()) exportReport(file);
 }
 

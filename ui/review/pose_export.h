@@ -43,12 +43,16 @@ class PoseExport : public QObject {
 
   /// The entries of File > Export.
   void addTo(QMenu& menu);
+  /// Ask for a file, then write it.
+  void askForPose();
+  void askForReport();
   /// The shown case's pose, with its checks and where everything in it comes from.
   void exportPose(const std::filesystem::path& file);
   /// The same on two pages for the reader.
   void exportReport(const std::filesystem::path& file);
-  /// Proposed for the pose: says in its name when the case is not validated.
+  /// Proposed for pose and report: of the case, and says so when that is not validated.
   QString poseFileName() const;
+  QString reportFileName() const;
   /// The poses of all cases that have one: a BOP19 results file, whose name has to say when one of
   /// them is not validated, and a COLMAP text model in a new folder.
   void exportBopResults(const std::filesystem::path& file, int scene_id);
@@ -60,12 +64,11 @@ class PoseExport : public QObject {
   void noted(const QString& message);
 
  private:
-  void askForPose();
-  void askForReport();
   void askForBopResults();
   void askForColmap();
   std::string caseId() const { return shownCaseId(document_, state_); }
   bool isValidated(const std::string& case_id) const;
+  QString caseFileName() const;
   template <class Write>
   void exportOne(const QString& key, const std::filesystem::path& file, const QString& note,
                  Write write);

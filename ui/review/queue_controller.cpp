@@ -11,7 +11,6 @@
 
 namespace boresight::ui {
 
-using sessions::QueueGroup;
 using sessions::QueueRow;
 
 namespace {
@@ -163,46 +162,6 @@ void QueueController::setHalted(bool halted) {
   halted_ = halted;
   rows_.setHalted(halted);
   differences_.setHalted(halted);
-}
-
-sessions::Session QueueController::after(Act act, const QueueRow& row,
-                                         const sessions::Signature& who) const {
-  const sessions::Session& session = document_.session();
-  if (act == Act::kReject) return sessions::rejected(session, row.case_id, row.checks, who);
-  return sessions::validated(session, *row.subject, row.checks, {}, who);
-}
-
-QString QueueController::obstacle(Act act, const QString& id) const {
-  const auto& entries = rows_.entries();
-  const auto found = std::ranges::find(entries, id.toStdString(), &Rows::Entry::id);
-  if (id.isEmpty() || found == entries.end()) return tr("Select a case of the list.");
-  if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
-  const QueueRow row = rowOf(*found);
-  if (row.group == QueueGroup::kDecided || row.group == QueueGroup::kAwaits)
-    return tr("%1 is already decided: %2. Use Review (F9) to withdraw or approve the decision.")
-        .arg(id, fromText(row.review_status_text));
-  if (act == Act::kReject) return {};
-  if (!found->current) return tr("%1 is not checked yet; wait, or review it (F9).").arg(id);
-  if (!row.trouble.empty() || !row.subject)
-    return tr("%1 cannot be accepted: %2").arg(id, fromText(sessions::troubleText(row)));
-  if (row.failed > 0)
-    return tr("%1 cannot be accepted in the queue: %2. Use Review (F9) to waive checks.")
-        .arg(id, fromText(sessions::troubleText(row)));
-  return {};
-}
-
-QString QueueController::decide(Act act, const QString& id, const sessions::Signature& who) {
-  const QString reason = obstacle(act, id);
-  if (!reason.isEmpty()) return reason;
-  Rows::Entry* entry = rows_.find(id.toStdString());
-  QueueRow row = rowOf(*entry);
-  if (!entry->current) row.checks.clear();  // they are of something else
-  const QString text = act == Act::kAccept ? tr("Validate %1").arg(id) : tr("Reject %1").arg(id);
-  try {
-    return document_.edit(after(act, row, who), text) ? QString() : tr("No decision was stored.");
-  } catch (const std::exception& error) {
-    return QString::fromUtf8(error.what());
-  }
 }
 
 }  // namespace boresight::ui

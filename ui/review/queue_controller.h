@@ -145,13 +145,11 @@ struct DifferenceEntry {
 };
 
 /// The queue of the document's cases, and what changed between their two last runs: both filled
-/// off the UI's thread while the operator looks. Decides on cases of it; every decision is one
-/// edit.
+/// off the UI's thread while the operator looks.
 class QueueController : public QObject {
   Q_OBJECT
 
  public:
-  enum class Act { kAccept, kReject };
   enum class List { kNone, kTrouble, kDifferences };
 
   /// The pictures have at most this size, in device pixels.
@@ -173,11 +171,6 @@ class QueueController : public QObject {
   /// A case that is being checked is finished first.
   void setHalted(bool halted);
 
-  /// Why this is not possible for a case, independent of the signer; or empty.
-  QString obstacle(Act act, const QString& id) const;
-  /// Why it was not done, or empty: then it is one edit of the document.
-  QString decide(Act act, const QString& id, const sessions::Signature& who);
-
  Q_SIGNALS:
   void changed();
 
@@ -187,8 +180,6 @@ class QueueController : public QObject {
 
   void follow();
   sessions::QueueRow rowOf(const Rows::Entry& entry) const;
-  sessions::Session after(Act act, const sessions::QueueRow& row,
-                          const sessions::Signature& who) const;
 
   Document& document_;
   List looked_at_ = List::kNone;

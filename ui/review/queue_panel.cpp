@@ -12,7 +12,6 @@
 #include "ui/models/text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/widgets.h"
-#include "ui/review/review_panel.h"
 
 namespace boresight::ui {
 
@@ -156,8 +155,8 @@ std::vector<TableColumn<QueueEntry>> queueColumns() {
   constexpr auto tr = [](const char* text) { return QueueModel::tr(text); };
   return {
       {tr("Case"),
-       tr("The case, with the edges of its result over the image; red: edges of the seed, without "
-          "a result."),
+       tr("The case, with the edges of its result over the image; orange: edges of the seed, "
+          "without a result."),
        -1, [](Entry entry) { return fromText(entry.row.case_id); }},
       {tr("State"), tr("State of the case."), -1,
        [](Entry entry) { return QueueModel::reviewStatusText(entry.row); }},
@@ -189,8 +188,10 @@ int QueueModel::rowOf(const QString& id) const {
 }
 
 QString QueueModel::reviewStatusText(const QueueRow& row) {
-  if (row.group == QueueGroup::kAwaits) return tr("☆ to be approved");
-  return CasesModel::stateText(caseStateOf(row.review_state));
+  const QString state = row.group == QueueGroup::kAwaits
+                            ? tr("☆ to be approved")
+                            : CasesModel::stateText(caseStateOf(row.review_state));
+  return row.outdated ? tr("%1, outdated").arg(state) : state;
 }
 
 QVariant QueueModel::look(const QueueEntry& entry, int column, int role) const {
@@ -221,6 +222,7 @@ namespace {
 
 constexpr QSize kQueueThumbnail_px{76, 57};  // of a screen without scaling
 constexpr int kUsualQueueName = 18;          // letters
+constexpr int kLeastWidth_px = 280;          // of whole names and states
 constexpr int kAllColumns_px = 560;          // width from which all columns fit
 constexpr int kTroubleTab = 0;
 constexpr int kDifferencesTab = 1;
@@ -253,18 +255,19 @@ QueuePanel::QueuePanel(Document& document, QWidget* parent)
       controller_(document, kQueueThumbnail_px * devicePixelRatioF()),
       filter_(model_) {
   ui_.setupUi(this);
+  setMinimumWidth(kLeastWidth_px);
   ui_.queueTabs->addTab(tr("Worst first"));
   ui_.queueTabs->addTab(tr("Last two runs"));
   ui_.queueTabs->setTabToolTip(kTroubleTab, tr("All cases, the worst first"));
   ui_.queueTabs->setTabToolTip(
       kDifferencesTab, tr("Last run of each case against the previous run (D in the list)"));
   buildTables();
-  buildForm();
-  ui_.queueMessage->setMinimumHeight(2 * fontMetrics().lineSpacing());
   connect(ui_.queueTabs, &QTabBar::currentChanged, this, &QueuePanel::lookAt);
   connect(ui_.queueFilter, &QLineEdit::textChanged, this, [this](const QString& text) {
+    const QScopedValueRollback following(following_, true);
     filter_.setText(text);
     differences_filter_.setFilterFixedString(text.trimmed());
+    chooseShown();
   });
   connect(ui_.queueHalt, &QPushButton::clicked, this,
           [this] { controller_.setHalted(!controller_.isHalted()); });
@@ -291,18 +294,10 @@ void QueuePanel::buildTables() {
     each->horizontalHeader()->setStretchLastSection(each == ui_.differences);
     each->installEventFilter(this);
     connect(each, &QTableView::doubleClicked, this, &QueuePanel::openChosen);
+    connect(each->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            &QueuePanel::showChosen);
   }
   ui_.queue->horizontalHeader()->setSectionResizeMode(QueueModel::kTrouble, QHeaderView::Stretch);
-}
-
-void QueuePanel::buildForm() {
-  for (QLineEdit* field : {ui_.queueName, ui_.queueComment}) {
-    field->installEventFilter(this);
-    connect(field, &QLineEdit::returnPressed, this, &QueuePanel::signedNow);
-  }
-  connect(ui_.queueOpen, &QPushButton::clicked, this, &QueuePanel::openChosen);
-  connect(ui_.queueAccept, &QPushButton::clicked, this, &QueuePanel::accept);
-  connect(ui_.queueReject, &QPushButton::clicked, this, &QueuePanel::reject);
 }
 
 QTableView* QueuePanel::table() const {
@@ -313,23 +308,12 @@ QString QueuePanel::chosenCase() const {
   return table()->currentIndex().siblingAtColumn(0).data().toString();
 }
 
-QString QueuePanel::message() const { return ui_.queueMessage->text(); }
-
-/// In a place of its own, so that no button moves.
-void QueuePanel::tell(const QString& text) {
-  ui_.queueMessage->setText(text);
-  ui_.queueMessage->setToolTip(text);
-}
-
 void QueuePanel::setCurrent(const QString& id) {
   current_ = id;
-  choose(id);
+  chooseShown();
 }
 
-void QueuePanel::focusList() {
-  table()->setFocus();
-  if (!table()->currentIndex().isValid()) step(0);
-}
+void QueuePanel::focusList() { table()->setFocus(); }
 
 void QueuePanel::showDifferences(bool shown) {
   ui_.queueTabs->setCurrentIndex(shown ? kDifferencesTab : kTroubleTab);
@@ -345,19 +329,13 @@ void QueuePanel::lookAt() {
   showEntries();
 }
 
-void QueuePanel::showEvent(QShowEvent* event) {
-  QWidget::showEvent(event);
-  if (ui_.queueName->text().isEmpty())
-    ui_.queueName->setText(QSettings().value(QLatin1String(DecisionForm::kNameKey)).toString());
-}
-
 void QueuePanel::setInSight(bool in_sight) {
   in_sight_ = in_sight;
   lookAt();
 }
 
 void QueuePanel::showEntries() {
-  const QString chosen = chosenCase();
+  const QScopedValueRollback following(following_, true);
   model_.setRowsByKey(controller_.queue(), [](const auto& entry) { return entry.row.case_id; });
   differences_.setRowsByKey(controller_.differences(), &DifferenceEntry::case_id);
   queue_hint_->setText(model_.rowCount() > 0
@@ -367,9 +345,7 @@ void QueuePanel::showEntries() {
       differences_.rowCount() > 0
           ? tr("No matching cases.")
           : tr("No case has two runs: change an option and run again (Ctrl+F5)."));
-  if (chosenCase() != chosen) choose(chosen);
-  if (!table()->currentIndex().isValid()) choose(current_);
-  if (!table()->currentIndex().isValid()) step(0);
+  chooseShown();
   fitColumns();
   showProgress();
 }
@@ -427,8 +403,6 @@ void QueuePanel::openChosen() {
   Q_EMIT openRequested(id, fromText(found.run_digest), found.opens_at);
 }
 
-void QueuePanel::accept() { decide(Act::kAccept); }
-void QueuePanel::reject() { decide(Act::kReject); }
 void QueuePanel::next() { step(1); }
 void QueuePanel::previous() { step(-1); }
 
@@ -439,113 +413,50 @@ void QueuePanel::step(int rows) {
   table()->setCurrentIndex(table()->model()->index(row, 0));
 }
 
-void QueuePanel::choose(const QString& id) {
-  const QAbstractItemModel& model = *table()->model();
-  for (int row = 0; row < model.rowCount(); ++row)
-    if (model.index(row, 0).data().toString() == id) {
-      table()->setCurrentIndex(model.index(row, 0));
-      return;
-    }
+/// What the operator chooses is shown; the window answers with `setCurrent`.
+void QueuePanel::showChosen() {
+  if (!following_ && chosenCase() != current_) openChosen();
 }
 
-/// The undecided case that is listed next after the chosen one, from the top again at the end.
+/// A shown case that is not listed leaves no row chosen.
+void QueuePanel::chooseShown() {
+  const QScopedValueRollback following(following_, true);
+  for (QTableView* each : {ui_.queue, ui_.differences}) {
+    const QAbstractItemModel& model = *each->model();
+    QModelIndex shown;
+    for (int row = 0; row < model.rowCount() && !shown.isValid(); ++row)
+      if (model.index(row, 0).data().toString() == current_) shown = model.index(row, 0);
+    if (shown != each->currentIndex().siblingAtColumn(0) || !shown.isValid())
+      each->setCurrentIndex(shown);
+  }
+}
+
 QString QueuePanel::nextOpen() const {
   const int count = filter_.rowCount();
   const int current = ui_.queue->currentIndex().row();
-  for (int i = 1; i < count; ++i) {
-    const QModelIndex q_model_index = filter_.index((current + i) % count, 0);
-    const sessions::QueueRow& row = model_.at(filter_.mapToSource(q_model_index).row()).row;
-    if (row.group == sessions::QueueGroup::kNoPose || row.group == sessions::QueueGroup::kOpen)
-      return q_model_index.data().toString();
+  for (int i = 1; i <= count; ++i) {
+    const QModelIndex index = filter_.index((current + i) % count, 0);
+    const QueueRow& row = model_.at(filter_.mapToSource(index).row()).row;
+    const QString id = fromText(row.case_id);
+    if (id != current_ && (row.group == QueueGroup::kNoPose || row.group == QueueGroup::kOpen))
+      return id;
   }
   return {};
-}
-
-/// True when name or comment is missing; the question stands where the answer goes.
-bool QueuePanel::asksForSignature(Act act, const QString& id) {
-  QLineEdit* missing = ui_.queueName->text().trimmed().isEmpty()      ? ui_.queueName
-                       : ui_.queueComment->text().trimmed().isEmpty() ? ui_.queueComment
-                                                                      : nullptr;
-  if (!missing) return false;
-  pending_ = act;
-  pending_case_ = id;
-  missing->setFocus();
-  const bool accepts = act == Act::kAccept;
-  const QString question = missing == ui_.queueName ? (accepts ? tr("Your name, to validate %1")
-                                                               : tr("Your name, to reject %1"))
-                           : accepts                ? tr("Why do you validate %1?")
-                                                    : tr("Why do you reject %1?");
-  tell(question.arg(id) + tr(": type, then Enter; Escape cancels."));
-  return true;
-}
-
-void QueuePanel::decide(Act act) {
-  if (table() != ui_.queue) showDifferences(false);
-  const QString id = chosenCase();
-  const QString reason = controller_.obstacle(act, id);
-  if (!reason.isEmpty()) {
-    dropQuestion();
-    tell(reason);
-    return;
-  }
-  if (asksForSignature(act, id)) return;
-  const QString following = nextOpen();
-  const QString name = ui_.queueName->text().trimmed();
-  const QString failure = controller_.decide(
-      act, id, {name.toStdString(), ui_.queueComment->text().trimmed().toStdString()});
-  dropQuestion();
-  if (!failure.isEmpty()) {
-    tell(failure);
-    return;
-  }
-  QSettings().setValue(QLatin1String(DecisionForm::kNameKey), name);
-  ui_.queueComment->clear();  // the next decision has a comment of its own
-  choose(following.isEmpty() ? id : following);
-  tell((act == Act::kAccept ? tr("%1 is validated.") : tr("%1 is rejected.")).arg(id) +
-       (following.isEmpty() ? tr(" All listed cases are decided or not run.") : QString()));
-}
-
-/// Enter in a field.
-void QueuePanel::signedNow() {
-  if (!pending_) {
-    focusList();
-    return;
-  }
-  const Act act = *pending_;
-  choose(pending_case_);
-  if (chosenCase() == pending_case_) {
-    decide(act);
-    return;
-  }
-  dropQuestion();
-  tell(tr("%1 is not listed any more: clear the filter. No decision was stored.")
-           .arg(pending_case_));
-}
-
-void QueuePanel::dropQuestion() {
-  pending_.reset();
-  tell({});
-  focusList();
 }
 
 void QueuePanel::switchList() { showDifferences(table() == ui_.queue); }
 
 /// In the lists these letters are the queue's, elsewhere in the window the image's.
-bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
+bool QueuePanel::eventFilter(QObject*, QEvent* event) {
   const bool pressed = event->type() == QEvent::KeyPress;
   if (!pressed && event->type() != QEvent::ShortcutOverride) return false;
   auto* key = static_cast<QKeyEvent*>(event);
   if ((key->modifiers() & ~Qt::KeypadModifier) != Qt::NoModifier) return false;
-  if (watched == ui_.queueName || watched == ui_.queueComment) {
-    if (!pressed || key->key() != Qt::Key_Escape) return false;
-    dropQuestion();
-    return true;
-  }
   static constexpr std::pair<int, void (QueuePanel::*)()> kKeys[] = {
       {Qt::Key_Return, &QueuePanel::openChosen},
       {Qt::Key_Enter, &QueuePanel::openChosen},
-      {Qt::Key_A, &QueuePanel::accept},
-      {Qt::Key_R, &QueuePanel::reject},
+      {Qt::Key_A, &QueuePanel::validationRequested},
+      {Qt::Key_R, &QueuePanel::rejectionRequested},
       {Qt::Key_J, &QueuePanel::next},
       {Qt::Key_K, &QueuePanel::previous},
       {Qt::Key_D, &QueuePanel::switchList},

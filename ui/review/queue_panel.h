@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include <QSortFilterProxyModel>
 #include <QWidget>
 
@@ -63,8 +61,9 @@ class QueueFilter : public RowsFilter {
   QueueModel& model_;
 };
 
-/// A batch of cases, the most troubled first, each to be opened, accepted or rejected by one key;
-/// and what changed between the two last runs of each. Filled only while it is in sight.
+/// A batch of cases, the most troubled first, and what changed between the two last runs of each.
+/// The chosen row is the shown case: choosing another one shows it, and what is decided is decided
+/// in the review of the shown case. Filled only while it is in sight.
 class QueuePanel : public QWidget {
   Q_OBJECT
 
@@ -75,18 +74,18 @@ class QueuePanel : public QWidget {
   /// Whether the operator can see it: Qt also calls a panel behind another one's tab visible.
   /// Nothing is checked out of sight.
   void setInSight(bool in_sight);
+  bool isInSight() const { return in_sight_; }
   /// The case that the window shows becomes the chosen row.
   void setCurrent(const QString& id);
   /// Of the chosen row of the list that is shown, or empty.
   QString chosenCase() const;
-  /// What was said last: why something cannot be done, what is asked for, what was done.
-  QString message() const;
+  /// The undecided case that is listed next after the shown one, from the top again at the end;
+  /// empty when there is none.
+  QString nextOpen() const;
 
  public Q_SLOTS:
   /// Asks for the chosen case, at the iteration that failed or at the last one.
   void openChosen();
-  void accept();
-  void reject();
   void next();
   void previous();
   void showDifferences(bool shown);
@@ -95,30 +94,24 @@ class QueuePanel : public QWidget {
  Q_SIGNALS:
   /// `iteration` is an index into the run of this digest, -1 for the last.
   void openRequested(const QString& id, const QString& run_digest, int iteration);
+  /// The shown case is to be validated, or rejected.
+  void validationRequested();
+  void rejectionRequested();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
-  void showEvent(QShowEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  using Act = QueueController::Act;
-
   void buildTables();
-  void buildForm();
   QTableView* table() const;
   void switchList();
-  void decide(Act act);
-  bool asksForSignature(Act act, const QString& id);
-  void signedNow();
-  void dropQuestion();
-  QString nextOpen() const;
-  void choose(const QString& id);
+  void showChosen();
+  void chooseShown();
   void step(int rows);
   void lookAt();
   void showEntries();
   void showProgress();
-  void tell(const QString& text);
   void fitColumns();
   void showColumns();
 
@@ -130,8 +123,7 @@ class QueuePanel : public QWidget {
   QSortFilterProxyModel differences_filter_;
   EmptyHint* queue_hint_ = nullptr;
   EmptyHint* differences_hint_ = nullptr;
-  std::optional<Act> pending_;  ///< waits for name and comment
-  QString pending_case_;
+  bool following_ = false;  ///< the list follows the window, not a person
   bool in_sight_ = false;
   bool fitted_ = false;
   Ui::QueuePanel ui_;

@@ -32,6 +32,10 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
   connect(&document_, &Document::opened, this, &ReviewController::follow);
   connect(&document_, &Document::changed, this, &ReviewController::follow);
   state_.onChange(ViewChange::kCase, this, &ReviewController::follow);
+  state_.onChange(ViewChange::kSnapshot, this, [this] {
+    if (std::exchange(shows_other_run_, showsOtherRun()) != showsOtherRun())
+      Q_EMIT reviewStatusChanged();
+  });
   connect(&checks_runner_, &TaskRunner::failed, this,
           [this](const QString& message) { take({}, message); });
   connect(&convergence_runner_, &TaskRunner::busyChanged, this,
@@ -43,6 +47,13 @@ void ReviewController::setActive(bool active) {
   active_ = active;
   if (active_ && !current_) ask();
 }
+
+void ReviewController::setChosenCase(const QString& id) {
+  chosen_id_ = id;
+  Q_EMIT reviewStatusChanged();
+}
+
+bool ReviewController::hasOtherCases() const { return document_.session().cases.size() > 1; }
 
 bool ReviewController::hasRun() const { return document_.session().lastRunOf(caseId()) != nullptr; }
 
@@ -101,6 +112,7 @@ std::optional<ReviewController::Question> ReviewController::question() const {
 
 void ReviewController::follow() {
   chooseSource();
+  shows_other_run_ = showsOtherRun();
   problem_ = missing();
   auto current = question();
   if (!current || current != question_) {
@@ -219,13 +231,31 @@ QString ReviewController::settled(Act act) const {
   return {};
 }
 
+bool ReviewController::showsOtherRun() const {
+  const ViewState::SnapshotPtr& run = state_.snapshot();
+  return source_ == PoseSource::kRun && run && run->digest != runDigest();
+}
+
+/// What is decided is what the operator has before their eyes.
+QString ReviewController::unseen(Act act) const {
+  const QString id = fromText(caseId());
+  if (!chosen_id_.isEmpty() && chosen_id_ != id)
+    return tr("%1 is still being read").arg(chosen_id_);
+  if (act != Act::kValidate) return {};
+  if (!problem_.isEmpty()) return problem_;
+  if (!current_) return tr("the checks of %1 are not complete yet: wait for them").arg(id);
+  if (showsOtherRun())
+    return tr("the image shows another run than the checks are of: show the last run of %1")
+        .arg(id);
+  return {};
+}
+
 QString ReviewController::obstacle(Act act, const sessions::Signature& who) const {
   if (!document_.isOpen()) return tr("no session is open");
   if (!document_.readOnlyReason().isEmpty()) return document_.readOnlyReason();
   if (caseId().empty()) return tr("no case is shown: select one in the list of cases");
   if (const QString said = settled(act); !said.isEmpty()) return said;
-  if (act == Act::kValidate && !problem_.isEmpty()) return problem_;
-  if (act == Act::kValidate && !current_) return tr("the checks are running");
+  if (const QString reason = unseen(act); !reason.isEmpty()) return reason;
   try {
     (void)after(act, {"a second person", "?"});  // obstacles that remain with a signature
     (void)after(act, who);

@@ -33,9 +33,14 @@ class ReviewController : public QObject {
 
   /// Checks are made only while the operator looks.
   void setActive(bool active);
+  /// The case that the operator chose; while it is being read, another one is shown and nothing is
+  /// decided.
+  void setChosenCase(const QString& id);
 
   /// Of the shown case, or empty.
   std::string caseId() const { return shownCaseId(document_, state_); }
+  /// Whether the session has more than the shown case.
+  bool hasOtherCases() const;
   bool hasRun() const;
   bool hasAnnotations() const;
   /// The digest of the run that is judged, or empty.
@@ -116,11 +121,15 @@ class ReviewController : public QObject {
   sessions::CheckWaivers waivers() const;
   sessions::Session after(Act act, const sessions::Signature& who) const;
   QString settled(Act act) const;
+  QString unseen(Act act) const;
+  bool showsOtherRun() const;
   void editSettings(const sessions::ReviewSettings& settings, const QString& text);
 
   Document& document_;
   ViewState& state_;
   bool active_ = false;
+  QString chosen_id_;  ///< empty: not told
+  bool shows_other_run_ = false;
   std::string shown_id_;  ///< the case that the source was chosen for
   std::optional<sessions::PoseSource> wanted_source_;
   sessions::PoseSource source_ = sessions::PoseSource::kRun;

@@ -6,6 +6,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/review/pose_quality.h"
 #include "sessions/session/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/panels/widgets.h"
@@ -13,145 +14,7 @@
 namespace boresight::ui {
 
 using sessions::CheckState;
-using sessions::Decision;
 using sessions::PoseSource;
-using sessions::Verdict;
-
-namespace {
-
-constexpr int kDigestDigits = 12;
-
-QString sentence(QString clause) {
-  if (clause.isEmpty()) return clause;
-  clause[0] = clause[0].toUpper();
-  const bool ended = clause.endsWith(QLatin1Char('.')) || clause.endsWith(QLatin1Char('?'));
-  return ended ? clause : clause + QLatin1Char('.');
-}
-
-QString entry(const QString& time, const QString& what, const std::string& by,
-              const std::string& comment) {
-  QString when = time;
-  when.replace(QLatin1Char('T'), QLatin1Char(' ')).remove(QLatin1Char('Z'));
-  return DecisionForm::tr("<b>%1 by %2</b> · %3 UTC<br>%4")
-      .arg(what, fromText(by).toHtmlEscaped(), when, fromText(comment).toHtmlEscaped());
-}
-
-QString verdictText(const Decision& decision) {
-  return decision.verdict == Verdict::kValidated  ? DecisionForm::tr("★ Validated")
-         : decision.verdict == Verdict::kRejected ? DecisionForm::tr("⊘ Rejected")
-                                                  : DecisionForm::tr("↺ Withdrawn");
-}
-
-/// Failed checks that were passed over, each with its reason.
-QString waiversHtml(const Decision& decision) {
-  QString html;
-  for (const sessions::JudgedCheck& judged : decision.checks)
-    if (!judged.waiver_reason.empty())
-      html += DecisionForm::tr("<br>✗ %1 waived: %2")
-                  .arg(fromText(judged.check.title).toHtmlEscaped(),
-                       fromText(judged.waiver_reason).toHtmlEscaped());
-  return html;
-}
-
-QString decisionHtml(const Decision& decision) {
-  if (decision.approval)
-    return entry(fromText(decision.approval->time), DecisionForm::tr("★ Approved"),
-                 decision.approval->by, decision.approval->comment);
-  QString html =
-      entry(fromText(decision.time), verdictText(decision), decision.by, decision.comment);
-  if (!decision.digest.empty())
-    html += DecisionForm::tr(" (run %1)").arg(fromText(decision.digest).left(kDigestDigits));
-  else if (decision.pose)
-    html += DecisionForm::tr(" (the annotations)");
-  return html + waiversHtml(decision);
-}
-
-}  // namespace
-
-DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
-    : QWidget(parent), controller_(controller) {
-  ui_.setupUi(this);
-  buttons_ = {{Act::kValidate, ui_.validate},
-              {Act::kApprove, ui_.approve},
-              {Act::kReject, ui_.reject},
-              {Act::kTakeBack, ui_.takeBack}};
-  for (const auto& [act, button] : buttons_) {
-    tips_[act] = button->toolTip();
-    button->setMinimumWidth(fontMetrics().horizontalAdvance(button->text()) + 16);
-    connect(button, &QPushButton::clicked, this, [this, chosen = act] { decide(chosen); });
-  }
-  ui_.decisionName->setText(QSettings().value(QLatin1String(kNameKey)).toString());
-  for (QLineEdit* each : {ui_.decisionName, ui_.decisionComment})
-    connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
-  ui_.reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
-  connect(ui_.waiver, &QLineEdit::editingFinished, this, [this] {
-    if (!failed_check_.empty()) controller_.setReason(failed_check_, ui_.waiver->text().trimmed());
-  });
-  connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
-  connect(&controller_, &ReviewController::reviewStatusChanged, this,
-          &DecisionForm::showWhatIsPossible);
-  showWhatIsPossible();
-}
-
-void DecisionForm::setFailedCheck(const std::string& id, const QString& title,
-                                  const QString& reason) {
-  failed_check_ = id;
-  ui_.waiver->setVisible(!id.empty());
-  ui_.waiver->setPlaceholderText(tr("Why does '%1' not matter?").arg(title));
-  if (!ui_.waiver->hasFocus()) ui_.waiver->setText(reason);
-}
-
-void DecisionForm::setNote(const QString& html) {
-  note_ = html;
-  showReading();
-}
-
-sessions::Signature DecisionForm::signature() const {
-  return {ui_.decisionName->text().trimmed().toStdString(),
-          ui_.decisionComment->text().trimmed().toStdString()};
-}
-
-void DecisionForm::decide(Act act) {
-  if (!controller_.decide(act, signature())) return;
-  QSettings().setValue(QLatin1String(kNameKey), ui_.decisionName->text().trimmed());
-  ui_.decisionComment->clear();  // the next decision has a comment of its own
-}
-
-/// What a person most likely wants to do, whose obstacle is told without being asked.
-ReviewController::Act DecisionForm::nextStep() const {
-  const sessions::ReviewStatus status = controller_.reviewStatus();
-  if (status.awaits_approval) return Act::kApprove;
-  return status.holds() ? Act::kTakeBack : Act::kValidate;
-}
-
-void DecisionForm::showWhatIsPossible() {
-  const sessions::Signature who = signature();
-  for (const auto& [act, each] : buttons_) {
-    const QString reason = controller_.obstacle(act, who);
-    each->setEnabled(reason.isEmpty());
-    each->setToolTip(reason.isEmpty()
-                         ? tips_[act]
-                         : tr("%1. Not available: %2").arg(tips_[act], sentence(reason)));
-  }
-  // A second approval is offered only where the session requires it.
-  buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
-  const bool told = nextStep() != Act::kTakeBack;
-  obstacle_ = told ? sentence(controller_.obstacle(nextStep(), who)) : QString();
-  showReading();
-}
-
-/// One page that scrolls: of several labels in so little room one would be cut off.
-void DecisionForm::showReading() {
-  QStringList parts;
-  if (!obstacle_.isEmpty()) parts << QStringLiteral("⚠ %1").arg(obstacle_.toHtmlEscaped());
-  if (controller_.awaitsConvergenceTest() && nextStep() == Act::kValidate)
-    parts << tr("○ No convergence test: a competing pose is not excluded.");
-  if (!note_.isEmpty()) parts << note_;
-  for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
-  if (controller_.history().empty()) parts << tr("<i>No decision on this case yet.</i>");
-  const QString html = parts.join(QStringLiteral("<hr>"));
-  if (std::exchange(read_, html) != html) ui_.reading->setHtml(html);
-}
 
 LimitsDialog::LimitsDialog(ReviewController& controller, QWidget* parent)
     : QDialog(parent), controller_(controller) {
@@ -207,7 +70,7 @@ void LimitsDialog::showSettings() {
 
 namespace {
 
-constexpr int kReasonColumn_px = 560;  // width of the panel from which it fits
+constexpr int kChecksColumns_px = 560;  // width of the panel from which all columns fit
 
 int rank(CheckState state) {
   return state == CheckState::kFailed ? 0 : state == CheckState::kPassed ? 1 : 2;
@@ -218,6 +81,32 @@ QString shortLimit(const sessions::Check& check) {
       .replace(QStringLiteral("at most"), QStringLiteral("≤"))
       .replace(QStringLiteral("at least"), QStringLiteral("≥"));
 }
+
+/// "0.37 of 0.40 mm" as everywhere for the pose's quality; "91.3 % (≥ 40 %)".
+QString foundAndLimit(const sessions::Check& check) {
+  if (!check.figure || !check.limit) return fromText(sessions::foundText(check));
+  if (check.id.starts_with("covariance_"))
+    return fromText(sessions::ofLimitText(*check.figure, *check.limit, check.unit));
+  return QStringLiteral("%1 (%2)").arg(fromText(sessions::foundText(check)), shortLimit(check));
+}
+
+/// In a side pane the limit stands next to what was found.
+class FoundCell final : public QStyledItemDelegate {
+ public:
+  FoundCell(const ChecksModel& model, QTableView& view)
+      : QStyledItemDelegate(&view), model_(model), view_(view) {}
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    if (view_.isColumnHidden(ChecksModel::kLimit))
+      option->text = foundAndLimit(model_.at(index.row()).check);
+  }
+
+ private:
+  const ChecksModel& model_;
+  const QTableView& view_;
+};
 
 QString reasonText(const CheckRow& row) {
   if (row.check.state != CheckState::kFailed) return {};
@@ -264,9 +153,9 @@ void ChecksModel::setRows(std::vector<CheckRow> rows, bool current) {
 }
 
 int ChecksModel::count(CheckState state) const {
-  return static_cast<int>(std::count_if(
-      rows().begin(), rows().end(),
-      [state](const CheckRow& row) { return row.check.state == state; }));
+  return static_cast<int>(std::count_if(rows().begin(), rows().end(), [state](const CheckRow& row) {
+    return row.check.state == state;
+  }));
 }
 
 QVariant ChecksModel::look(const CheckRow& row, int column, int role) const {
@@ -362,6 +251,10 @@ void ReviewPanel::buildTable() {
   for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
     header.setSectionResizeMode(column, QHeaderView::Stretch);
   header.setMinimumSectionSize(24);
+  // Long names take a second line.
+  ui_.checks->setWordWrap(true);
+  ui_.checks->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  ui_.checks->setItemDelegateForColumn(ChecksModel::kFound, new FoundCell(model_, *ui_.checks));
   hint_ = new EmptyHint(*ui_.checks);
   connect(ui_.checks->selectionModel(), &QItemSelectionModel::currentChanged, this,
           &ReviewPanel::showChosen);
@@ -394,8 +287,7 @@ void ReviewPanel::showReviewStatus() {
 void ReviewPanel::showSources() {
   const QSignalBlocker blocked(ui_.judged);
   ui_.judged->clear();
-  if (controller_.hasRun())
-    ui_.judged->addItem(tr("Last run"), static_cast<int>(PoseSource::kRun));
+  if (controller_.hasRun()) ui_.judged->addItem(tr("Last run"), static_cast<int>(PoseSource::kRun));
   if (controller_.hasAnnotations())
     ui_.judged->addItem(tr("Annotation"), static_cast<int>(PoseSource::kAnnotation));
   if (ui_.judged->count() == 0) ui_.judged->addItem(tr("No pose"));
@@ -415,7 +307,7 @@ void ReviewPanel::showChecks() {
                                                  : controller_.problem());
   model_.setRows(std::move(rows), controller_.isCurrent());
   if (!had_rows && model_.rowCount() > 0) ui_.checks->setCurrentIndex(model_.index(0, 0));
-  showReasons();
+  showColumns();
   showFolds();
   showChosen();
   showConvergence();
@@ -435,20 +327,22 @@ void ReviewPanel::showFolds() {
   const int passed = model_.count(CheckState::kPassed);
   const int not_applicable = model_.count(CheckState::kNotApplicable);
   ui_.passedFold->setContent(passed > 0 ? tr("%1 passed").arg(passed) : QString());
-  ui_.notApplicableFold->setContent(
-      not_applicable > 0 ? tr("%1 not applicable").arg(not_applicable) : QString());
+  ui_.notApplicableFold->setContent(not_applicable > 0 ? tr("%1 not applicable").arg(not_applicable)
+                                                       : QString());
 }
 
 /// Failed checks come first; without any there is nothing to give a reason for. In a side pane the
 /// reason is typed below the table.
-void ReviewPanel::showReasons() {
+void ReviewPanel::showColumns() {
   const bool none = model_.rowCount() > 0 && !model_.isFailed(0);
-  ui_.checks->setColumnHidden(ChecksModel::kReason, none || width() < kReasonColumn_px);
+  const bool narrow = width() < kChecksColumns_px;
+  ui_.checks->setColumnHidden(ChecksModel::kLimit, narrow);
+  ui_.checks->setColumnHidden(ChecksModel::kReason, none || narrow);
 }
 
 void ReviewPanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  showReasons();
+  showColumns();
 }
 
 void ReviewPanel::showChosen() {

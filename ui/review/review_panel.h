@@ -1,60 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 
 #include <QDialog>
 #include <QWidget>
 
-#include "ui_decision_form.h"
 #include "ui_limits_dialog.h"
 #include "ui_review_panel.h"
 
 #include "ui/models/rows_model.h"
+#include "ui/review/decision_form.h"
 #include "ui/review/review_controller.h"
 
 namespace boresight::ui {
 
 class EmptyHint;
-class ReviewController;
-
-/// Who decides what about the shown case, for what reason, and what was decided before.
-/// What cannot be done now is disabled, and said why in place.
-class DecisionForm : public QWidget {
-  Q_OBJECT
-
- public:
-  /// Setting that remembers who decided last.
-  static constexpr const char* kNameKey = "review/name";
-
-  explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
-
-  /// What stands in the way of the next step, as it is shown.
-  const QString& obstacle() const { return obstacle_; }
-  /// Something to read while deciding, above the former decisions.
-  void setNote(const QString& html);
-  /// The failed check whose waiver can be typed here; "": none.
-  void setFailedCheck(const std::string& id, const QString& title, const QString& reason);
-
- private:
-  using Act = ReviewController::Act;
-
-  sessions::Signature signature() const;
-  void decide(Act act);
-  void showWhatIsPossible();
-  void showReading();
-  Act nextStep() const;
-
-  ReviewController& controller_;
-  std::map<Act, QPushButton*> buttons_;
-  std::map<Act, QString> tips_;
-  QString obstacle_;
-  QString note_;
-  QString read_;
-  std::string failed_check_;
-  Ui::DecisionForm ui_;
-};
 
 /// Limits of the session's checks: preset, single limits, and whether a second person must approve.
 /// Stays open next to the checks; every change is an edit at once.
@@ -124,6 +85,7 @@ class ReviewPanel : public QWidget {
   ReviewPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
 
   ReviewController& controller() { return controller_; }
+  DecisionForm& decision() { return *decision_; }
   QTableView& table();
 
  protected:
@@ -137,7 +99,7 @@ class ReviewPanel : public QWidget {
   void showSources();
   void showChecks();
   void showChosen();
-  void showReasons();
+  void showColumns();
   void showFolds();
   void showConvergence();
   void askForConvergenceTest();

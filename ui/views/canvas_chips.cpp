@@ -16,10 +16,12 @@ QString hex(QRgb color) { return QColor(color).name(); }
 /// The overlay is dark in both themes, and is styled here, not by the window.
 QString overlaySheet() {
   return QStringLiteral(
-             "QFrame#legend, QToolBar#canvasTools, QLabel#shownChip, QLabel#zoomChip { background: "
-             "%1; border: 1px "
+             "QFrame#legend, QToolBar#canvasTools, QLabel#titleChip, QLabel#shownChip, "
+             "QLabel#zoomChip "
+             "{ background: %1; border: 1px "
              "solid %2; border-radius: %3px; color: %4; }"
-             "QLabel#shownChip, QLabel#zoomChip { padding: 3px 8px; }"
+             "QLabel#titleChip, QLabel#shownChip, QLabel#zoomChip { padding: 3px 8px; }"
+             "QLabel#titleChip { font-weight: 600; }"
              "QFrame#legend QToolButton { color: %4; background: transparent; border: none; "
              "padding: 4px 0; min-height: 0; }"
              "QFrame#legend QToolButton:hover { background: rgba(255, 255, 255, 24); }"
@@ -40,6 +42,7 @@ CanvasChips::CanvasChips(ImageView& view)
     : QObject(&view),
       view_(view),
       tools_(new QToolBar(&view)),
+      title_(chip("titleChip")),
       shown_(chip("shownChip")),
       zoom_(chip("zoomChip")) {
   view.setStyleSheet(overlaySheet());
@@ -47,6 +50,7 @@ CanvasChips::CanvasChips(ImageView& view)
   tools_->setOrientation(Qt::Vertical);
   tools_->setIconSize({kToolIcon, kToolIcon});
   tools_->setMovable(false);
+  title_->hide();
   shown_->hide();
   view.installEventFilter(this);
   connect(&view, &ImageView::transformChanged, this, &CanvasChips::showZoom);
@@ -58,6 +62,12 @@ QLabel* CanvasChips::chip(const char* name) {
   label->setObjectName(QLatin1String(name));
   label->setAttribute(Qt::WA_TransparentForMouseEvents);
   return label;
+}
+
+void CanvasChips::setTitle(const QString& text) {
+  title_text_ = text;
+  title_->setVisible(!text.isEmpty());
+  arrange();
 }
 
 void CanvasChips::setShown(const QString& text) {
@@ -89,10 +99,26 @@ void CanvasChips::arrange() {
   for (QLabel* label : {shown_, zoom_}) label->adjustSize();
   const int right = view_.width() - kMargin;
   shown_->move(right - shown_->width(), kMargin);
+  placeTitle();
   zoom_->move(right - zoom_->width(), view_.height() - kMargin - zoom_->height());
   if (!legend_) return;
   legend_->move(kMargin, view_.height() - kMargin - legend_->height());
   legend_->setVisible(legend_->y() > tools_->geometry().bottom());  // a small view has the panel
+}
+
+/// Between the tools and what is shown.
+void CanvasChips::placeTitle() {
+  const int left = tools_->geometry().right() + kMargin;
+  const int right = shown_->isHidden() ? view_.width() : shown_->x();
+  title_->setText(title_text_);
+  title_->adjustSize();
+  const int excess = title_->width() - (right - kMargin - left);
+  if (excess > 0) {
+    const int room = title_->fontMetrics().horizontalAdvance(title_text_) - excess;
+    title_->setText(title_->fontMetrics().elidedText(title_text_, Qt::ElideRight, room));
+    title_->adjustSize();
+  }
+  title_->move(left, kMargin);
 }
 
 bool CanvasChips::eventFilter(QObject* watched, QEvent* event) {

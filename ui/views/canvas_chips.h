@@ -11,8 +11,8 @@ namespace boresight::ui {
 
 class ImageView;
 
-/// What lies over the image as children of it: the strip of tools, what is shown (upper right), the
-/// zoom (lower right). Keeps them in their corners.
+/// What lies over the image as children of it: the strip of tools, next to it the title, what is
+/// shown (upper right), the zoom (lower right). Keeps them in their corners.
 class CanvasChips : public QObject {
   Q_OBJECT
 
@@ -20,6 +20,8 @@ class CanvasChips : public QObject {
   explicit CanvasChips(ImageView& view);
 
   QToolBar& tools() { return *tools_; }
+  /// The shown case and run; empty hides it.
+  void setTitle(const QString& text);
   /// "Iteration 1.4, refine"; empty hides it.
   void setShown(const QString& text);
   /// Lies in the lower left corner.
@@ -31,9 +33,12 @@ class CanvasChips : public QObject {
   QLabel* chip(const char* name);
   void showZoom();
   void arrange();
+  void placeTitle();
 
   ImageView& view_;
   QToolBar* tools_;
+  QString title_text_;
+  QLabel* title_;
   QLabel* shown_;
   QLabel* zoom_;
   QWidget* legend_ = nullptr;

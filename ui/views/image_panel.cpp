@@ -102,6 +102,8 @@ ImagePanel::ImagePanel(ViewState& state, TaskRunner& tasks, QWidget* parent)
 
 QToolBar& ImagePanel::tools() { return chips_->tools(); }
 
+void ImagePanel::setTitle(const QString& text) { chips_->setTitle(text); }
+
 void ImagePanel::setHint(const QString& hint) {
   view_->setHint(
       !hint.isEmpty()

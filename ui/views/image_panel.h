@@ -41,6 +41,8 @@ class ImagePanel : public QWidget {
   MeasureTool& measure() { return *measure_; }
   /// The strip of tools on the image; owners of further tools add theirs.
   QToolBar& tools();
+  /// The shown case and run, over the image.
+  void setTitle(const QString& text);
   /// A second canvas at the right of the image, hidden until it is asked for; its owner is this
   /// panel from now on.
   void setBeside(QWidget* canvas);

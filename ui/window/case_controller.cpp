@@ -185,9 +185,9 @@ QString CaseController::staleness() const {
   const sessions::Staleness stale =
       sessions::stalenessOf(*record, document_.session(), document_.file());
   if (stale.inputs_changed && stale.options_changed)
-    return tr("The shown run was made with other inputs and options.");
-  if (stale.inputs_changed) return tr("The shown run was made with other inputs.");
-  if (stale.options_changed) return tr("The shown run was made with other options.");
+    return tr("The run was made with other inputs and options.");
+  if (stale.inputs_changed) return tr("The run was made with other inputs.");
+  if (stale.options_changed) return tr("The run was made with other options.");
   return {};
 }
 

@@ -53,7 +53,7 @@ std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& r
     const sessions::ReviewStatus status = sessions::reviewStatusOf(session, session_case->id);
     row.state = row.id == running ? CaseState::kRunning : caseStateOf(status.state);
     const bool of_run = row.state == CaseState::kConverged || row.state == CaseState::kFailed;
-    row.stale = of_run && isStale(session, session_case, file, known);
+    row.stale = !status.outdated.empty() || (of_run && isStale(session, session_case, file, known));
     row.detail = detailOf(session, session_case->id, status);
     rows.push_back(std::move(row));
   }

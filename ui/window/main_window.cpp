@@ -9,29 +9,31 @@
 #include "ui/annotation/station_snapper.h"
 #include "ui/panels/input_guard.h"
 #include "ui/panels/widgets.h"
+#include "ui/review/pose_export.h"
+#include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/window/annotation_files.h"
 #include "ui/window/input_findings.h"
+#include "ui/window/job_controller.h"
 #include "ui/window/mask_controller.h"
 #include "ui/window/panel_links.h"
 #include "ui/window/session_files.h"
+#include "ui/window/verdict_controller.h"
 #include "ui/window/window_docks.h"
 #include "ui/window/window_frame.h"
 #include "ui/window/window_menus.h"
-#include "ui/window/job_controller.h"
 #include "ui/workspaces/remedies_panel.h"
 #include "ui/workspaces/run_bar.h"
 #include "ui/workspaces/verdict_bar.h"
-#include "ui/window/verdict_controller.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
 
 constexpr const char* kGeometryKey = "window/geometry";
-constexpr int kNote_ms = 15'000;   // that a remark stays in the status bar
+constexpr int kNote_ms = 15'000;  // that a remark stays in the status bar
 
 /// What holds the docks, in its place before they are made: with a style sheet each change of
 /// parent looks up the rules of all widgets below again.
@@ -49,7 +51,8 @@ MainWindow::MainWindow(QWidget* parent)
       cases_(document_, state_, run_, tasks_),
       annotation_(document_, state_),
       onboard_(document_, state_, tasks_),
-      parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_},
+      quality_(document_, state_, tasks_),
+      parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_, quality_},
       body_(bodyIn(*this)),
       docks_(std::make_unique<WindowDocks>(*body_, *this, parts_)),
       workspaces_(new Workspaces(*body_, docks_->all(), this)),
@@ -87,12 +90,15 @@ void MainWindow::connectAll() {
   new InputGuard(this);
   auto* links = new PanelLinks(parts_, *docks_, this);
   connect(links, &PanelLinks::warningsChanged, &frame_->verdict(), &VerdictBar::setWarnings);
-  auto* verdicts = new VerdictController(
-      {parts_, *docks_, *workspaces_, *files_, *findings_}, frame_->verdict(), *this);
+  auto* verdicts = new VerdictController({parts_, *docks_, *workspaces_, *files_, *findings_},
+                                         frame_->verdict(), *this);
   connect(&docks_->remedies, &RemediesPanel::stepRequested, verdicts, &VerdictController::perform);
-  connect(menus_, &WindowMenus::verdictStepRequested, &frame_->verdict(), [this, verdicts] {
-    verdicts->perform(frame_->verdict().verdict().step);
+  connect(menus_, &WindowMenus::verdictStepRequested, &frame_->verdict(),
+          [this, verdicts] { verdicts->perform(frame_->verdict().verdict().step); });
+  connect(verdicts, &VerdictController::exportRequested, this, [this](Step step) {
+    step == Step::kReport ? menus_->poses().askForReport() : menus_->poses().askForPose();
   });
+  connectDecisions(*verdicts);
   auto* jobs = new JobController(parts_, docks_->review.controller(), frame_->jobs(), this);
   connect(menus_, &WindowMenus::stopRequested, jobs, &JobController::stop);
   connect(&document_, &Document::opened, this, &MainWindow::showFittingWorkspace);
@@ -143,6 +149,24 @@ void MainWindow::connectAll() {
   });
   state_.onChange(ViewChange::kCase, this, &MainWindow::showState);
   state_.onChange(ViewChange::kCase, this, &MainWindow::showHint);
+}
+
+/// One form decides, for the case that is shown; the queue only asks it.
+void MainWindow::connectDecisions(VerdictController& verdicts) {
+  DecisionForm& form = docks_->review.decision();
+  form.setNext([&verdicts] { return verdicts.nextCase(); });
+  connect(&form, &DecisionForm::nextRequested, &cases_, &CaseController::chooseCase);
+  connect(&form, &DecisionForm::decided, this,
+          [this](const QString& what) { statusBar()->showMessage(what, kNote_ms); });
+  connect(&form, &DecisionForm::questionEnded, this, [this] {
+    if (docks_->queue.isInSight()) docks_->queue.focusList();
+  });
+  connect(&docks_->queue, &QueuePanel::validationRequested, &verdicts,
+          [&verdicts] { verdicts.askForDecision(ReviewController::Act::kValidate); });
+  connect(&docks_->queue, &QueuePanel::rejectionRequested, &verdicts,
+          [&verdicts] { verdicts.askForDecision(ReviewController::Act::kReject); });
+  connect(&cases_, &CaseController::caseChosen, &docks_->review.controller(),
+          &ReviewController::setChosenCase);
 }
 
 /// In the middle, where the operator looks for the image: why it is not there, and what to do.

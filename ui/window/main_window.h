@@ -9,6 +9,7 @@
 
 #include "ui/annotation/annotation_controller.h"
 #include "ui/review/onboard_controller.h"
+#include "ui/review/quality_controller.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
@@ -27,6 +28,7 @@ class TopBar;
 class WindowDocks;
 class WindowFrame;
 class WindowMenus;
+class VerdictController;
 class Workspaces;
 
 /// The window: workspaces round the image, menus, keys. It only connects the other parts.
@@ -76,6 +78,7 @@ class MainWindow : public QMainWindow {
   void resizeToScreen();
   void showFittingWorkspace();
   void connectAll();
+  void connectDecisions(VerdictController& verdicts);
   void showDocument();
   void showState();
   void showHint();
@@ -88,6 +91,7 @@ class MainWindow : public QMainWindow {
   CaseController cases_;
   AnnotationController annotation_;
   OnboardController onboard_;
+  QualityController quality_;
   WindowParts parts_;
   QMainWindow* body_ = nullptr;  ///< holds the docks
   std::unique_ptr<WindowDocks> docks_;

@@ -6,11 +6,12 @@
 #include <QtWidgets>
 
 #include "sessions/review/checks.h"
-#include "sessions/session/case_annotations.h"
-#include "sessions/session/pose_quality.h"
+#include "sessions/session/annotation_concern.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
 #include "ui/review/onboard_panel.h"
+#include "ui/review/quality_controller.h"
+#include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/state/document.h"
 #include "ui/views/image_panel.h"
@@ -72,6 +73,7 @@ void VerdictController::follow() {
   connect(&parts_.annotation, &AnnotationController::solutionChanged, this, soon);
   connect(&parts_.annotation, &AnnotationController::annotationsChanged, this, soon);
   connect(&parts_.onboard, &OnboardController::changed, this, soon);
+  connect(&parts_.quality, &QualityController::changed, this, soon);
   ReviewController& review = docks_.review.controller();
   connect(&review, &ReviewController::checksChanged, this, soon);
   connect(&review, &ReviewController::reviewStatusChanged, this, soon);
@@ -106,7 +108,8 @@ ReviewSituation VerdictController::reviewSituation() const {
   const ReviewController& review = docks_.review.controller();
   ReviewSituation situation;
   situation.current = review.isCurrent();
-  situation.failed = sessions::countOf(review.checks(), sessions::CheckState::kFailed);
+  if (review.isCurrent())
+    situation.failed = sessions::countOf(review.checks(), sessions::CheckState::kFailed);
   situation.testing = review.isConvergenceTestRunning();
   situation.seeds_done = review.convergenceSoFar().seeds;
   situation.seeds_returned = review.convergenceSoFar().returned;
@@ -114,7 +117,11 @@ ReviewSituation VerdictController::reviewSituation() const {
   if (review.caseId().empty()) return situation;
   const sessions::ReviewStatus status = review.reviewStatus();
   situation.state = status.state;
-  situation.decision = decisionText(status);
+  const auto run = parts_.state.snapshot();
+  const bool of_shown_run = !run || !status.decision || status.decision->digest.empty() ||
+                            status.decision->digest == run->digest;
+  if (of_shown_run) situation.decision = decisionText(status);
+  situation.outdated = fromText(status.outdated);
   situation.problem = review.problem();
   return situation;
 }
@@ -134,9 +141,7 @@ Situation VerdictController::situation() const {
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
   situation.trace = parts_.state.snapshot();
   situation.stale = parts_.cases.staleness();
-  if (const auto* shown = shownCase(parts_.document, parts_.state); shown && situation.trace)
-    situation.sigma_excess =
-        fromText(sessions::runSigmaExcess(parts_.document.session(), *shown, *situation.trace));
+  situation.quality = parts_.quality.quality();
   situation.annotation = annotationSituation();
   situation.review = reviewSituation();
   situation.comparison = parts_.onboard.comparison();
@@ -193,8 +198,14 @@ void VerdictController::perform(Step step) {
       return docks_.review.controller().startConvergenceTest(sessions::kConvergenceSeeds);
     case Step::kStopTest:
       return docks_.review.controller().stopConvergenceTest();
+    case Step::kValidate:
+      return askForDecision(ReviewController::Act::kValidate);
+    case Step::kExportPose:
+    case Step::kReport:
+      return exportRequested(step);
     case Step::kNextCase:
-      return showNextCase();
+      if (const QString next = nextCase(); !next.isEmpty()) cases.chooseCase(next);
+      return;
     case Step::kFirstDifference:
       return parts_.onboard.goToFirstDifference();
     case Step::kLoadRecord:
@@ -240,8 +251,8 @@ void VerdictController::askForUncertainty() {
   if (dialog.exec() == QDialog::Accepted) parts_.cases.runWithUncertainty(dialog.uncertainty());
 }
 
-/// In the session's order, from the shown one on, round its end.
-void VerdictController::showNextCase() {
+QString VerdictController::nextCase() const {
+  if (docks_.queue.isInSight()) return docks_.queue.nextOpen();
   const sessions::Session& session = parts_.document.session();
   const std::string shown = parts_.cases.caseId().toStdString();
   const auto count = session.cases.size();
@@ -249,9 +260,14 @@ void VerdictController::showNextCase() {
   while (at < count && session.cases[at]->id != shown) ++at;
   for (std::size_t i = 1; i < count; ++i) {
     const std::string& id = session.cases[(at + i) % count]->id;
-    if (sessions::reviewStatusOf(session, id).holds()) continue;
-    return parts_.cases.chooseCase(fromText(id));
+    if (!sessions::reviewStatusOf(session, id).holds()) return fromText(id);
   }
+  return {};
+}
+
+void VerdictController::askForDecision(ReviewController::Act act) {
+  if (!docks_.review.isVisible()) workspaces_.reveal(QStringLiteral("review"));
+  docks_.review.decision().ask(act);
 }
 
 }  // namespace boresight::ui

@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QTimer>
 
+#include "ui/review/review_controller.h"
 #include "ui/window/window_parts.h"
 #include "ui/workspaces/verdict.h"
 
@@ -36,9 +37,17 @@ class VerdictController : public QObject {
   Situation situation() const;
   /// The bar as things are now; changes of them come here by themselves, once per event loop.
   void update();
+  /// The undecided case after the shown one: in the queue's order while it is in sight, else in the
+  /// session's, round its end; empty when there is none.
+  QString nextCase() const;
 
  public Q_SLOTS:
   void perform(boresight::ui::Step step);
+  /// Asks in the review of the shown case, which comes to the front.
+  void askForDecision(boresight::ui::ReviewController::Act act);
+
+ Q_SIGNALS:
+  void exportRequested(boresight::ui::Step step);
 
  private:
   void follow();
@@ -47,7 +56,6 @@ class VerdictController : public QObject {
   void nudgeSeed();
   void disablePair();
   void askForUncertainty();
-  void showNextCase();
 
   WindowParts parts_;
   const WindowDocks& docks_;

@@ -101,7 +101,7 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
   add(QStringLiteral("frames"), windowText("Frames"), &frames);
   add(QStringLiteral("calibration"), windowText("Calibration"),
       new CalibrationPanel(parts.document, parts.state, parts.tasks));
-  add(QStringLiteral("result"), windowText("Result"), new ResultPanel(parts.state));
+  add(QStringLiteral("result"), windowText("Result"), new ResultPanel(parts.state, parts.quality));
   add(QStringLiteral("remedies"), windowText("What may help"), &remedies);
   add(QStringLiteral("onboard"), windowText("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));

@@ -3,6 +3,7 @@
 
 #include <QtWidgets>
 
+#include "ui/models/text.h"
 #include "ui/panels/cases_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/onboard_controller.h"
@@ -15,13 +16,13 @@
 #include "ui/window/case_controller.h"
 #include "ui/window/case_menu.h"
 #include "ui/window/session_files.h"
+#include "ui/window/start_page.h"
 #include "ui/window/window_docks.h"
 #include "ui/workspaces/canvas_frame.h"
 #include "ui/workspaces/case_strip.h"
 #include "ui/workspaces/drawer_bar.h"
 #include "ui/workspaces/job_strip.h"
 #include "ui/workspaces/run_bar.h"
-#include "ui/window/start_page.h"
 #include "ui/workspaces/top_bar.h"
 #include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
@@ -42,11 +43,11 @@ QToolButton* toolOf(Icon icon, const char* name, const QString& tip) {
 std::vector<LayerId> layersOf(Workspace workspace) {
   switch (workspace) {
     case Workspace::kAnnotate:
-      return {LayerId::kPoints, LayerId::kAnnotationEdges, LayerId::kAnnotationResiduals,
-              LayerId::kSeedEdges, LayerId::kProposals, LayerId::kIgnoreMask};
+      return {LayerId::kPoints,    LayerId::kAnnotationEdges, LayerId::kAnnotationResiduals,
+              LayerId::kSeedEdges, LayerId::kProposals,       LayerId::kIgnoreMask};
     case Workspace::kDiagnose:
       return {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kMatches,
-              LayerId::kTemplates, LayerId::kAgreement, LayerId::kResiduals};
+              LayerId::kTemplates, LayerId::kAgreement,      LayerId::kResiduals};
     case Workspace::kReview:
       return {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
               LayerId::kTestEdges, LayerId::kAgreement};
@@ -54,6 +55,31 @@ std::vector<LayerId> layersOf(Workspace workspace) {
       return {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
               LayerId::kTestEdges, LayerId::kMatches};
   }
+}
+
+/// "bc-000041: run 2 of 3, converged".
+QString shownTitle(const sessions::Session& session, const ViewState& state) {
+  if (!state.currentCase()) return {};
+  const std::string& id = state.currentCase()->source.id;
+  const ViewState::SnapshotPtr& shown = state.snapshot();
+  if (!shown) return WindowFrame::tr("%1: no run").arg(fromText(id));
+  if (shown->replayed) return WindowFrame::tr("%1: onboard run").arg(fromText(id));
+  if (!shown->finished) return WindowFrame::tr("%1: run not finished").arg(fromText(id));
+  int count = 0;
+  int number = 0;
+  for (const sessions::RunRecord& run : session.runs) {
+    if (run.case_id != id) continue;
+    ++count;
+    if (run.digest == shown->digest) number = count;
+  }
+  const QString outcome =
+      shown->converged() ? WindowFrame::tr("converged") : WindowFrame::tr("no result");
+  return number == 0 ? WindowFrame::tr("%1: new run, %2").arg(fromText(id), outcome)
+                     : WindowFrame::tr("%1: run %2 of %3, %4")
+                           .arg(fromText(id))
+                           .arg(number)
+                           .arg(count)
+                           .arg(outcome);
 }
 
 }  // namespace
@@ -107,11 +133,10 @@ void WindowFrame::build() {
 void WindowFrame::connectAll() {
   connect(window_.statusBar(), &QStatusBar::messageChanged, jobs_, &JobStrip::setNote);
   connect(&docks_.image, &ImagePanel::placeText, jobs_, &JobStrip::setPlace);
-  connect(&docks_.image, &ImagePanel::allLayersRequested, this,
-          [this] {
-            docks_.layers.showAll();
-            workspaces_.reveal(QStringLiteral("layers"));
-          });
+  connect(&docks_.image, &ImagePanel::allLayersRequested, this, [this] {
+    docks_.layers.showAll();
+    workspaces_.reveal(QStringLiteral("layers"));
+  });
   connect(&docks_.image, &ImagePanel::templateClicked, this, [this] {
     if (workspaces_.current() == Workspace::kDiagnose)
       workspaces_.reveal(QStringLiteral("inspector"));
@@ -129,6 +154,7 @@ void WindowFrame::connectAll() {
   connect(&workspaces_, &Workspaces::changed, this, &WindowFrame::arrange);
   connect(&parts_.onboard, &OnboardController::changed, this, &WindowFrame::arrange);
   parts_.state.onChange(ViewChange::kSnapshot | ViewChange::kCase, this, &WindowFrame::arrange);
+  connect(&parts_.document, &Document::changed, this, &WindowFrame::showTitle);
 }
 
 void WindowFrame::takeMenus() {
@@ -149,8 +175,7 @@ void WindowFrame::takeMenus() {
 }
 
 void WindowFrame::switchTheme() {
-  const ThemeName next =
-      themeName() == ThemeName::kDark ? ThemeName::kLight : ThemeName::kDark;
+  const ThemeName next = themeName() == ThemeName::kDark ? ThemeName::kLight : ThemeName::kDark;
   applyTheme(*qApp, next);
   rememberTheme(next);
 }
@@ -173,7 +198,12 @@ void WindowFrame::arrange() {
   docks_.canvas.setSource(parts_.onboard.showsOnboard() ? CanvasSource::kOnboard
                           : compares                    ? CanvasSource::kGround
                                                         : CanvasSource::kOnly);
+  showTitle();
   putOnboardBeside(compares && !narrow && !parts_.onboard.showsOnboard());
+}
+
+void WindowFrame::showTitle() {
+  docks_.image.setTitle(shownTitle(parts_.document.session(), parts_.state));
 }
 
 /// Both runs are in view where there is room; a canvas that the operator closes stays closed until

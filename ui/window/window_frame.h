@@ -49,6 +49,7 @@ class WindowFrame : public QObject {
   void connectAll();
   void switchTheme();
   void putOnboardBeside(bool wanted);
+  void showTitle();
 
   QMainWindow& window_;
   QMainWindow& body_;

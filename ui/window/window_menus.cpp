@@ -88,9 +88,9 @@ void WindowMenus::connectFile() {
   on(ui_.save, &files_, &SessionFiles::save);
   on(ui_.saveAs, &files_, &SessionFiles::saveAs);
   on(ui_.quit, &window_, &QWidget::close);
-  auto* poses = new PoseExport(window_, parts_.document, parts_.state, parts_.tasks);
-  poses->addTo(*ui_.exportMenu);
-  connect(poses, &PoseExport::noted, this,
+  poses_ = new PoseExport(window_, parts_.document, parts_.state, parts_.tasks);
+  poses_->addTo(*ui_.exportMenu);
+  connect(poses_, &PoseExport::noted, this,
           [this](const QString& message) { window_.statusBar()->showMessage(message); });
 }
 
@@ -291,8 +291,8 @@ void WindowMenus::connectQueue() {
     docks_.queue.focusList();
   });
   on(ui_.queueOpen, queue, &QueuePanel::openChosen);
-  on(ui_.queueAccept, queue, &QueuePanel::accept);
-  on(ui_.queueReject, queue, &QueuePanel::reject);
+  on(ui_.queueAccept, queue, &QueuePanel::validationRequested);
+  on(ui_.queueReject, queue, &QueuePanel::rejectionRequested);
   on(ui_.queueNext, queue, &QueuePanel::next);
   on(ui_.queuePrevious, queue, &QueuePanel::previous);
   on(ui_.queueDifferences, queue, [this] {

@@ -14,6 +14,7 @@ class QAction;
 
 namespace boresight::ui {
 
+class PoseExport;
 class RunBar;
 class SessionFiles;
 class WindowDocks;
@@ -30,6 +31,7 @@ class WindowMenus : public QObject {
 
   /// Enables what can be done now.
   void update();
+  PoseExport& poses() { return *poses_; }
 
  Q_SIGNALS:
   /// The verdict bar's action, by its key.
@@ -66,6 +68,7 @@ class WindowMenus : public QObject {
   RunBar& run_bar_;
   SessionFiles& files_;
   Ui::WindowMenus ui_;
+  PoseExport* poses_ = nullptr;
   QList<QAction*> annotation_edits_;
   QString run_tip_;       ///< of "Run"
   QString together_tip_;  ///< of "Run with the other views"

@@ -7,6 +7,7 @@ class AnnotationController;
 class CaseController;
 class Document;
 class OnboardController;
+class QualityController;
 class RunController;
 class TaskRunner;
 class ViewState;
@@ -20,6 +21,7 @@ struct WindowParts {
   CaseController& cases;
   AnnotationController& annotation;
   OnboardController& onboard;
+  QualityController& quality;
 };
 
 }  // namespace boresight::ui

@@ -2,7 +2,6 @@
 #include "ui/workspaces/result_panel.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <QtWidgets>
 
@@ -10,6 +9,7 @@
 #include "sessions/run/acceptance.h"
 #include "ui/models/text.h"
 #include "ui/panels/widgets.h"
+#include "ui/review/quality_controller.h"
 #include "ui/state/view_state.h"
 #include "ui/style/theme.h"
 
@@ -41,26 +41,35 @@ void LimitBar::paintEvent(QPaintEvent*) {
   painter.fillRect(QRectF(tick - 1, 0, 2, height()), QColor(theme().text));
 }
 
-ResultPanel::ResultPanel(ViewState& state, QWidget* parent)
-    : QWidget(parent), state_(state), pose_(named(new QTableWidget(4, 4), "resultPose")) {
+ResultPanel::ResultPanel(ViewState& state, QualityController& quality, QWidget* parent)
+    : QWidget(parent),
+      state_(state),
+      quality_(quality),
+      rejected_(named(new QLabel, "rejectedPose")),
+      pose_(named(new QTableWidget(2, 4), "resultPose")) {
   auto* figures = new QHBoxLayout;
   figures->setSpacing(16);
   agreement_ = addFigure(*figures);
-  sigma_ = addFigure(*figures);
+  precision_ = addFigure(*figures);
   styleTable(*pose_);
   pose_->setAlternatingRowColors(false);
   pose_->setSelectionMode(QAbstractItemView::NoSelection);
   pose_->setFocusPolicy(Qt::NoFocus);
-  pose_->setHorizontalHeaderLabels({tr("Camera from station"), tr("x"), tr("y"), tr("z")});
-  pose_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  pose_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  pose_->setHorizontalHeaderLabels({QString(), tr("x"), tr("y"), tr("z")});
+  pose_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  pose_->horizontalHeader()->setStretchLastSection(true);
+  pose_->setMinimumWidth(kNarrow.run_side - 24);  // of whole numbers
+  rejected_->setText(tr("✗ Rejected: this pose is not a result."));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(12, 8, 12, 8);
   column->setSpacing(8);
   column->addLayout(figures);
+  column->addWidget(rejected_);
+  column->addWidget(new QLabel(tr("Camera from station")));
   column->addWidget(pose_, 1);
   state_.onChange(ViewChange::kSnapshot | ViewChange::kCase | ViewChange::kCursor, this,
                   &ResultPanel::showRun);
+  connect(&quality_, &QualityController::changed, this, &ResultPanel::showQuality);
   showRun();
 }
 
@@ -70,6 +79,7 @@ ResultPanel::Figure ResultPanel::addFigure(QHBoxLayout& row) {
   large.setPointSizeF(kHeadlineSize);
   large.setBold(true);
   figure.value->setFont(large);
+  figure.needed->setWordWrap(true);
   auto* column = new QVBoxLayout;
   column->setSpacing(2);
   for (QWidget* each :
@@ -82,7 +92,7 @@ ResultPanel::Figure ResultPanel::addFigure(QHBoxLayout& row) {
 
 void ResultPanel::showRun() {
   showAgreement();
-  showSigma();
+  showQuality();
   showPose();
 }
 
@@ -103,26 +113,32 @@ void ResultPanel::showAgreement() {
   agreement_.bar->setFigure(value, needed, value >= needed);
 }
 
-void ResultPanel::showSigma() {
-  const auto run = state_.snapshot();
-  sigma_.name->setText(tr("Position, 1 sigma at the camera"));
-  sigma_.name->setToolTip(tr("Worst axis, by the image alone"));
-  sigma_.value->setText(QStringLiteral("–"));
-  sigma_.needed->clear();
-  sigma_.bar->clear();
-  if (!run || !run->converged()) return;
-  const double value_mm = 1e3 * std::sqrt(run->covariance.diagonal().tail<3>().maxCoeff());
-  sigma_.value->setText(tr("%1 mm").arg(numberText(value_mm, 3)));
-  const auto& requirement = state_.currentCase()->source.requirement;
-  if (!requirement || !requirement->lateral_mm) return;
-  const double allowed_mm = *requirement->lateral_mm;
-  sigma_.needed->setText(tr("allowed: %1 mm or less").arg(numberText(allowed_mm, 3)));
-  sigma_.bar->setFigure(value_mm, allowed_mm, value_mm <= allowed_mm);
+void ResultPanel::showQuality() {
+  const auto& quality = quality_.quality();
+  precision_.name->setText(tr("Pose known to"));
+  precision_.value->setText(QStringLiteral("–"));
+  precision_.needed->clear();
+  precision_.bar->clear();
+  if (!quality) return;
+  const sessions::PrecisionFigure* worst = quality->worst();
+  precision_.needed->setText(fromText(
+      worst ? quality->sigmasText() + " " + worst->where + worst->place : quality->text()));
+  if (!worst) return;
+  precision_.value->setText(fromText(worst->text()));
+  precision_.bar->setFigure(*worst->found, *worst->required, worst->holds());
+  QStringList all;
+  for (const sessions::PrecisionFigure& figure : quality->figures)
+    if (figure.judged()) all << fromText(figure.text() + " " + figure.where + figure.place);
+  precision_.needed->setToolTip(all.join(QLatin1Char('\n')));
 }
 
+/// A run that ended without a result has a pose nonetheless: of its last iteration.
 void ResultPanel::showPose() {
   const auto run = state_.snapshot();
   const auto pose = poseOf(state_, state_.iteration() ? PoseRole::kEstimate : PoseRole::kSeed);
+  const bool rejected = run && run->finished && !run->converged() && state_.iteration();
+  rejected_->setVisible(rejected);
+  pose_->setEnabled(!rejected);
   pose_->setVisible(pose.has_value());
   if (!pose) return;
   const auto row = [this](int index, const QString& name, const Eigen::Vector3d& values) {
@@ -134,16 +150,8 @@ void ResultPanel::showPose() {
     cell(0, name);
     for (int i = 0; i < 3; ++i) cell(i + 1, numberText(values[i], 3));
   };
-  const bool converged = run && run->converged();
-  const Vector6d sigma = converged ? Vector6d(run->covariance.diagonal().cwiseMax(0.0).cwiseSqrt())
-                                   : Vector6d::Zero();
-  pose_->setRowCount(0);
-  pose_->setRowCount(converged ? 4 : 2);
-  int next = 0;
-  row(next++, tr("Position, mm"), 1e3 * pose->translation_m);
-  if (converged) row(next++, tr("1 sigma, mm"), 1e3 * sigma.tail<3>());
-  row(next++, tr("Rotation, deg"), rotationLog(pose->rotation) / kDegree_rad);
-  if (converged) row(next++, tr("1 sigma, mrad"), 1e3 * sigma.head<3>());
+  row(0, tr("Position, mm"), 1e3 * pose->translation_m);
+  row(1, tr("Rotation, deg"), rotationLog(pose->rotation) / kDegree_rad);
 }
 
 }  // namespace boresight::ui

@@ -9,6 +9,7 @@ class QTableWidget;
 
 namespace boresight::ui {
 
+class QualityController;
 class ViewState;
 
 /// A figure against its limit, as a bar with the limit as a tick. The numbers stand next to it.
@@ -32,12 +33,13 @@ class LimitBar : public QWidget {
   bool passed_ = false;
 };
 
-/// What came out of the shown run: agreement of the edges, sigma, and the pose.
+/// What came out of the shown run: agreement of the edges, quality against the requirement, and the
+/// pose. A rejected pose is called so, and cannot be copied from here.
 class ResultPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ResultPanel(ViewState& state, QWidget* parent = nullptr);
+  ResultPanel(ViewState& state, QualityController& quality, QWidget* parent = nullptr);
 
  private:
   struct Figure {
@@ -50,12 +52,14 @@ class ResultPanel : public QWidget {
   Figure addFigure(QHBoxLayout& row);
   void showRun();
   void showAgreement();
-  void showSigma();
+  void showQuality();
   void showPose();
 
   ViewState& state_;
+  QualityController& quality_;
   Figure agreement_;
-  Figure sigma_;
+  Figure precision_;
+  QLabel* rejected_ = nullptr;
   QTableWidget* pose_ = nullptr;
 };
 

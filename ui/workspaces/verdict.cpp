@@ -28,6 +28,22 @@ QString stageName(Stage stage) {
   return tr(name);
 }
 
+/// Green only where the requirement holds and no check that was run fails.
+void toneOfPose(const Situation& situation, Verdict& verdict) {
+  if (!situation.quality) return;  // being measured
+  const bool good = situation.quality->holds() && situation.review.failed == 0;
+  verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
+  verdict.icon = good ? Icon::kCheck : Icon::kWarning;
+}
+
+QString qualityText(const sessions::PoseQuality& quality) {
+  return (quality.worst() ? tr(" Pose known to %1.") : tr(" %1.")).arg(fromText(quality.text()));
+}
+
+QString failedText(int failed) {
+  return failed == 1 ? tr("1 check failed") : tr("%1 checks failed").arg(failed);
+}
+
 /// "Iteration 2: rendering done; next, templates."
 QString progressText(const sessions::LocalizationTrace* trace) {
   if (!trace || trace->iterations.empty()) return tr("The edges of the image are found first.");
@@ -105,50 +121,93 @@ Verdict ofOnboard(const Situation& situation) {
   return verdict;
 }
 
-std::optional<Verdict> ofReview(const Situation& situation) {
+Verdict ofRejection(const QString& decision) {
+  Verdict verdict;
+  verdict.tone = VerdictTone::kBad;
+  verdict.icon = Icon::kCross;
+  verdict.head = tr("Rejected in review");
+  verdict.sentence = decision;
+  verdict.step = Step::kNextCase;
+  return verdict;
+}
+
+/// A validation, also one that a second person must approve.
+Verdict ofValidation(const Situation& situation) {
   const ReviewSituation& review = situation.review;
   Verdict verdict;
-  if (!review.decision.isEmpty()) {
-    const bool good = review.state == ReviewState::kValidated;
-    verdict.tone = good ? VerdictTone::kGood : VerdictTone::kBad;
-    verdict.icon = good ? Icon::kShield : Icon::kCross;
-    verdict.head = good ? tr("Validated") : tr("Rejected");
-    verdict.sentence = review.decision;
-    verdict.step = Step::kNextCase;
-    if (good && !situation.stale.isEmpty()) {
-      verdict.tone = VerdictTone::kCaution;
-      verdict.icon = Icon::kWarning;
-      verdict.head = tr("Validated; outdated");
-      verdict.sentence += QLatin1Char(' ') + situation.stale;
-    }
-    return verdict;
+  toneOfPose(situation, verdict);
+  verdict.sentence = review.decision;
+  if (!review.outdated.isEmpty()) verdict.sentence += tr(" Outdated: %1.").arg(review.outdated);
+  if (situation.quality) verdict.sentence += qualityText(*situation.quality);
+  if (review.failed > 0) verdict.sentence += tr(" %1, waived.").arg(failedText(review.failed));
+  if (review.state == ReviewState::kValidated) {
+    verdict.head = tr("Validated");
+    verdict.step = Step::kExportPose;
+    verdict.others = {Step::kReport, Step::kNextCase};
+    if (verdict.tone == VerdictTone::kGood) verdict.icon = Icon::kShield;
+  } else {
+    verdict.head = tr("To be approved");
+    verdict.step = situation.workspace == Workspace::kReview ? Step::kNextCase : Step::kReview;
+    verdict.tone = VerdictTone::kCaution;
+    verdict.icon = Icon::kWarning;
   }
-  if (review.testing) {
-    verdict.icon = Icon::kRing;
-    verdict.head = tr("Convergence test running");
-    verdict.sentence = tr("%1 seeds done; %2 end at this pose.")
-                           .arg(review.seeds_done)
-                           .arg(review.seeds_returned == review.seeds_done
-                                    ? tr("all")
-                                    : QString::number(review.seeds_returned));
-    verdict.step = Step::kStopTest;
-    verdict.plain = true;
-    return verdict;
-  }
-  // A failed run has remedies, not checks to pass.
-  if (!review.current || (situation.trace && !situation.trace->converged())) return std::nullopt;
-  QStringList open;
-  if (review.failed > 0)
-    open << (review.failed == 1 ? tr("1 check failed") : tr("%1 checks failed").arg(review.failed));
-  if (!review.tested)
-    open << tr("the convergence test has not run: a competing pose is not excluded");
+  if (review.outdated.isEmpty()) return verdict;
   verdict.tone = VerdictTone::kCaution;
   verdict.icon = Icon::kWarning;
+  verdict.head += tr("; outdated");
+  verdict.others.insert(verdict.others.begin(), Step::kRunAgain);
+  return verdict;
+}
+
+/// A decision that holds.
+Verdict ofDecision(const Situation& situation) {
+  return situation.review.state == ReviewState::kRejected ? ofRejection(situation.review.decision)
+                                                          : ofValidation(situation);
+}
+
+bool decisionIsOfShownRun(const Situation& situation) {
+  const bool under_way = situation.run == RunState::kWorking || situation.in_batch;
+  return !situation.review.decision.isEmpty() && !under_way && situation.trace &&
+         situation.trace->finished;
+}
+
+Verdict ofConvergenceTest(const ReviewSituation& review) {
+  Verdict verdict;
+  verdict.icon = Icon::kRing;
+  verdict.head = tr("Convergence test running");
+  verdict.sentence =
+      tr("%1 seeds done; %2 end at this pose.")
+          .arg(review.seeds_done)
+          .arg(review.seeds_returned == review.seeds_done ? tr("all")
+                                                          : QString::number(review.seeds_returned));
+  verdict.step = Step::kStopTest;
+  verdict.plain = true;
+  return verdict;
+}
+
+std::optional<Verdict> ofReview(const Situation& situation) {
+  const ReviewSituation& review = situation.review;
+  if (!review.decision.isEmpty()) return ofDecision(situation);
+  if (review.testing) return ofConvergenceTest(review);
+  // A failed run has remedies, not checks to pass.
+  if (!review.current || (situation.trace && !situation.trace->converged())) return std::nullopt;
+  Verdict verdict;
+  QStringList open;
+  if (review.failed > 0) open << failedText(review.failed);
+  if (!review.tested)
+    open << tr("the convergence test has not run: a competing pose is not excluded");
+  toneOfPose(situation, verdict);
+  if (verdict.tone == VerdictTone::kGood && !review.tested) {
+    verdict.tone = VerdictTone::kPlain;
+    verdict.icon = Icon::kInfo;
+  }
   verdict.head = tr("Converged; not yet validated");
   verdict.sentence =
       open.isEmpty() ? tr("All checks passed.") : open.join(tr("; ")) + QLatin1Char('.');
   verdict.sentence[0] = verdict.sentence[0].toUpper();
-  verdict.step = review.tested ? Step::kNone : Step::kConvergenceTest;
+  verdict.step = !review.tested       ? Step::kConvergenceTest
+                 : review.failed == 0 ? Step::kValidate
+                                      : Step::kNone;
   return verdict;
 }
 
@@ -159,12 +218,11 @@ Verdict ofRun(const Situation& situation) {
   verdict.head = fromText(headline.head);
   verdict.sentence = fromText(headline.sentence);
   if (trace.converged()) {
-    const bool good = situation.sigma_excess.isEmpty();
-    verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
-    verdict.icon = good ? Icon::kCheck : Icon::kWarning;
-    if (!good) verdict.sentence += tr(" Three sigma: %1.").arg(situation.sigma_excess);
-    const bool validated = situation.review.state == ReviewState::kValidated;
-    verdict.sentence += validated ? tr(" Validated.") : tr(" Not yet validated.");
+    toneOfPose(situation, verdict);
+    if (situation.quality) verdict.sentence += qualityText(*situation.quality);
+    if (situation.review.failed > 0)
+      verdict.sentence += tr(" %1.").arg(failedText(situation.review.failed));
+    verdict.sentence += tr(" Not yet validated.");
     verdict.step = Step::kReview;
     return verdict;
   }
@@ -211,8 +269,8 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
   if (!situation.stale.isEmpty()) {
     verdict.tone = VerdictTone::kCaution;
     verdict.icon = Icon::kWarning;
-    verdict.head = situation.trace->converged() ? tr("Converged; settings changed since.")
-                                                : tr("Failed; settings changed since.");
+    verdict.head =
+        situation.trace->converged() ? tr("Converged; outdated.") : tr("Failed; outdated.");
     verdict.sentence = situation.stale;
     verdict.step = Step::kRunAgain;
     return verdict;
@@ -242,6 +300,7 @@ Verdict verdictOf(const Situation& situation) {
   if (situation.workspace == Workspace::kOnboard) return ofOnboard(situation);
   if (situation.workspace == Workspace::kReview)
     if (auto verdict = ofReview(situation)) return *verdict;
+  if (decisionIsOfShownRun(situation)) return ofDecision(situation);
   if (auto verdict = ofProgress(situation)) return *verdict;
   return ofRun(situation);
 }

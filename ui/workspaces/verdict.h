@@ -8,6 +8,7 @@
 #include <QString>
 
 #include "sessions/record/compare_records.h"
+#include "sessions/review/pose_quality.h"
 #include "sessions/review/review_status.h"
 #include "sessions/run/trace.h"
 #include "ui/run/run_controller.h"
@@ -56,6 +57,7 @@ struct ReviewSituation {
   bool tested = false;
   sessions::ReviewState state = sessions::ReviewState::kNew;
   QString decision;  ///< "by A. Operator, 09:02"; empty: none holds
+  QString outdated;  ///< why the validated run would be another one now, or empty
   QString problem;   ///< why there is nothing to check, or empty
 };
 
@@ -70,8 +72,9 @@ struct Situation {
   RunState run = RunState::kEmpty;
   bool in_batch = false;  ///< the batch is at the shown case
   std::shared_ptr<const sessions::LocalizationTrace> trace;
-  QString stale;         ///< what has changed since the run, or empty
-  QString sigma_excess;  ///< by how much three sigma of the run's pose exceed what is required
+  QString stale;  ///< what has changed since the run, or empty
+  /// Of the run's pose; nothing while it is measured.
+  std::optional<sessions::PoseQuality> quality;
   AnnotationSituation annotation;
   ReviewSituation review;
   std::shared_ptr<const sessions::RecordComparison> comparison;

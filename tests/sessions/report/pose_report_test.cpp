@@ -12,6 +12,7 @@
 #include "sessions/io/errors.h"
 #include "sessions/report/pdf_canvas.h"
 #include "sessions/review/checks.h"
+#include "sessions/review/pose_quality.h"
 #include "sessions/review/review_status.h"
 #include "tests/support/annotated_example.h"
 #include "tests/support/temporary_folder.h"
@@ -80,6 +81,11 @@ TEST_F(PoseReportTest, UnvalidatedPose_IsLabelledOnEveryPage) {
     EXPECT_THAT(pageText(file, page), HasSubstr("page " + std::to_string(page) + " of 2"));
   }
   EXPECT_EQ(pageText(file, 3), "");
+  std::string quality =
+      runQuality(session_, sessions::loadCase(*session_.findCase(id_)), runCase(session_, id_))
+          .text();
+  quality.resize(quality.find(" ("));  // the rest is on the next line
+  EXPECT_THAT(pageText(file, 1), HasSubstr(quality)) << "as in the window and in the checks";
   EXPECT_THAT(pageText(file, 2), HasSubstr(", current"));
 }
 

@@ -213,6 +213,21 @@ TEST(Decide, Approval_ByTheSamePerson_IsRefused) {
   EXPECT_THAT(refusal([&] { approved(other, "a", {"Bob", "yes"}); }), HasSubstr("no longer holds"));
 }
 
+TEST(Decide, ValidationOfARunWithOtherOptions_IsOutdatedAndHolds) {
+  Random random = randomFor("Decide.Outdated");
+  const JudgedCase judged(random);
+  Session after = judged.validatedBy("Ada");
+  EXPECT_EQ(reviewStatusOf(after, "a").outdated, "");
+  after.options = {{"pnp.min_inliers", std::int64_t{20}}};
+  const sessions::ReviewStatus status = reviewStatusOf(after, "a");
+  EXPECT_TRUE(status.holds());
+  EXPECT_EQ(status.state, ReviewState::kValidated);
+  EXPECT_EQ(reviewStatusText(status),
+            "validated by Ada; outdated: the run was made with other options");
+  after.options.clear();
+  EXPECT_EQ(reviewStatusOf(after, "a").outdated, "") << "as it was";
+}
+
 TEST(Decide, Rejection_NeedsNoPoseAndCanBeWithdrawn) {
   Random random = randomFor("Decide.Rejection");
   JudgedCase judged(random);

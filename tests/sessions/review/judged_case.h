@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sessions/io/config_file.h"
 #include "sessions/review/review_status.h"
 #include "tests/sessions/session/random_session.h"
 
@@ -39,9 +40,10 @@ struct JudgedCase {
 
   void noteRun(const std::string& digest, const std::string& status, Random& random) {
     const sessions::SessionCase& session_case = *session.cases.front();
-    session.runs.push_back({session_case.id, digest, randomPath(random, ".trace"), status, "0.1.0",
-                            "2026-01-31T23:59:59Z", inputsDigest(session_case),
-                            randomSha256(random)});
+    session.runs.push_back(
+        {session_case.id, digest, randomPath(random, ".trace"), status, "0.1.0",
+         "2026-01-31T23:59:59Z", inputsDigest(session_case),
+         sessions::optionsDigest(caseOptions(session, session_case, "session"))});
   }
 
   static sessions::Check check(const std::string& id, sessions::CheckState state) {

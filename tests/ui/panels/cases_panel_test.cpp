@@ -188,11 +188,12 @@ TEST_F(CasesModelTest, SaysThatARunIsStale) {
   rows[0].stale = true;
   model_.setRows(rows);
   EXPECT_EQ(model_.index(0, CasesModel::kState).data().toString(),
-            QStringLiteral("✓ converged, stale"));
-  EXPECT_TRUE(model_.index(0, 0)
-                  .data(Qt::ToolTipRole)
-                  .toString()
-                  .contains(QStringLiteral("Stale: the inputs or options have changed")));
+            QStringLiteral("✓ converged, outdated"));
+  EXPECT_TRUE(
+      model_.index(0, 0)
+          .data(Qt::ToolTipRole)
+          .toString()
+          .contains(QStringLiteral("Outdated: the run was made with other inputs or options")));
 }
 
 TEST_F(CasesModelTest, States_HaveDistinctSigns) {

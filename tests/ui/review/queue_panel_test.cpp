@@ -7,6 +7,8 @@
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_of_results.h"
 #include "tests/ui/window_test.h"
+#include "ui/review/review_panel.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -40,6 +42,7 @@ struct RunExample {
 class QueuePanelTest : public test::WindowTest {
  protected:
   QueuePanelTest() {
+    window_.resize(1700, 900);  // with room for the queue and the checks
     window_.activateWindow();
     EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
     EXPECT_TRUE(window_.document().create(file_, RunExample::get().withRuns(file_)));
@@ -54,11 +57,20 @@ class QueuePanelTest : public test::WindowTest {
       return queue.count() == 2 && queue.doneCount() == 2 && !window_.tasks().isBusy();
     });
   }
+  ReviewController& review() { return window_.findChild<ReviewPanel*>()->controller(); }
+  /// The case is on the screen, and its checks are complete.
+  bool shown(const QString& id) {
+    return wait([&] {
+      return window_.cases().caseId() == id && review().caseId() == id.toStdString() &&
+             review().isCurrent() && !review().isBusy() && resting();
+    });
+  }
   /// The first time the operator goes to the worst case.
   bool filled() {
     if (!checked()) return false;
-    if (!std::exchange(at_worst_, true)) table_->setCurrentIndex(table_->model()->index(0, 0));
-    return true;
+    if (std::exchange(at_worst_, true)) return true;
+    table_->setCurrentIndex(table_->model()->index(0, 0));
+    return shown(bad_);
   }
   bool inSight() const { return !window_.dock(QStringLiteral("queue"))->visibleRegion().isEmpty(); }
   QStringList listed() const {
@@ -68,7 +80,19 @@ class QueuePanelTest : public test::WindowTest {
     return ids;
   }
   QLineEdit& field(const char* name) const {
-    return *panel_->findChild<QLineEdit*>(QLatin1String(name));
+    return *window_.findChild<QLineEdit*>(QLatin1String(name));
+  }
+  QString reading() const {
+    return window_.findChild<QTextBrowser*>(QStringLiteral("reading"))->toPlainText();
+  }
+  QString title() const { return window_.findChild<QLabel*>(QStringLiteral("titleChip"))->text(); }
+  void click(const QString& id) {
+    for (int row = 0; row < table_->model()->rowCount(); ++row) {
+      const QModelIndex index = table_->model()->index(row, QueueModel::kCase);
+      if (index.data().toString() == id)
+        QTest::mouseClick(table_->viewport(), Qt::LeftButton, {},
+                          table_->visualRect(index).center());
+    }
   }
   /// On whatever has the focus.
   void press(Qt::Key key) { QTest::keyClick(QApplication::focusWidget(), key); }
@@ -118,35 +142,65 @@ TEST_F(QueuePanelTest, EnterOpensTheIterationThatFailed) {
       << "also when the case is shown already";
 }
 
-TEST_F(QueuePanelTest, Accept_AsksNameAndReasonThenValidatesAndContinues) {
+TEST_F(QueuePanelTest, ClickOnARow_ShowsTheCaseItsRunAndItsChecks) {
+  ASSERT_TRUE(filled());
+  EXPECT_TRUE(test::has(title(), bad_.toUtf8())) << "the image says whose it is";
+  EXPECT_TRUE(test::has(title(), "run 2 of 2, no result"));
+  click(good_);
+  ASSERT_TRUE(shown(good_));
+  EXPECT_EQ(panel_->chosenCase(), good_);
+  EXPECT_EQ(window_.state().currentCase()->source.id, good_.toStdString());
+  EXPECT_TRUE(test::has(title(), good_.toUtf8()));
+  EXPECT_TRUE(test::has(title(), "run 1 of 1, converged"));
+  table_->setFocus();
+  press(Qt::Key_K);
+  ASSERT_TRUE(shown(bad_));
+  press(Qt::Key_J);
+  ASSERT_TRUE(shown(good_));
+}
+
+TEST_F(QueuePanelTest, FilterWithoutTheShownCase_ShowsNoOther) {
+  ASSERT_TRUE(filled());
+  auto& filter = field("queueFilter");
+  filter.setText(good_);
+  EXPECT_EQ(listed(), QStringList({good_}));
+  EXPECT_EQ(panel_->chosenCase(), QString());
+  EXPECT_EQ(window_.cases().caseId(), bad_);
+  filter.clear();
+  EXPECT_EQ(panel_->chosenCase(), bad_);
+}
+
+TEST_F(QueuePanelTest, Validation_AsksNameAndReasonAndGoesToTheNextCase) {
   ASSERT_TRUE(filled());
   press(Qt::Key_J);
-  ASSERT_EQ(panel_->chosenCase(), good_);
+  ASSERT_TRUE(shown(good_));
   press(Qt::Key_A);
   EXPECT_TRUE(decisions().empty());
-  ASSERT_TRUE(field("queueName").hasFocus()) << panel_->message().toStdString();
+  ASSERT_TRUE(field("decisionName").hasFocus()) << "the name is asked for in every start";
   type(QStringLiteral("Ada A."));  // letters that are keys in the list
   press(Qt::Key_Return);
-  ASSERT_TRUE(field("queueComment").hasFocus());
+  ASSERT_TRUE(field("decisionComment").hasFocus());
   type(QStringLiteral("Rather good"));
   press(Qt::Key_Return);
-  ASSERT_EQ(decisions().size(), 1u) << panel_->message().toStdString();
+  ASSERT_EQ(decisions().size(), 1u) << reading().toStdString();
   EXPECT_EQ(decisions()[0].verdict, sessions::Verdict::kValidated);
   EXPECT_EQ(decisions()[0].case_id, good_.toStdString());
   EXPECT_EQ(decisions()[0].by, "Ada A.");
   EXPECT_EQ(decisions()[0].comment, "Rather good");
-  EXPECT_EQ(QSettings().value(QStringLiteral("review/name")).toString(), QStringLiteral("Ada A."));
-  EXPECT_EQ(panel_->chosenCase(), bad_) << "the next that is open";
+  EXPECT_TRUE(field("decisionComment").text().isEmpty());
   EXPECT_TRUE(table_->hasFocus());
+  ASSERT_TRUE(shown(bad_)) << "the next that is open";
   press(Qt::Key_A);
-  EXPECT_EQ(decisions().size(), 1u) << "a run that failed is not accepted";
-  EXPECT_TRUE(panel_->message().contains(bad_)) << panel_->message().toStdString();
+  type(QStringLiteral("also"));
+  press(Qt::Key_Return);
+  EXPECT_EQ(decisions().size(), 1u) << "a run that failed is not validated";
+  EXPECT_TRUE(test::has(reading(), "did not converge"));
 }
 
 TEST_F(QueuePanelTest, RejectTakesTheCommentAndIsUndoneAtOnce) {
   ASSERT_TRUE(filled());
-  field("queueName").setText(QStringLiteral("Ada"));
-  field("queueComment").setText(QStringLiteral("blurred"));
+  field("decisionName").setText(QStringLiteral("Ada"));
+  field("decisionComment").setText(QStringLiteral("blurred"));
   table_->setFocus();
   press(Qt::Key_R);
   ASSERT_EQ(decisions().size(), 1u);
@@ -154,8 +208,8 @@ TEST_F(QueuePanelTest, RejectTakesTheCommentAndIsUndoneAtOnce) {
   EXPECT_EQ(decisions()[0].case_id, bad_.toStdString());
   EXPECT_EQ(decisions()[0].comment, "blurred");
   EXPECT_FALSE(decisions()[0].checks.empty()) << "what was checked is kept";
-  EXPECT_TRUE(field("queueComment").text().isEmpty());
-  EXPECT_EQ(panel_->chosenCase(), good_);
+  EXPECT_TRUE(field("decisionComment").text().isEmpty());
+  ASSERT_TRUE(shown(good_));
   EXPECT_EQ(listed(), QStringList({good_, bad_})) << "what is decided comes last";
   QTest::keySequence(&window_, QKeySequence::Undo);
   EXPECT_TRUE(decisions().empty());
@@ -165,14 +219,53 @@ TEST_F(QueuePanelTest, RejectTakesTheCommentAndIsUndoneAtOnce) {
 TEST_F(QueuePanelTest, EscapeLeavesTheQuestion) {
   ASSERT_TRUE(filled());
   press(Qt::Key_R);
-  ASSERT_TRUE(field("queueName").hasFocus());
+  ASSERT_TRUE(field("decisionName").hasFocus());
   press(Qt::Key_Escape);
   EXPECT_TRUE(table_->hasFocus());
-  EXPECT_TRUE(panel_->message().isEmpty());
-  field("queueName").setFocus();
+  field("decisionName").setFocus();
   type(QStringLiteral("Ada"));
   press(Qt::Key_Return);
   EXPECT_TRUE(decisions().empty()) << "nothing was asked";
+}
+
+TEST_F(QueuePanelTest, CaseThatIsStillRead_IsNotDecided) {
+  ASSERT_TRUE(filled());
+  const ReviewController::Act reject = ReviewController::Act::kReject;
+  EXPECT_EQ(review().obstacle(reject, {"Ada", "blurred"}), QString());
+  click(good_);  // the image is still that of the other case
+  EXPECT_EQ(review().caseId(), bad_.toStdString());
+  EXPECT_TRUE(test::has(review().obstacle(reject, {"Ada", "blurred"}), "still being read"));
+  EXPECT_FALSE(review().decide(reject, {"Ada", "blurred"}));
+  ASSERT_TRUE(shown(good_));
+  EXPECT_EQ(review().obstacle(reject, {"Ada", "blurred"}), QString());
+}
+
+TEST_F(QueuePanelTest, AnotherRunOnTheScreen_IsNotValidated) {
+  ASSERT_TRUE(filled());
+  press(Qt::Key_J);
+  ASSERT_TRUE(shown(good_));
+  auto other = std::make_shared<sessions::LocalizationTrace>(RunExample::get().failed);
+  window_.state().setSnapshot(other);
+  const auto validate = ReviewController::Act::kValidate;
+  EXPECT_TRUE(test::has(review().obstacle(validate, {"Ada", "good"}), "shows another run"));
+}
+
+TEST_F(QueuePanelTest, ChangedOptions_AreCalledOutdatedInListAndBadge) {
+  ASSERT_TRUE(filled());
+  press(Qt::Key_J);
+  ASSERT_TRUE(shown(good_));
+  ASSERT_TRUE(review().decide(ReviewController::Act::kValidate, {"Ada", "good"}));
+  const auto state = [this] {
+    const QModelIndex row = table_->model()->index(1, 0);
+    return row.siblingAtColumn(QueueModel::kStatus).data().toString();
+  };
+  EXPECT_EQ(state(), QStringLiteral("★ validated"));
+  sessions::Session changed = window_.document().session();
+  changed.options = {{"pnp.min_inliers", std::int64_t{20}}};
+  ASSERT_TRUE(window_.document().edit(changed, QStringLiteral("options")));
+  EXPECT_EQ(state(), QStringLiteral("★ validated, outdated"));
+  const auto* cases = window_.findChild<QTableView*>(QStringLiteral("cases"));
+  EXPECT_TRUE(test::has(cases->model()->index(0, 1).data().toString(), "validated, outdated"));
 }
 
 TEST_F(QueuePanelTest, ChangedInputs_ChecksTheRowAgain) {
@@ -181,17 +274,9 @@ TEST_F(QueuePanelTest, ChangedInputs_ChecksTheRowAgain) {
   changed.review.limits = {{"check.inlier_count", 9999.0}};
   ASSERT_TRUE(window_.document().edit(changed, QStringLiteral("limits")));
   EXPECT_EQ(panel_->controller().doneCount(), 0);
-  field("queueName").setText(QStringLiteral("Ada"));
-  field("queueComment").setText(QStringLiteral("too early"));
-  table_->setFocus();
-  press(Qt::Key_J);
-  ASSERT_EQ(panel_->chosenCase(), good_);
-  press(Qt::Key_A);
-  EXPECT_TRUE(decisions().empty()) << "what was checked by other limits is not accepted";
-  ASSERT_TRUE(filled());
-  press(Qt::Key_A);
-  EXPECT_TRUE(decisions().empty());
-  EXPECT_TRUE(test::has(panel_->message(), "nlier"));
+  ASSERT_TRUE(checked());
+  const QModelIndex row = table_->model()->index(1, QueueModel::kTrouble);
+  EXPECT_TRUE(test::has(row.data().toString(), "nlier"));
 }
 
 TEST_F(QueuePanelTest, IsNotFilledWhileHaltedOrOutOfSight) {

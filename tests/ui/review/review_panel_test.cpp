@@ -3,6 +3,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/review/pose_quality.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/check_limits.h"
@@ -15,6 +16,9 @@
 #include "ui/panels/widgets.h"
 #include "ui/review/pose_export.h"
 #include "ui/state/document.h"
+#include "ui/window/window_frame.h"
+#include "ui/workspaces/verdict_bar.h"
+#include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
 namespace {
@@ -199,13 +203,24 @@ TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
   EXPECT_EQ(reviewState(), ReviewState::kValidated);
 }
 
-TEST_F(ReviewPanelTest, TheNameIsRememberedAndTheCommentIsNot) {
+TEST_F(ReviewPanelTest, TheNameStaysUntilTheProgramEndsAndTheCommentDoesNot) {
   openRun();
   validateAs(QStringLiteral("Ada"));
-  EXPECT_TRUE(panel_->findChild<QLineEdit*>(QStringLiteral("decisionComment"))->text().isEmpty());
-  ReviewPanel next(document_, state_);
-  EXPECT_EQ(next.findChild<QLineEdit*>(QStringLiteral("decisionName"))->text(),
-            QStringLiteral("Ada"));
+  const auto text = [](const ReviewPanel& panel, const char* name) {
+    return panel.findChild<QLineEdit*>(QLatin1String(name))->text();
+  };
+  EXPECT_EQ(text(*panel_, "decisionComment"), QString());
+  EXPECT_EQ(text(*panel_, "decisionName"), QStringLiteral("Ada"));
+  const ReviewPanel next(document_, state_);
+  EXPECT_EQ(text(next, "decisionName"), QString()) << "another start is another reviewer";
+}
+
+TEST_F(ReviewPanelTest, OneCaseAlone_OffersNoNext) {
+  openRun();
+  EXPECT_TRUE(hands().button("validateNext")->isVisible()) << "the example has two cases";
+  document_.edit(sessions::withoutCase(document_.session(), RunExample::get().session.cases[1]->id),
+                 QStringLiteral("Remove"));
+  EXPECT_FALSE(hands().button("validateNext")->isVisible());
 }
 
 TEST_F(ReviewPanelTest, Approval_NeedsAnotherPerson) {
@@ -371,7 +386,10 @@ TEST_F(PoseExportTest, UnvalidatedPose_IsLabelledInTheFile) {
   EXPECT_TRUE(test::has(said_, "NOT VALIDATED"));
   EXPECT_TRUE(sessions::verifyPose(folder_.path() / "pose.json", true).good());
   validateAs(QStringLiteral("Ada"));
-  EXPECT_EQ(exporter_.poseFileName(), QStringLiteral("validated_pose.json"));
+  EXPECT_EQ(exporter_.poseFileName(),
+            fromText(RunExample::get().id) + QStringLiteral("_validated_pose.json"));
+  EXPECT_EQ(exporter_.reportFileName(),
+            fromText(RunExample::get().id) + QStringLiteral("_pose_report.pdf"));
 }
 
 TEST_F(PoseExportTest, Report_IsOfTheShownCase) {
@@ -428,6 +446,49 @@ class ReviewWindowTest : public test::WindowTest {
     ASSERT_TRUE(listed().contains(QStringLiteral("validated"))) << listed().toStdString();
   }
 };
+
+/// Two figures against one limit were shown: the image's alone, and the checks'.
+TEST_F(ReviewWindowTest, BarResultChecksAndReport_StateOneQuality) {
+  open(RunExample::get().session);
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([this] { return !window_.document().session().runs.empty() && resting(); }));
+  const std::shared_ptr<const sessions::LoadedCase> loaded = window_.state().currentCase();
+  const sessions::PoseQuality quality =
+      sessions::runQuality(window_.document().session(), loaded, *window_.state().snapshot());
+  const sessions::PrecisionFigure* worst = quality.worst();
+  ASSERT_NE(worst, nullptr);
+  const auto& bar = window_.frame().verdict();
+  ASSERT_TRUE(wait([&] { return bar.text().contains(QStringLiteral("known to")); }));
+  EXPECT_TRUE(test::has(bar.text(), quality.text().c_str()));
+  const auto labels = window_.dock(QStringLiteral("result"))->findChildren<QLabel*>();
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [&](const QLabel* each) {
+    return each->text() == fromText(worst->text());
+  }));
+  QTest::keyClick(&window_, Qt::Key_F9);
+  ASSERT_TRUE(checked());
+  for (const sessions::Check& check : panel().controller().checks())
+    if (check.id == worst->check.id) {
+      EXPECT_EQ(check.figure, worst->found);
+    }
+  EXPECT_EQ(bar.verdict().tone == VerdictTone::kCaution, hands().failedCount() > 0);
+}
+
+TEST_F(ReviewWindowTest, ChangedOptions_AreOutdatedInBarAndBanner) {
+  runAndValidate();
+  const auto& bar = window_.frame().verdict();
+  ASSERT_TRUE(wait([&] { return bar.verdict().head == QStringLiteral("Validated"); }));
+  EXPECT_EQ(bar.verdict().step, Step::kExportPose);
+  sessions::Session changed = window_.document().session();
+  changed.options = {{"pnp.min_inliers", std::int64_t{20}}};
+  ASSERT_TRUE(window_.document().edit(changed, QStringLiteral("options")));
+  const char* outdated = "outdated: the run was made with other options";
+  EXPECT_TRUE(test::has(banner(), outdated));
+  for (const Workspace workspace : {Workspace::kReview, Workspace::kRun}) {
+    window_.workspaces().show(workspace);
+    ASSERT_TRUE(wait([&] { return bar.verdict().head == QStringLiteral("Validated; outdated"); }));
+    EXPECT_TRUE(test::has(bar.text().toLower(), outdated));
+  }
+}
 
 TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
   runAndValidate();

@@ -19,6 +19,19 @@ Situation ready() {
   return situation;
 }
 
+/// Three sigma of this size, where 0.4 mm are required.
+sessions::PoseQuality knownTo(double found_mm) {
+  sessions::PoseQuality quality;
+  quality.figures = {{{"covariance_lateral", "Covariance"},
+                      "across the view axis",
+                      "mm",
+                      0.4,
+                      found_mm,
+                      found_mm,
+                      " at the end effector"}};
+  return quality;
+}
+
 std::shared_ptr<sessions::LocalizationTrace> ended(LocalizationStatus status) {
   auto trace = std::make_shared<sessions::LocalizationTrace>(*test::exampleRun());
   trace->status = status;
@@ -71,27 +84,92 @@ TEST(Verdict, PoseBeyondTheRequirement_IsNoSuccess) {
   Situation situation = ready();
   situation.run = RunState::kFinished;
   situation.trace = ended(LocalizationStatus::kConverged);
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kPlain) << "not measured yet";
+  situation.quality = knownTo(0.3676);
   EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
-  situation.sigma_excess =
-      QStringLiteral("1.2 mm across the view axis, 3 times the 0.4 mm required");
-  const Verdict verdict = verdictOf(situation);
-  EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
-  EXPECT_TRUE(test::has(verdict.sentence, "Three sigma: 1.2 mm across the view axis"));
+  EXPECT_TRUE(test::has(
+      verdictOf(situation).sentence,
+      "Pose known to 0.37 of 0.40 mm (3 sigma across the view axis at the end effector)."));
+  situation.quality = knownTo(1.22);
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kCaution);
+  EXPECT_TRUE(test::has(verdictOf(situation).sentence, "1.22 of 0.40 mm"));
+  situation.quality = sessions::PoseQuality();
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kCaution) << "nothing is known";
 }
 
-TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdated) {
+TEST(Verdict, FailedCheck_IsNoSuccessInAnyWorkspace) {
   Situation situation = ready();
-  situation.workspace = Workspace::kReview;
   situation.run = RunState::kFinished;
   situation.trace = ended(LocalizationStatus::kConverged);
+  situation.quality = knownTo(0.1);
+  situation.review.current = true;
+  situation.review.tested = true;
+  situation.review.failed = 2;
+  for (const Workspace workspace : {Workspace::kRun, Workspace::kReview}) {
+    situation.workspace = workspace;
+    EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kCaution);
+    EXPECT_TRUE(test::has(verdictOf(situation).sentence, "2 checks failed"));
+  }
+}
+
+TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdatedInRunAndReview) {
+  Situation situation = ready();
+  situation.run = RunState::kFinished;
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.quality = knownTo(0.1);
   situation.review.state = sessions::ReviewState::kValidated;
   situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
-  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
-  situation.stale = QStringLiteral("The shown run was made with other options.");
+  for (const Workspace workspace : {Workspace::kRun, Workspace::kReview}) {
+    situation.workspace = workspace;
+    situation.review.outdated.clear();
+    situation.stale.clear();
+    EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
+    EXPECT_EQ(verdictOf(situation).head, QStringLiteral("Validated"));
+    EXPECT_EQ(verdictOf(situation).step, Step::kExportPose);
+    EXPECT_EQ(verdictOf(situation).others.front(), Step::kReport);
+    situation.review.outdated = QStringLiteral("the run was made with other options");
+    situation.stale = QStringLiteral("The run was made with other options.");
+    const Verdict verdict = verdictOf(situation);
+    EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
+    EXPECT_EQ(verdict.head, QStringLiteral("Validated; outdated"));
+    EXPECT_TRUE(test::has(verdict.sentence, "Outdated: the run was made with other options."));
+  }
+}
+
+TEST(Verdict, ValidationWithAWaivedCheck_IsCaution) {
+  Situation situation = ready();
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.quality = knownTo(0.1);
+  situation.review.state = sessions::ReviewState::kValidated;
+  situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
+  situation.review.failed = 1;
+  EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kCaution);
+  EXPECT_TRUE(test::has(verdictOf(situation).sentence, "1 check failed, waived."));
+}
+
+TEST(Verdict, ValidationByOnePersonOfTwo_IsToBeApproved) {
+  Situation situation = ready();
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.quality = knownTo(0.1);
+  situation.review.state = sessions::ReviewState::kConverged;
+  situation.review.decision =
+      QStringLiteral("by A. Operator, 09:02 UTC. A second person must approve.");
   const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("To be approved"));
   EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
-  EXPECT_EQ(verdict.head, QStringLiteral("Validated; outdated"));
-  EXPECT_TRUE(test::has(verdict.sentence, "other options"));
+  EXPECT_EQ(verdict.step, Step::kReview);
+}
+
+TEST(Verdict, RunUnderWayOfAValidatedCase_IsTheRun) {
+  Situation situation = ready();
+  situation.review.state = sessions::ReviewState::kValidated;
+  situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.in_batch = true;
+  EXPECT_EQ(verdictOf(situation).head, QStringLiteral("Running."));
+  situation.in_batch = false;
+  situation.trace.reset();
+  EXPECT_EQ(verdictOf(situation).head, QStringLiteral("Ready to run.")) << "it was dropped";
 }
 
 TEST(Verdict, AnnotationsThatAreTooCoarse_AreNoSuccess) {
@@ -121,10 +199,10 @@ TEST(Verdict, HaltedRun_GoesOn) {
 TEST(Verdict, ConvergedRun_IsGoodAndNotYetValidated) {
   Situation situation = ready();
   situation.trace = ended(LocalizationStatus::kConverged);
+  situation.quality = knownTo(0.1);
   const Verdict verdict = verdictOf(situation);
   EXPECT_EQ(verdict.tone, VerdictTone::kGood);
   EXPECT_EQ(verdict.head, QStringLiteral("Converged"));
-  EXPECT_TRUE(test::has(verdict.sentence, "1 sigma at the camera"));
   EXPECT_TRUE(test::has(verdict.sentence, "Not yet validated."));
   EXPECT_EQ(verdict.step, Step::kReview);
 }
@@ -132,9 +210,9 @@ TEST(Verdict, ConvergedRun_IsGoodAndNotYetValidated) {
 TEST(Verdict, StaleRun_IsRunAgain) {
   Situation situation = ready();
   situation.trace = ended(LocalizationStatus::kConverged);
-  situation.stale = QStringLiteral("The shown run was made with other options.");
+  situation.stale = QStringLiteral("The run was made with other options.");
   const Verdict verdict = verdictOf(situation);
-  EXPECT_EQ(verdict.head, QStringLiteral("Converged; settings changed since."));
+  EXPECT_EQ(verdict.head, QStringLiteral("Converged; outdated."));
   EXPECT_EQ(verdict.step, Step::kRunAgain);
   EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
 }
@@ -171,6 +249,7 @@ TEST(Verdict, NotSupportedPose_IsRejectedAndOffersAWiderSearch) {
 
 TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
   Situation situation = ready();
+  situation.quality = knownTo(0.1);
   situation.workspace = Workspace::kReview;
   situation.trace = ended(LocalizationStatus::kConverged);
   situation.review.current = true;
@@ -185,10 +264,16 @@ TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
   EXPECT_EQ(verdict.sentence, QStringLiteral("3 seeds done; all end at this pose."));
   EXPECT_EQ(verdict.step, Step::kStopTest);
   situation.review.testing = false;
-  situation.review.state = sessions::ReviewState::kValidated;
-  situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
+  situation.review.tested = true;
+  situation.review.failed = 0;
   verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.sentence, QStringLiteral("All checks passed."));
   EXPECT_EQ(verdict.tone, VerdictTone::kGood);
+  EXPECT_EQ(verdict.step, Step::kValidate);
+  situation.review.state = sessions::ReviewState::kRejected;
+  situation.review.decision = QStringLiteral("by A. Operator: blurred");
+  verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.tone, VerdictTone::kBad);
   EXPECT_EQ(verdict.step, Step::kNextCase);
 }
 

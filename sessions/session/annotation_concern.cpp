@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/session/pose_quality.h"
+#include "sessions/session/annotation_concern.h"
 
-#include "sessions/evaluation/pose_error.h"
 #include "sessions/session/check.h"
-#include "sessions/session/check_limits.h"
 
 namespace boresight::sessions {
-
-std::string runSigmaExcess(const Session& session, const SessionCase& session_case,
-                           const LocalizationTrace& run) {
-  if (!run.converged()) return "";
-  const double sigmas = checkLimits(session.review.preset, session.review.limits).sigmas;
-  return sigmaExcessText(sigmas * sigmas * run.covariance, session_case.camera_from_end_effector,
-                         requirementOf(session, session_case));
-}
 
 std::string annotationConcern(const CaseAnnotationsSolution& solution) {
   constexpr double kMostNoise = 3.0;

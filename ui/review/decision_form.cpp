@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/decision_form.h"
+
+#include <utility>
+
+#include <QtWidgets>
+
+#include "ui/models/text.h"
+
+namespace boresight::ui {
+
+using sessions::Decision;
+using sessions::Verdict;
+
+namespace {
+
+constexpr int kDigestDigits = 12;
+
+QString sentence(QString clause) {
+  if (clause.isEmpty()) return clause;
+  clause[0] = clause[0].toUpper();
+  const bool ended = clause.endsWith(QLatin1Char('.')) || clause.endsWith(QLatin1Char('?'));
+  return ended ? clause : clause + QLatin1Char('.');
+}
+
+QString entry(const QString& time, const QString& what, const std::string& by,
+              const std::string& comment) {
+  QString when = time;
+  when.replace(QLatin1Char('T'), QLatin1Char(' ')).remove(QLatin1Char('Z'));
+  return DecisionForm::tr("<b>%1 by %2</b> · %3 UTC<br>%4")
+      .arg(what, fromText(by).toHtmlEscaped(), when, fromText(comment).toHtmlEscaped());
+}
+
+QString verdictText(const Decision& decision) {
+  return decision.verdict == Verdict::kValidated  ? DecisionForm::tr("★ Validated")
+         : decision.verdict == Verdict::kRejected ? DecisionForm::tr("⊘ Rejected")
+                                                  : DecisionForm::tr("↺ Withdrawn");
+}
+
+/// Failed checks that were passed over, each with its reason.
+QString waiversHtml(const Decision& decision) {
+  QString html;
+  for (const sessions::JudgedCheck& judged : decision.checks)
+    if (!judged.waiver_reason.empty())
+      html += DecisionForm::tr("<br>✗ %1 waived: %2")
+                  .arg(fromText(judged.check.title).toHtmlEscaped(),
+                       fromText(judged.waiver_reason).toHtmlEscaped());
+  return html;
+}
+
+QString decisionHtml(const Decision& decision) {
+  if (decision.approval)
+    return entry(fromText(decision.approval->time), DecisionForm::tr("★ Approved"),
+                 decision.approval->by, decision.approval->comment);
+  QString html =
+      entry(fromText(decision.time), verdictText(decision), decision.by, decision.comment);
+  if (!decision.digest.empty())
+    html += DecisionForm::tr(" (run %1)").arg(fromText(decision.digest).left(kDigestDigits));
+  else if (decision.pose)
+    html += DecisionForm::tr(" (the annotations)");
+  return html + waiversHtml(decision);
+}
+
+QString doneText(ReviewController::Act act) {
+  using Act = ReviewController::Act;
+  return act == Act::kValidate  ? DecisionForm::tr("%1 is validated.")
+         : act == Act::kApprove ? DecisionForm::tr("The validation of %1 is approved.")
+         : act == Act::kReject  ? DecisionForm::tr("%1 is rejected.")
+                                : DecisionForm::tr("The decision on %1 is withdrawn.");
+}
+
+}  // namespace
+
+DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller) {
+  ui_.setupUi(this);
+  buttons_ = {{Act::kValidate, ui_.validate},
+              {Act::kApprove, ui_.approve},
+              {Act::kReject, ui_.reject},
+              {Act::kTakeBack, ui_.takeBack}};
+  for (const auto& [act, button] : buttons_) {
+    tips_[act] = button->toolTip();
+    connect(button, &QPushButton::clicked, this, [this, chosen = act] { decide(chosen, false); });
+  }
+  connect(ui_.validateNext, &QPushButton::clicked, this, [this] { decide(Act::kValidate, true); });
+  for (QPushButton* each : {ui_.validate, ui_.validateNext, ui_.approve, ui_.reject, ui_.takeBack})
+    each->setMinimumWidth(fontMetrics().horizontalAdvance(each->text()) + 16);
+  for (QLineEdit* each : {ui_.decisionName, ui_.decisionComment}) {
+    each->installEventFilter(this);
+    connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
+    connect(each, &QLineEdit::returnPressed, this, [this] {
+      if (question_) ask(question_->act);
+    });
+  }
+  ui_.reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  connect(ui_.waiver, &QLineEdit::editingFinished, this, [this] {
+    if (!failed_check_.empty()) controller_.setReason(failed_check_, ui_.waiver->text().trimmed());
+  });
+  connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
+  connect(&controller_, &ReviewController::reviewStatusChanged, this, &DecisionForm::followCase);
+  followCase();
+}
+
+void DecisionForm::setFailedCheck(const std::string& id, const QString& title,
+                                  const QString& reason) {
+  failed_check_ = id;
+  ui_.waiver->setVisible(!id.empty());
+  ui_.waiver->setPlaceholderText(tr("Why does '%1' not matter?").arg(title));
+  if (!ui_.waiver->hasFocus()) ui_.waiver->setText(reason);
+}
+
+void DecisionForm::setNote(const QString& html) {
+  note_ = html;
+  showReading();
+}
+
+sessions::Signature DecisionForm::signature() const {
+  return {ui_.decisionName->text().trimmed().toStdString(),
+          ui_.decisionComment->text().trimmed().toStdString()};
+}
+
+void DecisionForm::ask(Act act) {
+  const sessions::Signature who = signature();
+  QLineEdit* missing = who.by.empty()        ? ui_.decisionName
+                       : who.comment.empty() ? ui_.decisionComment
+                                             : nullptr;
+  if (!missing) {
+    decide(act, true);
+    return endQuestion();
+  }
+  question_ = {act, controller_.caseId()};
+  ui_.decisionComment->setPlaceholderText(act == Act::kReject
+                                              ? tr("Why do you reject this result?")
+                                              : tr("Why do you validate this pose?"));
+  missing->setFocus();
+}
+
+void DecisionForm::endQuestion() {
+  question_.reset();
+  ui_.decisionComment->setPlaceholderText(tr("Why do you validate this pose?"));
+  Q_EMIT questionEnded();
+}
+
+void DecisionForm::decide(Act act, bool then_next) {
+  const QString id = fromText(controller_.caseId());
+  const QString following = then_next ? nextCase() : QString();  // as things are listed now
+  const QString reason = controller_.obstacle(act, signature());
+  if (!reason.isEmpty() || !controller_.decide(act, signature())) {
+    refusal_ = reason.isEmpty() ? tr("No decision was stored.") : sentence(reason);
+    return showReading();
+  }
+  ui_.decisionComment->clear();  // the next decision has a comment of its own
+  const bool last = then_next && following.isEmpty();
+  Q_EMIT decided(doneText(act).arg(id) + (last ? tr(" No other case is undecided.") : QString()));
+  if (!following.isEmpty()) Q_EMIT nextRequested(following);
+}
+
+/// A reason is given for one case.
+void DecisionForm::followCase() {
+  if (std::exchange(shown_id_, controller_.caseId()) != controller_.caseId())
+    ui_.decisionComment->clear();
+  if (question_ && question_->case_id != controller_.caseId()) question_.reset();
+  showWhatIsPossible();
+}
+
+bool DecisionForm::eventFilter(QObject* watched, QEvent* event) {
+  const bool escape =
+      event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape;
+  if (!escape || !question_) return QWidget::eventFilter(watched, event);
+  endQuestion();
+  return true;
+}
+
+/// What a person most likely wants to do, whose obstacle is told without being asked.
+ReviewController::Act DecisionForm::nextStep() const {
+  const sessions::ReviewStatus status = controller_.reviewStatus();
+  if (status.awaits_approval) return Act::kApprove;
+  return status.holds() ? Act::kTakeBack : Act::kValidate;
+}
+
+void DecisionForm::showWhatIsPossible() {
+  refusal_.clear();
+  const sessions::Signature who = signature();
+  for (const auto& [act, each] : buttons_) {
+    const QString reason = controller_.obstacle(act, who);
+    each->setEnabled(reason.isEmpty());
+    each->setToolTip(reason.isEmpty()
+                         ? tips_[act]
+                         : tr("%1. Not available: %2").arg(tips_[act], sentence(reason)));
+  }
+  ui_.validateNext->setEnabled(ui_.validate->isEnabled());
+  ui_.validateNext->setVisible(controller_.hasOtherCases());
+  // A second approval is offered only where the session requires it.
+  buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
+  const bool told = nextStep() != Act::kTakeBack;
+  obstacle_ = told ? sentence(controller_.obstacle(nextStep(), who)) : QString();
+  showReading();
+}
+
+/// One page that scrolls: of several labels in so little room one would be cut off.
+void DecisionForm::showReading() {
+  QStringList parts;
+  for (const QString& reason : {refusal_, obstacle_})
+    if (!reason.isEmpty() && !parts.contains(QStringLiteral("⚠ %1").arg(reason.toHtmlEscaped())))
+      parts << QStringLiteral("⚠ %1").arg(reason.toHtmlEscaped());
+  if (controller_.awaitsConvergenceTest() && nextStep() == Act::kValidate)
+    parts << tr("○ No convergence test: a competing pose is not excluded.");
+  if (!note_.isEmpty()) parts << note_;
+  for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
+  if (controller_.history().empty()) parts << tr("<i>No decision on this case yet.</i>");
+  const QString html = parts.join(QStringLiteral("<hr>"));
+  if (std::exchange(read_, html) != html) ui_.reading->setHtml(html);
+}
+
+}  // namespace boresight::ui

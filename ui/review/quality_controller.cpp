@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/review/quality_controller.h"
+
+#include <utility>
+
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+
+namespace boresight::ui {
+namespace {
+
+const QString kKey = QStringLiteral("pose quality");
+
+}  // namespace
+
+QualityController::QualityController(Document& document, ViewState& state, TaskRunner& tasks,
+                                     QObject* parent)
+    : QObject(parent), document_(document), state_(state), tasks_(tasks) {
+  connect(&document_, &Document::changed, this, &QualityController::follow);
+  state_.onChange(ViewChange::kCase | ViewChange::kSnapshot, this, &QualityController::follow);
+  follow();
+}
+
+void QualityController::follow() {
+  Question question;
+  const ViewState::SnapshotPtr& run = state_.snapshot();
+  if (state_.currentCase() && run && run->finished && run->converged())
+    question = {state_.currentCase(), run, document_.session().review};
+  if (question == question_) return;
+  question_ = std::move(question);
+  quality_.reset();
+  tasks_.cancel(kKey);
+  Q_EMIT changed();
+  if (!question_.run) return;
+  tasks_.start(
+      kKey,
+      [session = document_.session(), asked = question_](const std::stop_token&) {
+        return sessions::runQuality(session, asked.loaded, *asked.run);
+      },
+      [this](sessions::PoseQuality quality) {
+        quality_ = std::move(quality);
+        Q_EMIT changed();
+      });
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <QObject>
+
+#include "sessions/review/pose_quality.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+
+class Document;
+class TaskRunner;
+
+/// The quality of the shown run's pose by the session's requirement and limits, measured off the
+/// UI's thread.
+class QualityController : public QObject {
+  Q_OBJECT
+
+ public:
+  QualityController(Document& document, ViewState& state, TaskRunner& tasks,
+                    QObject* parent = nullptr);
+
+  /// Nothing for a run that did not converge, and while it is measured.
+  const std::optional<sessions::PoseQuality>& quality() const { return quality_; }
+
+ Q_SIGNALS:
+  void changed();
+
+ private:
+  /// All that the quality depends on.
+  struct Question {
+    ViewState::CasePtr loaded;
+    ViewState::SnapshotPtr run;
+    sessions::ReviewSettings settings;
+
+    bool operator==(const Question&) const = default;
+  };
+
+  void follow();
+
+  Document& document_;
+  ViewState& state_;
+  TaskRunner& tasks_;
+  Question question_;
+  std::optional<sessions::PoseQuality> quality_;
+};
+
+}  // namespace boresight::ui
