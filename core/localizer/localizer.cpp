@@ -27,6 +27,9 @@ PassPlan Localizer::plan() const {
     case Phase::kEdges:  // the edges of the image
     case Phase::kEnded:
       break;
+    case Phase::kNearSearch:  // refine a seed that is near the truth
+      plan.kind = PassKind::kNearSearch;
+      break;
     case Phase::kSearch:  // search the whole object over the seed's uncertainty
       plan.kind = PassKind::kSearch;
       break;
@@ -57,6 +60,11 @@ StepReport Localizer::decide(StepReport report) {
   switch (phase_) {
     case Phase::kEdges:
       phase_ = searches() ? Phase::kSearch : Phase::kIterate;
+      if (startsNear()) phase_ = Phase::kNearSearch;
+      break;
+    case Phase::kNearSearch:
+      if (workspace().candidates.empty()) return searchAll(report);
+      startComparison();
       break;
     case Phase::kSearch:
       startComparison();
@@ -113,6 +121,8 @@ StepReport Localizer::weighed() {
 StepReport Localizer::accepted(LocalizationStatus status, const StepReport& report) {
   if (status != LocalizationStatus::kConverged)
     return fail({Ruling::Next::kFailed, status, Stage::kSupport, false, attempt_.record()});
+  if (searches() && !comparison_.convinces(attempt_.camera_from_station(), workspace().probability))
+    return follow(comparison_.takeFailure(pass_.context()), status, report);
   show({Ruling::Next::kPose, status, Stage::kSupport, false, attempt_.record()});
   covariance_ =
       withUndetermined(attempt_.covariance(), pass_.outcome().weak, problem().uncertainty);
@@ -147,10 +157,18 @@ StepReport Localizer::fail(const Ruling& ruling) {
   return report;
 }
 
+/// The whole object is searched next, as the seed alone does not convince.
+StepReport Localizer::searchAll(const StepReport& report) {
+  attempt_ = Attempt(attempt_.index() + 1, seedOf(problem()));
+  phase_ = Phase::kSearch;
+  return report;
+}
+
 StepReport Localizer::follow(PoseComparison::Next next, LocalizationStatus status,
                              const StepReport& report) {
   const int index = attempt_.index() + 1;
   if (next == PoseComparison::Next::kConclude) return finish(status, report);
+  if (next == PoseComparison::Next::kSearch) return searchAll(report);
   iterate(next == PoseComparison::Next::kTry ? comparison_.next(index, pass_.context())
                                              : comparison_.best(index, options()));
   return report;

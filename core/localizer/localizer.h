@@ -24,7 +24,8 @@ namespace boresight {
 ///
 /// The pass runs the stages; the policies decide which pass comes next: the iterations of an
 /// attempt, and the poses from which attempts start. A run that searches compares several refined
-/// poses and takes the one with the best evidence (PoseComparison). At the end the final pose is
+/// poses and takes the one with the best evidence (PoseComparison); from a near seed it first
+/// refines the seed alone, and ends there when the pose is probable. At the end the final pose is
 /// compared with other poses that show about the same edges.
 ///
 /// A caller with threads may share out the independent tasks of a stage:
@@ -63,9 +64,10 @@ class Localizer {
   /// the same time need different tasks and different workers.
   void runTask(int task, int worker) { pass_.runTask(task, worker); }
 
-  /// Restarts from another seed with other options, without reallocating. kArenaTooSmall when the
-  /// new options need more memory.
-  Status restart(const Pose& camera_from_station_seed, const LocalizerOptions& options);
+  /// Restarts with another problem (such as the next image of a sequence) and other options,
+  /// without reallocating; what the problem points to must outlive the run. kInvalidPose,
+  /// kInvalidOption, kArenaTooSmall (it needs more memory): then the old run goes on.
+  Status restart(const LocalizationProblem& problem, const LocalizerOptions& options);
 
   /// Whether the next step starts an iteration.
   bool isBetweenIterations() const;
@@ -104,6 +106,7 @@ class Localizer {
   /// The policy that plans the next pass.
   enum class Phase : std::uint8_t {
     kEdges = 0,
+    kNearSearch,
     kSearch,
     kIterate,
     kWeigh,
@@ -120,12 +123,14 @@ class Localizer {
   StepReport accepted(LocalizationStatus status, const StepReport& report);
   StepReport compared(const StepReport& report);
   StepReport fail(const Ruling& ruling);
+  StepReport searchAll(const StepReport& report);
   StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);
   void noteHypotheses();
   StepReport show(const Ruling& ruling);
   Agreement agreement() const;
   StepReport finish(LocalizationStatus status, StepReport report);
   void iterate(const Attempt& attempt);
+  bool startsNear() const;
   void startComparison();
   bool searches() const { return pass_.searches(); }
 

@@ -33,10 +33,8 @@ Status Localizer::begin(const LocalizationProblem& problem, const LocalizerOptio
   return status;
 }
 
-Status Localizer::restart(const Pose& camera_from_station_seed, const LocalizerOptions& options) {
-  LocalizationProblem problem = pass_.problem();
-  problem.camera_from_station_seed = camera_from_station_seed;
-  if (!isUsable(PosePrior{camera_from_station_seed, problem.uncertainty}))
+Status Localizer::restart(const LocalizationProblem& problem, const LocalizerOptions& options) {
+  if (!isUsable(PosePrior{problem.camera_from_station_seed, problem.uncertainty}))
     return Status::kInvalidPose;
   std::size_t bytes = 0;
   Status status = requiredBytes(sizeOf(problem), options, workers_, bytes, kernels_);
@@ -61,11 +59,18 @@ bool Localizer::changeOptions(const LocalizerOptions& options) {
   return true;
 }
 
-/// The attempt of the search's first candidate.
+/// Whether the run begins with the seed itself before it searches the whole object.
+bool Localizer::startsNear() const {
+  return searches() && options().refinement.enabled && isNear(seedOf(problem()), pass_.context());
+}
+
+/// The attempt of the refined seed, or of the search's first candidate.
 void Localizer::startComparison() {
-  comparison_ = PoseComparison(workspace().candidates, seedOf(problem()));
+  const bool is_near = attempt_.index() == 0 && startsNear();
+  comparison_ = is_near ? PoseComparison::ofNearSeed(workspace().candidates, seedOf(problem()))
+                        : PoseComparison(workspace().candidates, seedOf(problem()));
   noteHypotheses();
-  iterate(comparison_.next(0, pass_.context()));
+  iterate(comparison_.next(attempt_.index(), pass_.context()));
 }
 
 /// Shows the hypotheses so far.

@@ -80,6 +80,7 @@ void Pass::begin(const PassPlan& plan) {
     case PassKind::kEdges:
       stage_ = Stage::kEdges;
       break;
+    case PassKind::kNearSearch:
     case PassKind::kSearch:
       dropOtherEdges();
       stage_ = Stage::kSearch;

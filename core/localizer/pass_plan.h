@@ -19,15 +19,16 @@
 namespace boresight {
 
 enum class PassKind : std::uint8_t {
-  kEdges = 0,  ///< detects the edges of the image; once per run
-  kSearch,     ///< searches the whole object over the seed's uncertainty
-  kMatch,      ///< renders, selects templates, matches them, solves for the pose
-  kRefine,     ///< renders, refines the pose on the edges of the image
-  kEvidence,   ///< measures the image's evidence for the pose of the record
-  kSupport,    ///< the same for the final pose, with the width of its edges and the focal length
-  kCompare,    ///< compares the final pose with others that show about the same edges
-  kMirror,     ///< compares the final pose with the mesh's mirror image
-  kWider,      ///< compares the final pose with those within twice the seed's uncertainty
+  kEdges = 0,   ///< detects the edges of the image; once per run
+  kNearSearch,  ///< refines the seed as a candidate of the search
+  kSearch,      ///< searches the whole object over the seed's uncertainty
+  kMatch,       ///< renders, selects templates, matches them, solves for the pose
+  kRefine,      ///< renders, refines the pose on the edges of the image
+  kEvidence,    ///< measures the image's evidence for the pose of the record
+  kSupport,     ///< the same for the final pose, with the width of its edges and the focal length
+  kCompare,     ///< compares the final pose with others that show about the same edges
+  kMirror,      ///< compares the final pose with the mesh's mirror image
+  kWider,       ///< compares the final pose with those within twice the seed's uncertainty
 };
 
 /// Input of a pass.

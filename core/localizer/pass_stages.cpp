@@ -49,7 +49,9 @@ StepReport Pass::stepEdges() {
 /// Yields no candidate when the scene is outside the image.
 StepReport Pass::stepSearch() {
   PoseSearch& search = memory_.search;
-  const bool works = stage_begun_ || search.begin(searched_, memory_.renderer);
+  const bool works = stage_begun_ || (plan_.kind == PassKind::kNearSearch
+                                          ? search.beginAtSeed(searched_, memory_.renderer)
+                                          : search.begin(searched_, memory_.renderer));
   stage_begun_ = true;
   if (works && !search.step()) return StepReport::of(Stage::kSearch, false);
   workspace_.candidates = search.candidates();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "core/localizer/acceptance.h"
 #include "core/localizer/pose_change.h"
 #include "core/localizer/schedule.h"
 
@@ -26,12 +27,36 @@ constexpr double kSame_px = 0.6;
 /// Motion of a restart, px of the fine level, root mean square.
 constexpr double kRestart_px = 7.0;
 
+/// Largest motion of the scene within a near seed's uncertainty, as a share of its longer side.
+constexpr double kNear = 0.1;
+
 /// Whether a refinement on edges at the level converges from the candidate's pose.
 bool isWithinReach(const PoseCandidate& candidate, int level) {
   return candidate.error_px <= kOfRadius * kFirstRadius_px * static_cast<double>(1 << level);
 }
 
 }  // namespace
+
+bool isNear(const Seed& seed, const RunContext& run) {
+  Vector6d limits;
+  limits << seed.uncertainty.rotation_rad, seed.uncertainty.translation_m;
+  double squared_px = 0.0;
+  for (int axis = 0; axis < 6; ++axis) {
+    const Vector6d offset = Vector6d::Unit(axis) * limits[axis];
+    const double motion_px = displacementBetween_px(
+        seed.camera_from_station,
+        displacedAboutPivot(seed.camera_from_station, offset, seed.uncertainty.pivot_in_camera_m),
+        run.scene, run.camera);
+    squared_px += motion_px * motion_px;
+  }
+  const double near_px = kNear * longerSide_px(seed.camera_from_station, run.scene, run.camera);
+  return squared_px <= near_px * near_px;
+}
+
+bool PoseComparison::convinces(const Pose& camera_from_station, double probability) const {
+  return source_ != Source::kNearSeed ||
+         (probability >= kUndoubted && !leftUncertainty(seed_, camera_from_station, 1.0));
+}
 
 SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& seed,
                                  const BoundingBox& scene) {
@@ -49,6 +74,8 @@ SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& se
 /// Whether the source has a further start.
 bool PoseComparison::offers(Source source, const RunContext& run) const {
   switch (source) {
+    case Source::kNearSeed:
+      return next_ == 0;
     case Source::kCandidates:
       return firstCandidateFrom(next_) < static_cast<int>(candidates_.size());
     case Source::kTemplates:
@@ -89,7 +116,7 @@ bool PoseComparison::findNext(const RunContext& run) {
 
 Attempt PoseComparison::next(int attempt, const RunContext& run) {
   Attempt started = start(attempt, run);
-  if (run.options.refinement.enabled) started.draft();
+  if (run.options.refinement.enabled && !returns_) started.draft();
   return started;
 }
 
@@ -101,6 +128,7 @@ Attempt PoseComparison::start(int attempt, const RunContext& run) {
   current_.number = number;
   const bool refines = run.options.refinement.enabled;
   switch (source_) {
+    case Source::kNearSeed:
     case Source::kCandidates: {
       const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(number)];
       // A direction that the image does not determine, such as a turn about an axis of symmetry,
@@ -169,6 +197,7 @@ PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,
 }
 
 PoseComparison::Next PoseComparison::takeFailure(const RunContext& run) {
+  if (source_ == Source::kNearSeed) return Next::kSearch;
   if (returns_) return Next::kConclude;
   if (findNext(run)) return Next::kTry;
   return hasPose() ? Next::kReturn : Next::kConclude;

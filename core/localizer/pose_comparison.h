@@ -15,7 +15,8 @@
 
 namespace boresight {
 
-/// Search policy: refines several poses of a run, measures the evidence of each, and takes the one
+/// Search policy. Of a near seed it takes the seed's own refinement when that convinces. Otherwise
+/// it refines several poses of a run, measures the evidence of each, and takes the one
 /// with the best score. Hypotheses come from the candidates of the whole-object search, refined on
 /// edges; from templates matched around the first of them, where the object is too large for the
 /// search to resolve it; from the seed, where no pose is probable; and from restarts of the best
@@ -28,6 +29,7 @@ class PoseComparison {
   enum class Next : std::uint8_t {
     kTry = 0,   ///< the attempt of next()
     kReturn,    ///< the attempt of best(): its last iteration again
+    kSearch,    ///< the whole object is searched, and a new comparison begins with its candidates
     kConclude,  ///< the run ends: with the pose of best(), or as a failure
   };
   static constexpr int kRestarts = 4;         ///< along two directions, to both sides
@@ -40,6 +42,14 @@ class PoseComparison {
   PoseComparison(std::span<const PoseCandidate> candidates, const Seed& seed)
       : candidates_(candidates.first(std::min<std::size_t>(candidates.size(), kMostCandidates))),
         seed_(seed) {}
+  /// The comparison of a seed that is near the truth: takes the only candidate, the refined seed,
+  /// if it convinces; the whole object is searched otherwise.
+  static PoseComparison ofNearSeed(std::span<const PoseCandidate> candidates, const Seed& seed) {
+    PoseComparison comparison(candidates, seed);
+    comparison.source_ = Source::kNearSeed;
+    comparison.returns_ = true;
+    return comparison;
+  }
 
   /// The attempt of the next start.
   Attempt next(int attempt, const RunContext& run);
@@ -48,11 +58,15 @@ class PoseComparison {
   /// An attempt has converged on a pose; `measured` has its evidence, score and probability.
   Next takePose(const Attempt& attempt, const Pose& camera_from_station_before,
                 const PoseHypothesis& measured, const WeakDirections& weak, const RunContext& run);
-  /// An attempt has failed, left the seed's uncertainty, or reached a known hypothesis.
+  /// An attempt has failed, left the seed's uncertainty, reached a known hypothesis, or does not
+  /// convince.
   Next takeFailure(const RunContext& run);
+  /// Whether the final pose, of this probability, needs no further search: after a search always;
+  /// without one if its probability is kUndoubted and it lies within the stated uncertainty.
+  bool convinces(const Pose& camera_from_station, double probability) const;
   /// Whether there is a hypothesis.
   bool hasPose() const { return hypotheses_.size() > 0; }
-  /// Whether the attempt of best() has been started.
+  /// Whether the attempt under way is the last one: that of best(), or of the seed itself.
   bool returns() const { return returns_; }
   /// The attempt that repeats the last iteration of the best hypothesis.
   Attempt best(int attempt, const LocalizerOptions& options);
@@ -67,7 +81,14 @@ class PoseComparison {
   double gap(const RunContext& run) const;
 
  private:
-  enum class Source : std::uint8_t { kTemplates = 0, kCandidates, kSeed, kRestarts, kNone };
+  enum class Source : std::uint8_t {
+    kNearSeed = 0,
+    kTemplates,
+    kCandidates,
+    kSeed,
+    kRestarts,
+    kNone
+  };
 
   int firstCandidateFrom(int index) const;
   bool findNext(const RunContext& run);
@@ -90,6 +111,10 @@ class PoseComparison {
   WeakDirections restarted_;  ///< of the hypothesis that restarts begin from
   Pose restarted_from_;
 };
+
+/// Whether the stated uncertainty moves the scene in the image so little, compared with its size
+/// there, that a refinement of the seed is likely to reach the right pose.
+bool isNear(const Seed& seed, const RunContext& run);
 
 /// Uncertainty of a candidate whose templates are matched, about the scene's centre: in rotation at
 /// most the seed's; in translation by the object's size and depth.

@@ -34,12 +34,14 @@ struct Round {
   double behind_nats =
       0.0;  ///< other poses whose evidence is lower than the best by more are left out
 };
-constexpr std::array<Round, 3> kRounds = {{
+constexpr std::array<Round, 4> kRounds = {{
     {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
     {1, 1, 10, 8, 0.5},
     {2, kMeasuring, PoseSearch::kMaxCandidates, 5, 0.7},
+    {1, kMeasuring, 1, 1, 0.0},  // of the seed alone
 }};
-constexpr int kLastRound = static_cast<int>(kRounds.size()) - 1;
+constexpr int kLastRound = 2;
+constexpr int kSeedRound = 3;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
 /// Poses that differ by less, in the view of their refinement, count as the same.
 constexpr double kSame_px = 1.2;
@@ -77,6 +79,18 @@ bool PoseSearch::begin(const SearchProblem& problem, EdgeRenderer& renderer) {
   if (search_.begin(problem_, view_edges_, renderer, render_)) return true;
   phase_ = Phase::kDone;
   return false;
+}
+
+bool PoseSearch::beginAtSeed(const SearchProblem& problem, EdgeRenderer& renderer) {
+  problem_ = problem;
+  renderer_ = &renderer;
+  waiting_[0] = {};
+  waiting_[0].camera_from_station = problem.camera_from_station_seed;
+  waiting_count_ = 1;
+  kept_count_ = 0;
+  round_ = kSeedRound;
+  next_ = 0;
+  return beginNext();
 }
 
 bool PoseSearch::step() {
@@ -135,7 +149,7 @@ bool PoseSearch::beginNext() {
 }
 
 bool PoseSearch::beginRound() {
-  if (round_ == kLastRound) return false;
+  if (round_ >= kLastRound) return false;
   ++round_;
   next_ = 0;
   waiting_ = kept_;

@@ -40,6 +40,8 @@ class PoseSearch {
   /// The data of the problem and the renderer (for images of kLongestView_px) must
   /// outlive the steps. False when the scene is outside the image at the seed.
   [[nodiscard]] bool begin(const SearchProblem& problem, EdgeRenderer& renderer);
+  /// The same for the seed alone, which is refined as a candidate is: for a seed near the truth.
+  [[nodiscard]] bool beginAtSeed(const SearchProblem& problem, EdgeRenderer& renderer);
   /// One bounded slice; true when candidates() is complete.
   [[nodiscard]] bool step();
 

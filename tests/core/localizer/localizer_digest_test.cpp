@@ -197,7 +197,7 @@ TEST(LocalizerDigest, Restart_GivesTheDigestOfANewRun) {
   ASSERT_EQ(run.localizer.workspace().attempts, 3);
   LocalizationProblem problem = other.problem();
   problem.camera_from_station_seed = scene.seed;
-  ASSERT_EQ(run.localizer.restart(scene.seed, withoutSearch()), Status::kOk);
+  ASSERT_EQ(run.localizer.restart(problem, withoutSearch()), Status::kOk);
   EXPECT_EQ(run.localizer.workspace().status, LocalizationStatus::kRunning);
   OwnedRun fresh(problem, withoutSearch());
   for (bool finished = false; !finished;) {
@@ -212,6 +212,19 @@ TEST(LocalizerDigest, Restart_GivesTheDigestOfANewRun) {
             fresh.localizer.workspace().edges.edge_count);
 }
 
+TEST(LocalizerDigest, RestartWithAnotherImage_GivesTheDigestOfANewRun) {
+  const Case scene = stationCase(4);
+  const Picture noise = noisePicture(512, 512, 1);
+  LocalizationProblem other = scene.problem();
+  other.image = noise.view();
+  other.uncertainty.translation_m *= 0.5;
+  OwnedRun run(other, defaultProfile());
+  run.finish();
+  ASSERT_EQ(run.localizer.restart(scene.problem(), defaultProfile()), Status::kOk);
+  run.finish();
+  EXPECT_EQ(run.localizer.digest(), digestOf(scene.problem(), defaultProfile()));
+}
+
 TEST(LocalizerDigest, RestartInTheMiddle_GivesTheDigestOfANewRun) {
   const Case scene = stationCase(4);
   const Digest expected = digestOf(scene.problem(), paperProfile());
@@ -221,9 +234,9 @@ TEST(LocalizerDigest, RestartInTheMiddle_GivesTheDigestOfANewRun) {
   Localizer localizer(scene.problem(), paperProfile(), memory);
   for (const int steps : {1, 7, 100, 333}) {
     for (int i = 0; i < steps; ++i) localizer.step();
-    ASSERT_EQ(localizer.restart(scene.seed, defaultProfile()), Status::kOk);
+    ASSERT_EQ(localizer.restart(scene.problem(), defaultProfile()), Status::kOk);
     for (int i = 0; i < steps; ++i) localizer.step();
-    ASSERT_EQ(localizer.restart(scene.seed, paperProfile()), Status::kOk);
+    ASSERT_EQ(localizer.restart(scene.problem(), paperProfile()), Status::kOk);
   }
   while (!localizer.step().finished) {
   }

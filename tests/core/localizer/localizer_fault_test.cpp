@@ -93,8 +93,8 @@ TEST(LocalizerFault, Pose) {
                [](Input& i) { i.problem.uncertainty.rotation_rad.z() = kInfinity; }});
   expectFault(
       {"negative", expected, [](Input& i) { i.problem.uncertainty.translation_m.x() = -0.01; }});
-  expectFault({"end effector", expected,
-               [](Input& i) { i.problem.end_effector_in_camera_m.x() = kNan; }});
+  expectFault(
+      {"end effector", expected, [](Input& i) { i.problem.end_effector_in_camera_m.x() = kNan; }});
   expectFault(
       {"pivot", expected, [](Input& i) { i.problem.uncertainty.pivot_in_camera_m.x() = kNan; }});
 }
@@ -132,15 +132,15 @@ TEST(LocalizerFault, RestartWithBadInputKeepsTheRun) {
   const Case scene = stationCase(1);
   OwnedRun run(scene.problem(), defaultProfile());
   for (int i = 0; i < 50; ++i) run.localizer.step();
-  Pose seed = scene.seed;
-  seed.translation_m.x() = kNan;
-  EXPECT_EQ(run.localizer.restart(seed, defaultProfile()), Status::kInvalidPose);
+  LocalizationProblem problem = scene.problem();
+  problem.camera_from_station_seed.translation_m.x() = kNan;
+  EXPECT_EQ(run.localizer.restart(problem, defaultProfile()), Status::kInvalidPose);
   LocalizerOptions options;
   options.loop.leave_factor = 0.0;
-  EXPECT_EQ(run.localizer.restart(scene.seed, options), Status::kInvalidOption);
+  EXPECT_EQ(run.localizer.restart(scene.problem(), options), Status::kInvalidOption);
   options = defaultProfile();
   options.templates.count = 1000;
-  EXPECT_EQ(run.localizer.restart(scene.seed, options), Status::kArenaTooSmall);
+  EXPECT_EQ(run.localizer.restart(scene.problem(), options), Status::kArenaTooSmall);
   run.finish();
   OwnedRun undisturbed(scene.problem(), defaultProfile());
   undisturbed.finish();

@@ -120,8 +120,8 @@ TEST(LocalizerMemory, UnalignedBlocks_Work) {
     while (!localizer.step().finished) {
     }
     EXPECT_TRUE(odd.intact());
-    const auto place = reinterpret_cast<std::uintptr_t>(
-        localizer.workspace().iteration->matches.matches.data());
+    const auto place =
+        reinterpret_cast<std::uintptr_t>(localizer.workspace().iteration->matches.matches.data());
     EXPECT_NE(place, 0u);
     EXPECT_EQ(place % Arena::kAlignment, 0u);
     EXPECT_EQ(localizer.digest(), aligned.localizer.digest());
@@ -251,7 +251,7 @@ TEST(LocalizerMemory, NothingIsAllocated) {
       Localizer localizer(problem, variant.options, memory);
       while (!localizer.step().finished) {
       }
-      const Status restarted = localizer.restart(scene.seed, variant.options);
+      const Status restarted = localizer.restart(problem, variant.options);
       std::size_t bytes = 0;
       const Status sized = requiredBytes(sizeOf(problem), variant.options, bytes);
       const auto digest = localizer.digest();

@@ -279,6 +279,39 @@ TEST_F(PoseComparisonTest, ImprobablePoses_AreFollowedByTheSeed) {
   EXPECT_EQ(comparison.hypotheses()[1].origin, HypothesisOrigin::kSeed);
 }
 
+TEST_F(PoseComparisonTest, NearSeed_IsTakenIfItConvincesAndSearchedForOtherwise) {
+  offer(1);
+  comparison = PoseComparison::ofNearSeed(candidates, seed);
+  const Attempt attempt = comparison.next(0, pass.context());
+  EXPECT_EQ(planOf(attempt).kind, PassKind::kRefine);
+  EXPECT_EQ(planOf(attempt).most_samples, 0) << "the final attempt, not a draft";
+  EXPECT_EQ(attempt.camera_from_station(), candidates[0].camera_from_station);
+  EXPECT_TRUE(comparison.returns());
+  const Pose& pose = attempt.camera_from_station();
+  EXPECT_TRUE(comparison.convinces(pose, 0.95));
+  EXPECT_FALSE(comparison.convinces(pose, 0.8));
+  EXPECT_FALSE(comparison.convinces(movedBy(seed.camera_from_station, 0.031), 0.95))
+      << "beyond the stated 30 mm";
+  EXPECT_EQ(comparison.takeFailure(pass.context()), ComparisonNext::kSearch);
+  offer(1);
+  EXPECT_TRUE(comparison.convinces(pose, 0.1)) << "after a search";
+}
+
+/// 6 mm are 36 px of the 600 px that the object spans.
+TEST_F(PoseComparisonTest, NearSeed_IsOneWhoseBoxMovesTheSceneByLessThanATenthOfItsSize) {
+  Seed stated = seed;
+  stated.uncertainty.pivot_in_camera_m = {0.0, 0.0, 0.5};
+  stated.uncertainty.rotation_rad.setZero();
+  const auto isNearWithin = [&](double x_m, double y_m) {
+    stated.uncertainty.translation_m = {x_m, y_m, 0.0};
+    return isNear(stated, pass.context());
+  };
+  EXPECT_TRUE(isNearWithin(0.006, 0.006));
+  EXPECT_FALSE(isNearWithin(0.009, 0.009));
+  EXPECT_TRUE(isNearWithin(0.009, 0.0));
+  EXPECT_FALSE(isNear(seed, pass.context())) << "30 mm and 5 deg";
+}
+
 /// To both sides of both directions, by the same motion in the image.
 TEST_F(PoseComparisonTest, BestPose_RestartsAlongItsWeakDirections) {
   offer(2);
