@@ -12,6 +12,7 @@
 #include "sessions/io/image_decoder.h"
 #include "sessions/io/labels/image_label.h"
 #include "sessions/io/labels/label_samples.h"
+#include "sessions/io/pixel_image.h"
 
 namespace boresight::sessions {
 namespace {
@@ -121,6 +122,15 @@ std::vector<std::uint8_t> colorOf(const cv::Mat& image, const std::vector<std::u
         color.push_back(table[std::min<std::size_t>(pixel[c], table.size() - 1)]);
   }
   return color;
+}
+
+/// Whether all channels are equal.
+bool isGray(const cv::Mat& pixels) {
+  if (pixels.channels() < ColorView::kChannels) return true;
+  std::vector<cv::Mat> channels;
+  cv::split(pixels, channels);
+  return cv::norm(channels[0], channels[1], cv::NORM_INF) == 0.0 &&
+         cv::norm(channels[0], channels[2], cv::NORM_INF) == 0.0;
 }
 
 /// The 8-bit value of every sample.
@@ -296,6 +306,24 @@ GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& o
   convert(file, image, table, gray);
   gray.color = colorOf(image, table);
   gray.rule += ruleText(gray, options);
+  gray.pixels_sha256 = sha256Text(gray.pixels);
+  return gray;
+}
+
+GrayImage grayImageOf(const std::filesystem::path& file, const cv::Mat& pixels) {
+  requireImageSize(file, pixels.cols, pixels.rows);
+  cv::Mat image;
+  pixels.convertTo(image, CV_16U);
+  GrayImage gray;
+  gray.file = file;
+  gray.width = image.cols;
+  gray.height = image.rows;
+  gray.channels = image.channels();
+  gray.pixels.resize(image.total());
+  const std::vector<std::uint8_t> table = sampleTable(file, gray.bit_depth, {});
+  convert(file, image, table, gray);
+  if (!isGray(pixels)) gray.color = colorOf(image, table);
+  gray.rule = ruleText(gray, {});
   gray.pixels_sha256 = sha256Text(gray.pixels);
   return gray;
 }

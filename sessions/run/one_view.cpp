@@ -42,22 +42,14 @@ Status sizeRun(const LocalizationProblem& problem, const RunPlan& plan, const Ru
 class OneView final : public SteppedRun {
  public:
   OneView(const LocalizationProblem& problem, const RunPlan& plan, const RunSettings& settings)
-      : settings_(settings), changes_(plan.changes) {
-    LocalizationTrace& trace = traces.emplace_back(beginningOf(problem, plan, settings));
-    const Status sized = sizeRun(problem, plan, settings, trace.memory);
-    if (sized != Status::kOk) {
-      refuse(trace, sized);
-      return;
-    }
-    const MemoryTrace& memory = trace.memory;
-    const std::size_t bytes = memory.limit > 0 ? memory.limit - memory.inputs : memory.use.total();
-    memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
-    localizer_ = std::make_unique<Localizer>(problem, plan.options,
-                                             std::span<std::byte>(memory_.get(), bytes),
-                                             settings.threads, settings.kernels);
-    if (settings.onboard_record != nullptr)
-      settings.onboard_record->begin(recordInputs(withoutUnusedInputs(problem, plan.options)),
-                                     problem, plan.options);
+      : settings_(settings), plan_(plan), changes_({}) {
+    begin(problem);
+  }
+
+  void restart(const LocalizationProblem& problem) override {
+    traces.clear();
+    outside_.reset();
+    begin(problem);
   }
 
   StepReport step(const std::stop_token& stop) override {
@@ -127,9 +119,35 @@ class OneView final : public SteppedRun {
   }
 
  private:
+  void begin(const LocalizationProblem& problem) {
+    LocalizationTrace& trace = traces.emplace_back(beginningOf(problem, plan_, settings_));
+    Status status = sizeRun(problem, plan_, settings_, trace.memory);
+    if (status == Status::kOk) status = placeLocalizer(problem, trace.memory);
+    if (status != Status::kOk) return refuse(trace, status);
+    changes_ = PlannedChanges(plan_.changes);
+    if (settings_.onboard_record != nullptr)
+      settings_.onboard_record->begin(recordInputs(withoutUnusedInputs(problem, plan_.options)),
+                                      problem, plan_.options);
+  }
+
+  /// In the memory of the last problem, where it suffices.
+  Status placeLocalizer(const LocalizationProblem& problem, const MemoryTrace& memory) {
+    const std::size_t bytes = memory.limit > 0 ? memory.limit - memory.inputs : memory.use.total();
+    if (localizer_ && bytes <= memory_bytes_) return localizer_->restart(problem, plan_.options);
+    localizer_.reset();
+    memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
+    memory_bytes_ = bytes;
+    localizer_ = std::make_unique<Localizer>(problem, plan_.options,
+                                             std::span<std::byte>(memory_.get(), bytes),
+                                             settings_.threads, settings_.kernels);
+    return Status::kOk;
+  }
+
   RunSettings settings_;
+  RunPlan plan_;
   PlannedChanges changes_;
   std::unique_ptr<std::byte[]> memory_;
+  std::size_t memory_bytes_ = 0;
   std::unique_ptr<Localizer> localizer_;
   std::optional<OutsideMatching> outside_;
 };

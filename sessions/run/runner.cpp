@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include "sessions/run/stepped_run.h"
@@ -60,6 +61,13 @@ Runner::Runner(const ViewsProblem& problem, const LocalizerOptions& options,
 
 Runner::~Runner() = default;
 
+void Runner::restart(const LocalizationProblem& problem) {
+  const Clock::time_point start = Clock::now();
+  iteration_seconds_ = {};
+  stepped_->restart(problem);
+  stepped_->traces.front().seconds.initialization = secondsSince(start);
+}
+
 const std::vector<LocalizationTrace>& Runner::traces() const { return stepped_->traces; }
 
 const JointResult& Runner::joint() const { return stepped_->joint; }
@@ -109,6 +117,10 @@ void Runner::note(const StepReport& report, double seconds) {
     if (report.iteration_complete) iteration_seconds_ = {};
   }
   if (report.finished) stepped_->finish();
+}
+
+void SteppedRun::restart(const LocalizationProblem&) {
+  throw std::logic_error("several views cannot restart");
 }
 
 void SteppedRun::noteSupport(const StageSeconds& seconds) {

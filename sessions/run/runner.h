@@ -65,6 +65,11 @@ class Runner {
          const std::vector<std::string>& case_ids, const RunSettings& settings = {});
   ~Runner();
 
+  /// Begins again with another problem, such as the next image of a sequence, in the same memory
+  /// where it suffices, with the same plan and settings: gives the digest of a new object. Not for
+  /// several views.
+  void restart(const LocalizationProblem& problem);
+
   /// Works on; nothing when it has finished. Several views halt after iterations, not after stages.
   /// MethodError when the method, if any, cannot go on.
   void advance(StepUntil until, const std::stop_token& stop = {});

@@ -16,6 +16,8 @@ class SteppedRun {
  public:
   virtual ~SteppedRun() = default;
 
+  /// See Runner::restart. std::logic_error for several views.
+  virtual void restart(const LocalizationProblem& problem);
   /// One slice of the localizer, and what has to be done around it.
   virtual StepReport step(const std::stop_token& stop) = 0;
   virtual int tasks() const = 0;

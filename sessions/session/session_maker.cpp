@@ -174,9 +174,14 @@ MadeCase makeCase(const CaseFiles& files) {
   MadeCase result;
   SessionCase& session_case = result.made;
   session_case.id = files.id.empty() ? files.image.stem().string() : files.id;
-  session_case.image = imageInput(files.image, files.eight_bit);
+  const bool has_image = !files.image.empty();
+  if (has_image) session_case.image = imageInput(files.image, files.eight_bit);
   const CameraFile camera = readChosenCamera(files.camera, files.image);
   session_case.camera = camera.camera;
+  if (!has_image) {
+    session_case.image.width = camera.camera.width;
+    session_case.image.height = camera.camera.height;
+  }
   session_case.camera_reference = camera.reference;
   session_case.calibration_sigma = camera.calibration_sigma;
   session_case.camera_covariance = camera.covariance;
@@ -187,7 +192,7 @@ MadeCase makeCase(const CaseFiles& files) {
   for (const fs::path& file : files.transforms)
     for (FrameTransform& transform : readFrameTransforms(file))
       frames.transforms.push_back(std::move(transform));
-  addLabelFrames(files.image, camera.reference, frames.transforms);
+  if (has_image) addLabelFrames(files.image, camera.reference, frames.transforms);
   session_case.frames = keptFrames(frames.transforms);
   requireScene(session_case, files.parts.empty() ? files.image : files.parts.front().mesh);
   session_case.camera_from_end_effector = files.camera_from_end_effector;

@@ -13,8 +13,8 @@ namespace boresight::sessions {
 
 /// Files that make one case. Nothing of them is guessed.
 struct CaseFiles {
-  std::string id;  ///< "": the image's name without extension
-  std::filesystem::path image;
+  std::string id;               ///< "": the image's name without extension
+  std::filesystem::path image;  ///< "": none yet, of a sequence; then `camera` is needed
   ImageReadOptions eight_bit;
   /// camera.json, text of calibration or an image with a label; "": the image's own label.
   std::filesystem::path camera;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A target of its own (boresight_video): OpenCV's video library loads some 60 others.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "sessions/io/frame_source.h"
+
+namespace boresight::sessions {
+
+/// Whether the name ends as that of a video (.mp4, .avi, .mkv, ...).
+bool isVideoName(const std::filesystem::path& file);
+
+/// The frames of a video, named "frame 000001", ..., by OpenCV's reader. A frame that cannot be
+/// decoded ends the sequence. InputError when the file is missing, or no reader of this machine's
+/// OpenCV opens it.
+std::unique_ptr<FrameSource> openVideo(const std::filesystem::path& file);
+
+}  // namespace boresight::sessions

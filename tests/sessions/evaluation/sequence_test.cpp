@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/evaluation/sequence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+#include "sessions/run/problem.h"
+#include "tests/support/generated_approach.h"
+
+namespace boresight::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr int kFrames = 24;
+
+/// Requirement of the stations: 0.4 mm and 0.25 deg.
+void expectTruth(const GeneratedApproach& approach, int frame, const Pose& estimate) {
+  SCOPED_TRACE(frame);
+  const PoseError error =
+      poseError(approach.solid(), approach.camera_from_station(frame), estimate);
+  EXPECT_LT(error.centre_m, 0.0004);
+  EXPECT_LT(error.angle_rad, 0.25 * kDegree_rad);
+}
+
+sessions::SequenceInputs inputsOf(const GeneratedApproach& approach) {
+  sessions::SequenceInputs inputs;
+  inputs.station = "station";
+  inputs.camera = approach.camera();
+  inputs.scene.vertices_in_station_m = approach.solid().vertices;
+  inputs.scene.faces = approach.solid().faces;
+  inputs.scene.part_of_face = approach.solid().part_of_face;
+  inputs.scene.parts = approach.solid().parts;
+  inputs.uncertainty.translation_m.setConstant(0.02);
+  inputs.uncertainty.rotation_deg.setConstant(4.0);
+  inputs.uncertainty.pivot = sessions::UncertaintyPivot::kStation;
+  inputs.camera_from_station_seed = approach.camera_from_station(0);
+  inputs.camera_from_station_seed.translation_m += Eigen::Vector3d(0.012, -0.009, 0.01);
+  inputs.options = defaultProfile();
+  inputs.settings.level = sessions::RecordLevel::kSummary;
+  inputs.settings.threads = 1;
+  return inputs;
+}
+
+sessions::Frame frameOf(const GeneratedApproach& approach, int frame) {
+  return {"frame " + std::to_string(frame), approach.image(frame), ""};
+}
+
+/// A frame is covered, the next one is missing; the third is found by a wider box.
+TEST(Sequence, Approach_IsFollowedAndFoundAgainAfterLostFrames) {
+  const GeneratedApproach approach(kFrames);
+  sessions::Sequence sequence(inputsOf(approach));
+  int searched = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    sessions::Frame frame = frameOf(approach, i);
+    if (i == 9) frame.image = approach.coveredImage();
+    if (i == 10) {
+      frame.image.reset();
+      frame.problem = "000010.png: truncated";
+    }
+    const sessions::RunResult result = sequence.run(frame);
+    EXPECT_EQ(result.case_id, frame.name);
+    EXPECT_EQ(result.dataset_index, i);
+    EXPECT_EQ(result.completed, i != 9 && i != 10) << i << " " << result.status;
+    if (result.completed) expectTruth(approach, i, result.camera_from_station);
+    if (i == 9) {
+      EXPECT_NE(result.status, "input_error");
+      EXPECT_NE(result.message, "");
+    }
+    if (i == 10) {
+      EXPECT_EQ(result.status, "input_error");
+      EXPECT_EQ(result.message, "000010.png: truncated");
+    }
+    if (result.completed && result.compared_poses > 0) ++searched;
+  }
+  EXPECT_THAT(sequence.lost(), ElementsAre(10, 11));
+  EXPECT_LE(searched, 2) << "the first frame, and perhaps the one after those that are lost";
+  EXPECT_EQ(sessions::sequenceText(sequence), "22 of 24 frames accepted, 2 lost: 10, 11");
+}
+
+/// The memory of the frame before changes no bit.
+TEST(Sequence, Frame_HasTheDigestOfARunOfItsOwn) {
+  const GeneratedApproach approach(kFrames);
+  const sessions::SequenceInputs inputs = inputsOf(approach);
+  sessions::Sequence sequence(inputs);
+  const sessions::RunResult first = sequence.run(frameOf(approach, 0));
+  ASSERT_TRUE(first.completed);
+  const sessions::GrayImage image = approach.image(1);
+  const sessions::RunResult second = sequence.run({"1", image, ""});
+  const LocalizationProblem problem =
+      sessions::problemOf(image, nullptr, inputs.camera, inputs.scene.view(),
+                          first.camera_from_station, inputs.motion, std::nullopt);
+  EXPECT_EQ(second.digest, sessions::localize(problem, inputs.options, inputs.settings).digest);
+}
+
+TEST(Sequence, ImageOfAnotherSize_IsLostWithBothSizes) {
+  const GeneratedApproach approach(kFrames);
+  sessions::Sequence sequence(inputsOf(approach));
+  sessions::GrayImage image;
+  image.width = 64;
+  image.height = 48;
+  image.pixels.resize(64 * 48);
+  const sessions::RunResult result = sequence.run({"small.png", image, ""});
+  EXPECT_EQ(result.status, "input_error");
+  EXPECT_THAT(result.message, HasSubstr("is 64 x 48, but the camera is 512 x 512"));
+  EXPECT_TRUE(sequence.run(frameOf(approach, 0)).completed);
+}
+
+/// A process that goes on does as the one before would have done.
+TEST(Sequence, TakenResults_ContinueTheSequence) {
+  const GeneratedApproach approach(kFrames);
+  sessions::Sequence whole(inputsOf(approach));
+  std::vector<sessions::RunResult> results;
+  for (int i = 0; i < 3; ++i) results.push_back(whole.run(frameOf(approach, i)));
+  sessions::Sequence continued(inputsOf(approach));
+  for (int i = 0; i < 2; ++i) continued.take(results[static_cast<std::size_t>(i)]);
+  EXPECT_EQ(continued.run(frameOf(approach, 2)).digest, results[2].digest);
+  EXPECT_EQ(continued.frames(), 3);
+}
+
+TEST(Sequence, StoppedFrame_CanBeRunAgain) {
+  const GeneratedApproach approach(kFrames);
+  sessions::Sequence sequence(inputsOf(approach));
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(sequence.run(frameOf(approach, 0), stop.get_token()).status, "running");
+  EXPECT_EQ(sequence.frames(), 0);
+  EXPECT_TRUE(sequence.run(frameOf(approach, 0)).completed);
+}
+
+TEST(SequenceText, LostFrames_AreListedAsRanges) {
+  sessions::Sequence sequence(inputsOf(GeneratedApproach(2)));
+  for (const bool found : {true, false, false, true, false, false, false, true, false}) {
+    sessions::RunResult result;
+    result.completed = found;
+    sequence.take(result);
+  }
+  EXPECT_EQ(sessions::sequenceText(sequence), "3 of 9 frames accepted, 6 lost: 2, 3, 5-7, 9");
+}
+
+}  // namespace
+}  // namespace boresight::test
