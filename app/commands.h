@@ -32,7 +32,7 @@ using AddCommand = void(CLI::App& app, int& exit_code);
 AddCommand addLocalize, addEvaluate, addMerge, addTables, addCompare, addCheck, addDecide;
 AddCommand addVerify, addViews, addReport, addQueue, addSolve, addRender, addCamera, addInfo;
 AddCommand addOptions, addNew, addRun, addPack, addExport, addImport, addProblem, addBench;
-AddCommand addDocuments, addTrends, addCalibrate, addHandEye;
+AddCommand addDocuments, addTrends, addCalibrate, addHandEye, addFollow;
 
 /// A subcommand and its arguments, which live as long as it; `run` gets them when it is called.
 template <class Arguments>

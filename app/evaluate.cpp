@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <thread>
 #include <tuple>
 #include <utility>
 
+#include "app/batch_output.h"
 #include "app/commands.h"
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/batch_facts.h"
@@ -21,6 +17,7 @@
 #include "sessions/io/atomic_file.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::app {
 namespace {
@@ -107,55 +104,23 @@ void EvaluateArguments::addTo(CLI::App& command) {
           "Results of a BOP dataset in the challenge's format (METHOD_SET-SPLIT.csv)");
 }
 
-volatile std::sig_atomic_t interrupted = 0;
-
-void onInterrupt(int) { interrupted = 1; }
-
-/// Turns an interrupt into a stop: what has been run is then still written.
-class InterruptWatch {
- public:
-  explicit InterruptWatch(const std::stop_source& source) {
-    interrupted = 0;
-    std::signal(SIGINT, onInterrupt);
-    std::signal(SIGTERM, onInterrupt);
-    thread_ = std::jthread([source](const std::stop_token& ended) {
-      while (!ended.stop_requested()) {
-        if (interrupted != 0) source.request_stop();
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      }
-    });
-  }
-  ~InterruptWatch() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-  }
-
- private:
-  std::jthread thread_;
-};
-
-/// A line that rewrites itself on a terminal, and bad inputs once each.
+/// A line on a terminal, and bad inputs once each.
 class Progress {
  public:
   explicit Progress(std::size_t total) : total_(total) {}
   void operator()(const sessions::RunResult& result) {
     ++done_;
     completed_ += result.completed ? 1 : 0;
-    eraseLine();
+    line_.erase();
     if (result.inputFailed() && messages_.insert(result.message).second)
       std::cerr << sessions::plainLine(result.message);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
-    if (on_terminal_ && done_ < total_)
-      std::cerr << sessions::batchProgressText(done_, total_, completed_, passed.count());
+    if (done_ < total_)
+      line_.show(sessions::batchProgressText(done_, total_, completed_, passed.count()));
   }
 
  private:
-  /// By std::clog, which is stderr too: std::cerr lets no escape sequence pass.
-  void eraseLine() const {
-    if (on_terminal_) std::clog << "\r\033[K" << std::flush;
-  }
-
-  bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+  TerminalLine line_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::size_t total_ = 0;
   std::size_t done_ = 0;
@@ -163,20 +128,9 @@ class Progress {
   std::set<std::string> messages_;
 };
 
-/// As it was typed, near enough to be typed again.
-std::string commandText() {
-  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
-  std::string text;
-  for (std::string word; std::getline(stream, word, '\0');) {
-    const bool plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?") == std::string::npos;
-    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
-  }
-  return text;
-}
-
 sessions::BatchRun batchRunOf(const EvaluateArguments& arguments) {
   sessions::BatchRun batch_run = sessions::thisBatchRun();
-  batch_run.command = commandText();
+  batch_run.command = typedCommand();
   batch_run.jobs = arguments.batch.jobs;
   batch_run.threads = sessions::threadsOf(arguments.batch.threads, arguments.batch.memory_limit,
                                           arguments.batch.jobs);
@@ -247,12 +201,6 @@ void runAll(EvaluateArguments& arguments, const sessions::Dataset& dataset, cons
         sessions::fixedText(static_cast<double>(done) / passed.count(), 2) + " runs/s");
 }
 
-void writeLines(const std::string& file, const std::vector<sessions::RunResult>& results) {
-  std::string text;
-  for (const sessions::RunResult& result : results) text += sessions::toJson(result).dump() + "\n";
-  sessions::writeFileAtomically(file, text);
-}
-
 void printSummary(const std::vector<sessions::RunResult>& results) {
   std::vector<sessions::Table> tables = {sessions::summaryTable(results)};
   if (std::any_of(results.begin(), results.end(),
@@ -317,7 +265,7 @@ int evaluate(EvaluateArguments& arguments) {
     runAll(arguments, dataset, workLeft(arguments, plan, writer), writer, stop.get_token());
   }
   const std::vector<sessions::RunResult> results = sessions::readResults(arguments.out).runs;
-  if (!arguments.jsonl.empty()) writeLines(arguments.jsonl, results);
+  if (!arguments.jsonl.empty()) writeResultLines(arguments.jsonl, results);
   if (!arguments.bop_csv.empty()) writeBopCsv(arguments, dataset, results);
   printSummary(results);
   const bool whole = !stop.stop_requested();

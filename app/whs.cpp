@@ -100,10 +100,10 @@ int run(int argc, char** argv) {
   });
   int exit_code = kDone;
   for (AddCommand* add :
-       {addLocalize, addEvaluate, addMerge,     addTables, addCompare,   addCheck,  addDecide,
-        addVerify,   addViews,    addReport,    addQueue,  addSolve,     addRender, addCamera,
-        addInfo,     addOptions,  addNew,       addRun,    addPack,      addExport, addImport,
-        addProblem,  addBench,    addDocuments, addTrends, addCalibrate, addHandEye})
+       {addLocalize, addEvaluate, addMerge,     addTables, addCompare,   addCheck,   addDecide,
+        addVerify,   addViews,    addReport,    addQueue,  addSolve,     addRender,  addCamera,
+        addInfo,     addOptions,  addNew,       addRun,    addPack,      addExport,  addImport,
+        addProblem,  addBench,    addDocuments, addTrends, addCalibrate, addHandEye, addFollow})
     add(app, exit_code);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("whs ") + sessions::kVersion);

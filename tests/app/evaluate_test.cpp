@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sessions/evaluation/results_file.h"
 #include "sessions/evaluation/sqlite.h"
-#include "sessions/io/errors.h"
+#include "tests/app/ended_whs.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {
@@ -125,41 +121,13 @@ TEST_F(WhsEvaluate, ReportsABadCaseAndGoesOn) {
   EXPECT_EQ(results[2]["status"], "iteration_limit");
 }
 
-/// Runs whs and kills it as soon as its results hold `runs` runs; how many they hold then.
-int killAfter(const Arguments& arguments, const std::filesystem::path& results, int runs) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::vector<char*> words = {const_cast<char*>(BORESIGHT_WHS)};
-    for (const std::string& argument : arguments)
-      words.push_back(const_cast<char*>(argument.c_str()));
-    words.push_back(nullptr);
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    execv(BORESIGHT_WHS, words.data());
-    _exit(127);
-  }
-  const auto held = [&results] {
-    try {
-      return static_cast<int>(sessions::readResults(results).runs.size());
-    } catch (const sessions::FileError&) {
-      return 0;  // not there yet
-    }
-  };
-  int status = 0;
-  while (held() < runs && waitpid(child, &status, WNOHANG) == 0) usleep(2000);
-  kill(child, SIGKILL);
-  waitpid(child, &status, 0);
-  return held();
-}
-
 TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
   const Arguments options = {"--reseed", "5", "--jobs", "2", "--set", "loop.max_iterations=1"};
   const Arguments arguments = evaluateArguments(dataset_, options);
   int held = 0;
   int kills = 0;
   for (int at = 2; at <= 8; at += 3, ++kills) {
-    const int after = killAfter(arguments, folder_ / "r.sqlite", at);
+    const int after = endWhsAfter(arguments, SIGKILL, folder_ / "r.sqlite", at).held;
     EXPECT_GE(after, held) << "nothing that was there is lost";
     held = after;
   }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/batch_output.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/atomic_file.h"
+
+namespace boresight::app {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void onInterrupt(int) { interrupted = 1; }
+
+}  // namespace
+
+InterruptWatch::InterruptWatch(const std::stop_source& source) {
+  interrupted = 0;
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  thread_ = std::jthread([source](const std::stop_token& ended) {
+    while (!ended.stop_requested()) {
+      if (interrupted != 0) source.request_stop();
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
+}
+
+InterruptWatch::~InterruptWatch() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+TerminalLine::TerminalLine() : on_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void TerminalLine::show(const std::string& text) const {
+  erase();
+  if (on_terminal_) std::cerr << text;
+}
+
+/// By std::clog, which is stderr too: std::cerr lets no escape sequence pass.
+void TerminalLine::erase() const {
+  if (on_terminal_) std::clog << "\r\033[K" << std::flush;
+}
+
+std::string typedCommand() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string text;
+  for (std::string word; std::getline(stream, word, '\0');) {
+    const bool plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?") == std::string::npos;
+    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+  }
+  return text;
+}
+
+void writeResultLines(const std::string& file, const std::vector<sessions::RunResult>& results) {
+  std::string text;
+  for (const sessions::RunResult& result : results) text += sessions::toJson(result).dump() + "\n";
+  sessions::writeFileAtomically(file, text);
+}
+
+}  // namespace boresight::app

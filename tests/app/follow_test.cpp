@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sessions/evaluation/results_file.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/pose_file.h"
+#include "tests/app/ended_whs.h"
+#include "tests/app/run_whs.h"
+#include "tests/support/generated_approach.h"
+
+namespace boresight::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int kFrames = 6;
+
+std::string plyOf(const Solid& solid) {
+  std::ostringstream ply;
+  ply.precision(9);
+  ply << "ply\nformat ascii 1.0\nelement vertex " << solid.vertices.size()
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+      << solid.faces.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Eigen::Vector3f& vertex : solid.vertices)
+    ply << vertex.x() << " " << vertex.y() << " " << vertex.z() << "\n";
+  for (const Face& face : solid.faces)
+    ply << "3 " << face.vertex[0] << " " << face.vertex[1] << " " << face.vertex[2] << "\n";
+  return ply.str();
+}
+
+/// Six frames of an approach in files, made once.
+const TemporaryFolder& approachFolder() {
+  static const TemporaryFolder folder;
+  static const bool made = [] {
+    const GeneratedApproach approach(24);
+    folder.write("model.ply", plyOf(approach.solid()));
+    nlohmann::ordered_json camera = {{"format", "boresight-camera"}, {"version", 1}};
+    camera.update(sessions::toJson(approach.camera()));
+    folder.write("camera.json", camera.dump());
+    Pose seed = approach.camera_from_station(0);
+    seed.translation_m += Eigen::Vector3d(0.01, -0.008, 0.006);
+    sessions::DeclaredUncertainty uncertainty;
+    uncertainty.translation_m.setConstant(0.02);
+    uncertainty.rotation_deg.setConstant(4.0);
+    uncertainty.pivot = sessions::UncertaintyPivot::kStation;
+    sessions::writePose(folder / "seed.json", seed, uncertainty);
+    std::filesystem::create_directory(folder / "frames");
+    for (int i = 0; i < kFrames; ++i) {
+      const sessions::GrayImage image = approach.image(i);
+      sessions::writePng(folder / ("frames/" + std::to_string(i) + ".png"), image.pixels,
+                         image.width, image.height, 1);
+    }
+    return true;
+  }();
+  (void)made;
+  return folder;
+}
+
+class WhsFollow : public testing::Test {
+ protected:
+  Arguments followArguments(const std::filesystem::path& images, const Arguments& more = {}) const {
+    const TemporaryFolder& approach = approachFolder();
+    Arguments arguments = {"follow",
+                           "--images",
+                           images,
+                           "--camera",
+                           approach / "camera.json",
+                           "--mesh",
+                           approach / "model.ply",
+                           "--mesh-unit",
+                           "m",
+                           "--seed",
+                           approach / "seed.json",
+                           "--out",
+                           folder_ / "r.sqlite",
+                           "--jsonl",
+                           folder_ / "r.jsonl"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  std::vector<nlohmann::json> lines() const {
+    std::istringstream stream(folder_.read("r.jsonl"));
+    std::vector<nlohmann::json> json;
+    for (std::string line; std::getline(stream, line);) json.push_back(nlohmann::json::parse(line));
+    return json;
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(WhsFollow, Folder_IsFollowedFrameByFrame) {
+  const ProgramRun run = runWhs(followArguments(approachFolder() / "frames"), 0);
+  EXPECT_EQ(run.err, "") << "progress belongs on a terminal only";
+  EXPECT_THAT(run.out, AllOf(HasSubstr("6 of 6 frames accepted; "), HasSubstr(" frames/s\n")));
+  const auto results = lines();
+  ASSERT_EQ(results.size(), 6u);
+  for (int i = 0; i < kFrames; ++i) {
+    const nlohmann::json& result = results[static_cast<std::size_t>(i)];
+    EXPECT_EQ(result["id"], std::to_string(i) + ".png");
+    EXPECT_EQ(result["station"], "model");
+    EXPECT_EQ(result["completed"], true);
+    if (i == 0) continue;
+    const nlohmann::json& before = results[static_cast<std::size_t>(i - 1)];
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column)
+        EXPECT_NEAR(result["camera_from_station_seed"][row][column].get<double>(),
+                    before["camera_from_station"][row][column].get<double>(), 1e-12);
+  }
+  const sessions::Results stored = sessions::readResults(folder_ / "r.sqlite");
+  EXPECT_EQ(stored.runs.size(), 6u);
+  EXPECT_EQ(stored.facts.dataset.cases, 6);
+}
+
+TEST_F(WhsFollow, UnreadableAndOtherSizedFrames_AreLostWithTheirReason) {
+  folder_.write("bad.png", std::string_view("no image"));
+  const std::vector<std::uint8_t> pixels(64 * 48, 9);
+  sessions::writePng(folder_ / "small.png", pixels, 64, 48, 1);
+  const std::string frames = (approachFolder() / "frames").string();
+  const std::string file = folder_.write("list.txt", frames + "/0.png\nbad.png\n" + frames +
+                                                         "/1.png\nsmall.png\n" + frames + "/2.png");
+  const ProgramRun run = runWhs(followArguments(file), 0);
+  EXPECT_EQ(run.errorLines(), 2) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("bad.png: "),
+                             HasSubstr("small.png: image size: is 64 x 48, but the camera is")));
+  EXPECT_THAT(run.out, HasSubstr("3 of 5 frames accepted, 2 lost: 2, 4; "));
+  EXPECT_EQ(lines()[1]["status"], "input_error");
+}
+
+TEST_F(WhsFollow, SecondCommand_ContinuesTheResultsOfTheFirst) {
+  const std::filesystem::path images = approachFolder() / "frames";
+  runWhs(followArguments(images), 0);
+  const auto whole = lines();
+  EXPECT_THAT(runWhs(followArguments(images), 0).err, HasSubstr("resumed, 6 frames are done"));
+  EXPECT_EQ(lines(), whole);
+  const ProgramRun other = runWhs(followArguments(images, {"--motion", "2", "0.5"}), 3);
+  EXPECT_THAT(other.err, HasSubstr("its runs belong to another dataset"));
+}
+
+TEST_F(WhsFollow, InterruptedSequence_KeepsItsFramesAndContinues) {
+  constexpr int kLong = 40;  // to and fro
+  std::filesystem::create_directory(folder_ / "long");
+  for (int i = 0; i < kLong; ++i) {
+    const int step = i % (2 * kFrames - 2);
+    const int frame = std::min(step, 2 * kFrames - 2 - step);
+    std::filesystem::create_symlink(approachFolder() / ("frames/" + std::to_string(frame) + ".png"),
+                                    folder_ / ("long/" + std::to_string(i) + ".png"));
+  }
+  const Arguments arguments = followArguments(folder_ / "long");
+  const EndedWhs ended = endWhsAfter(arguments, SIGINT, folder_ / "r.sqlite", 3);
+  EXPECT_TRUE(WIFEXITED(ended.status));
+  EXPECT_EQ(WEXITSTATUS(ended.status), 1);
+  EXPECT_GE(ended.held, 3);
+  EXPECT_LT(ended.held, kLong);
+  EXPECT_EQ(lines().size(), static_cast<std::size_t>(ended.held));
+  const ProgramRun run = runWhs(arguments, 0);
+  EXPECT_THAT(run.err, HasSubstr("resumed, " + std::to_string(ended.held) + " frames are done"));
+  EXPECT_THAT(run.out, HasSubstr("40 of 40 frames accepted"));
+  EXPECT_EQ(lines().size(), static_cast<std::size_t>(kLong));
+}
+
+TEST_F(WhsFollow, SequenceWithoutAnyPose_EndsAsNotConverged) {
+  const GeneratedApproach approach(24);
+  const sessions::GrayImage covered = approach.coveredImage();
+  sessions::writePng(folder_ / "0.png", covered.pixels, 512, 512, 1);
+  folder_.write("list.txt", std::string_view("0.png\n"));
+  const ProgramRun run = runWhs(followArguments(folder_ / "list.txt"), 4);
+  EXPECT_THAT(run.out, HasSubstr("0 of 1 frames accepted, 1 lost: 1; "));
+}
+
+TEST_F(WhsFollow, BadInputs_AreRefusedInOneLine) {
+  const auto refusal = [&](const std::string& images, const Arguments& more, int exit_code) {
+    const ProgramRun run = runWhs(followArguments(images, more), exit_code);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "r.sqlite"));
+    return run.err;
+  };
+  folder_.write("empty.txt", std::string_view("# nothing\n"));
+  folder_.write("movie.mp4", std::string_view("no video"));
+  std::filesystem::create_directory(folder_ / "empty");
+  EXPECT_THAT(refusal(folder_ / "none", {}, 3), HasSubstr("there is no such folder or file"));
+  EXPECT_THAT(refusal(folder_ / "empty", {}, 3), HasSubstr("has no image"));
+  EXPECT_THAT(refusal(folder_ / "empty.txt", {}, 3), HasSubstr("lists no image"));
+  EXPECT_THAT(refusal(folder_ / "movie.mp4", {}, 3), HasSubstr("cannot read this video"));
+  EXPECT_THAT(refusal(folder_ / "movie.mp4", {"--bit-depth", "8"}, 2),
+              HasSubstr("are not for a video"));
+  EXPECT_THAT(refusal(approachFolder() / "frames", {"--motion", "5", "200"}, 2),
+              HasSubstr("the angle is at most 180 deg"));
+  EXPECT_THAT(refusal(approachFolder() / "frames", {"--set", "loop.none=1"}, 2),
+              HasSubstr("loop.none"));
+}
+
+}  // namespace
+}  // namespace boresight::test
