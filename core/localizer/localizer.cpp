@@ -6,8 +6,20 @@
 
 #include "core/localizer/acceptance.h"
 #include "core/localizer/pose_change.h"
+#include "core/localizer/schedule.h"
 
 namespace boresight {
+
+namespace {
+
+/// Whether a refinement of the seed at the coarse level searches as far as its uncertainty moves
+/// the scene.
+bool reachesTruth(const Seed& seed, const RunContext& run) {
+  return motionWithin_px(seed, run.scene, run.camera) <=
+         kFirstRadius_px * static_cast<double>(1 << run.levels.coarse);
+}
+
+}  // namespace
 
 StepReport Localizer::step() {
   StepReport report = StepReport::of(Stage::kFinished, false);
@@ -60,7 +72,11 @@ StepReport Localizer::decide(StepReport report) {
   switch (phase_) {
     case Phase::kEdges:
       phase_ = searches() ? Phase::kSearch : Phase::kIterate;
-      if (startsNear()) phase_ = Phase::kNearSearch;
+      if (!startsNear()) break;
+      if (reachesTruth(seedOf(problem()), pass_.context()))
+        startComparison();
+      else
+        phase_ = Phase::kNearSearch;
       break;
     case Phase::kNearSearch:
       if (workspace().candidates.empty()) return searchAll(report);

@@ -78,6 +78,20 @@ bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene
          std::max(kLeast_px, kOfLongerSide * longerSide_px(first, scene, camera));
 }
 
+double motionWithin_px(const Seed& seed, const BoundingBox& scene, const Camera& camera) {
+  const Vector6d limits = limitsOf(seed.uncertainty);
+  double squared_px = 0.0;
+  for (int axis = 0; axis < 6; ++axis) {
+    const Pose displaced =
+        displacedAboutPivot(seed.camera_from_station, Vector6d::Unit(axis) * limits[axis],
+                            seed.uncertainty.pivot_in_camera_m);
+    const double motion_px =
+        displacementBetween_px(seed.camera_from_station, displaced, scene, camera);
+    squared_px += motion_px * motion_px;
+  }
+  return std::sqrt(squared_px);
+}
+
 Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene) {
   const Eigen::Vector3d axis = (camera_from_station * scene.centre()).normalized();
   const Eigen::Quaterniond turn = rotationExp(axis * roll_rad);

@@ -29,6 +29,10 @@ double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
 bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene,
                  const Camera& camera);
 
+/// Displacement of the scene's box in the image at the limits of the seed's uncertainty: root of
+/// the sum over the axes of its squares.
+double motionWithin_px(const Seed& seed, const BoundingBox& scene, const Camera& camera);
+
 /// The pose turned about the ray through the scene's middle, so that the scene stays where it is.
 Pose rolledAboutScene(const Pose& camera_from_station, double roll_rad, const BoundingBox& scene);
 

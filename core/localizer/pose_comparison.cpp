@@ -38,19 +38,8 @@ bool isWithinReach(const PoseCandidate& candidate, int level) {
 }  // namespace
 
 bool isNear(const Seed& seed, const RunContext& run) {
-  Vector6d limits;
-  limits << seed.uncertainty.rotation_rad, seed.uncertainty.translation_m;
-  double squared_px = 0.0;
-  for (int axis = 0; axis < 6; ++axis) {
-    const Vector6d offset = Vector6d::Unit(axis) * limits[axis];
-    const double motion_px = displacementBetween_px(
-        seed.camera_from_station,
-        displacedAboutPivot(seed.camera_from_station, offset, seed.uncertainty.pivot_in_camera_m),
-        run.scene, run.camera);
-    squared_px += motion_px * motion_px;
-  }
-  const double near_px = kNear * longerSide_px(seed.camera_from_station, run.scene, run.camera);
-  return squared_px <= near_px * near_px;
+  return motionWithin_px(seed, run.scene, run.camera) <=
+         kNear * longerSide_px(seed.camera_from_station, run.scene, run.camera);
 }
 
 bool PoseComparison::convinces(const Pose& camera_from_station, double probability) const {
@@ -129,6 +118,9 @@ Attempt PoseComparison::start(int attempt, const RunContext& run) {
   const bool refines = run.options.refinement.enabled;
   switch (source_) {
     case Source::kNearSeed:
+      if (candidates_.empty())
+        return Attempt(attempt, seed_, seed_.camera_from_station, true, run.options.loop);
+      [[fallthrough]];
     case Source::kCandidates: {
       const PoseCandidate& candidate = candidates_[static_cast<std::size_t>(number)];
       // A direction that the image does not determine, such as a turn about an axis of symmetry,

@@ -72,7 +72,8 @@ TEST_F(WhsEvaluate, StateOfAPart_IsListedAndChanged) {
   nlohmann::json& os = json["stations"]["os"];
   const nlohmann::json model = {{"mesh", os["mesh"]}, {"mesh_unit", "m"}};
   nlohmann::json gripper = model;
-  gripper.update({{"name", "gripper"}, {"frame", "CAMERA"}, {"role", "occludes"}, {"present", false}});
+  gripper.update(
+      {{"name", "gripper"}, {"frame", "CAMERA"}, {"role", "occludes"}, {"present", false}});
   os.erase("mesh");
   os.erase("mesh_unit");
   os["parts"] = {model, gripper};
@@ -93,11 +94,13 @@ TEST_F(WhsEvaluate, StateOfAPart_IsListedAndChanged) {
   EXPECT_NE(lines().at(0)["digest"], off);
 
   const std::string session = folder_ / "s.json";
-  runWhs({"new", "--dataset", file, "--case", kOsCase, "--part", "gripper=on", "--out", session}, 0);
+  runWhs({"new", "--dataset", file, "--case", kOsCase, "--part", "gripper=on", "--out", session},
+         0);
   EXPECT_THAT(runWhs({"info", session}, 0).out,
               HasSubstr("part: gripper: occludes, fixed to CAMERA\n"));
   const auto refused = [&](const std::string& part, int exit_code) {
-    return runWhs({"new", "--dataset", file, "--part", part, "--out", folder_ / "t.json"}, exit_code)
+    return runWhs({"new", "--dataset", file, "--part", part, "--out", folder_ / "t.json"},
+                  exit_code)
         .err;
   };
   EXPECT_THAT(refused("lid=off", 3), HasSubstr("no station has a part 'lid'"));

@@ -25,6 +25,20 @@ void expectTruth(const Case& scene, const Workspace& workspace) {
   EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
 }
 
+/// 0.6 mm and 0.12 deg move the scene by 2 px of the 3 px that a refinement searches.
+TEST(NearSeed, WithinReachOfARefinement_IsRefinedAtOnce) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const Case scene = nearCase(seed, 0.0006, 0.12);
+    OwnedRun run(scene.problem(), defaultProfile());
+    run.finish();
+    const Workspace& workspace = run.localizer.workspace();
+    expectTruth(scene, workspace);
+    EXPECT_EQ(workspace.attempts, 1);
+    EXPECT_TRUE(workspace.candidates.empty());
+  }
+}
+
 TEST(NearSeed, IsRefinedWithoutASearch) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);

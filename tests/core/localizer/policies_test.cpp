@@ -297,6 +297,14 @@ TEST_F(PoseComparisonTest, NearSeed_IsTakenIfItConvincesAndSearchedForOtherwise)
   EXPECT_TRUE(comparison.convinces(pose, 0.1)) << "after a search";
 }
 
+TEST_F(PoseComparisonTest, NearSeedWithoutACandidate_IsRefinedFromTheCoarseLevelOn) {
+  comparison = PoseComparison::ofNearSeed({}, seed);
+  const PassPlan plan = planOf(comparison.next(0, pass.context()));
+  EXPECT_EQ(plan.kind, PassKind::kRefine);
+  EXPECT_EQ(plan.level, pass.context().levels.coarse);
+  EXPECT_EQ(plan.camera_from_station, seed.camera_from_station);
+}
+
 /// 6 mm are 36 px of the 600 px that the object spans.
 TEST_F(PoseComparisonTest, NearSeed_IsOneWhoseBoxMovesTheSceneByLessThanATenthOfItsSize) {
   Seed stated = seed;

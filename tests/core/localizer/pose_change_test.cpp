@@ -50,6 +50,21 @@ TEST(PoseChange, Translation_IsMeasuredAtTheChosenPoint) {
   EXPECT_NEAR(rotationBetween_rad(before, turned), kPi / 2.0, 1e-12);
 }
 
+/// 3 and 4 mm across the view at 2 m: 0.75 and 1 px.
+TEST(PoseChange, MotionWithinAnUncertainty_AddsTheSquaresOfItsAxes) {
+  const BoundingBox scene{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}};
+  Seed seed;
+  seed.camera_from_station.translation_m = {0.0, 0.0, 2.0};
+  seed.uncertainty.translation_m = {0.003, 0.004, 0.0};
+  seed.uncertainty.rotation_rad.setZero();
+  EXPECT_NEAR(motionWithin_px(seed, scene, pinhole()), 1.25, 1e-12);
+  // A corner 0.1 sqrt(2) m from the pivot moves by that times the angle.
+  seed.uncertainty.translation_m.setZero();
+  seed.uncertainty.rotation_rad = {0.0, 0.0, 0.001};
+  seed.uncertainty.pivot_in_camera_m = {0.0, 0.0, 2.0};
+  EXPECT_NEAR(motionWithin_px(seed, scene, pinhole()), 250.0 * 0.1 * std::sqrt(2.0) * 0.001, 1e-6);
+}
+
 TEST(PoseChange, DisplacementAcrossTheView_IsFocalLengthOverDepth) {
   // Flat, so that every corner is two metres away.
   const BoundingBox scene{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}};

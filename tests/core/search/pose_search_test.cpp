@@ -47,6 +47,12 @@ class SearchRun {
     EXPECT_LT(steps, 1000000);
     return search_.candidates();
   }
+  std::span<const PoseCandidate> runAtSeed() {
+    if (search_.beginAtSeed(problem_, renderer_))
+      while (!search_.step()) {
+      }
+    return search_.candidates();
+  }
   double error_px(const Pose& pose) const {
     return test::meanDisplacement_px(scene_.solid, scene_.camera, scene_.truth, pose);
   }
@@ -75,6 +81,28 @@ TEST(PoseSearch, AnywhereInTheUncertainty_FindsTheTruth) {
       EXPECT_GT(candidates[0].evidence.strongest_nats(), 0.5);
       EXPECT_LE(candidates.size(), static_cast<std::size_t>(PoseSearch::kMaxCandidates));
     }
+}
+
+/// 4 mm along and 0.8 deg about each axis: 16 px.
+TEST(PoseSearch, NearSeed_IsRefinedToTheTruthAlone) {
+  for (const bool distorted : {false, true})
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(seed);
+      test::Case scene = test::stationCase(seed, distorted);
+      scene.seed = test::displacedSeed(scene.truth, scene.uncertainty, 0.2, seed);
+      SearchRun run(scene);
+      const auto candidates = run.runAtSeed();
+      ASSERT_EQ(candidates.size(), 1u);
+      EXPECT_LT(run.error_px(candidates[0].camera_from_station), 2.0);
+      EXPECT_GT(candidates[0].evidence.strongest_nats(), 0.5);
+    }
+}
+
+TEST(PoseSearch, SeedThatDoesNotSeeTheScene_GivesNoCandidate) {
+  test::Case scene = test::stationCase(1);
+  scene.seed.translation_m.x() += 10.0;
+  SearchRun run(scene);
+  EXPECT_TRUE(run.runAtSeed().empty());
 }
 
 TEST(PoseSearch, LargerUncertainty_SearchesMorePosesWithTheSameResult) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/example_case.h"
 
 namespace boresight::sessions {
@@ -35,6 +37,26 @@ TEST(Runner, HaltingChangesNoBit) {
       EXPECT_GT(halts, 3);
     }
   }
+}
+
+/// In the memory of another problem that needs more, and of one that was stopped on the way.
+TEST(Runner, Restart_GivesTheDigestOfANewRun) {
+  const test::ExampleCase other("bc");
+  Runner run(other.problem(), defaultProfile());
+  run.advance(StepUntil::kIteration);
+  run.restart(example().problem());
+  EXPECT_FALSE(run.finished());
+  run.advance(StepUntil::kEnd);
+  EXPECT_EQ(run.trace().digest, wholeRun().digest);
+  EXPECT_EQ(run.trace().iterations.size(), wholeRun().iterations.size());
+  LocalizationProblem wrong = example().problem();
+  wrong.camera_from_station_seed.translation_m.x() = std::nan("");
+  run.restart(wrong);
+  EXPECT_TRUE(run.finished());
+  EXPECT_EQ(run.trace().fault, Status::kInvalidPose);
+  run.restart(example().problem());
+  run.advance(StepUntil::kEnd);
+  EXPECT_EQ(run.trace().digest, wholeRun().digest);
 }
 
 TEST(Runner, StopsBetweenSlicesAndGoesOn) {
