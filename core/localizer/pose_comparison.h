@@ -42,8 +42,8 @@ class PoseComparison {
   PoseComparison(std::span<const PoseCandidate> candidates, const Seed& seed)
       : candidates_(candidates.first(std::min<std::size_t>(candidates.size(), kMostCandidates))),
         seed_(seed) {}
-  /// The comparison of a near seed: takes the refinement of the only candidate, or of the seed where
-  /// there is none, if it convinces; the whole object is searched otherwise.
+  /// The comparison of a near seed: takes the refinement of the only candidate, or of the seed
+  /// where there is none, if it convinces; the whole object is searched otherwise.
   static PoseComparison ofNearSeed(std::span<const PoseCandidate> candidates, const Seed& seed) {
     PoseComparison comparison(candidates, seed);
     comparison.source_ = Source::kNearSeed;
