@@ -6,6 +6,7 @@
 
 #include "app/calibration_text.h"
 #include "app/commands.h"
+#include "sessions/calibration/calibrated_values.h"
 #include "sessions/calibration/camera_calibration.h"
 #include "sessions/io/atomic_file.h"
 #include "sessions/io/camera_file.h"
@@ -52,12 +53,15 @@ sessions::CameraCalibration calibrateSession(const std::string& file,
       session, arguments.from == "runs" ? sessions::ObservationSource::kRuns
                                         : sessions::ObservationSource::kAnnotations);
   try {
-    auto calibration =
-        sessions::calibrateCamera(sharedCamera(session, file), views, freeOf(arguments));
+    const Camera& camera = sharedCamera(session, file);
+    auto calibration = sessions::calibrateCamera(camera, views, freeOf(arguments));
     std::cout << file << ": " << views.size() << " images, rms " << fixedText(calibration.rms_px, 3)
               << " px\n";
     printParameters(calibration.parameters, calibration.undetermined, calibration.noise_factor,
                     "add images from other distances and turned about the view axis");
+    const auto values = sessions::calibratedValues(camera, calibration);
+    if (const std::string change = sessions::changeText(values); !change.empty())
+      std::cout << change << "\n";
     return calibration;
   } catch (const std::invalid_argument& refusal) {
     throw sessions::InputError(file, arguments.from, refusal.what());

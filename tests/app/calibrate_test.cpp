@@ -67,7 +67,8 @@ class Calibrate : public testing::Test {
 TEST_F(Calibrate, FindsALongerFocalLengthAndWritesTheCamera) {
   const std::string out = folder_ / "camera.json";
   EXPECT_THAT(runWhs({"calibrate", annotatedSession(), "--out", out}, 0).out,
-              AllOf(HasSubstr("8 images"), HasSubstr("focal_relative"), HasSubstr("noise factor")));
+              AllOf(HasSubstr("8 images"), HasSubstr("focal_relative"), HasSubstr("noise factor"),
+                    HasSubstr("The focal length changes by")));
   const sessions::CameraFile written = sessions::readCameraFile(out);
   const Camera stated = sessionOf(1).cases.front()->camera;
   ASSERT_TRUE(written.calibration_sigma);

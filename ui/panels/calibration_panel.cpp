@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/calibration_panel.h"
 
-#include <cmath>
-
 #include <QtWidgets>
 
+#include "sessions/calibration/calibrated_values.h"
 #include "ui/models/text.h"
 #include "ui/panels/widgets.h"
 #include "ui/run/task_runner.h"
@@ -14,22 +13,37 @@
 namespace boresight::ui {
 namespace {
 
-QString figureText(double value) {
-  return std::isfinite(value) ? QString::number(value, 'g', 6)
-                              : CalibrationPanel::tr("not determined");
+/// Pixels with three decimals; coefficients with four digits.
+QString figureText(const sessions::CalibratedValue& value, double figure) {
+  return value.unit.empty() ? QString::number(figure, 'g', 4) : numberText(figure, 3);
 }
 
-QString summaryText(const sessions::CameraCalibration& calibration) {
+QStringList rowOf(const sessions::CalibratedValue& value) {
+  QString name = fromText(value.name);
+  name[0] = name[0].toUpper();
+  if (!value.unit.empty()) name += QStringLiteral(", ") + fromText(value.unit);
+  QStringList row = {name, figureText(value, value.before)};
+  if (!value.isDetermined())
+    return row << QStringLiteral("\u2013") << CalibrationPanel::tr("not determined")
+               << QStringLiteral("\u2013");
+  return row << figureText(value, value.after) << figureText(value, value.sigma)
+             << numberText(value.changeInSigmas(), 1);
+}
+
+QString summaryText(const sessions::CameraCalibration& calibration,
+                    const std::vector<sessions::CalibratedValue>& values) {
   QStringList lines = {
-      CalibrationPanel::tr(
-          "%n image(s), rms %1 px, noise factor %2 (1: residuals as the sigmas say).", "",
-          static_cast<int>(calibration.camera_from_station.size()))
+      CalibrationPanel::tr("%n image(s), rms %1 px, noise factor %2 (1: residuals as the sigmas "
+                           "say).",
+                           "", static_cast<int>(calibration.camera_from_station.size()))
           .arg(numberText(calibration.rms_px, 3), numberText(calibration.noise_factor, 2))};
+  if (const std::string change = sessions::changeText(values); !change.empty())
+    lines.prepend(fromText(change));
   for (const sessions::Undetermined& direction : calibration.undetermined)
     lines << CalibrationPanel::tr(
                  "Not determined by these images: %1. Add images from other "
                  "distances and turned about the view axis.")
-                 .arg(fromText(direction.text));
+                 .arg(fromText(sessions::directionText(direction)));
   return lines.join(QLatin1Char('\n'));
 }
 
@@ -82,12 +96,13 @@ void CalibrationPanel::calibrate() {
 
 void CalibrationPanel::take(const std::string& case_id,
                             const sessions::CameraCalibration& calibration) {
-  forget(summaryText(calibration));
+  const sessions::SessionCase* calibrated = document_.session().findCase(case_id);
+  if (calibrated == nullptr) return forget({});
+  const auto values = sessions::calibratedValues(calibrated->camera, calibration);
+  forget(summaryText(calibration, values));
   calibration_ = calibration;
   case_id_ = case_id;
-  for (const sessions::CalibrationParameter& parameter : calibration.parameters)
-    addRow(*ui_.parameters,
-           {fromText(parameter.name), figureText(parameter.value), figureText(parameter.sigma)});
+  for (const sessions::CalibratedValue& value : values) addRow(*ui_.parameters, rowOf(value));
   ui_.parameters->resizeColumnsToContents();
   ui_.use->setEnabled(calibration.undetermined.empty());
 }

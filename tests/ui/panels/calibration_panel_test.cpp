@@ -27,7 +27,8 @@ TEST_F(CalibrationPanelTest, FindsALongerLensAndUsesItForItsCases) {
   EXPECT_TRUE(test::has(summary(), "8 image"));
   const auto& table = find<QTableWidget>("calibrationParameters");
   ASSERT_EQ(table.rowCount(), 3);
-  EXPECT_EQ(table.item(0, 0)->text(), QStringLiteral("focal_relative"));
+  EXPECT_EQ(table.item(0, 0)->text(), QStringLiteral("Focal length, px"));
+  EXPECT_TRUE(test::has(summary(), "The focal length changes by"));
   const double before = window_.document().session().cases[0]->camera.fx;
   ASSERT_TRUE(find<QPushButton>("use").isEnabled());
   find<QPushButton>("use").click();
