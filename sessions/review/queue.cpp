@@ -225,8 +225,8 @@ std::string troubleText(const QueueRow& row) {
   if (row.failed > 0)
     return std::to_string(row.failed) + (row.failed == 1 ? " check failed: " : " checks failed: ") +
            failedTitles(row);
-  std::string text = "all " + std::to_string(row.passed) + " checks passed";
-  if (!row.margin_of.empty()) text += "; nearest to its limit: " + row.margin_of;
+  std::string text = std::to_string(row.passed) + " checks passed";
+  if (row.margin) text += ", margin " + marginText(row) + ": " + row.margin_of;
   return text;
 }
 

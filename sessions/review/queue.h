@@ -85,8 +85,8 @@ std::string queueKey(const Session& session, const std::string& case_id);
 /// as the best where none did); then the farther from the seed; last by the case's id.
 bool moreTrouble(const QueueRow& a, const QueueRow& b);
 
-/// "2 checks failed: Coverage, Clutter", "the run failed: ...", "all 20 checks passed; nearest to
-/// its limit: Inliers".
+/// "2 checks failed: Coverage, Clutter", "the run failed: ...", "20 checks passed, margin 8 %:
+/// Inliers".
 std::string troubleText(const QueueRow& row);
 
 /// Called after each case, one call at a time, from any thread.

@@ -212,6 +212,7 @@ TEST_F(QueueOfExample, ARowSufficesToDecide) {
               return check.state != CheckState::kNotApplicable;
             }));
   ASSERT_EQ(row.failed, 0) << troubleText(row);
+  EXPECT_THAT(troubleText(row), ::testing::MatchesRegex("[0-9]+ checks passed, margin .* %: .*"));
   const Session after = validated(*session_, *row.subject, row.checks, {}, {"Ada", "as drawn"});
   EXPECT_EQ(reviewStatusOf(after, id).state, ReviewState::kValidated);
   EXPECT_EQ(after.decisions.back().pose->camera_from_station,
