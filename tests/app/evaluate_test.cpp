@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "sessions/evaluation/results_file.h"
 #include "sessions/evaluation/sqlite.h"
 #include "tests/app/ended_whs.h"
+#include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {
@@ -25,12 +25,7 @@ class WhsEvaluate : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  std::vector<nlohmann::json> lines() const {
-    std::istringstream stream(folder_.read("r.jsonl"));
-    std::vector<nlohmann::json> json;
-    for (std::string line; std::getline(stream, line);) json.push_back(nlohmann::json::parse(line));
-    return json;
-  }
+  std::vector<nlohmann::json> lines() const { return jsonLines(folder_.read("r.jsonl")); }
 
   const std::filesystem::path dataset_ = exampleFolder() / "dataset.json";
   const TemporaryFolder folder_;
