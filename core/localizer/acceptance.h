@@ -47,10 +47,10 @@ LocalizationStatus judgeGap(const Workspace& measured, const LocalizerOptions& o
 LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, const Seed& seed,
                                        const LocalizerOptions& options);
 
-/// The comparison of a pose that passes after another one has passed; none after the last. Every
-/// pose is compared with others that show about the same edges; a doubtful one also with the mesh's
-/// mirror image, and with poses within twice the seed's uncertainty. A pose beyond the stated
-/// uncertainty is doubtful for the latter.
+/// The next comparison of a pose that has passed `last`; none after the last one. Every pose is
+/// compared with others that show about the same edges; one below kUndoubted also with the mesh's
+/// mirror image, and then with poses within twice the seed's uncertainty. A pose beyond the stated
+/// uncertainty is compared with the latter, too.
 std::optional<PassKind> comparisonAfter(PassKind last, double probability, const Seed& seed,
                                         const Pose& camera_from_station);
 

@@ -69,7 +69,7 @@ std::string changeText(std::span<const CalibratedValue> values) {
   if (change < kLeastChange_sigmas)
     return "No change is needed: the largest, of the " + largest->name + ", is " + sigmas + ".";
   return "The " + largest->name + " changes by " + sigmas +
-         ": use the calibrated camera when the observations are right.";
+         ": use the calibrated camera if the observations are right.";
 }
 
 std::string directionText(const Undetermined& direction) {

@@ -9,6 +9,7 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/file_bytes.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -51,9 +52,7 @@ bool comesBefore(const std::string& first, const std::string& second) {
 
 bool isImageName(const fs::path& file) {
   constexpr std::array kEnds = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".img", ".vic"};
-  std::string end = file.extension().string();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string end = lowerCase(file.extension().string());
   return std::find(kEnds.begin(), kEnds.end(), end) != kEnds.end();
 }
 

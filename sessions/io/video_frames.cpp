@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/io/pixel_image.h"
+#include "sessions/text/plain_text.h"
 
 namespace boresight::sessions {
 namespace {
@@ -51,9 +51,7 @@ class Video final : public FrameSource {
 bool isVideoName(const std::filesystem::path& file) {
   constexpr std::array kEnds = {".mp4", ".m4v",  ".mov", ".avi", ".mkv",   ".webm",
                                 ".mpg", ".mpeg", ".ogv", ".wmv", ".mjpeg", ".mjpg"};
-  std::string end = file.extension().string();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string end = lowerCase(file.extension().string());
   return std::find(kEnds.begin(), kEnds.end(), end) != kEnds.end();
 }
 

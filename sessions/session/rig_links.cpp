@@ -13,10 +13,16 @@ Session withRig(const Session& session, const std::string& case_id, std::optiona
                      [&](SessionCase& session_case) { session_case.rig = std::move(rig); });
 }
 
-/// Frames that have a name in every case, and another place in each.
+/// Frames that move from image to image relative to the others, or have no name.
 bool isOfOneImage(const FrameName& frame) {
   return frame.name.empty() || frame == kCameraFrame || frame == kStationFrame ||
          frame == kEndEffectorFrame;
+}
+
+/// A way over the station would be that of the seeds.
+bool passesStation(const FrameChain& chain) {
+  return std::any_of(chain.links.begin(), chain.links.end(),
+                     [](const FrameLink& link) { return link.from() == kStationFrame; });
 }
 
 /// A rig's name that no other rig has.
@@ -76,7 +82,8 @@ std::optional<FrameLinkOfCases> linkOfFrames(const SessionCase& session_case,
     if (isOfOneImage(frame)) continue;
     const auto to_own = own.chain(kCameraFrame, frame);
     const auto to_other = others.chain(kCameraFrame, frame);
-    if (!to_own || !to_other || to_own->links.size() <= farthest) continue;
+    if (!to_own || !to_other || passesStation(*to_own) || passesStation(*to_other)) continue;
+    if (to_own->links.size() <= farthest) continue;
     farthest = to_own->links.size();
     link = {frame, to_other->a_from_b * to_own->a_from_b.inverse()};
   }

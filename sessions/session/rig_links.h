@@ -25,12 +25,15 @@ std::optional<Pose> linkOfRig(const SessionCase& session_case, const SessionCase
 /// The same as the true poses of both say; nothing where one of them has none.
 std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other);
 
-/// The same by the named frame, farthest from the camera, that both cases join with their cameras:
-/// by image labels, telemetry of an arm, calibrations. Nothing where they have none in common.
+/// A link, and the frame that both cases join with their cameras.
 struct FrameLinkOfCases {
   FrameName frame;
   Pose other_from_case;
 };
+
+/// The same by the named frame, farthest from the camera, that image labels, telemetry of an arm or
+/// calibrations join with both cameras, by ways that do not pass the station. Nothing where there
+/// is none.
 std::optional<FrameLinkOfCases> linkOfFrames(const SessionCase& session_case,
                                              const SessionCase& other);
 

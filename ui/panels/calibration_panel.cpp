@@ -82,7 +82,8 @@ void CalibrationPanel::calibrate() {
   const auto source = ui_.source->currentIndex() == 0 ? sessions::ObservationSource::kAnnotations
                                                       : sessions::ObservationSource::kRuns;
   const std::string id = shownCaseId(document_, state_);
-  if (id.empty()) return;
+  const sessions::SessionCase* shown = document_.session().findCase(id);
+  if (shown == nullptr) return;
   forget(tr("Calibrating ..."));
   ui_.calibrate->setEnabled(false);
   tasks_.start(
@@ -90,15 +91,15 @@ void CalibrationPanel::calibrate() {
       [session = document_.session(), id, source, free](const std::stop_token&) {
         return sessions::calibrateCameraOf(session, id, source, free);
       },
-      [this, id](const sessions::CameraCalibration& calibration) { take(id, calibration); },
+      [this, id, before = shown->camera](const sessions::CameraCalibration& calibration) {
+        take(id, before, calibration);
+      },
       [this](const QString& problem) { forget(tr("Not calibrated: %1.").arg(problem)); });
 }
 
-void CalibrationPanel::take(const std::string& case_id,
+void CalibrationPanel::take(const std::string& case_id, const Camera& before,
                             const sessions::CameraCalibration& calibration) {
-  const sessions::SessionCase* calibrated = document_.session().findCase(case_id);
-  if (calibrated == nullptr) return forget({});
-  const auto values = sessions::calibratedValues(calibrated->camera, calibration);
+  const auto values = sessions::calibratedValues(before, calibration);
   forget(summaryText(calibration, values));
   calibration_ = calibration;
   case_id_ = case_id;

@@ -27,7 +27,8 @@ class CalibrationPanel : public QWidget {
 
  private:
   void calibrate();
-  void take(const std::string& case_id, const sessions::CameraCalibration& calibration);
+  void take(const std::string& case_id, const Camera& before,
+            const sessions::CameraCalibration& calibration);
   void use();
   void forget(const QString& reason);
 

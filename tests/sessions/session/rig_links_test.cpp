@@ -55,6 +55,19 @@ TEST(LinkOfFrames, IsByTheFrameFarthestFromTheCamera) {
   expectLink(onArm(0.0), onArm(0.3), -0.3, "ROVER");
 }
 
+/// A part is placed in the station's frame, which the telemetry joins with the rover's.
+TEST(LinkOfFrames, DoesNotPassTheStation) {
+  SessionCase first = onArm(0.0);
+  SessionCase second = onArm(0.3);
+  double station_in_rover_m = 0.7;
+  for (SessionCase* each : {&first, &second}) {
+    each->frames.push_back(shifted({"ROVER", {}}, kStationFrame, station_in_rover_m));
+    each->frames.push_back(shifted(kStationFrame, {"PART", {}}, 0.02));
+    station_in_rover_m += 0.01;  // as another seed says
+  }
+  expectLink(first, second, -0.3, "ROVER");
+}
+
 SessionCase inRig(const std::string& name, double x_m) {
   SessionCase session_case;
   session_case.rig.emplace();
