@@ -56,7 +56,8 @@ void NewArguments::addTo(CLI::App& command) {
   addFile(command, "--out", out, "Session file to create, e.g. sol12.boresight.json")->required();
 }
 
-/// What no edit mends is refused: sizes that do not fit, a camera that folds. A seed can be moved.
+/// Refuses inputs that an edit of the session cannot correct: an image of another size than the
+/// camera's, a camera that folds. A seed can be moved later.
 void requireUsable(const sessions::SessionCase& session_case) {
   const auto loaded = sessions::loadCase(session_case);
   sessions::requireSameSize(loaded->image, session_case.camera);

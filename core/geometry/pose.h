@@ -43,7 +43,7 @@ Vector6d perturbationBetween(const Pose& from, const Pose& to);
 Status poseFromMatrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation_m,
                       Pose& a_from_b, double& deviation);
 
-/// Box of poses around a seed, per axis of the seed camera frame (conventions.md):
+/// Box of poses around a seed, per axis of the seed camera frame:
 /// p_true = Exp(r) (p_seed - c) + c + t with |r_i| <= rotation_rad[i], |t_i| <= translation_m[i];
 /// c is the pivot in seed-camera coordinates.
 struct SeedUncertainty {

@@ -16,7 +16,7 @@
 
 namespace boresight::sessions {
 
-/// How far an estimate is from the truth (algorithm.md, "Errors, as reported").
+/// How far an estimate is from the truth.
 struct PoseError {
   double normal_mm = 0.0;      ///< along the true camera's axis, signed
   double lateral_mm = 0.0;     ///< across it

@@ -133,7 +133,7 @@ void judge(bool wrong_mesh, RunResult& result);
 nlohmann::ordered_json toJson(const PoseError& error);
 nlohmann::ordered_json toJson(const StageSeconds& seconds);
 nlohmann::ordered_json toJson(const ImageQuality& quality);
-/// One object as in conventions.md, for a line of results.jsonl.
+/// A line of results.jsonl.
 nlohmann::ordered_json toJson(const RunResult& result);
 
 }  // namespace boresight::sessions

@@ -30,9 +30,9 @@ struct NudgeFrame {
   Eigen::Vector3d centre_in_station_m = Eigen::Vector3d::Zero();
 };
 
-/// A pose displaced by (rotation vector rad, translation m): the station is turned about the pivot,
-/// then moved, along the camera's axes or its own. Seen from the camera the station moves that way,
-/// whichever of the two really does. The station's axes and the pivot are those of the given pose.
+/// A pose displaced by (rotation vector rad, translation m): the station as seen from the camera is
+/// turned about the pivot, then moved, along the camera's axes or its own. The station's axes and
+/// the pivot are those of the given pose.
 Pose nudged(const Pose& camera_from_station, const Vector6d& offset, const NudgeFrame& frame);
 
 /// The offset that `nudged` would need to get from the first pose to the second.

@@ -45,7 +45,7 @@ Bytes encoded(const cv::Mat& image, const std::string& extension) {
   return bytes;
 }
 
-/// The rule of conventions.md in doubles, as it is written there.
+/// The rule in doubles.
 std::uint8_t byRule(double v, int n) {
   return static_cast<std::uint8_t>(std::floor(v * 255.0 / (std::pow(2.0, n) - 1.0) + 0.5));
 }
