@@ -2,15 +2,8 @@
 #include "core/base/digest.h"
 
 #include <cstddef>
-#include <cstring>
 
 namespace boresight {
-
-void DigestWriter::tag(const char* name) {
-  const std::size_t length = std::strlen(name);
-  u32(static_cast<std::uint32_t>(length));
-  sha_.update({reinterpret_cast<const std::uint8_t*>(name), length});
-}
 
 std::array<char, 65> hexText(const std::array<std::uint8_t, 32>& digest) {
   constexpr const char* kDigits = "0123456789abcdef";

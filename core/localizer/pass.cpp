@@ -59,9 +59,9 @@ Status Pass::create(const LocalizationProblem& problem, const LocalizerOptions& 
                scene_,
                problem_.camera_from_station_seed,
                problem_.uncertainty};
-  digestOptions(options_, digest_);
-  digestProblem(used, digest_);
-  seal_.sealInputs(inputDigest(options_, used));
+  const std::array<std::uint8_t, 32> inputs = inputDigest(options_, used);
+  digest_.bytes(inputs);
+  seal_.sealInputs(inputs);
   if (match_outside_) matchOutside(surfaces_);
   return Status::kOk;
 }

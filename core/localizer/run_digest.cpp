@@ -13,7 +13,8 @@ namespace {
 
 /// Most words of edges and masks equal the word before them: writes which words differ, 64 at a
 /// time, and those words. The image can be reconstructed from them.
-void digestBits(const BitImage& image, DigestWriter& writer) {
+template <class Writer>
+void digestBits(const BitImage& image, Writer& writer) {
   writer.i32(image.width);
   writer.i32(image.height);
   std::uint64_t before = 0;
@@ -33,8 +34,8 @@ void digestBits(const BitImage& image, DigestWriter& writer) {
   }
 }
 
-template <class Vector>
-void digestVector(const Vector& vector, DigestWriter& writer) {
+template <class Vector, class Writer>
+void digestVector(const Vector& vector, Writer& writer) {
   for (Eigen::Index i = 0; i < vector.size(); ++i) writer.f64(vector[i]);
 }
 
@@ -44,37 +45,28 @@ void digestMatrix(const Matrix6d& matrix, DigestWriter& writer) {
   }
 }
 
-/// Of what a problem views.
-std::uint32_t checksumOfArrays(const LocalizationProblem& problem) {
+std::uint32_t checksumOfRows(const std::uint8_t* first, std::ptrdiff_t stride, int height,
+                             std::size_t bytes) {
   std::uint32_t sum = 0;
-  const auto add = [&sum](const auto& memory) {
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(memory));
-    sum = crc32({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, sum);
-  };
-  const auto addRow = [&add](const std::uint8_t* row, int bytes) {
-    add(std::span(row, static_cast<std::size_t>(bytes)));
-  };
-  for (int y = 0; y < problem.image.height; ++y) addRow(problem.image.row(y), problem.image.width);
-  if (problem.color.data != nullptr)
-    for (int y = 0; y < problem.color.height; ++y)
-      addRow(problem.color.row(y), problem.color.width * ColorView::kChannels);
-  if (problem.ignore != nullptr) add(problem.ignore->words);
-  const MeshView& mesh = problem.mesh;
-  add(mesh.vertices_in_station_m);
-  mesh.faces.forEach(0, mesh.faces.size(),
-                     [&add](std::size_t, const auto& vertices) { add(vertices); });
-  add(mesh.part_of_face);
+  for (int y = 0; y < height; ++y) sum = crc32({first + stride * y, bytes}, sum);
   return sum;
 }
 
-LocalizationProblem withoutArrays(LocalizationProblem problem) {
-  problem.image.height = 0;
-  problem.color = {};
-  problem.ignore = nullptr;
-  problem.mesh.vertices_in_station_m = {};
-  problem.mesh.faces = {};
-  problem.mesh.part_of_face = {};
-  return problem;
+std::uint32_t checksumOf(const BitImage& image) {
+  ChecksumWriter sum;
+  digestBits(image, sum);
+  return sum.checksum();
+}
+
+std::uint32_t checksumOf(const MeshView& mesh) {
+  ChecksumWriter sum;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m)
+    for (int i = 0; i < 3; ++i) sum.f32(vertex[i]);
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+    for (const std::int32_t vertex : mesh.faces[face].vertex) sum.i32(vertex);
+    sum.i32(mesh.part_of_face[face]);
+  }
+  return sum.checksum();
 }
 
 }  // namespace
@@ -99,19 +91,19 @@ void digestPose(const Pose& pose, DigestWriter& writer) {
 
 void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   writer.tag("problem");
-  writer.i32(problem.image.width);
-  writer.i32(problem.image.height);
-  for (int y = 0; y < problem.image.height; ++y) {
-    writer.bytes({problem.image.row(y), static_cast<std::size_t>(problem.image.width)});
-  }
+  const ImageView& image = problem.image;
+  writer.i32(image.width);
+  writer.i32(image.height);
+  writer.u32(checksumOfRows(image.data, image.stride, image.height,
+                            static_cast<std::size_t>(image.width)));
   const ColorView& color = problem.color;
   if (color.data != nullptr) {
     writer.tag("color");
-    for (int y = 0; y < color.height; ++y)
-      writer.bytes({color.row(y), static_cast<std::size_t>(color.width) * ColorView::kChannels});
+    writer.u32(checksumOfRows(color.data, color.stride, color.height,
+                              static_cast<std::size_t>(color.width) * ColorView::kChannels));
   }
   writer.u8(problem.ignore != nullptr ? 1 : 0);
-  if (problem.ignore != nullptr) digestBits(*problem.ignore, writer);
+  if (problem.ignore != nullptr) writer.u32(checksumOf(*problem.ignore));
   const Camera& camera = problem.camera;
   writer.i32(static_cast<std::int32_t>(camera.model));
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) writer.f64(value);
@@ -125,14 +117,8 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
   }
   const MeshView& mesh = problem.mesh;
   writer.u32(static_cast<std::uint32_t>(mesh.vertices_in_station_m.size()));
-  for (const Eigen::Vector3f& vertex : mesh.vertices_in_station_m) {
-    for (int i = 0; i < 3; ++i) writer.f32(vertex[i]);
-  }
   writer.u32(static_cast<std::uint32_t>(mesh.faces.size()));
-  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
-    for (const std::int32_t vertex : mesh.faces[face].vertex) writer.i32(vertex);
-    writer.i32(mesh.part_of_face[face]);
-  }
+  writer.u32(checksumOf(mesh));
   for (const ScenePart& part : mesh.parts) {
     writer.f64(part.normal_threshold_rad);
     writer.f64(part.depth_threshold_m);
@@ -149,9 +135,8 @@ void digestProblem(const LocalizationProblem& problem, DigestWriter& writer) {
 std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
                                          const LocalizationProblem& problem) {
   DigestWriter writer;
-  writer.u32(checksumOfArrays(problem));
   digestOptions(options, writer);
-  digestProblem(withoutArrays(problem), writer);
+  digestProblem(problem, writer);
   return writer.digest();
 }
 
@@ -159,23 +144,25 @@ void digestEdgeMap(const EdgeMap& edges, DigestWriter& writer) {
   writer.tag("edges");
   writer.f64(edges.low_threshold);
   writer.f64(edges.high_threshold);
-  digestBits(edges.level[0], writer);  // the other levels follow from this one
+  writer.u32(checksumOf(edges.level[0]));  // the other levels follow from this one
 }
 
 void digestRender(const EdgeRender& render, DigestWriter& writer) {
   writer.tag("render");
   digestPose(render.camera_from_station, writer);
-  digestBits(render.edges, writer);
-  digestBits(render.mask, writer);
+  writer.u32(checksumOf(render.edges));
+  writer.u32(checksumOf(render.mask));
   writer.i32(render.pixel_count);
+  ChecksumWriter pixels;
   for (const EdgePixel& pixel : render.eachPixel()) {
-    writer.f32(pixel.depth_m);
-    writer.i32(pixel.face);
-    writer.u8(static_cast<std::uint8_t>(pixel.normal_x));
-    writer.u8(static_cast<std::uint8_t>(pixel.normal_y));
-    writer.u8(static_cast<std::uint8_t>(pixel.offset));
-    writer.u8(pixel.kind);
+    pixels.f32(pixel.depth_m);
+    pixels.i32(pixel.face);
+    pixels.u8(static_cast<std::uint8_t>(pixel.normal_x));
+    pixels.u8(static_cast<std::uint8_t>(pixel.normal_y));
+    pixels.u8(static_cast<std::uint8_t>(pixel.offset));
+    pixels.u8(pixel.kind);
   }
+  writer.u32(pixels.checksum());
 }
 
 void digestTemplates(const TemplateSet& templates, DigestWriter& writer) {
@@ -237,13 +224,15 @@ void digestRefinement(const RefinementResult& refinement, DigestWriter& writer) 
   writer.i32(refinement.found_count);
   writer.i32(refinement.used_count);
   writer.f64(refinement.rms_px);
+  ChecksumWriter samples;
   for (std::int32_t i = 0; i < refinement.sample_count; ++i) {
     const EdgeSample& sample = refinement.samples[static_cast<std::size_t>(i)];
-    digestVector(sample.point_in_station_m, writer);
-    writer.f64(sample.residual_px);
-    writer.f64(sample.gradient);
-    writer.f64(sample.weight);
+    digestVector(sample.point_in_station_m, samples);
+    samples.f64(sample.residual_px);
+    samples.f64(sample.gradient);
+    samples.f64(sample.weight);
   }
+  writer.u32(samples.checksum());
   digestMatrix(refinement.covariance, writer);
 }
 

@@ -13,11 +13,10 @@
 namespace boresight {
 
 /// The serialization behind the digest of a run: big-endian, in declaration order, no times,
-/// addresses, thread or memory figures.
+/// addresses, thread or memory figures. Images, mesh, renders and samples enter with their CRC-32.
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer);
 void digestProblem(const LocalizationProblem& problem, DigestWriter& writer);
-/// A digest of both, not that of a run: images and mesh enter with their CRC-32, as SHA-256 of 4 MP
-/// would take ten times as long.
+/// A digest of both; the digest of a run begins with it.
 std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
                                          const LocalizationProblem& problem);
 void digestPose(const Pose& pose, DigestWriter& writer);

@@ -48,6 +48,42 @@ TEST(Crc32, EqualsTheDivisionBitByBit_AlsoInPieces) {
   }
 }
 
+TEST(Crc32, ValuesCountAsTheirBytes_MostSignificantFirst) {
+  Random random(9);
+  for (int run = 0; run < 50; ++run) {
+    Crc32 sum;
+    std::vector<std::uint8_t> bytes;
+    const auto append = [&](std::uint64_t value, int count) {
+      for (int i = count - 1; i >= 0; --i)
+        bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+    };
+    for (int i = 0; i < 20; ++i) {
+      const std::uint64_t high = random.below(0xffffffffu);
+      const std::uint64_t value = high << 32 | random.below(0xffffffffu);
+      switch (random.below(4)) {
+        case 0:
+          sum.updateBigEndian(static_cast<std::uint8_t>(value));
+          append(value & 0xffu, 1);
+          break;
+        case 1:
+          sum.updateBigEndian(static_cast<std::uint32_t>(value));
+          append(value & 0xffffffffu, 4);
+          break;
+        case 2:
+          sum.updateBigEndian(value);
+          append(value, 8);
+          break;
+        default: {
+          const std::vector<std::uint8_t> more = randomBytes(random, 5);
+          sum.update(more);
+          bytes.insert(bytes.end(), more.begin(), more.end());
+        }
+      }
+    }
+    ASSERT_EQ(sum.value(), bitByBit(bytes)) << run;
+  }
+}
+
 TEST(Crc32, ShowsEveryBitThatFlips) {
   Random random(8);
   std::vector<std::uint8_t> bytes = randomBytes(random, 50);
