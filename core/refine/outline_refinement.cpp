@@ -44,7 +44,8 @@ Status OutlineRefinement::create(Arena& arena) {
   return arena.exhausted() ? Status::kArenaTooSmall : Status::kOk;
 }
 
-void OutlineRefinement::takeSamples(const MeshView& mesh, const EdgeRender& render) {
+void OutlineRefinement::takePlaces(const MeshView& mesh, const EdgeRender& render) {
+  camera_ = render.camera;
   count_ = 0;
   const int stride = std::max(1, (render.pixel_count + kMaxSamples - 1) / kMaxSamples);
   for (const EdgePixel& pixel : render.eachPixel(stride)) {
@@ -57,11 +58,8 @@ void OutlineRefinement::takeSamples(const MeshView& mesh, const EdgeRender& rend
   }
 }
 
-bool OutlineRefinement::refine(const DirectedEdges& edges, const MeshView& mesh,
-                               const EdgeRender& render, const PosePrior& prior, double radius_px,
-                               Pose& view_from_station) {
-  takeSamples(mesh, render);
-  const Camera& camera = render.camera;
+bool OutlineRefinement::refine(const DirectedEdges& edges, const PosePrior& prior, double radius_px,
+                               Pose& view_from_station) const {
   Pose pose = view_from_station;
   for (int round = 0; round < kRounds; ++round) {
     const double cut_px = radius_px + 0.5;
@@ -74,7 +72,7 @@ bool OutlineRefinement::refine(const DirectedEdges& edges, const MeshView& mesh,
       const Eigen::Vector3d point = rotation * sample.point_in_station_m + pose.translation_m;
       Eigen::Vector2d pixel;
       Eigen::Matrix<double, 2, 3> jacobian;
-      if (!projectWithJacobian(camera, point, pixel, jacobian)) continue;
+      if (!projectWithJacobian(camera_, point, pixel, jacobian)) continue;
       double offset_px = 0.0;
       if (!findEdge(edges, pixel, sample.normal, sample.direction, radius, offset_px)) continue;
       if (std::abs(offset_px) >= cut_px) continue;

@@ -17,18 +17,21 @@ namespace boresight {
 /// edge place along its normal to the nearest edge whose direction differs by at most one step.
 /// Robust (Tukey), Gauss-Newton; the seed's uncertainty constrains directions that the edges do not
 /// determine. For poses that are several pixels off, where the strongest gradient nearby
-/// (EdgeRefinement) is often another edge.
+/// (EdgeRefinement) is often another edge. The places of one render, projected again at each pose,
+/// serve several radii.
 class OutlineRefinement {
  public:
   static constexpr int kMaxSamples = 1200;  ///< edge places used, at most
 
   /// Takes the samples' memory from `arena`.
   Status create(Arena& arena);
-  /// The rounds of one render. `view_from_station` is the pose rendered; the prior is in the
-  /// view's frame. False, with the pose unchanged, when too few edges are found.
-  [[nodiscard]] bool refine(const DirectedEdges& edges, const MeshView& mesh,
-                            const EdgeRender& render, const PosePrior& prior, double radius_px,
-                            Pose& view_from_station);
+  /// Takes the edge places of a render.
+  void takePlaces(const MeshView& mesh, const EdgeRender& render);
+  /// The rounds of one radius. `view_from_station` is the pose rendered, or where it has moved
+  /// since; the prior is in the view's frame. False, with the pose unchanged, when too few edges
+  /// are found.
+  [[nodiscard]] bool refine(const DirectedEdges& edges, const PosePrior& prior, double radius_px,
+                            Pose& view_from_station) const;
 
  private:
   struct Sample {
@@ -36,8 +39,8 @@ class OutlineRefinement {
     Eigen::Vector2d normal;
     std::uint8_t direction = 0;
   };
-  void takeSamples(const MeshView& mesh, const EdgeRender& render);
 
+  Camera camera_;  ///< of the render
   std::span<Sample> samples_;
   int count_ = 0;
 };

@@ -213,8 +213,9 @@ void CompetingPoseTest::stepSlides() {
 void CompetingPoseTest::refine() {
   const Scale& scale = kScales[static_cast<std::size_t>(scale_)];
   Pose moved = current_;
-  const bool met = refinement_.refine(view_edges_.edges(), problem_.mesh, render_,
-                                      priorOf(current_), scale.radius_px, moved);
+  refinement_.takePlaces(problem_.mesh, render_);
+  const bool met =
+      refinement_.refine(view_edges_.edges(), priorOf(current_), scale.radius_px, moved);
   if (!met) return scale_ == 0 ? nextHypothesis() : nextPromising();
   current_ = moved;
   if (scale_ == 0) {

@@ -10,7 +10,7 @@
 namespace boresight {
 namespace {
 
-/// One scale of the refinement: the object's size, and the search radius of each render.
+/// One scale of the refinement: the object's size, and the search radius of each pass.
 struct Level {
   double span_px = 0.0;
   int passes = 0;
@@ -23,7 +23,7 @@ constexpr std::array<Level, 4> kLevels = {{
     {158.0, 2, {5.0, 3.0, 0.0}},
     {285.0, 2, {4.0, 3.0, 0.0}},
 }};
-constexpr int kMeasuring = static_cast<int>(kLevels.size());
+constexpr int kFinest = static_cast<int>(kLevels.size()) - 1;
 
 /// A round: poses refined at some levels and compared by their evidence.
 struct Round {
@@ -37,8 +37,8 @@ struct Round {
 constexpr std::array<Round, 4> kRounds = {{
     {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
     {1, 1, 10, 8, 0.5},
-    {2, kMeasuring, PoseSearch::kMaxCandidates, 5, 0.7},
-    {1, kMeasuring, 1, 1, 0.0},  // of the seed alone
+    {2, kFinest, PoseSearch::kMaxCandidates, 5, 0.7},
+    {1, kFinest, 1, 1, 0.0},  // of the seed alone
 }};
 constexpr int kLastRound = 2;
 constexpr int kSeedRound = 3;
@@ -110,8 +110,6 @@ bool PoseSearch::step() {
       return stepRender();
     case Phase::kRefine:
       return refine();
-    case Phase::kMeasure:
-      return measure();
     case Phase::kDone:
       break;
   }
@@ -210,12 +208,10 @@ bool PoseSearch::beginLevel() {
     phase_ = Phase::kRender;
     return true;
   }
-  ViewSize size = evidenceViewSize(0);
-  if (level_ < kMeasuring) {
-    size.span_px = kLevels[static_cast<std::size_t>(level_)].span_px;
-    size.margin_px = kMargin * size.span_px;
-    size.most_px = kLongestView_px;
-  }
+  ViewSize size;
+  size.span_px = kLevels[static_cast<std::size_t>(level_)].span_px;
+  size.margin_px = kMargin * size.span_px;
+  size.most_px = kLongestView_px;
   phase_ = Phase::kView;
   return view_edges_.begin(problem_, current_.camera_from_station, size);
 }
@@ -231,7 +227,8 @@ bool PoseSearch::stepRender() {
   rendering_ = status == Status::kOk && !complete;
   if (rendering_) return false;
   if (status != Status::kOk) return !beginNext();
-  phase_ = level_ == kMeasuring ? Phase::kMeasure : Phase::kRefine;
+  refinement_.takePlaces(problem_.mesh, render_);
+  phase_ = Phase::kRefine;
   return false;
 }
 
@@ -253,15 +250,19 @@ PosePrior PoseSearch::prior() const {
 bool PoseSearch::refine() {
   const Level& level = kLevels[static_cast<std::size_t>(level_)];
   const double radius_px = level.radius_px[static_cast<std::size_t>(pass_)];
-  const bool moved = refinement_.refine(view_edges_.edges(), problem_.mesh, render_, prior(),
-                                        radius_px, view_from_station_);
-  phase_ = Phase::kRender;
+  const bool moved =
+      refinement_.refine(view_edges_.edges(), prior(), radius_px, view_from_station_);
   current_.camera_from_station = view_edges_.inCamera(view_from_station_);
   if (moved || level_ <= 1) current_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
   if (round_ < kLastRound && isKept(current_.camera_from_station)) return !beginNext();
-  if (moved && ++pass_ < level.passes) return false;
+  const bool measures = level_ == kRounds[static_cast<std::size_t>(round_)].last_level;
+  if (moved && ++pass_ < level.passes) {
+    // The last pass renders again where its render is measured.
+    if (measures && pass_ + 1 == level.passes) phase_ = Phase::kRender;
+    return false;
+  }
   // The last render is from close by.
-  if (level_ == kRounds[static_cast<std::size_t>(round_)].last_level) return measure();
+  if (measures) return measure();
   ++level_;
   return beginLevel() ? false : !beginNext();
 }

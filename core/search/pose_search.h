@@ -54,7 +54,7 @@ class PoseSearch {
   const ObjectSearch& search() const { return search_; }
 
  private:
-  enum class Phase : std::uint8_t { kSearch = 0, kView, kRender, kRefine, kMeasure, kDone };
+  enum class Phase : std::uint8_t { kSearch = 0, kView, kRender, kRefine, kDone };
 
   void takeFound();
   bool beginNext();
@@ -83,7 +83,7 @@ class PoseSearch {
   Phase phase_ = Phase::kDone;
   int round_ = 0;
   int next_ = 0;   ///< index of the next waiting pose
-  int level_ = 0;  ///< of the refinement: 0 the search's; the last one measures
+  int level_ = 0;  ///< of the refinement: 0 the search's
   int pass_ = 0;   ///< of the level
   bool rendering_ = false;
   PoseCandidate current_;
