@@ -34,22 +34,19 @@ struct TangentBox {
 TangentBox boxOfScene(const MeshView& mesh, const Pose& view_from_station) {
   TangentBox box;
   const Eigen::Matrix3d rotation = view_from_station.matrix();
-  Face before = {};  // its vertices are included
-  bool included = false;
+  // All vertices below are included: a mesh usually counts them in the order of their first use.
+  std::int32_t included_below = 0;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     if (!mesh.parts[mesh.part_of_face[i]].match) continue;
-    const Face& face = mesh.faces[i];
+    const Face face = mesh.faces[i];
     for (const std::int32_t vertex : face.vertex) {
-      if (included &&
-          (vertex == before.vertex[0] || vertex == before.vertex[1] || vertex == before.vertex[2]))
-        continue;
+      if (vertex < included_below) continue;
+      if (vertex == included_below) ++included_below;
       const Eigen::Vector3d point_m =
           rotation * mesh.vertices_in_station_m[static_cast<std::size_t>(vertex)].cast<double>() +
           view_from_station.translation_m;
       if (point_m.z() > 0.0) box.extend(point_m);
     }
-    before = face;
-    included = true;
   }
   return box;
 }
@@ -211,24 +208,72 @@ bool sumsByColumns(const SearchProblem& problem, int block) {
   return problem.image.width >= kColumns && block < kMostRows;
 }
 
+/// Places of a row of the view in the real image. The way between them is smooth: between knots
+/// that are projected it is linear.
+class ProjectedRow {
+ public:
+  ProjectedRow(const SearchProblem& problem, const FacingView& view, int y)
+      : problem_(problem),
+        view_(view),
+        camera_from_view_(view.view_from_camera.matrix().transpose()),
+        y_(y) {
+    ahead_.known = project(0, ahead_.pixel);
+  }
+
+  /// Of the columns in their order; false outside the real camera's field of view.
+  bool next(int x, Eigen::Vector2d& pixel) {
+    if (x % kSpacing_px == 0) advance(x);
+    if (!between_) return project(x, pixel);
+    pixel = behind_.pixel + (x % kSpacing_px) * step_;
+    return true;
+  }
+
+ private:
+  static constexpr int kSpacing_px = 8;
+  struct Knot {
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+    bool known = false;
+  };
+
+  void advance(int x) {
+    behind_ = ahead_;
+    ahead_.known = project(x + kSpacing_px, ahead_.pixel);
+    between_ = behind_.known && ahead_.known;
+    step_ = (ahead_.pixel - behind_.pixel) * (1.0 / kSpacing_px);
+  }
+
+  bool project(int x, Eigen::Vector2d& pixel) const {
+    const Camera& camera = view_.camera;
+    const Eigen::Vector3d ray =
+        camera_from_view_ *
+        Eigen::Vector3d((x - camera.cx) / camera.fx, (y_ - camera.cy) / camera.fy, 1.0);
+    return projectDirection(problem_.camera, problem_.seenAlong(ray), pixel);
+  }
+
+  const SearchProblem& problem_;
+  const FacingView& view_;
+  Eigen::Matrix3d camera_from_view_;
+  int y_;
+  Knot behind_, ahead_;
+  Eigen::Vector2d step_ = Eigen::Vector2d::Zero();
+  bool between_ = false;
+};
+
 template <int kCount>
 void fillRows(const SearchProblem& problem, const Channels& image, const FacingView& view,
               int first, int end, SmallImage& output) {
-  const Eigen::Matrix3d camera_from_view = view.view_from_camera.matrix().transpose();
   const int block = std::max(1, static_cast<int>(1.0 / view.pixels_per_px + 0.5));
   const double half = 0.5 * (block - 1);
   const std::size_t channel = output.seen.size();
   const bool by_columns = sumsByColumns(problem, block);
   for (int y = first; y < end; ++y) {
+    ProjectedRow row(problem, view, y);
     for (int x = 0; x < output.width; ++x) {
       const auto at = static_cast<std::size_t>(y * output.width + x);
       for (int k = 0; k < kCount; ++k) output.value[static_cast<std::size_t>(k) * channel + at] = 0;
       output.seen[at] = 0;
-      const Eigen::Vector3d ray =
-          camera_from_view * Eigen::Vector3d((x - view.camera.cx) / view.camera.fx,
-                                             (y - view.camera.cy) / view.camera.fy, 1.0);
       Eigen::Vector2d pixel;
-      if (!projectDirection(problem.camera, problem.seenAlong(ray), pixel)) continue;
+      if (!row.next(x, pixel)) continue;
       const double left = pixel.x() - half;
       const double top = pixel.y() - half;
       if (!(left >= 0.0 && top >= 0.0 && left + block < problem.image.width &&

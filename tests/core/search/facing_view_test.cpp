@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/search/facing_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace boresight {
+namespace {
+
+constexpr int kWidth = 400;
+constexpr int kHeight = 300;
+
+/// Two faces of a square plate 0.3 m in front of the camera, its vertices in the given order.
+struct Plate {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Face> faces;
+  std::vector<std::uint16_t> part_of_face = {0, 0};
+  std::vector<ScenePart> parts = std::vector<ScenePart>(1);
+
+  explicit Plate(const std::array<int, 4>& order) {
+    const std::array<Eigen::Vector3f, 4> corner = {{{-0.05F, -0.04F, 0.3F},
+                                                    {0.05F, -0.04F, 0.3F},
+                                                    {0.05F, 0.04F, 0.3F},
+                                                    {-0.05F, 0.04F, 0.3F}}};
+    vertices.resize(4);
+    std::array<std::int32_t, 4> index{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      vertices[static_cast<std::size_t>(order[i])] = corner[i];
+      index[i] = order[i];
+    }
+    faces = {Face{{index[0], index[1], index[2]}}, Face{{index[0], index[2], index[3]}}};
+  }
+};
+
+Camera distortedCamera() {
+  Camera camera;
+  camera.model = CameraModel::kBrownConrady;
+  camera.width = kWidth;
+  camera.height = kHeight;
+  camera.fx = camera.fy = 500.0;
+  camera.cx = 0.5 * (kWidth - 1);
+  camera.cy = 0.5 * (kHeight - 1);
+  camera.distortion[0] = -0.2;
+  EXPECT_EQ(prepareCamera(camera), Status::kOk);
+  return camera;
+}
+
+/// A ramp of 1.5 per px where the plate is shown: the mean of an area is the value in its middle.
+double rampAt(double x) { return std::clamp(1.5 * (x - 190.0), 0.0, 255.0); }
+
+struct View {
+  Plate plate;
+  std::vector<std::uint8_t> gray = std::vector<std::uint8_t>(kWidth * kHeight);
+  SearchProblem problem;
+  FacingView view;
+
+  explicit View(const std::array<int, 4>& order, double away_m = 0.0) : plate(order) {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        gray[static_cast<std::size_t>(y * kWidth + x)] = static_cast<std::uint8_t>(rampAt(x) + 0.5);
+    problem.image.data = gray.data();
+    problem.image.width = kWidth;
+    problem.image.stride = kWidth;
+    problem.image.height = kHeight;
+    problem.camera = distortedCamera();
+    problem.mesh.vertices_in_station_m = plate.vertices;
+    problem.mesh.faces = plate.faces;
+    problem.mesh.part_of_face = plate.part_of_face;
+    problem.mesh.parts = plate.parts;
+    problem.scene = matchedBounds(problem.mesh);
+    problem.camera_from_station_seed.translation_m.x() = away_m;
+    ViewSize size;
+    size.span_px = 120.0;
+    size.margin_px = 12.0;
+    size.most_px = 300;
+    EXPECT_TRUE(faceScene(problem, problem.camera_from_station_seed, size, view));
+  }
+  View(const View&) = delete;
+  View& operator=(const View&) = delete;
+};
+
+TEST(FacingView, RowsShowTheImageWhereEachPixelProjects) {
+  const View shown({0, 1, 2, 3}, 0.05);
+  std::vector<std::uint8_t> value(300 * 300);
+  std::vector<std::uint8_t> seen(300 * 300);
+  SmallImage output;
+  output.value = value;
+  output.seen = seen;
+  fillViewRows(shown.problem, shown.view, 0, shown.view.camera.height, output);
+  const Eigen::Matrix3d camera_from_view = shown.view.view_from_camera.matrix().transpose();
+  int compared = 0;
+  for (int y = 0; y < output.height; ++y) {
+    for (int x = 0; x < output.width; ++x) {
+      const Camera& camera = shown.view.camera;
+      const Eigen::Vector3d ray =
+          camera_from_view *
+          Eigen::Vector3d((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
+      Eigen::Vector2d pixel;
+      const auto at = static_cast<std::size_t>(y * output.width + x);
+      if (seen[at] == 0 || !projectDirection(shown.problem.camera, ray, pixel)) continue;
+      const double expected = rampAt(pixel.x());
+      if (expected < 5.0 || expected > 250.0) continue;
+      EXPECT_NEAR(value[at] + 0.5, expected, 0.8) << x << " " << y;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 5000);
+}
+
+TEST(FacingView, OrderOfTheVerticesDoesNotMatter) {
+  const View expected({0, 1, 2, 3});
+  std::array<int, 4> order = {0, 1, 2, 3};
+  do {
+    const View view(order);
+    EXPECT_EQ(view.view.camera.width, expected.view.camera.width);
+    EXPECT_EQ(view.view.camera.height, expected.view.camera.height);
+    EXPECT_EQ(view.view.camera.fx, expected.view.camera.fx);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+}  // namespace
+}  // namespace boresight
