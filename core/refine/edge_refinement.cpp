@@ -12,6 +12,8 @@ namespace {
 constexpr double kTukey = 4.685;  ///< 95 % efficiency on Gaussian residuals (Huber 1981)
 constexpr double kMadToSigma = 1.4826;
 constexpr double kMinScale_px = 0.15;
+/// Searches as far as this take wide steps: a narrower one follows.
+constexpr double kWideSearch_px = 2.0;
 constexpr double kSettled_px = 0.003;  ///< a step below this does not change the measurements
 
 /// Neighbouring places share their errors and weigh less than independent measurements.
@@ -149,6 +151,7 @@ void EdgeRefinement::searchChunk(int chunk) {
   RefinementResult& result = *result_;
   const Eigen::Matrix3d rotation = result.camera_from_station.matrix();
   const Eigen::Vector3d translation_m = result.camera_from_station.translation_m;
+  const EdgeSearch& search = radius_px_ >= kWideSearch_px ? wide_search_ : fine_search_;
   const std::int32_t end = std::min(result.sample_count, (chunk + 1) * kChunk);
   for (std::int32_t i = chunk * kChunk; i < end; ++i) {
     EdgeSample& sample = result.samples[static_cast<std::size_t>(i)];
@@ -158,7 +161,7 @@ void EdgeRefinement::searchChunk(int chunk) {
       continue;
     const Eigen::Vector2d normal = sample.normal();
     const EdgePeak peak =
-        search_.find(image_, ignore_, predicted_px, normal, radius_px_, kMinGradient);
+        search.find(image_, ignore_, predicted_px, normal, radius_px_, kMinGradient);
     sample.residual_px = peak.offset_px;
     sample.gradient = peak.gradient;
     found_at_px_[static_cast<std::size_t>(i)] = normal.dot(predicted_px) + peak.offset_px;

@@ -169,7 +169,8 @@ class EdgeRefinement {
   bool has_matched_ = false;
   PoseEstimate matched_;
   RefinementResult* result_ = nullptr;
-  EdgeSearch search_{kDerivativeSigma_px};
+  EdgeSearch fine_search_{kDerivativeSigma_px};
+  EdgeSearch wide_search_{kDerivativeSigma_px, EdgeSearch::kWideStep_px};
   ErrorGroups groups_;
   Matrix6d motion_ = Matrix6d::Zero();  ///< xi' motion xi: mean square along the normals, px^2
   Eigen::AlignedBox2d box_px_;          ///< of the edge places where they begin

@@ -11,8 +11,6 @@
 namespace boresight {
 namespace {
 
-constexpr double kStep_px = 0.5;
-
 constexpr int kPlaceBits = 20;   ///< of a place: its unit is 2^-20 px
 constexpr int kWeightBits = 10;  ///< of a bilinear weight
 constexpr std::int32_t kWeightMask = (1 << kWeightBits) - 1;
@@ -42,12 +40,12 @@ std::int32_t grayAt(const std::uint8_t* origin, std::ptrdiff_t stride, std::int3
 
 }  // namespace
 
-EdgeSearch::EdgeSearch(double sigma_px) {
-  taps_ = std::clamp(static_cast<int>(3.0 * sigma_px / kStep_px + 0.5), 1, kMaxTaps);
+EdgeSearch::EdgeSearch(double sigma_px, double step_px) : step_px_(step_px) {
+  taps_ = std::clamp(static_cast<int>(3.0 * sigma_px / step_px_ + 0.5), 1, kMaxTaps);
   double ramp = 0.0;
   std::array<double, kMaxTaps> weights{};
   for (int k = 1; k <= taps_; ++k) {
-    const double s_px = k * kStep_px;
+    const double s_px = k * step_px_;
     const double weight = s_px * exp(-0.5 * s_px * s_px / (sigma_px * sigma_px));
     weights[static_cast<std::size_t>(k - 1)] = weight;
     ramp += 2.0 * s_px * weight;
@@ -61,7 +59,7 @@ EdgeSearch::EdgeSearch(double sigma_px) {
 bool EdgeSearch::sample(const ImageView& image, const Eigen::Vector2d& predicted_px,
                         const Eigen::Vector2d& normal, int reach, Profile& profile) const {
   const Eigen::Vector2d extent_px =
-      (reach * kStep_px) * normal.cwiseAbs() +
+      (reach * step_px_) * normal.cwiseAbs() +
       Eigen::Vector2d(std::abs(normal.y()) + kMargin_px, std::abs(normal.x()) + kMargin_px);
   const Eigen::Vector2d first_px = predicted_px - extent_px;
   const Eigen::Vector2d last_px = predicted_px + extent_px;
@@ -73,8 +71,8 @@ bool EdgeSearch::sample(const ImageView& image, const Eigen::Vector2d& predicted
   const int pixel_y = static_cast<int>(predicted_px.y());
   const std::uint8_t* origin = image.row(pixel_y) + pixel_x;
   const auto stride = static_cast<std::ptrdiff_t>(image.stride);
-  const std::int32_t step_x = toPlace(kStep_px * normal.x());
-  const std::int32_t step_y = toPlace(kStep_px * normal.y());
+  const std::int32_t step_x = toPlace(step_px_ * normal.x());
+  const std::int32_t step_y = toPlace(step_px_ * normal.y());
   const std::int32_t aside_x = -toPlace(normal.y());
   const std::int32_t aside_y = toPlace(normal.x());
   std::int32_t x = toPlace(predicted_px.x() - pixel_x) - reach * step_x;
@@ -107,7 +105,7 @@ EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
                           double radius_px, double min_gradient) const {
   EdgePeak peak;
   const int reach =
-      std::min((kMaxProfile - 1) / 2, static_cast<int>(radius_px / kStep_px) + 1 + taps_);
+      std::min((kMaxProfile - 1) / 2, static_cast<int>(radius_px / step_px_) + 1 + taps_);
   Profile profile;
   if (!sample(image, predicted_px, normal, reach, profile)) return peak;
   const int inner = reach - taps_;
@@ -128,7 +126,7 @@ EdgePeak EdgeSearch::find(const ImageView& image, const BitImage* ignore,
     best = preference;
     const double bend = before - 2.0 * strength + after;
     const double shift = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-    peak = {(i + std::clamp(shift, -0.5, 0.5)) * kStep_px, slope_at_i};
+    peak = {(i + std::clamp(shift, -0.5, 0.5)) * step_px_, slope_at_i};
   }
   if (ignore != nullptr && peak.gradient != 0.0) {
     // Inside: the profile around it was sampled.

@@ -123,7 +123,7 @@ TEST(EdgeRefinement, UsesExactlyTheCountedBytes) {
     weights += weight;
     EXPECT_TRUE(sample.gradient != 0.0 || sample.weight == 0.0);
     EXPECT_TRUE(sample.gradient == 0.0 || std::abs(sample.gradient) >= 2.0);
-    EXPECT_LE(std::abs(sample.residual_px), 3.25);
+    EXPECT_LE(std::abs(sample.residual_px), 3.0 + 0.5 * EdgeSearch::kWideStep_px);
   }
   EXPECT_EQ(result.found_count, found);
   EXPECT_EQ(result.used_count, used);

@@ -55,6 +55,27 @@ TEST(EdgeSearch, FindsStepsToAFewHundredthsOfAPixel) {
   EXPECT_LT(std::abs(sum_px / 400), 0.003);  // unbiased
 }
 
+TEST(EdgeSearch, WideSteps_FindStepsToATenthOfAPixel) {
+  const EdgeSearch search(1.0, EdgeSearch::kWideStep_px);
+  Random random(2);
+  double sum_px = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = random.uniform(0.0, 2.0 * M_PI);
+    const double shift = random.uniform(-1.0, 1.0);
+    const StepEdge edge = edgeAt(angle, shift, random.uniform(60.0, 200.0));
+    const Picture picture = drawSteps(kSide, kSide, 20.0, {edge});
+    const double down = random.uniform(-1.5, 1.5);
+    const double right = random.uniform(-1.5, 1.5);
+    const Eigen::Vector2d predicted = kCentre + Eigen::Vector2d(right, down);
+    const double expected = edge.distance_px - edge.normal.dot(predicted);
+    const EdgePeak peak = search.find(picture.view(), nullptr, predicted, edge.normal, 5.0, 2.0);
+    ASSERT_GT(peak.gradient, 0.0) << angle << " " << shift;
+    EXPECT_NEAR(peak.offset_px, expected, 0.15) << angle << " " << shift;
+    sum_px += peak.offset_px - expected;
+  }
+  EXPECT_LT(std::abs(sum_px / 400), 0.01);  // unbiased
+}
+
 TEST(EdgeSearch, GradientIsThatOfTheSmoothedStep) {
   for (const double sigma_px : {0.8, 1.0, 2.0, 3.0}) {
     const EdgeSearch search(sigma_px);
