@@ -21,12 +21,14 @@
 #include "ui/review/pose_export.h"
 #include "ui/review/queue_panel.h"
 #include "ui/run/run_controller.h"
+#include "ui/run/sequence_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/style/icons.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/sequence_dialog.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
 #include "ui/window/window_docks.h"
@@ -185,12 +187,22 @@ void WindowMenus::connectRun() {
       ids << QString::fromStdString(session_case->id);
     parts_.cases.runAll(ids);
   });
+  on(ui_.runSequence, this, &WindowMenus::showSequence);
+  connect(&parts_.sequence, &SequenceRunner::changed, this, &WindowMenus::update);
   parts_.state.onChange(ViewChange::kCursor, this, &WindowMenus::update);
   ui_.runToEnd->setIcon(iconOf(Icon::kRun));
   ui_.stepIteration->setIcon(iconOf(Icon::kStepIteration));
   ui_.stepStage->setIcon(iconOf(Icon::kStepStage));
   ui_.reset->setIcon(iconOf(Icon::kReset));
   run_bar_.setActions({ui_.runToEnd, ui_.stepIteration, ui_.stepStage, ui_.reset});
+}
+
+/// One dialog, which keeps its frames while it is closed.
+void WindowMenus::showSequence() {
+  if (!sequence_) sequence_ = new SequenceDialog(parts_, &window_);
+  sequence_->show();
+  sequence_->raise();
+  sequence_->activateWindow();
 }
 
 void WindowMenus::connectOnboard() {
@@ -405,6 +417,7 @@ void WindowMenus::update() {
                                   parts_.onboard.comparison()->first.has_value());
   ui_.rerunFromHere->setEnabled(ui_.rerunFromHere->isEnabled() && !replayed);
   ui_.runAll->setEnabled(open && !working && !document.session().cases.empty());
+  ui_.runSequence->setEnabled(has_case || parts_.sequence.isRunning());
 }
 
 }  // namespace boresight::ui
