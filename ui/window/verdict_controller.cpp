@@ -6,7 +6,6 @@
 #include <QtWidgets>
 
 #include "sessions/review/checks.h"
-#include "sessions/session/annotation_concern.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
 #include "ui/review/onboard_panel.h"
@@ -92,10 +91,19 @@ AnnotationSituation VerdictController::annotationSituation() const {
   };
   situation.pairs = count(annotation.annotations().points) + count(annotation.annotations().lines);
   situation.has_pose = annotation.solvedPose().has_value();
+  situation.blind = annotation.answer().blind;
+  situation.unplaced =
+      static_cast<int>(std::ranges::count_if(annotation.annotations().points,
+                                             [](const auto& point) { return !point.pixel; }) +
+                       std::ranges::count_if(annotation.annotations().lines,
+                                             [](const auto& line) { return !line.line; }));
   const auto& solution = annotation.solution();
   if (!solution || !solution->result.solution) return situation;
   situation.rms_px = solution->result.solution->rms_px;
-  situation.concern = fromText(sessions::annotationConcern(*solution));
+  const sessions::AnnotationConcern& concern = annotation.answer().concern;
+  situation.concern = fromText(concern.text);
+  for (const std::string& id : concern.suspects) situation.suspects << fromText(id);
+  situation.robust = concern.robust;
   for (const auto& [id, sigmas] : solution->outlierAnnotations())
     if (std::abs(sigmas) > situation.bad_sigmas) {
       situation.bad_pair = fromText(id);
@@ -190,10 +198,12 @@ void VerdictController::perform(Step step) {
     case Step::kInputs:
       return workspaces_.reveal(QStringLiteral("inputs"));
     case Step::kSeedFromAnnotation:
-      if (const auto pose = parts_.annotation.solvedPose()) cases.useAsSeed(*pose);
+      parts_.annotation.useAsSeed();
       return workspaces_.show(Workspace::kRun);
     case Step::kDisablePair:
       return disablePair();
+    case Step::kRobust:
+      return parts_.annotation.setRobust(true);
     case Step::kConvergenceTest:
       return docks_.review.controller().startConvergenceTest(sessions::kConvergenceSeeds);
     case Step::kStopTest:

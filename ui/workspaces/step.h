@@ -27,6 +27,7 @@ enum class Step {
   kInputs,
   kSeedFromAnnotation,
   kDisablePair,
+  kRobust,
   kConvergenceTest,
   kStopTest,
   kValidate,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <QString>
+#include <QStringList>
 
 #include "sessions/record/compare_records.h"
 #include "sessions/review/pose_quality.h"
@@ -45,7 +46,11 @@ struct AnnotationSituation {
   QString bad_pair;  ///< the annotation that stands out, or empty
   double bad_sigmas = 0.0;
   bool has_pose = false;
-  QString concern;  ///< why the pose is not good enough, or empty
+  QString concern;       ///< why the pose is not good enough, or empty
+  QStringList suspects;  ///< annotations that fit badly
+  bool robust = false;   ///< the solution gives these little weight
+  bool blind = false;    ///< nothing is solved until all is placed
+  int unplaced = 0;      ///< in the image
 };
 
 struct ReviewSituation {
