@@ -21,6 +21,7 @@
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
 #include "ui/workspaces/uncertainty_dialog.h"
+#include "ui/workspaces/remedies_panel.h"
 #include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
 
@@ -62,6 +63,7 @@ VerdictController::VerdictController(const Links& links, VerdictBar& bar, QWidge
 void VerdictController::follow() {
   const auto soon = [this] { soon_.start(); };
   parts_.state.onChange(ViewChange::kAll, this, soon);
+  connect(&parts_.document, &Document::opened, this, [this] { taken_.clear(); });
   connect(&parts_.document, &Document::opened, this, soon);
   connect(&parts_.document, &Document::changed, this, soon);
   connect(&parts_.run, &RunController::stateChanged, this, soon);
@@ -148,6 +150,7 @@ Situation VerdictController::situation() const {
   situation.run = parts_.run.state();
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
   situation.trace = parts_.state.snapshot();
+  if (situation.trace) situation.tried = taken_.before(id.toStdString(), situation.trace->digest);
   situation.stale = parts_.cases.staleness();
   situation.quality = parts_.quality.quality();
   situation.annotation = annotationSituation();
@@ -157,9 +160,16 @@ Situation VerdictController::situation() const {
   return situation;
 }
 
-void VerdictController::update() { bar_.setVerdict(verdictOf(situation())); }
+void VerdictController::update() {
+  const Situation now = situation();
+  docks_.remedies.setTried(now.tried);
+  bar_.setVerdict(verdictOf(now));
+}
 
 void VerdictController::perform(Step step) {
+  const auto& run = parts_.state.snapshot();
+  if (run && run->finished && !run->converged())
+    taken_.note(parts_.cases.caseId().toStdString(), run->digest, step);
   CaseController& cases = parts_.cases;
   switch (step) {
     case Step::kNone:

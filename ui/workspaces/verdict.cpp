@@ -260,7 +260,9 @@ Verdict ofRun(const Situation& situation) {
   }
   verdict.tone = VerdictTone::kBad;
   verdict.icon = Icon::kCross;
-  const std::vector<Remedy>& remedies = remediesFor(trace);
+  const std::vector<Remedy> remedies = remediesFor(trace, situation.tried);
+  if (const QString tried = triedText(remedies); !tried.isEmpty())
+    verdict.sentence += tr(" Tried: %1.").arg(tried);
   if (!remedies.empty()) verdict.step = remedies.front().step;
   for (std::size_t i = 1; i < std::min<std::size_t>(remedies.size(), 5); ++i)
     verdict.others.push_back(remedies[i].step);

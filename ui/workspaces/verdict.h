@@ -77,7 +77,8 @@ struct Situation {
   RunState run = RunState::kEmpty;
   bool in_batch = false;  ///< the batch is at the shown case
   std::shared_ptr<const sessions::LocalizationTrace> trace;
-  QString stale;  ///< what has changed since the run, or empty
+  std::vector<Step> tried;  ///< remedies of earlier runs
+  QString stale;            ///< what has changed since the run, or empty
   /// Of the run's pose; nothing while it is measured.
   std::optional<sessions::PoseQuality> quality;
   AnnotationSituation annotation;
