@@ -17,6 +17,7 @@
 #include "ui/views/image_view.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/change_input.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
@@ -147,6 +148,12 @@ Situation VerdictController::situation() const {
   situation.load_problem = parts_.cases.loadProblem();
   if (!id.isEmpty())
     situation.file_problem = findings_.adviceFor(id).section(QLatin1Char('\n'), 0, 0);
+  if (const auto& concern = parts_.cases.inputConcern()) {
+    situation.input_problem = fromText(concern->text);
+    situation.input_step = concern->kind == sessions::InputKind::kMesh
+                               ? tr("Unit of the mesh...")
+                               : tr("Choose %1...").arg(inputName(concern->kind));
+  }
   situation.run = parts_.run.state();
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
   situation.trace = parts_.state.snapshot();
@@ -175,7 +182,9 @@ void VerdictController::perform(Step step) {
     case Step::kNone:
       return;
     case Step::kChooseFiles:
-      return files_.askForFiles();
+      return files_.askForNext();
+    case Step::kChangeInput:
+      return changeInput();
     case Step::kFixFiles:
       return findings_.repair();
     case Step::kRun:
@@ -231,6 +240,16 @@ void VerdictController::perform(Step step) {
     case Step::kLoadRecord:
       return askForOnboardRecord(parts_.onboard, &window_);
   }
+}
+
+/// A mesh of an impossible size has the wrong unit, most often.
+void VerdictController::changeInput() {
+  const auto& concern = parts_.cases.inputConcern();
+  if (!concern) return;
+  if (concern->kind == sessions::InputKind::kMesh)
+    askForMeshUnit(parts_, window_, parts_.cases.caseId());
+  else
+    askForInput(parts_, window_, parts_.cases.caseId(), concern->kind);
 }
 
 /// The seed is shown, nothing else moves, and the keys move it.

@@ -54,6 +54,7 @@ class VerdictController : public QObject {
   void follow();
   AnnotationSituation annotationSituation() const;
   ReviewSituation reviewSituation() const;
+  void changeInput();
   void nudgeSeed();
   void disablePair();
   void askForUncertainty();

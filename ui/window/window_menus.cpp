@@ -28,6 +28,7 @@
 #include "ui/views/image_panel.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/change_input.h"
 #include "ui/window/sequence_dialog.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
@@ -101,6 +102,12 @@ void WindowMenus::connectEdit() {
   on(ui_.redo, this, &WindowMenus::redo);
   ui_.redo->setShortcut(QKeySequence::Redo);  // desktops differ
   ui_.editMenu->addAction(&docks_.gizmo.action());
+  const auto fill_change = [this](const QString& id) {
+    ui_.changeMenu->clear();
+    addChangeInput(*ui_.changeMenu, parts_, window_, id);
+  };
+  connect(&parts_.cases, &CaseController::caseChosen, this, fill_change);
+  fill_change(parts_.cases.caseId());
   on(ui_.findCommand, this, [this] {
     CommandPalette palette(*ui_.menuBar, &window_);
     palette.exec();
@@ -409,6 +416,7 @@ void WindowMenus::update() {
   ui_.reset->setEnabled(has_case && !working && parts_.state.snapshot());
   const QList<QAction*> edits = ui_.maskMenu->actions() + annotation_edits_;
   for (QAction* each : edits) each->setEnabled(editable && has_case);
+  ui_.changeMenu->setEnabled(editable && !working && !parts_.cases.caseId().isEmpty());
   const bool replayed = parts_.onboard.showsOnboard();
   ui_.loadRecord->setEnabled(editable && has_case);
   ui_.showOtherRun->setEnabled(parts_.onboard.review() && !working);

@@ -16,6 +16,8 @@ constexpr std::array kSteps = {
     StepInfo{QT_TR_NOOP("Fix files..."),
              QT_TR_NOOP("Search missing files below the session's folder, or accept changed ones"),
              Icon::kFolder},
+    StepInfo{QT_TR_NOOP("Change file..."), QT_TR_NOOP("Put another file in its place"),
+             Icon::kFolder},
     StepInfo{QT_TR_NOOP("Run"), QT_TR_NOOP("Run the case to its end"), Icon::kRun},
     StepInfo{QT_TR_NOOP("Stop"), QT_TR_NOOP("Stop; the run can be continued"), Icon::kStop},
     StepInfo{QT_TR_NOOP("Go on"), QT_TR_NOOP("Continue the run to its end"), Icon::kRun},

@@ -12,6 +12,7 @@ enum class Step {
   kNone,
   kChooseFiles,
   kFixFiles,
+  kChangeInput,
   kRun,
   kStop,
   kGoOn,

@@ -68,6 +68,14 @@ Verdict ofFiles(const FilesSituation& files) {
   }
   verdict.head = tr("%1 of 4 files added").arg(files.added);
   verdict.sentence = files.missing;
+  if (!files.next.isEmpty()) verdict.step_text = tr("Choose %1...").arg(files.next);
+  if (!files.problem.isEmpty()) {
+    verdict.tone = VerdictTone::kBad;
+    verdict.icon = Icon::kCross;
+    verdict.sentence = files.problem;
+  } else if (files.next.isEmpty()) {
+    verdict.step_text = tr("Make the case");
+  }
   return verdict;
 }
 
@@ -293,6 +301,15 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
     verdict.head = tr("No seed yet.");
     verdict.sentence = tr("Annotate four or more points: their pose becomes the seed.");
     verdict.step = situation.annotation.has_pose ? Step::kSeedFromAnnotation : Step::kAnnotate;
+    return verdict;
+  }
+  if (!situation.input_problem.isEmpty()) {
+    verdict.tone = VerdictTone::kBad;
+    verdict.icon = Icon::kCross;
+    verdict.head = tr("Not ready to run.");
+    verdict.sentence = situation.input_problem;
+    verdict.step = Step::kChangeInput;
+    verdict.step_text = situation.input_step;
     return verdict;
   }
   if (!situation.trace) {

@@ -37,6 +37,8 @@ struct Verdict {
 struct FilesSituation {
   int added = 0;  ///< of four
   QString missing;
+  QString problem = {};  ///< why a file cannot be used, or empty
+  QString next = {};     ///< the file to choose next: "camera"; empty: all are there
 };
 
 /// The annotations of the case.
@@ -73,7 +75,9 @@ struct Situation {
   bool has_case = false;
   bool has_seed = true;
   QString load_problem;
-  QString file_problem;  ///< a missing or changed input file, or empty
+  QString input_problem;  ///< what a run would refuse, or empty
+  QString input_step;     ///< by which it is put right: "Choose camera..."
+  QString file_problem;   ///< a missing or changed input file, or empty
   RunState run = RunState::kEmpty;
   bool in_batch = false;  ///< the batch is at the shown case
   std::shared_ptr<const sessions::LocalizationTrace> trace;
