@@ -59,6 +59,20 @@ Annotations blindAnnotations(const Annotations& annotations) {
   return blind;
 }
 
+bool isBlind(const AnnotationRounds& rounds, const Annotations& annotations) {
+  const auto lacks = [&rounds](const auto& at_work, auto of_round, auto side) {
+    return std::ranges::any_of(at_work, [&](const auto& pair) {
+      return !(pair.*side) && std::ranges::any_of(rounds, [&](const AnnotationRound& round) {
+        return std::ranges::any_of(round.annotations.*of_round, [&](const auto& placed) {
+          return placed.id == pair.id && placed.*side;
+        });
+      });
+    });
+  };
+  return lacks(annotations.points, &Annotations::points, &PointPair::pixel) ||
+         lacks(annotations.lines, &Annotations::lines, &LinePair::line);
+}
+
 AnnotationRounds keepingAnnotations(AnnotationRounds rounds, const Annotations& annotations,
                                     const std::string& time) {
   const bool on_image =

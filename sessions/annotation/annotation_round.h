@@ -25,6 +25,10 @@ using AnnotationRounds = std::vector<AnnotationRound>;
 /// nothing of the image.
 Annotations blindAnnotations(const Annotations& annotations);
 
+/// Whether a blind round is under way: a round has a place in the image of an annotation whose
+/// place the annotations at work lack.
+bool isBlind(const AnnotationRounds& rounds, const Annotations& annotations);
+
 /// The rounds with these annotations put aside as well, under a name of their own, unless nothing
 /// of them is on the image or a round has the same: what another round is taken up over is not
 /// lost.

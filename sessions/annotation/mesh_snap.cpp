@@ -183,6 +183,25 @@ bool MeshSnapper::seenFrom(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& 
   return !faces_->firstHit(eye_m, ray, 1.0 - below_m / std::max(ray.norm(), below_m));
 }
 
+std::optional<MeshSnapKind> MeshSnapper::kindAt(const Eigen::Vector3d& point_in_station_m) const {
+  constexpr double kSame_m = 1e-5;
+  const auto is_here = [&](const Eigen::Vector3d& place_m) {
+    return (place_m - point_in_station_m).norm() <= kSame_m;
+  };
+  if (std::ranges::any_of(corners_, [&](std::int32_t corner) { return is_here(vertex(corner)); }))
+    return MeshSnapKind::kVertex;
+  if (std::ranges::any_of(
+          circles_, [&](const MeshCircle& circle) { return is_here(circle.centre_in_station_m); }))
+    return MeshSnapKind::kCircle;
+  const bool on_edge = std::ranges::any_of(edges_, [&](const ModelEdge& edge) {
+    const Eigen::Vector3d along = edge.end_in_station_m - edge.start_in_station_m;
+    const double share =
+        (point_in_station_m - edge.start_in_station_m).dot(along) / along.squaredNorm();
+    return is_here(edge.start_in_station_m + std::clamp(share, 0.0, 1.0) * along);
+  });
+  return on_edge ? std::optional(MeshSnapKind::kEdge) : std::nullopt;
+}
+
 std::optional<Eigen::Vector3d> MeshSnapper::surfaceAt(const Camera& camera,
                                                       const Pose& camera_from_station,
                                                       const Eigen::Vector2d& pixel) const {

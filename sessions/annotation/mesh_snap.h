@@ -52,6 +52,10 @@ class MeshSnapper {
   std::vector<MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
                              const Eigen::Vector2d& pixel, double radius_px) const;
 
+  /// What a place of the station is, to 10 micrometres: a corner of salient edges, a circle's
+  /// centre, or on an edge; nothing on a bare surface.
+  std::optional<MeshSnapKind> kindAt(const Eigen::Vector3d& point_in_station_m) const;
+
   /// The surface that a pixel shows; nothing outside the station.
   std::optional<Eigen::Vector3d> surfaceAt(const Camera& camera, const Pose& camera_from_station,
                                            const Eigen::Vector2d& pixel) const;

@@ -114,6 +114,8 @@ class ImageFiles final : public FrameSource {
     return frame;
   }
 
+  void skip() override { next_ = std::min(next_ + 1, files_.size()); }
+
  private:
   std::vector<fs::path> files_;
   fs::path folder_;  ///< to which names are relative

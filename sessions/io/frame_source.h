@@ -26,6 +26,8 @@ class FrameSource {
   virtual std::int64_t count() const = 0;
   /// The next frame; nothing after the last one.
   virtual std::optional<Frame> next() = 0;
+  /// Passes over the next frame without reading its image; nothing after the last one.
+  virtual void skip() = 0;
 };
 
 /// The images of a folder (PNG, JPEG, TIFF and the labelled formats, by the ends of their names),

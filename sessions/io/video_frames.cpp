@@ -40,6 +40,10 @@ class Video final : public FrameSource {
     return frame;
   }
 
+  void skip() override {
+    if (capture_.grab()) ++last_;
+  }
+
  private:
   std::filesystem::path file_;
   cv::VideoCapture capture_;
@@ -71,6 +75,18 @@ std::unique_ptr<FrameSource> openVideo(const std::filesystem::path& file) {
                                " cannot read this video; write its frames as PNG images into a "
                                "folder, e.g. with ffmpeg, and give the folder");
   return std::make_unique<Video>(file, std::move(capture));
+}
+
+std::unique_ptr<FrameSource> openFrames(const std::filesystem::path& images,
+                                        const ImageReadOptions& options) {
+  return isVideoName(images) ? openVideo(images) : openImages(images, options);
+}
+
+std::optional<Frame> readFrame(const std::filesystem::path& images, std::int64_t number,
+                               const ImageReadOptions& options) {
+  const std::unique_ptr<FrameSource> source = openFrames(images, options);
+  for (std::int64_t i = 1; i < number; ++i) source->skip();
+  return source->next();
 }
 
 }  // namespace boresight::sessions

@@ -17,4 +17,13 @@ bool isVideoName(const std::filesystem::path& file);
 /// OpenCV opens it.
 std::unique_ptr<FrameSource> openVideo(const std::filesystem::path& file);
 
+/// The frames of a video by isVideoName, else those of a folder or list (openImages), whose samples
+/// become 8 bit by `options`. InputError.
+std::unique_ptr<FrameSource> openFrames(const std::filesystem::path& images,
+                                        const ImageReadOptions& options = {});
+
+/// One frame of `openFrames`, counted from 1; nothing when there are fewer. InputError.
+std::optional<Frame> readFrame(const std::filesystem::path& images, std::int64_t number,
+                               const ImageReadOptions& options = {});
+
 }  // namespace boresight::sessions

@@ -69,7 +69,7 @@ void drawHead(PdfCanvas& canvas, const PoseReport& report) {
               {9.0, true, false, {1.0, 1.0, 1.0}, 1});
 }
 
-void drawFoot(PdfCanvas& canvas, const PoseReport& report) {
+void drawFoot(PdfCanvas& canvas, const PoseReport& report, int pages) {
   canvas.line(kLeft, kFoot, kRight, kFoot, kPaperGrid);
   const std::string what = report.pose.run_digest.empty()
                                ? "pose of the annotations"
@@ -78,7 +78,7 @@ void drawFoot(PdfCanvas& canvas, const PoseReport& report) {
               report.pose.review_status + ".  " + what + ", pixels " +
                   caseOf(report).image.pixels_sha256.substr(0, 16) + ", Boresight " + kVersion,
               {6.5, false, false, kFaintInk, 2});
-  canvas.text(kRight - 90.0, kFoot + 4.0, 90.0, formatted("page %d of 2", canvas.page()),
+  canvas.text(kRight - 90.0, kFoot + 4.0, 90.0, formatted("page %d of %d", canvas.page(), pages),
               {6.5, false, false, kFaintInk, 1, PdfTextStyle::Align::kRight});
 }
 
@@ -128,7 +128,7 @@ class Rows {
     constexpr double kNameWidth = 92.0;
     const double left = canvas_->text(box_.x, box_.y, kNameWidth, name, kFaint);
     const double right = canvas_->text(box_.x + kNameWidth, box_.y, box_.width - kNameWidth, value,
-                                       {7.0, false, fixed, kInk, 3});
+                                       {7.0, false, fixed, kInk, 12});
     box_.y += std::max(left, right) + 1.0;
   }
   void addText(const std::string& text) {
@@ -255,7 +255,7 @@ void drawDecision(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report
   rows.add("comment", decision->approval->comment, false);
 }
 
-void drawFirstPage(PdfCanvas& canvas, const PoseReport& report) {
+void drawFirstPage(PdfCanvas& canvas, const PoseReport& report, int pages) {
   drawHead(canvas, report);
   const double below = drawOverlayPicture(canvas, {kLeft, 74.0, kTextWidth, 470.0}, report) + kGap;
   const double column = 0.5 * (kTextWidth - 2.0 * kGap);
@@ -266,7 +266,7 @@ void drawFirstPage(PdfCanvas& canvas, const PoseReport& report) {
   PdfBox right = {kLeft + column + 2.0 * kGap, below, column, kFoot - below};
   right.y = drawInputs(canvas, right, report) + kGap;
   drawDecision(canvas, right, report);
-  drawFoot(canvas, report);
+  drawFoot(canvas, report, pages);
 }
 
 // ---- the second page
@@ -291,13 +291,11 @@ double drawCheck(PdfCanvas& canvas, double y, const JudgedCheck& judged) {
   std::string sentence = check.sentence;
   if (!judged.waiver_reason.empty()) sentence += " Waived: " + judged.waiver_reason;
   canvas.text(kLeft, y, 14.0, look.sign, {kSize, true, false, look.color, 1});
-  const double title =
-      canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink, 2});
+  const double title = canvas.text(kLeft + 14.0, y, 138.0, check.title, {kSize, false, false, ink});
   const double figure =
-      canvas.text(kLeft + 156.0, y, 104.0, figureText(check), {kSize, false, false, ink, 2});
+      canvas.text(kLeft + 156.0, y, 104.0, figureText(check), {kSize, false, false, ink});
   const double text =
-      canvas.text(kLeft + 262.0, y, kTextWidth - 262.0, sentence,
-                  {kSize, false, false, ink, check.state == CheckState::kFailed ? 4 : 2});
+      canvas.text(kLeft + 262.0, y, kTextWidth - 262.0, sentence, {kSize, false, false, ink});
   return y + std::max({title, figure, text}) + 1.0;
 }
 
@@ -411,6 +409,26 @@ void drawPlots(PdfCanvas& canvas, double y, const PoseReport& report) {
   drawPlot(canvas, {right, y + 0.52 * room, column, 0.48 * room}, supportPlot(*report.trace));
 }
 
+constexpr int kUsualPages = 2;
+constexpr double kLeastPlotRoom = 150.0;
+
+/// Plots take what the checks leave of their page, else a page of their own.
+void drawPages(PdfCanvas& canvas, const PoseReport& report, int pages) {
+  constexpr double kBelowHead = 74.0;
+  drawFirstPage(canvas, report, pages);
+  canvas.nextPage();
+  drawHead(canvas, report);
+  double below = drawChecks(canvas, kBelowHead, report);
+  if (kFoot - below - kGap < kLeastPlotRoom) {
+    drawFoot(canvas, report, pages);
+    canvas.nextPage();
+    drawHead(canvas, report);
+    below = kBelowHead;
+  }
+  drawPlots(canvas, below + kGap, report);
+  drawFoot(canvas, report, pages);
+}
+
 }  // namespace
 
 PoseReport poseReport(const Session& session, const std::string& case_id) {
@@ -424,14 +442,16 @@ PoseReport poseReport(const Session& session, const std::string& case_id) {
 }
 
 std::vector<std::uint8_t> poseReportPdf(const PoseReport& report) {
-  PdfCanvas canvas("Pose of " + report.pose.case_id + " (" + report.pose.review_status + ")");
-  drawFirstPage(canvas, report);
-  canvas.nextPage();
-  drawHead(canvas, report);
-  const double below = drawChecks(canvas, 74.0, report);
-  drawPlots(canvas, below + kGap, report);
-  drawFoot(canvas, report);
-  return canvas.finish();
+  const std::string title =
+      "Pose of " + report.pose.case_id + " (" + report.pose.review_status + ")";
+  int pages = kUsualPages;
+  PdfCanvas canvas(title);
+  drawPages(canvas, report, pages);
+  if (canvas.page() == pages) return canvas.finish();
+  pages = canvas.page();  // which its feet did not know
+  PdfCanvas longer(title);
+  drawPages(longer, report, pages);
+  return longer.finish();
 }
 
 void writePoseReport(const std::filesystem::path& file, const PoseReport& report) {

@@ -10,7 +10,6 @@ namespace boresight::sessions {
 namespace {
 
 std::string percent(double share) { return fixedText(100.0 * share, 1) + " %"; }
-std::string nats(double value, int decimals = 2) { return fixedText(value, decimals) + " nats"; }
 
 std::string supportText(const LocalizationTrace& trace) {
   return "Edge support is " + percent(trace.support.share()) + ", needed " +
@@ -36,10 +35,10 @@ std::string competingText(const LocalizationTrace& trace) {
   if (closest == nullptr) return "";
   const std::size_t count = trace.competing_poses.size();
   return (count == 1
-              ? std::string(" One competing pose is similar; it has ")
-              : " " + std::to_string(count) + " competing poses are similar; the closest has ") +
-         nats(std::abs(closest->margin_nats), 1) +
-         (closest->margin_nats < 0.0 ? " more evidence" : " less evidence") +
+              ? std::string(" One competing pose is similar; it is ")
+              : " " + std::to_string(count) + " competing poses are similar; the closest is ") +
+         timesText(std::abs(closest->margin_nats)) +
+         (closest->margin_nats < 0.0 ? " more likely" : " less likely") +
          (closest->mirrored ? " and shows the mesh mirrored." : ".");
 }
 
@@ -67,6 +66,13 @@ const CompetingPose* closestCompetingPose(const LocalizationTrace& trace) {
   return closest == poses.end() ? nullptr : &*closest;
 }
 
+std::string timesText(double nats) {
+  constexpr double kMostTimes = 1000.0;
+  const double times = std::exp(nats);
+  if (times > kMostTimes) return "more than 1000 times";
+  return fixedText(times, times < 10.0 ? 1 : 0) + " times";
+}
+
 std::string originText(const PoseHypothesis& hypothesis) {
   switch (hypothesis.origin) {
     case HypothesisOrigin::kCandidate:
@@ -83,8 +89,8 @@ std::string originText(const PoseHypothesis& hypothesis) {
 
 std::string probabilityText(const LocalizationTrace& trace) {
   const PoseEvidence& evidence = trace.evidence;
-  return "the probability that the pose is right is " + percent(trace.probability) + ", needed " +
-         percent(trace.lastOptions().support.min_probability) + ": edges show " +
+  return "the probability that the pose is right is " + probabilityPercent(trace.probability) +
+         ", needed " + percent(trace.lastOptions().support.min_probability) + ": edges show " +
          fixedText(100.0 * std::clamp(evidence.finest().shareOfExpected(), 0.0, 1.0), 0) +
          " % of the evidence that a right pose would have, inside and outside differ along " +
          fixedText(100.0 * evidence.region.separatedShare(), 0) +

@@ -3,6 +3,7 @@
 
 #include <cctype>
 
+#include "core/base/math.h"
 #include "sessions/run/acceptance.h"
 #include "sessions/run/run_text.h"
 #include "sessions/text/text_table.h"
@@ -19,7 +20,7 @@ std::string countText(std::size_t count, const char* item) {
 std::string acceptedText(const LocalizationTrace& trace) {
   const auto& limits = trace.lastOptions().support;
   if (hasProbability(trace))
-    return " Probability of the pose " + percent(trace.probability) + " (" +
+    return " Probability of the pose " + probabilityPercent(trace.probability) + " (" +
            percent(limits.min_probability) + " needed).";
   if (!limits.gate) return "";
   return " " + percent(trace.support.share()) + " of the edges agree (" +
@@ -34,16 +35,24 @@ std::string convergedSentence(const LocalizationTrace& trace) {
   return text + "." + acceptedText(trace);
 }
 
+/// What the operator may doubt of the seed: not a turn that was searched.
+std::string seedDoubt(const LocalizationTrace& trace) {
+  constexpr double kNearlyHalfTurn_rad = 179.0 * kDegree_rad;
+  return trace.uncertainty.rotation_rad.z() >= kNearlyHalfTurn_rad
+             ? "Every turn about the view axis was searched: the seed may be tilted or far off."
+             : "The seed may be turned or far off.";
+}
+
 std::string notSupportedSentence(const LocalizationTrace& trace) {
   const auto& limits = trace.lastOptions().support;
   if (hasProbability(trace))
-    return "Probability of the pose " + percent(trace.probability) + ", " +
-           percent(limits.min_probability) + " needed. The seed may be turned or far off.";
+    return "Probability of the pose " + probabilityPercent(trace.probability) + ", " +
+           percent(limits.min_probability) + " needed. " + seedDoubt(trace);
   const EdgeSupport& support = trace.support;
   const bool chance = support.coverage() <= 1.5 * support.chanceCoverage();
   return std::string(chance ? "The edges fit no better than chance: " : "Too few edges fit: ") +
-         percent(support.share()) + " agree, " + percent(limits.min_support) +
-         " needed. The seed may be turned.";
+         percent(support.share()) + " agree, " + percent(limits.min_support) + " needed. " +
+         seedDoubt(trace);
 }
 
 std::string noPoseSentence(const LocalizationTrace& trace) {

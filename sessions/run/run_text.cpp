@@ -157,15 +157,14 @@ std::string ambiguousText(const LocalizationTrace& trace) {
                                  : "a competing pose explains the image as well";
   if (other->mirrored)
     return format(
-        "the mirror image of the mesh explains the image better, by %.0f nats of "
-        "evidence; check that the mesh is not mirrored",
-        -other->margin_nats);
+        "the mirror image of the mesh is %s more likely; check that the mesh is not mirrored",
+        timesText(-other->margin_nats).c_str());
   return "a competing pose, " + awayText(trace, other->camera_from_station) +
          ", explains the image " +
          (other->margin_nats < 0.0
-              ? format("better, by %.1f nats of evidence; ", -other->margin_nats)
-              : format("nearly as well: %.1f nats less evidence, needed %.1f; ", other->margin_nats,
-                       kLeastMargin_nats)) +
+              ? "better: it is " + timesText(-other->margin_nats) + " more likely; "
+              : "nearly as well: it is " + timesText(other->margin_nats) + " less likely, needed " +
+                    timesText(kLeastMargin_nats) + "; ") +
          "both poses look alike: show more distinct features, give a closer seed, state a larger "
          "uncertainty, or check that the mesh is not mirrored";
 }

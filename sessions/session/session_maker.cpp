@@ -82,28 +82,6 @@ std::optional<Pose> endEffectorOf(const PoseFrames& frames) {
   return chain->a_from_b;
 }
 
-ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
-  const GrayImage image = readImage(file, eight_bit);
-  ImageInput input;
-  input.source = {wholePath(file), image.file_sha256};
-  input.width = image.width;
-  input.height = image.height;
-  input.eight_bit = eight_bit;
-  input.pixels_sha256 = image.pixels_sha256;
-  if (image.label) input.label = image.label->identifiers;
-  return input;
-}
-
-/// Parts that are switched off are read, too: they can be switched on later.
-std::vector<MeshInput> meshInputs(const std::vector<PartSource>& parts) {
-  std::vector<MeshInput> inputs;
-  for (const PartSource& part : parts) {
-    inputs.push_back({part, readMesh(part.mesh, part.mesh_unit).info.file_sha256});
-    inputs.back().source.mesh = wholePath(part.mesh);
-  }
-  return inputs;
-}
-
 /// InputError for a part without a place in the scene, and without a matched part.
 void requireScene(const SessionCase& session_case, const fs::path& place) {
   const std::vector<PartSource> parts = partsOf(session_case);
@@ -169,6 +147,27 @@ std::string presetOfAll(const Session& session) {
 }
 
 }  // namespace
+
+ImageInput imageInput(const fs::path& file, const ImageReadOptions& eight_bit) {
+  const GrayImage image = readImage(file, eight_bit);
+  ImageInput input;
+  input.source = {wholePath(file), image.file_sha256};
+  input.width = image.width;
+  input.height = image.height;
+  input.eight_bit = eight_bit;
+  input.pixels_sha256 = image.pixels_sha256;
+  if (image.label) input.label = image.label->identifiers;
+  return input;
+}
+
+std::vector<MeshInput> meshInputs(const std::vector<PartSource>& parts) {
+  std::vector<MeshInput> inputs;
+  for (const PartSource& part : parts) {
+    inputs.push_back({part, readMesh(part.mesh, part.mesh_unit).info.file_sha256});
+    inputs.back().source.mesh = wholePath(part.mesh);
+  }
+  return inputs;
+}
 
 MadeCase makeCase(const CaseFiles& files) {
   MadeCase result;

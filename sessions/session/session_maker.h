@@ -42,6 +42,13 @@ struct MadeCase {
   std::vector<std::string> notes;
 };
 
+/// An image as a case keeps it. InputError.
+ImageInput imageInput(const std::filesystem::path& file, const ImageReadOptions& eight_bit);
+
+/// Meshes as a case keeps them. Parts that are switched off are read, too: they can be switched on
+/// later. InputError.
+std::vector<MeshInput> meshInputs(const std::vector<PartSource>& parts);
+
 /// Reads all files once. InputError when one is missing or wrong. An image of another size than its
 /// camera makes a case all the same, which the input sheet flags and a run refuses.
 MadeCase makeCase(const CaseFiles& files);

@@ -62,6 +62,11 @@ std::string TextTable::text() const {
   return text;
 }
 
+std::string probabilityPercent(double probability) {
+  constexpr double kMostShown = 0.9995;
+  return probability >= kMostShown ? "> 99.9 %" : fixedText(100.0 * probability, 1) + " %";
+}
+
 std::string csvField(const std::string& text) {
   const std::string shown = beginsFormula(text) && !isNumber(text) ? "'" + text : text;
   if (shown.find_first_of(",\"\r\n") == std::string::npos) return shown;

@@ -22,6 +22,9 @@ class TextTable {
 /// printf's %.*f; "-" for a value that is not finite.
 std::string fixedText(double value, int decimals);
 
+/// "98.7 %"; "> 99.9 %" where rounding would claim certainty.
+std::string probabilityPercent(double probability);
+
 /// A cell of a CSV file (RFC 4180): quoted where it must be. Text that a spreadsheet would take for
 /// a formula (it begins with = + - @, a tab or a line end, and is not a number) gets a ' in front.
 std::string csvField(const std::string& text);

@@ -5,61 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/pose_file.h"
 #include "tests/app/ended_whs.h"
 #include "tests/app/json_lines.h"
 #include "tests/app/run_whs.h"
-#include "tests/support/generated_approach.h"
+#include "tests/support/approach_files.h"
 
 namespace boresight::test {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-constexpr int kFrames = 6;
-
-std::string plyOf(const Solid& solid) {
-  std::ostringstream ply;
-  ply.precision(9);
-  ply << "ply\nformat ascii 1.0\nelement vertex " << solid.vertices.size()
-      << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-      << solid.faces.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const Eigen::Vector3f& vertex : solid.vertices)
-    ply << vertex.x() << " " << vertex.y() << " " << vertex.z() << "\n";
-  for (const Face& face : solid.faces)
-    ply << "3 " << face.vertex[0] << " " << face.vertex[1] << " " << face.vertex[2] << "\n";
-  return ply.str();
-}
-
-/// Six frames of an approach in files, made once.
-const TemporaryFolder& approachFolder() {
-  static const TemporaryFolder folder;
-  static const bool made = [] {
-    const GeneratedApproach approach(24);
-    folder.write("model.ply", plyOf(approach.solid()));
-    nlohmann::ordered_json camera = {{"format", "boresight-camera"}, {"version", 1}};
-    camera.update(sessions::toJson(approach.camera()));
-    folder.write("camera.json", camera.dump());
-    Pose seed = approach.camera_from_station(0);
-    seed.translation_m += Eigen::Vector3d(0.01, -0.008, 0.006);
-    sessions::DeclaredUncertainty uncertainty;
-    uncertainty.translation_m.setConstant(0.02);
-    uncertainty.rotation_deg.setConstant(4.0);
-    uncertainty.pivot = sessions::UncertaintyPivot::kStation;
-    sessions::writePose(folder / "seed.json", seed, uncertainty);
-    std::filesystem::create_directory(folder / "frames");
-    for (int i = 0; i < kFrames; ++i) {
-      const sessions::GrayImage image = approach.image(i);
-      sessions::writePng(folder / ("frames/" + std::to_string(i) + ".png"), image.pixels,
-                         image.width, image.height, 1);
-    }
-    return true;
-  }();
-  (void)made;
-  return folder;
-}
 
 class WhsFollow : public testing::Test {
  protected:
@@ -93,7 +48,7 @@ TEST_F(WhsFollow, Folder_IsFollowedFrameByFrame) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("6 of 6 frames accepted; "), HasSubstr(" frames/s\n")));
   const auto results = lines();
   ASSERT_EQ(results.size(), 6u);
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kApproachFrames; ++i) {
     const nlohmann::json& result = results[static_cast<std::size_t>(i)];
     EXPECT_EQ(result["id"], std::to_string(i) + ".png");
     EXPECT_EQ(result["station"], "model");
@@ -139,8 +94,8 @@ TEST_F(WhsFollow, InterruptedSequence_KeepsItsFramesAndContinues) {
   constexpr int kLong = 40;  // to and fro
   std::filesystem::create_directory(folder_ / "long");
   for (int i = 0; i < kLong; ++i) {
-    const int step = i % (2 * kFrames - 2);
-    const int frame = std::min(step, 2 * kFrames - 2 - step);
+    const int step = i % (2 * kApproachFrames - 2);
+    const int frame = std::min(step, 2 * kApproachFrames - 2 - step);
     std::filesystem::create_symlink(approachFolder() / ("frames/" + std::to_string(frame) + ".png"),
                                     folder_ / ("long/" + std::to_string(i) + ".png"));
   }

@@ -38,8 +38,8 @@ class Signs {
       Mark mark = sign(shapeOf(point), *point.pixel, item);
       mark.label = annotationLabel(point.id, stateOf(point));
       finish(std::move(mark), point);
-    } else if (point.point_in_station_m) {
-      const auto place = sessions::predictPlace(look_.camera, look_.camera_from_station,
+    } else if (point.point_in_station_m && look_.camera_from_station) {
+      const auto place = sessions::predictPlace(look_.camera, *look_.camera_from_station,
                                                 *point.point_in_station_m);
       if (!place.valid) return;
       Mark mark = sign(MarkShape::kDiamond, place.pixel, item);
@@ -61,7 +61,7 @@ class Signs {
         if (!line.enabled) handle.color = kDisabledAnnotation;
         signs_.push_back(std::move(handle));
       }
-    } else if (line.edge) {
+    } else if (line.edge && look_.camera_from_station) {
       addPredictedEdge(line, item);
     }
   }
@@ -82,7 +82,7 @@ class Signs {
 
   /// As the camera bends it; each piece is a sign of its own.
   void addPredictedEdge(const sessions::LinePair& line, int item) {
-    const auto places = sessions::edgeOnImage(look_.camera, look_.camera_from_station, *line.edge);
+    const auto places = sessions::edgeOnImage(look_.camera, *look_.camera_from_station, *line.edge);
     for (std::size_t i = 1; i < places.size(); ++i) {
       Mark mark = segment(places[i - 1], places[i], item);
       mark.dashed = true;

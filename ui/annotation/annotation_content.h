@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct AnnotationLook {
   std::string selected;
   std::map<std::string, double> outliers;  ///< normalized residual by id
   Camera camera;
-  Pose camera_from_station;  ///< predicts what has no place in the image yet
+  /// Predicts what has no place in the image yet. Nothing: that is not drawn.
+  std::optional<Pose> camera_from_station = {};
 };
 
 /// State of an annotation as its sign shows it.

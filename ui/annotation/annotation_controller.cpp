@@ -6,6 +6,7 @@
 
 #include "core/geometry/mesh.h"
 #include "sessions/annotation/annotations.h"
+#include "sessions/session/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
 
@@ -30,7 +31,8 @@ bool sameViews(const sessions::CaseAnnotations& a, const sessions::CaseAnnotatio
 
 bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
   return sameViews(a.annotations, b.annotations) && a.one == b.one && a.landmarks == b.landmarks &&
-         a.rounds == b.rounds && a.robust == b.robust &&
+         a.rounds == b.rounds && a.robust == b.robust && a.sigmas == b.sigmas &&
+         a.blind == b.blind && a.annotations.requirement == b.annotations.requirement &&
          a.camera_from_station_guess == b.camera_from_station_guess;
 }
 
@@ -38,6 +40,7 @@ RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQue
   RoundAnswer round_answer;
   round_answer.by = round.by;
   round_answer.time = round.time;
+  if (asked.blind) return round_answer;
   const sessions::AnnotatedView& at_work = asked.annotations.views.front();
   round_answer.repeatability = sessions::repeatability(round.annotations, at_work.annotations);
   sessions::AnnotatedView view = at_work;
@@ -54,6 +57,10 @@ RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQue
 
 AnnotationAnswer solve(const AnnotationQuestion& asked) {
   AnnotationAnswer annotation_answer;
+  annotation_answer.blind = asked.blind;
+  for (const sessions::AnnotationRound& round : asked.rounds)
+    annotation_answer.rounds.push_back(answerOf(round, asked));
+  if (asked.blind) return annotation_answer;
   const MeshView mesh = asked.one->scene.view();
   auto solution = std::make_shared<sessions::CaseAnnotationsSolution>(
       sessions::solveCaseAnnotations(asked.annotations, asked.camera_from_station_guess,
@@ -65,8 +72,8 @@ AnnotationAnswer solve(const AnnotationQuestion& asked) {
         sessions::proposeAnnotations(asked.landmarks, view.annotations, mesh, view.camera, *pose,
                                      &*annotation_answer.covariance);
   }
-  for (const sessions::AnnotationRound& round : asked.rounds)
-    annotation_answer.rounds.push_back(answerOf(round, asked));
+  annotation_answer.quality = sessions::annotationQuality(asked.one, *solution, asked.sigmas);
+  annotation_answer.concern = sessions::annotationConcern(*solution, *annotation_answer.quality);
   annotation_answer.solution = std::move(solution);
   return annotation_answer;
 }
@@ -155,9 +162,17 @@ void AnnotationController::askIfChanged(bool anyway) {
   current.landmarks = landmarks_;
   current.rounds = roundsOfCase();
   current.robust = robust_;
+  const sessions::ReviewSettings& review = document_.session().review;
+  current.sigmas = sessions::checkLimits(review.preset, review.limits).sigmas;
+  current.blind = sessions::isBlind(current.rounds, annotations_);
   if (!anyway && asked_ && sameQuestion(*asked_, current)) return;
   asked_ = current;
   stale_ = true;
+  if (current.blind && !answer_.blind) {  // at once: what is shown predicts places
+    answer_ = {};
+    answer_.blind = true;
+    state_.setAnnotatedPose(std::nullopt);
+  }
   Q_EMIT solutionChanged();
   runner_.start(
       kSolving, [question = std::move(current)](const std::stop_token&) { return solve(question); },

@@ -13,6 +13,7 @@
 
 #include "sessions/annotation/annotation_round.h"
 #include "sessions/annotation/landmarks.h"
+#include "sessions/review/annotation_concern.h"
 #include "sessions/session/case_annotations.h"
 #include "sessions/session/case_run.h"
 #include "ui/run/task_runner.h"
@@ -37,6 +38,8 @@ struct AnnotationQuestion {
   std::vector<sessions::Landmark> landmarks;
   sessions::AnnotationRounds rounds;
   bool robust = false;
+  double sigmas = 3.0;  ///< that must fit into the requirement
+  bool blind = false;   ///< nothing is solved
 };
 
 /// An earlier annotation round over the same image, next to the current annotations.
@@ -49,9 +52,12 @@ struct RoundAnswer {
 
 struct AnnotationAnswer {
   std::shared_ptr<const sessions::CaseAnnotationsSolution> solution;
-  std::vector<sessions::Proposal> proposals;  ///< where landmarks should be, to be confirmed
-  std::vector<RoundAnswer> rounds;            ///< of other annotators of this case
-  std::optional<Matrix6d> covariance;         ///< of the case's camera, in its own frame
+  std::vector<sessions::Proposal> proposals;     ///< where landmarks should be, to be confirmed
+  std::vector<RoundAnswer> rounds;               ///< of other annotators of this case
+  std::optional<Matrix6d> covariance;            ///< of the case's camera, in its own frame
+  std::optional<sessions::PoseQuality> quality;  ///< of the pose
+  sessions::AnnotationConcern concern;
+  bool blind = false;  ///< a blind round is under way: there is no solution
 };
 
 /// What the operator annotates: the annotations of the current case, the one that is chosen, the
@@ -140,6 +146,8 @@ class AnnotationController : public QObject {
   void removeRound(int round);
   /// The solved pose becomes the case's truth.
   void useAsTruth();
+  /// The solved pose becomes the case's seed, with three sigma as its uncertainty.
+  void useAsSeed();
   /// Solves another case with this one from now on, as images of cameras that are rigidly linked.
   void linkCase(const std::string& other_id, const Pose& other_from_case);
   void unlinkCase();

@@ -8,6 +8,7 @@
 #include "sessions/annotation/annotations.h"
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/landmarks.h"
+#include "sessions/review/annotated_seed.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/text/utc_time.h"
 #include "ui/models/text.h"
@@ -293,6 +294,24 @@ void AnnotationController::useAsTruth() {
   if (!excess.empty())
     text += tr(" Its one sigma is %1, too large to judge a result.").arg(fromText(excess));
   Q_EMIT told(text);
+}
+
+void AnnotationController::useAsSeed() {
+  finishMove();
+  const std::optional<Pose> solved = solvedPose();
+  const sessions::SessionCase* session_case = document_.session().findCase(case_id_);
+  if (!session_case || !state_.currentCase() || !solved) return;
+  if (stale_) {
+    Q_EMIT told(tr("The pose is being solved again; try again in a moment."));
+    return;
+  }
+  document_.edit(sessions::withCase(document_.session(),
+                                    sessions::withMeasuredSeed(
+                                        *session_case, state_.currentCase()->scene.view(), *solved,
+                                        answer_.covariance.value_or(Matrix6d::Zero()))),
+                 tr("Use the annotated pose of %1 as its seed").arg(fromText(case_id_)));
+  Q_EMIT told(tr("The annotated pose is the seed of %1, with 3 sigma as its uncertainty.")
+                  .arg(fromText(case_id_)));
 }
 
 void AnnotationController::linkCase(const std::string& other_id, const Pose& other_from_case) {

@@ -13,6 +13,7 @@
 #include "sessions/annotation/annotations.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/session/rig_links.h"
+#include "ui/annotation/station_snapper.h"
 #include "ui/models/text.h"
 #include "ui/panels/column_fitter.h"
 #include "ui/panels/pose_comparison.h"
@@ -29,14 +30,13 @@ constexpr double kMradPerDegree = 1e3 * kDegree_rad;
 
 QString solutionText(const char* text) { return QCoreApplication::translate("SolutionHtml", text); }
 
-/// In the order of `GeometryWeakness`.
-constexpr std::array<const char*, 7> kWeaknesses = {"too few annotations",
+/// In the order of `GeometryWeakness`, but its last.
+constexpr std::array<const char*, 6> kWeaknesses = {"too few annotations",
                                                     "no redundancy",
                                                     "all on one line",
                                                     "all in one plane",
                                                     "all in one corner of the station",
-                                                    "all at one depth",
-                                                    "imprecise"};
+                                                    "all at one depth"};
 
 QString warningsHtml(const sessions::CaseAnnotationsSolution& solution) {
   QStringList items;
@@ -158,6 +158,8 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
 }  // namespace
 
 QString solutionHeadline(const AnnotationAnswer& answer, bool stale) {
+  if (answer.blind)
+    return solutionText("Blind round: nothing is predicted until all is placed or removed.");
   if (!answer.solution)
     return stale ? solutionText("Solving ...") : solutionText("No annotations yet.");
   const sessions::AnnotationsResult& result = answer.solution->result;
@@ -175,9 +177,10 @@ QString geometryMeterText(const AnnotationAnswer& answer) {
   if (!answer.solution) return {};
   QStringList weak;
   for (const sessions::GeometryWarning& warning : answer.solution->warnings)
-    weak << (warning.weakness == sessions::GeometryWeakness::kImprecise
-                 ? solutionText("one sigma is %1").arg(fromText(answer.solution->sigmaExcess()))
-                 : solutionText(kWeaknesses[static_cast<std::size_t>(warning.weakness)]));
+    if (warning.weakness != sessions::GeometryWeakness::kImprecise)
+      weak << solutionText(kWeaknesses[static_cast<std::size_t>(warning.weakness)]);
+  if (answer.quality && answer.quality->worst() && !answer.quality->holds())
+    weak << solutionText("pose known to %1").arg(fromText(answer.quality->text()));
   const QChar sign(weak.isEmpty() ? 0x2713 : 0x26a0);
   return solutionText("Geometry: %1 %2")
       .arg(sign)
@@ -317,6 +320,12 @@ AnnotationPanel::AnnotationPanel(Document& document, AnnotationController& contr
 
 QTableView& AnnotationPanel::table() { return *ui_.annotations; }
 
+void AnnotationPanel::setSnapper(const StationSnapper& snapper) {
+  const auto take = [this, &snapper] { model_.setMesh(snapper.mesh()); };
+  connect(&snapper, &StationSnapper::meshChanged, this, take);
+  take();
+}
+
 void AnnotationPanel::addBeside(QWidget* widget) {
   ui_.splitter->addWidget(widget);
   ui_.splitter->setCollapsible(ui_.splitter->count() - 1, false);
@@ -341,17 +350,18 @@ void AnnotationPanel::connectTools() {
   connect(ui_.together, &QCheckBox::toggled, &controller_, &AnnotationController::setTogether);
   connect(ui_.annotationAsTruth, &QPushButton::clicked, &controller_,
           &AnnotationController::useAsTruth);
-  connect(ui_.annotationAsSeed, &QPushButton::clicked, this, [this] {
-    if (const auto pose = controller_.solvedPose()) Q_EMIT useAsSeedRequested(*pose);
-  });
+  connect(ui_.annotationAsSeed, &QPushButton::clicked, &controller_,
+          &AnnotationController::useAsSeed);
 }
 
 void AnnotationPanel::buildTable() {
   setUpTable(*ui_.annotations, filter_);
-  std::vector<int> dispensable;
-  for (int column = model_.columnCount() - 1; column > AnnotationsModel::kV_px; --column)
-    dispensable.push_back(column);
-  new ColumnFitter(*ui_.annotations, std::move(dispensable));
+  using Model = AnnotationsModel;
+  new ColumnFitter(*ui_.annotations,
+                   {Model::kComment, Model::kLocked, Model::kSigma_px, Model::kResidualY_mm,
+                    Model::kResidualX_mm, Model::kWithout_mrad, Model::kWithout_mm,
+                    Model::kStationKind, Model::kY_mm, Model::kX_mm, Model::kZ_mm,
+                    Model::kNormalized, Model::kResidualY_px, Model::kResidualX_px});
   ui_.annotations->installEventFilter(this);
   ui_.annotations->setEditTriggers(QAbstractItemView::DoubleClicked |
                                    QAbstractItemView::EditKeyPressed);
@@ -423,6 +433,8 @@ void AnnotationPanel::showSolution() {
   const int place = ui_.solution->verticalScrollBar()->value();
   ui_.solution->setHtml(solutionHtml(answer, otherPoses()));
   ui_.solution->verticalScrollBar()->setValue(place);
+  const QSignalBlocker blocked(ui_.robust);
+  ui_.robust->setChecked(controller_.robust());
   const bool solved = controller_.solvedPose().has_value();
   ui_.annotationAsTruth->setEnabled(solved && !controller_.stale());
   ui_.annotationAsSeed->setEnabled(solved && !controller_.stale());

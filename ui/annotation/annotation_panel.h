@@ -17,6 +17,7 @@
 namespace boresight::ui {
 
 class Document;
+class StationSnapper;
 
 /// A pose that the annotated one is compared with.
 struct ComparedPose {
@@ -90,6 +91,8 @@ class AnnotationPanel : public QWidget {
   /// The menu of annotations and poses from and to files; to be filled.
   QMenu& filesMenu() { return *files_menu_; }
   LandmarksMenu& landmarksMenu() { return *landmarks_menu_; }
+  /// Knows what the places of the station are.
+  void setSnapper(const StationSnapper& snapper);
   /// A widget next to the summary, shown when it has contents.
   void addBeside(QWidget* widget);
   /// Asks whose annotations these are, and puts them aside.
@@ -97,7 +100,6 @@ class AnnotationPanel : public QWidget {
 
  Q_SIGNALS:
   void openCaseRequested(const QString& case_id);
-  void useAsSeedRequested(const boresight::Pose& camera_from_station);
   /// Keys go to the image from now on.
   void imageRequested();
 

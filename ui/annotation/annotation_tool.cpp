@@ -58,10 +58,10 @@ void AnnotationTool::setSnaps(bool snaps) {
   Q_EMIT snapsChanged();
 }
 
-Pose AnnotationTool::stationPose() const {
+std::optional<Pose> AnnotationTool::stationPose() const {
   const std::optional<Pose> solved = controller_.solvedPose();
-  return solved && view_.layer(LayerId::kAnnotationEdges).style.visible ? *solved
-                                                                        : state_.shownPose();
+  return solved && view_.layer(LayerId::kAnnotationEdges).style.visible ? solved
+                                                                        : state_.knownPose();
 }
 
 void AnnotationTool::showMode() {
@@ -100,11 +100,12 @@ void AnnotationTool::updateAim() {
   const Eigen::Vector2d pixel = vectorOf(*pointer_);
   const QPointF place = view_.transform().toWidget(*pointer_);
   aim_ = {};
-  if ((modifiers_ & Qt::ControlModifier) != 0) {
-    const Pose pose = stationPose();
+  const std::optional<Pose> pose = stationPose();
+  if ((modifiers_ & Qt::ControlModifier) != 0 && pose) {
     const AimRules how = rules();
-    aim_ = aimAtStation(*loaded_case, pose, pixel,
-                        snapper_.near(loaded_case->source.camera, pose, pixel, how.radius_px), how);
+    aim_ =
+        aimAtStation(*loaded_case, *pose, pixel,
+                     snapper_.near(loaded_case->source.camera, *pose, pixel, how.radius_px), how);
   } else if (const auto handle = line_start_ ? std::nullopt : handleUnder(place)) {
     aim_.text = tr("%1: drag to move").arg(QString::fromStdString(handle->id));
   } else if (const auto* proposal = proposalUnder(place)) {
@@ -172,11 +173,12 @@ std::optional<AnnotationTool::Handle> AnnotationTool::handleUnder(const QPointF&
 /// A point without a place in the image that the pose predicts within reach, or "".
 std::string AnnotationTool::stationOnlyUnder(const QPointF& place) const {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
-  if (!loaded_case || lacksImageSide()) return {};
+  const std::optional<Pose> pose = stationPose();
+  if (!loaded_case || !pose || controller_.answer().blind || lacksImageSide()) return {};
   for (const sessions::PointPair& point : controller_.annotations().points) {
     if (point.pixel || !point.point_in_station_m) continue;
-    const auto at = sessions::predictPlace(loaded_case->source.camera, stationPose(),
-                                           *point.point_in_station_m);
+    const auto at =
+        sessions::predictPlace(loaded_case->source.camera, *pose, *point.point_in_station_m);
     if (at.valid && screenDistance(at.pixel, place) <= kReach) return point.id;
   }
   return {};

@@ -43,7 +43,7 @@ class AnnotationTool : public QObject {
   /// nowhere.
   const std::optional<QPointF>& focus() const { return focus_; }
   /// camera_from_station of the edges on which the station is picked.
-  Pose stationPose() const;
+  std::optional<Pose> stationPose() const;
 
   /// Words stay clear of `taken` (widget).
   void paint(QPainter& painter, const QRectF& taken) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annotation/image_annotation.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QPainter>
@@ -56,6 +57,8 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
   state_.onChange(ViewChange::kCase | ViewChange::kCursor | ViewChange::kNudgedPose, this,
                   &ImageAnnotation::showAnnotations);
   connect(&controller_, &AnnotationController::solutionChanged, this,
+          &ImageAnnotation::hideWhileBlind);
+  connect(&controller_, &AnnotationController::solutionChanged, this,
           &ImageAnnotation::showSolution);
   state_.onChange(ViewChange::kCase, this, &ImageAnnotation::showSolution);
   connect(&image_, &ImagePanel::stylesChanged, this, &ImageAnnotation::showSolution);
@@ -96,7 +99,7 @@ AnnotationLook ImageAnnotation::look() const {
   AnnotationLook annotation_look;
   annotation_look.selected = controller_.selected();
   annotation_look.camera = state_.currentCase()->source.camera;
-  annotation_look.camera_from_station = tool_->stationPose();
+  if (!controller_.answer().blind) annotation_look.camera_from_station = tool_->stationPose();
   if (controller_.solution())
     annotation_look.outliers = controller_.solution()->outlierAnnotations();
   return annotation_look;
@@ -120,6 +123,25 @@ void ImageAnnotation::showAnnotations() {
   }
   image_.setMarks(LayerId::kAnnotationResiduals, std::move(residuals));
   lookThroughLoupe();
+}
+
+/// In a blind round the other poses would show where to click; after it they are as before.
+void ImageAnnotation::hideWhileBlind() {
+  const auto show = [this](LayerId id, bool visible) {
+    LayerStyle style = image_.style(id);
+    style.visible = visible;
+    image_.setStyle(id, style);
+  };
+  if (!controller_.answer().blind) {
+    for (const LayerId id : std::exchange(hidden_, {})) show(id, true);
+    return;
+  }
+  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
+                           LayerId::kNudgedEdges, LayerId::kHypothesisEdges}) {
+    if (!image_.style(id).visible || std::ranges::count(hidden_, id) > 0) continue;
+    hidden_.push_back(id);
+    show(id, false);
+  }
 }
 
 void ImageAnnotation::showSolution() {

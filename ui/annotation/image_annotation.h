@@ -40,6 +40,7 @@ class ImageAnnotation : public QObject {
   void showSamples();
   void showAnnotations();
   void showSolution();
+  void hideWhileBlind();
   void askForBand();
   void lookThroughLoupe();
   AnnotationLook look() const;
@@ -59,6 +60,7 @@ class ImageAnnotation : public QObject {
   std::optional<Pose> rendered_pose_;
   AnnotationController::SolutionPtr band_of_;
   double magnification_ = 40.0;
+  std::vector<LayerId> hidden_;  ///< while a round is blind
   TaskRunner runner_;
 };
 

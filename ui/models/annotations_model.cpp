@@ -69,6 +69,15 @@ std::vector<TableColumn<AnnotationRow>> annotationColumns() {
           "point."),
        2,
        [](AnnotationRef annotation) { return annotation.pixel ? annotation.pixel->y() : kNone; }},
+      {tr("X, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
+       coordinate(0)},
+      {tr("Y, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
+       coordinate(1)},
+      {tr("Z, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
+       coordinate(2)},
+      {tr("Station place"),
+       tr("What the station has there: corner, circle centre, edge, or bare surface."), -1,
+       [](AnnotationRef annotation) { return annotation.station_kind; }},
       {tr("dx, px"),
        tr("Seen minus predicted, to the right; of a line the distance of its first end across the "
           "edge."),
@@ -90,12 +99,6 @@ std::vector<TableColumn<AnnotationRow>> annotationColumns() {
        3, solved([](Solved annotation) { return annotation.residual_mm[0]; })},
       {tr("dy, mm"), tr("The same at the annotation's distance from the camera, in millimetres."),
        3, solved([](Solved annotation) { return annotation.residual_mm[1]; })},
-      {tr("X, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
-       coordinate(0)},
-      {tr("Y, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
-       coordinate(1)},
-      {tr("Z, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
-       coordinate(2)},
       {tr("Sigma, px"),
        tr("Standard deviation of the pixel position per axis; of a line, of either end across the "
           "edge."),
@@ -205,6 +208,26 @@ void AnnotationsModel::setSolution(SolutionPtr solution, bool stale) {
   fillRows();
 }
 
+void AnnotationsModel::setMesh(std::shared_ptr<const sessions::MeshSnapper> mesh) {
+  mesh_ = std::move(mesh);
+  kinds_.clear();
+  fillRows();
+}
+
+QString AnnotationsModel::stationKind(const AnnotationRow& row) {
+  if (!mesh_ || !row.point_in_station_m) return {};
+  if (row.line) return tr("edge");
+  const Eigen::Vector3d& point_m = *row.point_in_station_m;
+  const auto [known, added] = kinds_.try_emplace({point_m.x(), point_m.y(), point_m.z()});
+  if (!added) return known->second;
+  const auto kind = mesh_->kindAt(point_m);
+  known->second = !kind                                      ? tr("surface")
+                  : *kind == sessions::MeshSnapKind::kVertex ? tr("corner")
+                  : *kind == sessions::MeshSnapKind::kCircle ? tr("circle centre")
+                                                             : tr("edge");
+  return known->second;
+}
+
 /// What the solution says of a row is found by name, since rows may have come and gone. An editor
 /// that is open and the chosen row stay while the number of rows does.
 void AnnotationsModel::fillRows() {
@@ -221,6 +244,7 @@ void AnnotationsModel::fillRows() {
     if (line.line) row.pixel = line.line->start;
     if (line.edge) row.point_in_station_m = line.edge->start_in_station_m;
   }
+  for (AnnotationRow& row : rows) row.station_kind = stationKind(row);
   if (solution_ && solution_->result.solution) {
     const auto fill = [this, &rows](const auto& judged, auto member) {
       for (const auto& item : judged)

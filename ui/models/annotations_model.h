@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "sessions/annotation/mesh_snap.h"
 #include "sessions/session/case_annotations.h"
 #include "ui/models/rows_model.h"
 
@@ -23,6 +26,7 @@ struct AnnotationRow {
   bool complete = false;
   std::optional<Eigen::Vector2d> pixel;               ///< of a line its first place
   std::optional<Eigen::Vector3d> point_in_station_m;  ///< of a line the edge's start
+  QString station_kind;  ///< "corner", "circle centre", "edge" or "surface"; empty: not known
   std::optional<sessions::SolvedAnnotation> solved;
   std::optional<sessions::LeftOut> left_out;
 
@@ -41,6 +45,10 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
     kName,
     kU_px,
     kV_px,
+    kX_mm,
+    kY_mm,
+    kZ_mm,
+    kStationKind,
     kResidualX_px,
     kResidualY_px,
     kNormalized,
@@ -48,9 +56,6 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
     kWithout_mrad,
     kResidualX_mm,
     kResidualY_mm,
-    kX_mm,
-    kY_mm,
-    kZ_mm,
     kSigma_px,
     kLocked,
     kComment,
@@ -66,6 +71,9 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
   /// Of these annotations; residuals of annotations that moved since are shown dimmed. nullptr:
   /// none.
   void setSolution(SolutionPtr solution, bool stale);
+
+  /// Names what a place of the station is. nullptr: not known.
+  void setMesh(std::shared_ptr<const sessions::MeshSnapper> mesh);
 
   const sessions::Annotations& annotations() const { return annotations_; }
   const std::string& idOf(int row) const { return at(row).id; }
@@ -89,9 +97,13 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
 
  private:
   void fillRows();
+  QString stationKind(const AnnotationRow& row);
 
   sessions::Annotations annotations_;
   SolutionPtr solution_;
+  std::shared_ptr<const sessions::MeshSnapper> mesh_;
+  /// Kinds of the places so far, by their coordinates.
+  std::map<std::array<double, 3>, QString> kinds_;
   bool stale_ = false;
 };
 

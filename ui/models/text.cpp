@@ -6,11 +6,17 @@
 
 #include <QCoreApplication>
 
+#include "sessions/text/text_table.h"
+
 namespace boresight::ui {
 
 QString numberText(double value, int decimals) {
   if (std::isnan(value)) return QString();
   return QString::number(value, 'f', decimals);  // never the locale's comma
+}
+
+QString probabilityCell(double probability) {
+  return std::isnan(probability) ? QString() : fromText(sessions::probabilityPercent(probability));
 }
 
 double roundedUp(double value) {

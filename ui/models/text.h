@@ -13,6 +13,9 @@ namespace boresight::ui {
 /// For table cells: a fixed number of decimals, always with a dot; nothing for NaN.
 QString numberText(double value, int decimals);
 
+/// For table cells: "98.7 %", "> 99.9 %"; nothing for NaN.
+QString probabilityCell(double probability);
+
 /// 1, 2 or 5 times a power of ten, not below the value by more than rounding: where a scale or an
 /// axis ends. 1 for what is not above zero.
 double roundedUp(double value);

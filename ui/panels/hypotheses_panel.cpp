@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/panels/hypotheses_panel.h"
 
+#include <cmath>
+
 #include <QFont>
 #include <QtWidgets>
 
 #include "core/base/math.h"
 #include "core/localizer/acceptance.h"
+#include "sessions/run/acceptance.h"
 #include "sessions/text/units.h"
+#include "ui/models/text.h"
 #include "ui/panels/column_fitter.h"
 #include "ui/panels/widgets.h"
 
@@ -23,6 +27,13 @@ QString tr(const char* text) { return AlternativesModel::tr(text); }
 QString endedText(const Alternative& alternative) {
   if (alternative.chosen) return tr("chosen");
   return alternative.has_pose ? tr("not chosen") : tr("no pose");
+}
+
+/// "55 times"; "12 times more" for a better one.
+QString lessLikely(const Alternative& row) {
+  if (std::isnan(row.margin_nats)) return {};
+  const QString times = fromText(sessions::timesText(std::abs(row.margin_nats)));
+  return row.margin_nats < 0.0 ? tr("%1 more").arg(times) : times;
 }
 
 std::vector<TableColumn<Alternative>> alternativeColumns() {
@@ -46,11 +57,11 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
          return row.iteration < 0 ? tr("result") : QString::number(row.iteration + 1);
        }},
       {tr("Ended"), tr("Whether the run continued with it."), -1, endedText},
-      {tr("Evidence behind"),
-       tr("Evidence of the result minus that of the competing pose, in nats; below %1 the run is "
-          "ambiguous, below zero the competing pose is better.")
-           .arg(kLeastMargin_nats),
-       0, [](Row row) { return row.margin_nats; }},
+      {tr("Less likely"),
+       tr("How many times less likely the competing pose is than the result; below %1 the run is "
+          "ambiguous, \"more\": the competing pose is better.")
+           .arg(fromText(sessions::timesText(kLeastMargin_nats))),
+       0, lessLikely, [](Row row) { return row.margin_nats; }},
       {tr("Similarity"),
        tr("Share of the rendered edges that a competing pose has in common with the result."), 2,
        [](Row row) { return row.similarity; }},
@@ -60,8 +71,9 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
           "is ambiguous.")
            .arg(kLeastGap),
        2, [](Row row) { return row.score; }},
-      {tr("Probability, %"), tr("Probability that a compared pose is right, in percent."), 1,
-       [](Row row) { return 100.0 * row.probability; }},
+      {tr("Probability"), tr("Probability that a compared pose is right."), 0,
+       [](Row row) { return probabilityCell(row.probability); },
+       [](Row row) { return row.probability; }},
       {tr("Inliers"), tr("Matches that agree with its pose."), 0,
        [=](Row row) { return ofOthers(row, row.inliers); }},
       {tr("Matches"), tr("Templates that could be searched."), 0,

@@ -56,10 +56,11 @@ std::optional<Pose> ViewState::iterationPose() const {
                                        : shown->camera_from_station_before;
 }
 
-Pose ViewState::shownPose() const {
-  if (nudged_) return *nudged_;
-  const Pose seed = case_ ? case_->source.camera_from_station_seed : Pose();
-  return iterationPose().value_or(seed);
+std::optional<Pose> ViewState::knownPose() const {
+  if (nudged_) return nudged_;
+  if (const auto of_iteration = iterationPose()) return of_iteration;
+  if (case_ && case_->source.has_seed) return case_->source.camera_from_station_seed;
+  return annotated_;
 }
 
 void ViewState::setCase(CasePtr loaded_case) {

@@ -77,8 +77,11 @@ class ViewState : public QObject {
   /// The hypothesis that is shown next to the chosen pose, if any.
   const std::optional<sessions::Alternative>& alternative() const { return alternative_; }
   /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
-  /// it where the shown stage is earlier), else the seed. Identity without a case.
-  Pose shownPose() const;
+  /// it where the shown stage is earlier), else the seed; of a case without a seed the annotated
+  /// pose. Nothing where there is none of these.
+  std::optional<Pose> knownPose() const;
+  /// The same; the identity where there is none.
+  Pose shownPose() const { return knownPose().value_or(Pose()); }
 
   void setCase(CasePtr loaded_case);
   /// The current case after an edit of its inputs: the shown run, now stale, the place in it and

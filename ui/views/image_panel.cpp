@@ -410,6 +410,15 @@ void ImagePanel::askForAgreement() {
       });
 }
 
+/// Of the station below a pixel; nothing beside it, and while no pose is known.
+std::optional<sessions::SurfacePoint> ImagePanel::surfacePoint(const QPointF& pixel) const {
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  const std::optional<Pose> pose = state_.knownPose();
+  if (!loaded_case || !pose) return std::nullopt;
+  return sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(), *pose,
+                                  {pixel.x(), pixel.y()});
+}
+
 void ImagePanel::showPlace(const QPointF& pixel) {
   view_->setLinkedCursor(std::nullopt);  // of another view
   const ViewState::CasePtr& loaded_case = state_.currentCase();
@@ -422,10 +431,7 @@ void ImagePanel::showPlace(const QPointF& pixel) {
     text += tr("  gray %1").arg(loaded_case->image.view().at(x, y));
     if (const auto& samples = display_->samples(); samples && samples->sample_bits > 8)
       text += tr(" (sample %1)").arg(sampleText(*samples, x, y));
-    const auto point =
-        sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(),
-                                 state_.shownPose(), {pixel.x(), pixel.y()});
-    if (point) {
+    if (const auto point = surfacePoint(pixel)) {
       place = point->in_station_m;
       text += tr("  station %1  %2  %3 mm, %4 m away")
                   .arg(1e3 * point->in_station_m.x(), 0, 'f', 2)
@@ -446,9 +452,9 @@ void ImagePanel::leavePlace() {
 void ImagePanel::showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m) {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   Eigen::Vector2d pixel;
-  const bool seen =
-      loaded_case && point_in_station_m &&
-      project(loaded_case->source.camera, state_.shownPose() * *point_in_station_m, pixel);
+  const std::optional<Pose> pose = state_.knownPose();
+  const bool seen = loaded_case && pose && point_in_station_m &&
+                    project(loaded_case->source.camera, *pose * *point_in_station_m, pixel);
   view_->setLinkedCursor(seen ? std::optional(pointOf(pixel)) : std::nullopt);
 }
 
@@ -463,9 +469,7 @@ void ImagePanel::showContextMenu(const QPointF& pixel, const QPoint& global) {
                    [text] { QGuiApplication::clipboard()->setText(text); });
   };
   copy(tr("pixel"), QStringLiteral("%1 %2").arg(pixel.x(), 0, 'f', 2).arg(pixel.y(), 0, 'f', 2));
-  const auto point = sessions::surfacePointAt(loaded_case->source.camera, loaded_case->scene.view(),
-                                              state_.shownPose(), {pixel.x(), pixel.y()});
-  if (point)
+  if (const auto point = surfacePoint(pixel))
     copy(tr("station point, m"), QStringLiteral("%1 %2 %3")
                                      .arg(point->in_station_m.x(), 0, 'f', 6)
                                      .arg(point->in_station_m.y(), 0, 'f', 6)

@@ -10,6 +10,7 @@
 #include <QWidget>
 
 #include "sessions/run/picture_data.h"
+#include "sessions/run/surface_point.h"
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 
@@ -83,6 +84,7 @@ class ImagePanel : public QWidget {
   void showPoseLook();
   void showTemplates();
   void bringLayerOfStage();
+  std::optional<sessions::SurfacePoint> surfacePoint(const QPointF& pixel) const;
   void showPlace(const QPointF& pixel);
   void leavePlace();
   void showContextMenu(const QPointF& pixel, const QPoint& global);

@@ -68,6 +68,7 @@ void MeasureTool::moveTo(const QPointF& pixel) {
   to_ = pixel;
   measured_ = sessions::measureBetween(loaded_case->source.camera, loaded_case->scene.view(),
                                        state_.shownPose(), vectorOf(*from_), vectorOf(to_));
+  if (!state_.knownPose()) measured_.surface_m.reset();
   view_.update();
 }
 

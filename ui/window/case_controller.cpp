@@ -9,6 +9,7 @@
 
 #include "sessions/io/errors.h"
 #include "sessions/session/views_run.h"
+#include "ui/models/text.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 
@@ -116,6 +117,7 @@ void CaseController::load(const QString& id) {
   if (!session_case) return;
   asked_ = *session_case;
   load_problem_.clear();
+  input_concern_.reset();
   const ViewState::CasePtr before = state_.currentCase();
   tasks_.start(
       QStringLiteral("load case"),
@@ -147,12 +149,28 @@ void CaseController::loaded(const QString& id,
   // A run that did not end cannot go on with other inputs; one that did stays, as a stale one.
   if (edited && state_.snapshot() && state_.snapshot()->finished) {
     state_.replaceCase(std::move(loaded_case));
+    judgeInputs();
     Q_EMIT stalenessChanged();
     return runIfWaiting();
   }
   state_.setCase(std::move(loaded_case));
+  judgeInputs();
   showNudgedPose();
   loadLatestRun(id);
+}
+
+/// By the run's own checks, before the operator asks for a run.
+void CaseController::judgeInputs() {
+  tasks_.start(
+      QStringLiteral("judge inputs"),
+      [loaded = state_.currentCase()](const std::stop_token&) {
+        return std::pair(loaded, sessions::inputConcern(*loaded));
+      },
+      [this](const std::pair<ViewState::CasePtr, std::optional<sessions::InputConcern>>& judged) {
+        if (judged.first != state_.currentCase()) return;
+        input_concern_ = judged.second;
+        Q_EMIT stalenessChanged();
+      });
 }
 
 void CaseController::loadLatestRun(const QString& id) {
@@ -241,6 +259,7 @@ void CaseController::runPlan(const sessions::RunPlan& plan) {
 QString CaseController::whyNotRunnable() const {
   const sessions::SessionCase* session_case = document_.session().findCase(case_id_.toStdString());
   if (!session_case) return tr("Open a case first");
+  if (input_concern_) return fromText(input_concern_->text);
   return session_case->has_seed
              ? QString()
              : tr("The case has no seed: annotate it, then use the solved pose as its seed");
@@ -413,6 +432,22 @@ void CaseController::showRunOf(const std::string& case_id) {
 
 void CaseController::runIfWaiting() {
   if (const auto until = std::exchange(run_when_loaded_, std::nullopt)) advance(*until);
+}
+
+void CaseController::changeInput(const QString& id, sessions::InputKind kind,
+                                 const std::filesystem::path& file, const std::string& mesh_unit) {
+  const sessions::SessionCase* session_case = document_.session().findCase(id.toStdString());
+  if (!session_case) return;
+  tasks_.start(
+      QStringLiteral("change input"),
+      [before = *session_case, kind, file, mesh_unit](const std::stop_token&) {
+        return sessions::withInputFile(before, kind, file, mesh_unit);
+      },
+      [this, id, file](sessions::SessionCase changed) {
+        document_.edit(sessions::withCase(document_.session(), std::move(changed)),
+                       tr("Use %1 for %2").arg(fromText(file.filename().string()), id));
+      },
+      [this](const QString& problem) { Q_EMIT failed(problem); });
 }
 
 void CaseController::useAsSeed(const Pose& camera_from_station) {

@@ -14,6 +14,7 @@
 
 #include "core/localizer/localizer_options.h"
 #include "sessions/run/runner.h"
+#include "sessions/session/case_inputs.h"
 #include "ui/run/batch.h"
 #include "ui/run/run_controller.h"
 #include "ui/state/view_state.h"
@@ -43,6 +44,8 @@ class CaseController : public QObject {
   QString whyAlone() const;
   /// The batch under way, from its first case's reading to its last run's storing; else nothing.
   const std::optional<BatchProgress>& batch() const { return batch_.progress(); }
+  /// What a run of the shown case would refuse; nothing while that is not known.
+  const std::optional<sessions::InputConcern>& inputConcern() const { return input_concern_; }
   /// Why the shown case cannot be run, or empty.
   QString whyNotRunnable() const;
 
@@ -71,6 +74,9 @@ class CaseController : public QObject {
   QStringList unstoredRuns() const;
   /// Waits until a run that has ended is in the session: what was shown as done is not lost.
   void finishStoring();
+  /// Puts another file in place of a case's input, once it is read.
+  void changeInput(const QString& id, boresight::sessions::InputKind kind,
+                   const std::filesystem::path& file, const std::string& mesh_unit);
   void useAsSeed(const boresight::Pose& camera_from_station);
   /// States how far the seed may be off, and runs the case again.
   void runWithUncertainty(const boresight::sessions::DeclaredUncertainty& uncertainty);
@@ -110,6 +116,7 @@ class CaseController : public QObject {
   void load(const QString& id);
   void loaded(const QString& id, std::shared_ptr<const sessions::LoadedCase> loaded_case);
   void loadFailed(const QString& id, const QString& message);
+  void judgeInputs();
   void loadLatestRun(const QString& id);
   void prepareRun(RunInputs inputs);
   void start(const std::function<void()>& prepare,
@@ -133,6 +140,7 @@ class CaseController : public QObject {
   TaskRunner& tasks_;
   QString case_id_;
   QString load_problem_;
+  std::optional<sessions::InputConcern> input_concern_;
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
   bool run_is_prepared_ = false;
@@ -143,7 +151,7 @@ class CaseController : public QObject {
   std::optional<sessions::StepUntil> run_when_loaded_;
   Batch batch_;
   sessions::Session batch_session_;  ///< what the case at work is run from
-  QStringList batch_failures_;  ///< told together at its end
+  QStringList batch_failures_;       ///< told together at its end
 };
 
 }  // namespace boresight::ui

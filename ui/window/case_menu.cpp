@@ -12,6 +12,7 @@
 #include "ui/state/document.h"
 #include "ui/style/icons.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/change_input.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
@@ -31,6 +32,10 @@ std::unique_ptr<QMenu> CaseMenu::of(const QString& id) const {
   })->setEnabled(!isBusy());
   add("caseReview", iconOf(Icon::kShield), tr("Review"), [this, id] { review(id); });
   menu->addSeparator();
+  auto* change = menu->addMenu(iconOf(Icon::kFolder), tr("Change file"));
+  change->setObjectName(QStringLiteral("caseChange"));
+  change->setEnabled(parts_.document.isEditable() && !isBusy());
+  addChangeInput(*change, parts_, *parent_, id);
   add("caseName", {}, tr("Copy the name"), [id] { QGuiApplication::clipboard()->setText(id); });
   add("caseFolder", iconOf(Icon::kFolder), tr("Show the image's folder"),
       [this, id] { showFolder(id); });

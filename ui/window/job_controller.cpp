@@ -7,6 +7,7 @@
 #include "ui/models/text.h"
 #include "ui/review/review_controller.h"
 #include "ui/run/run_controller.h"
+#include "ui/run/sequence_runner.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/window/case_controller.h"
@@ -28,6 +29,7 @@ JobController::JobController(const WindowParts& parts, ReviewController& review,
   connect(&parts_.tasks, &TaskRunner::busyChanged, this, &JobController::update);
   connect(&parts_.document, &Document::opened, this, &JobController::update);
   connect(&parts_.document, &Document::changed, this, &JobController::update);
+  connect(&parts_.sequence, &SequenceRunner::changed, this, &JobController::update);
   connect(&review_, &ReviewController::convergenceChanged, this, &JobController::update);
   connect(&review_, &ReviewController::checksChanged, this, &JobController::update);
   connect(escape_, &QShortcut::activated, this, &JobController::stop);
@@ -68,6 +70,15 @@ Job JobController::job() const {
     return job;
   }
   const Job run = runJob();
+  if (!run.runs && parts_.sequence.isRunning()) {
+    const SequenceProgress& sequence = parts_.sequence.progress();
+    return {tr("Running a sequence"),
+            tr("%1 frames/s, %2 lost").arg(numberText(sequence.frames_per_s, 1)).arg(sequence.lost),
+            static_cast<int>(sequence.done),
+            static_cast<int>(sequence.of),
+            std::nullopt,
+            true};
+  }
   if (run.runs || !review_.isConvergenceTestRunning()) return run;
   Job test{tr("Convergence test"),      {},           review_.convergenceSoFar().seeds,
            sessions::kConvergenceSeeds, std::nullopt, true};
@@ -88,6 +99,7 @@ void JobController::update() {
 
 void JobController::stop() {
   parts_.cases.stop();
+  parts_.sequence.stop();
   review_.stopConvergenceTest();
 }
 

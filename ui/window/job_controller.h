@@ -23,7 +23,8 @@ class JobController : public QObject {
 
   Job job() const;
   void update();
-  /// All that runs: a run, a batch also between two cases, a convergence test.
+  /// All that runs: a run, a batch also between two cases, a sequence, a
+  /// convergence test.
   void stop();
 
  private:

@@ -52,7 +52,7 @@ MainWindow::MainWindow(QWidget* parent)
       annotation_(document_, state_),
       onboard_(document_, state_, tasks_),
       quality_(document_, state_, tasks_),
-      parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_, quality_},
+      parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_, quality_, sequence_},
       body_(bodyIn(*this)),
       docks_(std::make_unique<WindowDocks>(*body_, *this, parts_)),
       workspaces_(new Workspaces(*body_, docks_->all(), this)),

@@ -11,6 +11,7 @@
 #include "ui/review/onboard_controller.h"
 #include "ui/review/quality_controller.h"
 #include "ui/run/run_controller.h"
+#include "ui/run/sequence_runner.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
@@ -92,6 +93,7 @@ class MainWindow : public QMainWindow {
   AnnotationController annotation_;
   OnboardController onboard_;
   QualityController quality_;
+  SequenceRunner sequence_;
   WindowParts parts_;
   QMainWindow* body_ = nullptr;  ///< holds the docks
   std::unique_ptr<WindowDocks> docks_;

@@ -123,8 +123,6 @@ void PanelLinks::linkPoses() {
           &CaseController::useAsSeed);
   connect(&docks_.annotation, &AnnotationPanel::openCaseRequested, &parts_.cases,
           &CaseController::chooseCase);
-  connect(&docks_.annotation, &AnnotationPanel::useAsSeedRequested, &parts_.cases,
-          &CaseController::useAsSeed);
   connect(&docks_.annotation, &AnnotationPanel::imageRequested, this,
           [this] { docks_.image.view().setFocus(); });
   connect(&docks_.poses, &PosePanel::gestureFinished, &parts_.cases,

@@ -12,6 +12,7 @@
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_of_results.h"
+#include "ui/models/text.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/review/pose_export.h"
@@ -19,6 +20,7 @@
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/change_input.h"
 
 namespace boresight::ui {
 
@@ -104,7 +106,7 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   }
   collected_ = dropped;
   kept_ = QString::fromStdString(kept);
-  Q_EMIT collectedChanged();
+  judgeCollected();
   // Of the case that is open, unless it comes with the files of another.
   if (dropped.isRecordAlone() && parts_.state.currentCase()) {
     const std::filesystem::path record = *collected_.record;
@@ -131,16 +133,87 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
   }
 }
 
+/// Each is read at once, so that a wrong one is known before the others are there.
+void SessionFiles::judgeCollected() {
+  judged_ = {};
+  Q_EMIT collectedChanged();
+  parts_.tasks.start(
+      QStringLiteral("judge files"),
+      [files = collected_.one](const std::stop_token&) { return sessions::judgeFiles(files); },
+      [this](const sessions::JudgedFiles& judged) {
+        judged_ = judged;
+        Q_EMIT collectedChanged();
+      });
+}
+
+bool SessionFiles::has(sessions::InputKind kind) const {
+  switch (kind) {
+    case sessions::InputKind::kImage:
+      return !collected_.one.image.empty();
+    case sessions::InputKind::kCamera:
+      return collected_.hasCamera();
+    case sessions::InputKind::kMesh:
+      return !collected_.one.parts.empty();
+    case sessions::InputKind::kSeed:
+      return !collected_.one.seed.empty();
+  }
+  return false;
+}
+
+std::optional<sessions::InputKind> SessionFiles::nextKind() const {
+  for (int i = 0; i < sessions::kInputKinds; ++i)
+    if (!judged_[static_cast<std::size_t>(i)].problem.empty())
+      return static_cast<sessions::InputKind>(i);
+  for (int i = 0; i < sessions::kInputKinds; ++i)
+    if (!has(static_cast<sessions::InputKind>(i))) return static_cast<sessions::InputKind>(i);
+  return std::nullopt;
+}
+
+void SessionFiles::askForFile(sessions::InputKind kind) {
+  const QString file = QFileDialog::getOpenFileName(
+      &window_, tr("The %1 of the case").arg(inputName(kind)), {}, inputFilter(kind));
+  if (!file.isEmpty()) take({path(file)});
+}
+
+void SessionFiles::askForNext() {
+  if (collected_.count() == 0) return askForFiles();
+  if (const auto kind = nextKind())
+    askForFile(*kind);
+  else
+    makeCollected();
+}
+
+void SessionFiles::removeFile(sessions::InputKind kind) {
+  if (kind == sessions::InputKind::kImage) {
+    collected_.one.image.clear();
+    collected_.label_camera_remark.reset();
+  } else if (kind == sessions::InputKind::kCamera) {
+    collected_.one.camera.clear();
+  } else if (kind == sessions::InputKind::kMesh) {
+    collected_.one.parts.clear();
+    mesh_extent_.reset();
+  } else {
+    collected_.one.seed.clear();
+  }
+  judgeCollected();
+}
+
 FilesSituation SessionFiles::situation() const {
   const std::string missing = collected_.missing();
   FilesSituation situation{collected_.count(), {}};
   if (situation.added > 0 && !missing.empty())
     situation.missing = tr("Still needed: %1.").arg(QString::fromStdString(missing));
+  if (situation.added == 0) return situation;
+  const auto next = nextKind();
+  if (!next) return situation;
+  situation.next = inputName(*next);
+  situation.problem = fromText(judged_[static_cast<std::size_t>(*next)].problem);
   return situation;
 }
 
 void SessionFiles::forgetCollected() {
   collected_ = {};
+  judged_ = {};
   mesh_extent_.reset();
   Q_EMIT collectedChanged();
 }
@@ -151,7 +224,8 @@ void SessionFiles::makeSeedless() {
 
 void SessionFiles::setMeshUnit(const std::string& unit) {
   for (sessions::PartSource& part : collected_.one.parts) part.mesh_unit = unit;
-  Q_EMIT collectedChanged();
+  judgeCollected();
+  if (collected_.isCase()) makeCollected();
 }
 
 /// What the unit would make of the mesh: a mesh takes a while to read.
@@ -160,8 +234,7 @@ void SessionFiles::measureMesh() {
   if (collected_.one.parts.empty() || !collected_.one.parts.front().mesh_unit.empty()) return;
   std::vector<sessions::PartSource> parts = collected_.one.parts;
   for (sessions::PartSource& part : parts) {
-    const std::string extension = part.mesh.extension().string();
-    if (extension == ".gltf" || extension == ".glb") return;
+    if (sessions::statesUnit(part.mesh)) return;
     part.mesh_unit = "m";
   }
   parts_.tasks.start(
@@ -234,6 +307,7 @@ void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
 
 /// `kept`: names of files of earlier drops that the case is made of, too.
 void SessionFiles::addCase(const QString& kept) {
+  if (!situation().problem.isEmpty()) return;  // it is shown at its file
   if (!askForUnits()) return;
   Q_EMIT noted(tr("Reading the files ..."));
   parts_.tasks.start(
@@ -295,9 +369,7 @@ bool SessionFiles::askForId(sessions::SessionCase& session_case) {
 
 bool SessionFiles::askForUnits() {
   for (sessions::PartSource& part : collected_.one.parts) {
-    if (!part.mesh_unit.empty()) continue;
-    const std::string extension = part.mesh.extension().string();
-    if (extension == ".gltf" || extension == ".glb") continue;  // metres by their definition
+    if (!part.mesh_unit.empty() || sessions::statesUnit(part.mesh)) continue;
     bool chosen = false;
     const QStringList units = unitTexts();
     const QString unit = QInputDialog::getItem(

@@ -11,6 +11,7 @@
 #include <QString>
 #include <QStringList>
 
+#include "sessions/session/case_inputs.h"
 #include "sessions/session/session.h"
 #include "ui/window/dropped_files.h"
 #include "ui/window/window_parts.h"
@@ -57,7 +58,15 @@ class SessionFiles : public QObject {
   FilesSituation situation() const;
   /// Largest extent of the collected mesh in the file's own numbers; nothing until it is measured.
   const std::optional<double>& meshExtent() const { return mesh_extent_; }
+  /// What the collected files are, and why some cannot be used; empty until they are read.
+  const sessions::JudgedFiles& judged() const { return judged_; }
+  /// The case is made where nothing else is needed.
   void setMeshUnit(const std::string& unit);
+  void askForFile(sessions::InputKind kind);
+  /// For the file that cannot be used, else the first that is missing; with all there, the case is
+  /// made.
+  void askForNext();
+  void removeFile(sessions::InputKind kind);
   /// A case that has all but a seed.
   void makeSeedless();
   void forgetCollected();
@@ -94,6 +103,9 @@ class SessionFiles : public QObject {
   [[nodiscard]] bool takeCase(sessions::SessionCase session_case);
   [[nodiscard]] bool askForId(sessions::SessionCase& session_case);
   void makeCollected();
+  void judgeCollected();
+  bool has(sessions::InputKind kind) const;
+  std::optional<sessions::InputKind> nextKind() const;
   void measureMesh();
   bool askForUnits();
   QStringList unitTexts() const;
@@ -102,7 +114,8 @@ class SessionFiles : public QObject {
   QWidget& window_;
   WindowParts parts_;
   DroppedFiles collected_;  ///< of a case that is not complete yet
-  QString kept_;            ///< names of those that came with an earlier drop
+  sessions::JudgedFiles judged_;
+  QString kept_;  ///< names of those that came with an earlier drop
   std::optional<double> mesh_extent_;
   bool makes_new_session_ = false;
 };

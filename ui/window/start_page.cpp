@@ -131,6 +131,14 @@ void StartPage::buildSlot(int index) {
   head->addWidget(title);
   head->addStretch(1);
   head->addWidget(slot.state);
+  const auto kind = static_cast<sessions::InputKind>(index);
+  slot.remove = named(new QToolButton, ("slotRemove" + std::to_string(index)).c_str(),
+                      tr("Remove this file from the new case"));
+  slot.remove->setIcon(iconOf(Icon::kCross, &Theme::text2));
+  slot.remove->setAccessibleName(tr("Remove the %1").arg(tr(text.title)));
+  slot.remove->setAutoRaise(true);
+  connect(slot.remove, &QToolButton::clicked, this, [this, kind] { files_.removeFile(kind); });
+  head->addWidget(slot.remove);
   auto* column = new QVBoxLayout(slot.card);
   column->setContentsMargins(12, 8, 12, 12);
   column->setSpacing(8);
@@ -150,19 +158,26 @@ void StartPage::buildSlot(int index) {
     column->addWidget(seedless_);
   }
   column->addWidget(slot.choose);
-  connect(slot.choose, &QPushButton::clicked, &files_, &SessionFiles::askForFiles);
+  connect(slot.choose, &QPushButton::clicked, this, [this, kind] { files_.askForFile(kind); });
 }
 
 void StartPage::showSlot(int index, bool added, const QString& name, const QString& detail) {
   FileSlot& slot = slots_[static_cast<std::size_t>(index)];
+  const sessions::JudgedFile& judged = files_.judged()[static_cast<std::size_t>(index)];
+  const QString problem = added ? fromText(judged.problem) : QString();
+  const bool bad = !problem.isEmpty();
   slot.card->setProperty("empty", !added);
-  slot.state->setText(added ? tr("✓ added") : tr("+ still needed"));
-  slot.state->setProperty("added", added);
+  slot.state->setText(bad ? tr("✗ not usable") : added ? tr("✓ added") : tr("+ still needed"));
+  slot.state->setProperty("added", added && !bad);
+  slot.state->setProperty("bad", bad);
   slot.state->setProperty("needed", !added);
   slot.name->setText(name);
   slot.name->setToolTip(name);
   slot.name->setVisible(!name.isEmpty());
-  slot.detail->setText(detail);
+  slot.detail->setText(bad ? problem : added && detail.isEmpty() ? fromText(judged.text) : detail);
+  slot.detail->setProperty("bad", bad);
+  slot.remove->setVisible(added && !name.isEmpty());
+  polish(slot.detail);
   polish(slot.card);
   polish(slot.state);
 }
@@ -187,6 +202,7 @@ void StartPage::showSlots() {
            has_mesh ? QString() : question(kMesh));
   showSlot(kSeed, !files.one.seed.empty(), name(files.one.seed),
            files.one.seed.empty() ? question(kSeed) : QString());
+  slots_[kCamera].remove->setVisible(!files.one.camera.empty());  // a label's is the image's
   seedless_->setVisible(files.isSeedless());
   showUnits();
 }

@@ -6,9 +6,12 @@
 
 #include <QScrollArea>
 
+#include "sessions/session/case_inputs.h"
+
 class QFrame;
 class QLabel;
 class QPushButton;
+class QToolButton;
 class QVBoxLayout;
 
 namespace boresight::ui {
@@ -23,6 +26,7 @@ struct FileSlot {
   QLabel* name = nullptr;
   QLabel* detail = nullptr;
   QPushButton* choose = nullptr;
+  QToolButton* remove = nullptr;
 };
 
 /// Where the work begins: the four files of a new case, examples, recent sessions, and work that a
@@ -31,8 +35,9 @@ class StartPage : public QScrollArea {
   Q_OBJECT
 
  public:
+  /// As sessions::InputKind.
   enum Slot { kImage, kCamera, kMesh, kSeed };
-  static constexpr int kSlotCount = 4;
+  static constexpr int kSlotCount = sessions::kInputKinds;
 
   StartPage(SessionFiles& files, Document& document, QWidget* parent = nullptr);
 

@@ -6,7 +6,6 @@
 #include <QtWidgets>
 
 #include "sessions/review/checks.h"
-#include "sessions/session/annotation_concern.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
 #include "ui/review/onboard_panel.h"
@@ -18,10 +17,12 @@
 #include "ui/views/image_view.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/change_input.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
 #include "ui/workspaces/uncertainty_dialog.h"
+#include "ui/workspaces/remedies_panel.h"
 #include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
 
@@ -63,6 +64,7 @@ VerdictController::VerdictController(const Links& links, VerdictBar& bar, QWidge
 void VerdictController::follow() {
   const auto soon = [this] { soon_.start(); };
   parts_.state.onChange(ViewChange::kAll, this, soon);
+  connect(&parts_.document, &Document::opened, this, [this] { taken_.clear(); });
   connect(&parts_.document, &Document::opened, this, soon);
   connect(&parts_.document, &Document::changed, this, soon);
   connect(&parts_.run, &RunController::stateChanged, this, soon);
@@ -92,10 +94,19 @@ AnnotationSituation VerdictController::annotationSituation() const {
   };
   situation.pairs = count(annotation.annotations().points) + count(annotation.annotations().lines);
   situation.has_pose = annotation.solvedPose().has_value();
+  situation.blind = annotation.answer().blind;
+  situation.unplaced =
+      static_cast<int>(std::ranges::count_if(annotation.annotations().points,
+                                             [](const auto& point) { return !point.pixel; }) +
+                       std::ranges::count_if(annotation.annotations().lines,
+                                             [](const auto& line) { return !line.line; }));
   const auto& solution = annotation.solution();
   if (!solution || !solution->result.solution) return situation;
   situation.rms_px = solution->result.solution->rms_px;
-  situation.concern = fromText(sessions::annotationConcern(*solution));
+  const sessions::AnnotationConcern& concern = annotation.answer().concern;
+  situation.concern = fromText(concern.text);
+  for (const std::string& id : concern.suspects) situation.suspects << fromText(id);
+  situation.robust = concern.robust;
   for (const auto& [id, sigmas] : solution->outlierAnnotations())
     if (std::abs(sigmas) > situation.bad_sigmas) {
       situation.bad_pair = fromText(id);
@@ -137,9 +148,16 @@ Situation VerdictController::situation() const {
   situation.load_problem = parts_.cases.loadProblem();
   if (!id.isEmpty())
     situation.file_problem = findings_.adviceFor(id).section(QLatin1Char('\n'), 0, 0);
+  if (const auto& concern = parts_.cases.inputConcern()) {
+    situation.input_problem = fromText(concern->text);
+    situation.input_step = concern->kind == sessions::InputKind::kMesh
+                               ? tr("Unit of the mesh...")
+                               : tr("Choose %1...").arg(inputName(concern->kind));
+  }
   situation.run = parts_.run.state();
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
   situation.trace = parts_.state.snapshot();
+  if (situation.trace) situation.tried = taken_.before(id.toStdString(), situation.trace->digest);
   situation.stale = parts_.cases.staleness();
   situation.quality = parts_.quality.quality();
   situation.annotation = annotationSituation();
@@ -149,15 +167,24 @@ Situation VerdictController::situation() const {
   return situation;
 }
 
-void VerdictController::update() { bar_.setVerdict(verdictOf(situation())); }
+void VerdictController::update() {
+  const Situation now = situation();
+  docks_.remedies.setTried(now.tried);
+  bar_.setVerdict(verdictOf(now));
+}
 
 void VerdictController::perform(Step step) {
+  const auto& run = parts_.state.snapshot();
+  if (run && run->finished && !run->converged())
+    taken_.note(parts_.cases.caseId().toStdString(), run->digest, step);
   CaseController& cases = parts_.cases;
   switch (step) {
     case Step::kNone:
       return;
     case Step::kChooseFiles:
-      return files_.askForFiles();
+      return files_.askForNext();
+    case Step::kChangeInput:
+      return changeInput();
     case Step::kFixFiles:
       return findings_.repair();
     case Step::kRun:
@@ -190,10 +217,12 @@ void VerdictController::perform(Step step) {
     case Step::kInputs:
       return workspaces_.reveal(QStringLiteral("inputs"));
     case Step::kSeedFromAnnotation:
-      if (const auto pose = parts_.annotation.solvedPose()) cases.useAsSeed(*pose);
+      parts_.annotation.useAsSeed();
       return workspaces_.show(Workspace::kRun);
     case Step::kDisablePair:
       return disablePair();
+    case Step::kRobust:
+      return parts_.annotation.setRobust(true);
     case Step::kConvergenceTest:
       return docks_.review.controller().startConvergenceTest(sessions::kConvergenceSeeds);
     case Step::kStopTest:
@@ -211,6 +240,16 @@ void VerdictController::perform(Step step) {
     case Step::kLoadRecord:
       return askForOnboardRecord(parts_.onboard, &window_);
   }
+}
+
+/// A mesh of an impossible size has the wrong unit, most often.
+void VerdictController::changeInput() {
+  const auto& concern = parts_.cases.inputConcern();
+  if (!concern) return;
+  if (concern->kind == sessions::InputKind::kMesh)
+    askForMeshUnit(parts_, window_, parts_.cases.caseId());
+  else
+    askForInput(parts_, window_, parts_.cases.caseId(), concern->kind);
 }
 
 /// The seed is shown, nothing else moves, and the keys move it.

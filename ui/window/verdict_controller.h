@@ -6,6 +6,7 @@
 
 #include "ui/review/review_controller.h"
 #include "ui/window/window_parts.h"
+#include "ui/workspaces/remedies.h"
 #include "ui/workspaces/verdict.h"
 
 class QWidget;
@@ -53,6 +54,7 @@ class VerdictController : public QObject {
   void follow();
   AnnotationSituation annotationSituation() const;
   ReviewSituation reviewSituation() const;
+  void changeInput();
   void nudgeSeed();
   void disablePair();
   void askForUncertainty();
@@ -65,6 +67,7 @@ class VerdictController : public QObject {
   VerdictBar& bar_;
   QWidget& window_;
   QTimer soon_;
+  RemedyMemory taken_;
 };
 
 }  // namespace boresight::ui

@@ -76,6 +76,7 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
                    &NudgeController::setPose);
   annotation.addBeside(ambiguity);
   scene.setAnnotation(parts.annotation, snapper);
+  annotation.setSnapper(snapper);
   linkViews(parts);
   findings.setAction(
       windowText("Fix ..."),

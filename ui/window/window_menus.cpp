@@ -21,12 +21,15 @@
 #include "ui/review/pose_export.h"
 #include "ui/review/queue_panel.h"
 #include "ui/run/run_controller.h"
+#include "ui/run/sequence_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/style/icons.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/mask_editor.h"
 #include "ui/window/case_controller.h"
+#include "ui/window/change_input.h"
+#include "ui/window/sequence_dialog.h"
 #include "ui/window/session_files.h"
 #include "ui/window/shortcut_sheet.h"
 #include "ui/window/window_docks.h"
@@ -99,6 +102,12 @@ void WindowMenus::connectEdit() {
   on(ui_.redo, this, &WindowMenus::redo);
   ui_.redo->setShortcut(QKeySequence::Redo);  // desktops differ
   ui_.editMenu->addAction(&docks_.gizmo.action());
+  const auto fill_change = [this](const QString& id) {
+    ui_.changeMenu->clear();
+    addChangeInput(*ui_.changeMenu, parts_, window_, id);
+  };
+  connect(&parts_.cases, &CaseController::caseChosen, this, fill_change);
+  fill_change(parts_.cases.caseId());
   on(ui_.findCommand, this, [this] {
     CommandPalette palette(*ui_.menuBar, &window_);
     palette.exec();
@@ -185,12 +194,22 @@ void WindowMenus::connectRun() {
       ids << QString::fromStdString(session_case->id);
     parts_.cases.runAll(ids);
   });
+  on(ui_.runSequence, this, &WindowMenus::showSequence);
+  connect(&parts_.sequence, &SequenceRunner::changed, this, &WindowMenus::update);
   parts_.state.onChange(ViewChange::kCursor, this, &WindowMenus::update);
   ui_.runToEnd->setIcon(iconOf(Icon::kRun));
   ui_.stepIteration->setIcon(iconOf(Icon::kStepIteration));
   ui_.stepStage->setIcon(iconOf(Icon::kStepStage));
   ui_.reset->setIcon(iconOf(Icon::kReset));
   run_bar_.setActions({ui_.runToEnd, ui_.stepIteration, ui_.stepStage, ui_.reset});
+}
+
+/// One dialog, which keeps its frames while it is closed.
+void WindowMenus::showSequence() {
+  if (!sequence_) sequence_ = new SequenceDialog(parts_, &window_);
+  sequence_->show();
+  sequence_->raise();
+  sequence_->activateWindow();
 }
 
 void WindowMenus::connectOnboard() {
@@ -397,6 +416,7 @@ void WindowMenus::update() {
   ui_.reset->setEnabled(has_case && !working && parts_.state.snapshot());
   const QList<QAction*> edits = ui_.maskMenu->actions() + annotation_edits_;
   for (QAction* each : edits) each->setEnabled(editable && has_case);
+  ui_.changeMenu->setEnabled(editable && !working && !parts_.cases.caseId().isEmpty());
   const bool replayed = parts_.onboard.showsOnboard();
   ui_.loadRecord->setEnabled(editable && has_case);
   ui_.showOtherRun->setEnabled(parts_.onboard.review() && !working);
@@ -405,6 +425,7 @@ void WindowMenus::update() {
                                   parts_.onboard.comparison()->first.has_value());
   ui_.rerunFromHere->setEnabled(ui_.rerunFromHere->isEnabled() && !replayed);
   ui_.runAll->setEnabled(open && !working && !document.session().cases.empty());
+  ui_.runSequence->setEnabled(has_case || parts_.sequence.isRunning());
 }
 
 }  // namespace boresight::ui

@@ -16,6 +16,7 @@ namespace boresight::ui {
 
 class PoseExport;
 class RunBar;
+class SequenceDialog;
 class SessionFiles;
 class WindowDocks;
 class Workspaces;
@@ -58,6 +59,7 @@ class WindowMenus : public QObject {
   void redo();
   void showChange(const sessions::Session& before, const QString& told);
   void updateTogether(bool idle);
+  void showSequence();
   void showRecent();
   void showAbout();
 
@@ -69,6 +71,7 @@ class WindowMenus : public QObject {
   SessionFiles& files_;
   Ui::WindowMenus ui_;
   PoseExport* poses_ = nullptr;
+  SequenceDialog* sequence_ = nullptr;  ///< nullptr until it is asked for
   QList<QAction*> annotation_edits_;
   QString run_tip_;       ///< of "Run"
   QString together_tip_;  ///< of "Run with the other views"

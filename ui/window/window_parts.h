@@ -9,6 +9,7 @@ class Document;
 class OnboardController;
 class QualityController;
 class RunController;
+class SequenceRunner;
 class TaskRunner;
 class ViewState;
 
@@ -22,6 +23,7 @@ struct WindowParts {
   AnnotationController& annotation;
   OnboardController& onboard;
   QualityController& quality;
+  SequenceRunner& sequence;
 };
 
 }  // namespace boresight::ui

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/workspaces/remedies.h"
 
+#include <algorithm>
+
 #include <QCoreApplication>
+#include <QStringList>
+
+#include "core/base/math.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr Remedy kWider = {
-    Step::kWiderSearch, QT_TR_NOOP("The seed's edges look turned: slots and clamps are elsewhere")};
+constexpr Remedy kWider = {Step::kWiderSearch,
+                           QT_TR_NOOP("The seed's edges look turned about the view axis")};
 constexpr Remedy kNudge = {Step::kNudgeSeed,
                            QT_TR_NOOP("The seed's edges look like the image, but displaced")};
 constexpr Remedy kFarther = {
@@ -24,9 +29,13 @@ constexpr Remedy kOthers = {
     Step::kCompetingPoses,
     QT_TR_NOOP("Repetition or symmetry: another pose explains the image as well")};
 
-}  // namespace
+/// A turn by any angle about the view axis was searched.
+bool searchedEveryTurn(const sessions::LocalizationTrace& trace) {
+  constexpr double kNearlyHalfTurn_rad = 179.0 * kDegree_rad;
+  return trace.uncertainty.rotation_rad.z() >= kNearlyHalfTurn_rad;
+}
 
-const std::vector<Remedy>& remediesFor(const sessions::LocalizationTrace& trace) {
+const std::vector<Remedy>& likeliestFor(const sessions::LocalizationTrace& trace) {
   static const std::vector<Remedy> kNothing;
   static const std::vector<Remedy> kTurned = {kWider, kNudge, kMasked, kFarther, kMarks, kSheet};
   static const std::vector<Remedy> kFar = {kFarther, kNudge, kMarks, kSheet};
@@ -48,6 +57,58 @@ const std::vector<Remedy>& remediesFor(const sessions::LocalizationTrace& trace)
     default:
       return kFew;
   }
+}
+
+/// As a part of "Tried: ..."; empty for what only shows something.
+const char* doneText(Step step) {
+  switch (step) {
+    case Step::kWiderSearch:
+      return QT_TRANSLATE_NOOP("Remedies", "wider search");
+    case Step::kNudgeSeed:
+      return QT_TRANSLATE_NOOP("Remedies", "nudged seed");
+    case Step::kMask:
+      return QT_TRANSLATE_NOOP("Remedies", "mask");
+    case Step::kUncertainty:
+      return QT_TRANSLATE_NOOP("Remedies", "stated uncertainty");
+    case Step::kAnnotate:
+      return QT_TRANSLATE_NOOP("Remedies", "annotations");
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::vector<Remedy> remediesFor(const sessions::LocalizationTrace& trace,
+                                const std::vector<Step>& tried) {
+  std::vector<Remedy> remedies = likeliestFor(trace);
+  for (Remedy& remedy : remedies)
+    remedy.tried = std::ranges::count(tried, remedy.step) > 0 ||
+                   (remedy.step == Step::kWiderSearch && searchedEveryTurn(trace));
+  (void)std::ranges::stable_partition(remedies, [](const Remedy& remedy) { return !remedy.tried; });
+  return remedies;
+}
+
+QString triedText(const std::vector<Remedy>& remedies) {
+  QStringList names;
+  for (const Remedy& remedy : remedies)
+    if (remedy.tried) names << QCoreApplication::translate("Remedies", doneText(remedy.step));
+  return names.join(QStringLiteral(", "));
+}
+
+/// What only shows something is no attempt.
+void RemedyMemory::note(const std::string& case_id, const std::string& digest, Step step) {
+  if (*doneText(step) != '\0') taken_[case_id].push_back({digest, step});
+}
+
+std::vector<Step> RemedyMemory::before(const std::string& case_id,
+                                       const std::string& digest) const {
+  std::vector<Step> steps;
+  const auto found = taken_.find(case_id);
+  if (found == taken_.end()) return steps;
+  for (const Taken& taken : found->second)
+    if (taken.digest != digest) steps.push_back(taken.step);
+  return steps;
 }
 
 }  // namespace boresight::ui

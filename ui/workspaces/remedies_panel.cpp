@@ -39,7 +39,8 @@ QWidget* RemediesPanel::rowOf(const Remedy& remedy) {
   line->setContentsMargins(0, 0, 0, 0);
   line->setSpacing(8);
   const StepInfo& info = stepInfo(remedy.step);
-  auto* cause = new QLabel(QCoreApplication::translate("Remedies", remedy.cause));
+  const QString text = QCoreApplication::translate("Remedies", remedy.cause);
+  auto* cause = new QLabel(remedy.tried ? tr("Tried. %1").arg(text) : text);
   cause->setWordWrap(true);
   cause->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* button = new QPushButton(iconOf(info.icon), QCoreApplication::translate("Step", info.text));
@@ -55,6 +56,12 @@ QWidget* RemediesPanel::rowOf(const Remedy& remedy) {
   return row;
 }
 
+void RemediesPanel::setTried(const std::vector<Step>& tried) {
+  if (tried == tried_) return;
+  tried_ = tried;
+  showRun();
+}
+
 void RemediesPanel::showRun() {
   while (QLayoutItem* item = rows_->takeAt(0)) {
     delete item->widget();
@@ -62,7 +69,7 @@ void RemediesPanel::showRun() {
   }
   const auto run = state_.snapshot();
   status_->showRun(run.get());
-  shown_ = run ? remediesFor(*run) : std::vector<Remedy>();
+  shown_ = run ? remediesFor(*run, tried_) : std::vector<Remedy>();
   if (shown_.empty()) {
     auto* label =
         new QLabel(run && run->converged() ? tr("The run converged: no remedies needed.")

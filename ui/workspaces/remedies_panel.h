@@ -23,6 +23,8 @@ class RemediesPanel : public QWidget {
   explicit RemediesPanel(ViewState& state, QWidget* parent = nullptr);
 
   const std::vector<Remedy>& remedies() const { return shown_; }
+  /// What was tried before the shown run.
+  void setTried(const std::vector<Step>& tried);
 
  Q_SIGNALS:
   void stepRequested(boresight::ui::Step step);
@@ -32,6 +34,7 @@ class RemediesPanel : public QWidget {
   QWidget* rowOf(const Remedy& remedy);
 
   ViewState& state_;
+  std::vector<Step> tried_;
   std::vector<Remedy> shown_;
   Banner* status_ = nullptr;  ///< what was measured and needed, in full
   QVBoxLayout* rows_ = nullptr;

@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "sessions/run/acceptance.h"
+#include "sessions/text/text_table.h"
 #include "ui/models/text.h"
 #include "ui/panels/widgets.h"
 #include "ui/review/quality_controller.h"
@@ -108,7 +109,8 @@ void ResultPanel::showAgreement() {
   const double value = 100.0 * (probable ? run->probability : run->support.share());
   const double needed = 100.0 * (probable ? limits.min_probability : limits.min_support);
   if (probable) agreement_.name->setText(tr("Probability of the pose"));
-  agreement_.value->setText(tr("%1 %").arg(numberText(value, 1)));
+  agreement_.value->setText(probable ? fromText(sessions::probabilityPercent(run->probability))
+                                     : tr("%1 %").arg(numberText(value, 1)));
   agreement_.needed->setText(tr("needed: %1 % or more").arg(numberText(needed, 1)));
   agreement_.bar->setFigure(value, needed, value >= needed);
 }

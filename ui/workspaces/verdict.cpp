@@ -68,7 +68,49 @@ Verdict ofFiles(const FilesSituation& files) {
   }
   verdict.head = tr("%1 of 4 files added").arg(files.added);
   verdict.sentence = files.missing;
+  if (!files.next.isEmpty()) verdict.step_text = tr("Choose %1...").arg(files.next);
+  if (!files.problem.isEmpty()) {
+    verdict.tone = VerdictTone::kBad;
+    verdict.icon = Icon::kCross;
+    verdict.sentence = files.problem;
+  } else if (files.next.isEmpty()) {
+    verdict.step_text = tr("Make the case");
+  }
   return verdict;
+}
+
+/// "p2, p5 and 3 others"
+QString suspectsText(const QStringList& suspects) {
+  constexpr int kMostNamed = 4;
+  if (suspects.size() <= kMostNamed) return suspects.join(tr(", "));
+  return tr("%1 and %2 others")
+      .arg(QStringList(suspects.mid(0, kMostNamed - 1)).join(tr(", ")))
+      .arg(suspects.size() - kMostNamed + 1);
+}
+
+/// Annotations that pull the pose: which, and how to solve without them.
+void addSuspects(const AnnotationSituation& annotation, Verdict& verdict) {
+  const QString names = suspectsText(annotation.suspects);
+  if (annotation.robust) {
+    verdict.sentence += tr(" Little weight: %1; check or remove them.").arg(names);
+    return;
+  }
+  verdict.sentence += tr(" Suspected: %1.").arg(names);
+  verdict.step = Step::kRobust;
+  verdict.others = {Step::kSeedFromAnnotation};
+}
+
+void addAnnotatedPose(const AnnotationSituation& annotation, bool has_seed, Verdict& verdict) {
+  const bool good = annotation.concern.isEmpty();
+  verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
+  verdict.icon = good ? Icon::kCheck : Icon::kWarning;
+  verdict.sentence = good       ? tr("The annotations give a pose.")
+                     : has_seed ? annotation.concern
+                                : annotation.concern + tr(" The case has no seed yet.");
+  if (good && !has_seed)
+    verdict.sentence = tr("The annotations give a pose; the case has no seed yet.");
+  verdict.step = Step::kSeedFromAnnotation;
+  if (!annotation.suspects.isEmpty()) addSuspects(annotation, verdict);
 }
 
 Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
@@ -77,7 +119,11 @@ Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
   const QString pairs = annotation.pairs == 1 ? tr("1 pair") : tr("%1 pairs").arg(annotation.pairs);
   verdict.head =
       annotation.rms_px ? tr("%1, rms %2 px").arg(pairs, numberText(*annotation.rms_px, 2)) : pairs;
-  if (!annotation.bad_pair.isEmpty()) {
+  if (annotation.blind) {
+    verdict.head = tr("Blind round: %1").arg(pairs);
+    verdict.sentence = tr("Place or remove the %1 that are left; until then nothing is predicted.")
+                           .arg(annotation.unplaced);
+  } else if (!annotation.bad_pair.isEmpty() && annotation.suspects.size() < 2) {
     verdict.tone = VerdictTone::kCaution;
     verdict.icon = Icon::kWarning;
     verdict.sentence = tr("%1 stands out by %2 sigma.")
@@ -85,13 +131,7 @@ Verdict ofAnnotation(const AnnotationSituation& annotation, bool has_seed) {
     verdict.step = Step::kDisablePair;
     verdict.step_text = tr("Switch off %1").arg(annotation.bad_pair);
   } else if (annotation.has_pose) {
-    const bool good = annotation.concern.isEmpty();
-    verdict.tone = good ? VerdictTone::kGood : VerdictTone::kCaution;
-    verdict.icon = good ? Icon::kCheck : Icon::kWarning;
-    verdict.sentence = has_seed ? tr("The annotations give a pose.")
-                                : tr("The annotations give a pose; the case has no seed yet.");
-    if (!good) verdict.sentence += QLatin1Char(' ') + annotation.concern;
-    verdict.step = Step::kSeedFromAnnotation;
+    addAnnotatedPose(annotation, has_seed, verdict);
   } else {
     verdict.sentence =
         tr("Click a point in the image and the same point on the station; four pairs give a pose.");
@@ -228,7 +268,9 @@ Verdict ofRun(const Situation& situation) {
   }
   verdict.tone = VerdictTone::kBad;
   verdict.icon = Icon::kCross;
-  const std::vector<Remedy>& remedies = remediesFor(trace);
+  const std::vector<Remedy> remedies = remediesFor(trace, situation.tried);
+  if (const QString tried = triedText(remedies); !tried.isEmpty())
+    verdict.sentence += tr(" Tried: %1.").arg(tried);
   if (!remedies.empty()) verdict.step = remedies.front().step;
   for (std::size_t i = 1; i < std::min<std::size_t>(remedies.size(), 5); ++i)
     verdict.others.push_back(remedies[i].step);
@@ -259,6 +301,15 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
     verdict.head = tr("No seed yet.");
     verdict.sentence = tr("Annotate four or more points: their pose becomes the seed.");
     verdict.step = situation.annotation.has_pose ? Step::kSeedFromAnnotation : Step::kAnnotate;
+    return verdict;
+  }
+  if (!situation.input_problem.isEmpty()) {
+    verdict.tone = VerdictTone::kBad;
+    verdict.icon = Icon::kCross;
+    verdict.head = tr("Not ready to run.");
+    verdict.sentence = situation.input_problem;
+    verdict.step = Step::kChangeInput;
+    verdict.step_text = situation.input_step;
     return verdict;
   }
   if (!situation.trace) {

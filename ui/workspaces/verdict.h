@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <QString>
+#include <QStringList>
 
 #include "sessions/record/compare_records.h"
 #include "sessions/review/pose_quality.h"
@@ -36,6 +37,8 @@ struct Verdict {
 struct FilesSituation {
   int added = 0;  ///< of four
   QString missing;
+  QString problem = {};  ///< why a file cannot be used, or empty
+  QString next = {};     ///< the file to choose next: "camera"; empty: all are there
 };
 
 /// The annotations of the case.
@@ -45,7 +48,11 @@ struct AnnotationSituation {
   QString bad_pair;  ///< the annotation that stands out, or empty
   double bad_sigmas = 0.0;
   bool has_pose = false;
-  QString concern;  ///< why the pose is not good enough, or empty
+  QString concern;       ///< why the pose is not good enough, or empty
+  QStringList suspects;  ///< annotations that fit badly
+  bool robust = false;   ///< the solution gives these little weight
+  bool blind = false;    ///< nothing is solved until all is placed
+  int unplaced = 0;      ///< in the image
 };
 
 struct ReviewSituation {
@@ -68,11 +75,14 @@ struct Situation {
   bool has_case = false;
   bool has_seed = true;
   QString load_problem;
-  QString file_problem;  ///< a missing or changed input file, or empty
+  QString input_problem;  ///< what a run would refuse, or empty
+  QString input_step;     ///< by which it is put right: "Choose camera..."
+  QString file_problem;   ///< a missing or changed input file, or empty
   RunState run = RunState::kEmpty;
   bool in_batch = false;  ///< the batch is at the shown case
   std::shared_ptr<const sessions::LocalizationTrace> trace;
-  QString stale;  ///< what has changed since the run, or empty
+  std::vector<Step> tried;  ///< remedies of earlier runs
+  QString stale;            ///< what has changed since the run, or empty
   /// Of the run's pose; nothing while it is measured.
   std::optional<sessions::PoseQuality> quality;
   AnnotationSituation annotation;

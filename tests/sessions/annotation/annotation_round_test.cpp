@@ -33,6 +33,22 @@ TEST(BlindAnnotations, BlindRound_KeepsStationPointsWithoutPixels) {
   for (const LinePair& line : blind.lines) EXPECT_TRUE(line.edge && !line.line);
 }
 
+TEST(BlindAnnotations, RoundIsBlind_UntilEachOfItsPlacesIsSetOrRemoved) {
+  Random random = randomFor("BlindRound");
+  const auto scene = test::randomScene(random, CameraModel::kPinhole, 2, 1, 0.0);
+  const Annotations& first = scene.view.annotations;
+  const AnnotationRounds rounds = {{"A", "now", first}};
+  Annotations at_work = blindAnnotations(first);
+  EXPECT_FALSE(isBlind({}, at_work)) << "pairs half made, of nobody before";
+  EXPECT_TRUE(isBlind(rounds, at_work));
+  at_work.points[0].pixel = Eigen::Vector2d(1.0, 2.0);
+  at_work.lines[0].line = first.lines[0].line;
+  EXPECT_TRUE(isBlind(rounds, at_work)) << "one is left";
+  EXPECT_FALSE(isBlind(rounds, withoutAnnotation(at_work, at_work.points[1].id)));
+  at_work.points[1].pixel = Eigen::Vector2d(1.0, 2.0);
+  EXPECT_FALSE(isBlind(rounds, at_work));
+}
+
 Annotations seenBy(const Annotations& truth, double sigma_px, Random& random) {
   Annotations seen = truth;
   for (PointPair& point : seen.points) *point.pixel += gaussian(random, sigma_px);

@@ -37,6 +37,15 @@ TEST_F(MeshSnapTest, KnowsEdgesAndCirclesButNoDiagonals) {
   }
 }
 
+TEST_F(MeshSnapTest, PlacesOfTheStation_AreNamedByWhatIsThere) {
+  const MeshSnapper snapper(scene_.view());
+  EXPECT_EQ(snapper.kindAt({-0.1, 0.1, 0.0}), MeshSnapKind::kVertex);
+  EXPECT_EQ(snapper.kindAt({-0.1, 0.0123, 0.0}), MeshSnapKind::kEdge);
+  EXPECT_EQ(snapper.kindAt(snapper.circles()[0].centre_in_station_m), MeshSnapKind::kCircle);
+  EXPECT_EQ(snapper.kindAt({-0.05, -0.05, 0.0}), std::nullopt) << "the bare face";
+  EXPECT_EQ(snapper.kindAt({-0.1, 0.1, 0.001}), std::nullopt) << "beside the corner";
+}
+
 TEST_F(MeshSnapTest, SnapsToACorner) {
   const Eigen::Vector3d corner(-0.1, 0.1, 0.0);
   const auto vertex = snap(MeshSnapKind::kVertex, pixelOf(corner) + Eigen::Vector2d(5.0, -3.0));

@@ -44,6 +44,23 @@ TEST(Video, Frames_AreReadInTheirOrder) {
   }
 }
 
+/// Of a video and of a folder, whatever comes before the frame.
+TEST(Frames, AnyFrame_IsReadByItsNumber) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(writeVideo(folder / "gray.avi", false));
+  std::filesystem::create_directory(folder / "images");
+  for (int i = 0; i < 5; ++i)
+    writePng(folder / ("images/" + std::to_string(i) + ".png"),
+             std::vector<std::uint8_t>(64 * 48, static_cast<std::uint8_t>(40 * i)), 64, 48, 1);
+  for (const char* images : {"gray.avi", "images"}) {
+    const auto frame = readFrame(folder / images, 4);
+    ASSERT_TRUE(frame && frame->image) << images;
+    EXPECT_NEAR(frame->image->pixels[1000], 120, 4) << images;
+    EXPECT_FALSE(readFrame(folder / images, 6)) << images;
+  }
+  EXPECT_EQ(readFrame(folder / "gray.avi", 4)->name, "frame 000004");
+}
+
 TEST(Video, FileThatIsNone_IsRefusedWithTheRemedy) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("a.mp4", std::string_view("no video"));

@@ -32,9 +32,9 @@ TEST(AcceptanceText, SearchedRun_StatesTheProbabilityWithItsParts) {
             HasSubstr("support is " + fixedText(100.0 * run.support.share(), 1) + " %"),
             HasSubstr("comes from " +
                       originText(run.hypotheses[static_cast<std::size_t>(run.best_hypothesis)])),
-            HasSubstr("2 competing poses are similar; the closest has 4.0 nats less evidence")));
+            HasSubstr("2 competing poses are similar; the closest is 55 times less likely")));
   run.competing_poses = {competingPose(-2.5)};
-  EXPECT_THAT(acceptanceText(run), HasSubstr("it has 2.5 nats more evidence"));
+  EXPECT_THAT(acceptanceText(run), HasSubstr("it is 12 times more likely"));
 }
 
 TEST(AcceptanceText, RunWithoutSearch_StatesItsEdgeSupport) {

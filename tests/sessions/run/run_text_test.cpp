@@ -119,9 +119,9 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   far.margin_nats = 2.5;
   trace.competing_poses = {near, far};
   EXPECT_THAT(explanation(trace), HasSubstr("a competing pose, 40.0 mm and 0.00 deg away"));
-  EXPECT_THAT(explanation(trace), HasSubstr("2.5 nats less evidence, needed 3.0"));
+  EXPECT_THAT(explanation(trace), HasSubstr("it is 12 times less likely, needed 20 times"));
   trace.competing_poses[1].margin_nats = -7.5;
-  EXPECT_THAT(explanation(trace), HasSubstr("better, by 7.5 nats of evidence"));
+  EXPECT_THAT(explanation(trace), HasSubstr("better: it is more than 1000 times more likely"));
   trace.competing_poses[1].mirrored = true;
   EXPECT_THAT(explanation(trace), HasSubstr("the mirror image of the mesh explains the image"));
 }

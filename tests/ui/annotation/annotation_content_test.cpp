@@ -15,7 +15,7 @@ class AnnotationContentTest : public testing::Test {
     look_.camera.fx = look_.camera.fy = 1000.0;
     look_.camera.cx = look_.camera.cy = 500.0;
     EXPECT_EQ(prepareCamera(look_.camera), Status::kOk);
-    look_.camera_from_station.translation_m = {0.0, 0.0, 1.0};
+    look_.camera_from_station.emplace().translation_m = {0.0, 0.0, 1.0};
   }
 
   static sessions::PointPair complete(const std::string& id) {

@@ -5,6 +5,7 @@
 #include <QtTest>
 
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/review/annotated_seed.h"
 #include "tests/support/loaded_example.h"
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "ui/annotation/station_snapper.h"
@@ -127,6 +128,44 @@ TEST_F(AnnotationControllerTest, BlindRound_KeepsStationPointsAndReportsRepeatab
   EXPECT_TRUE(controller_.annotations().points[0].complete());
   controller_.removeRound(0);
   EXPECT_TRUE(document_.session().rounds.empty());
+}
+
+/// At once, before anything is solved again, and until the last place is set.
+TEST_F(AnnotationControllerTest, BlindRound_PredictsNothing) {
+  const auto ids = markCorners(6);
+  const sessions::Annotations first = controller_.annotations();
+  ASSERT_TRUE(solved());
+  controller_.putAside(QStringLiteral("Ada"));
+  const auto place = [&](std::size_t i) {
+    controller_.select(ids[i]);
+    controller_.placeInImage(*sessions::findPoint(first, ids[i])->pixel);
+  };
+  EXPECT_FALSE(controller_.solvedPose() || state_.annotatedPose());
+  for (std::size_t i = 0; i + 1 < ids.size(); ++i) place(i);
+  ASSERT_TRUE(solved());
+  EXPECT_TRUE(controller_.answer().blind);
+  EXPECT_FALSE(controller_.solvedPose() || state_.annotatedPose()) << "of five pairs";
+  EXPECT_TRUE(controller_.answer().proposals.empty());
+  ASSERT_EQ(controller_.answer().rounds.size(), 1u) << "it can be taken up";
+  EXPECT_FALSE(controller_.answer().rounds[0].camera_from_station);
+  place(ids.size() - 1);
+  ASSERT_TRUE(solved());
+  EXPECT_FALSE(controller_.answer().blind);
+  EXPECT_TRUE(controller_.solvedPose() && state_.annotatedPose());
+}
+
+TEST_F(AnnotationControllerTest, UseAsSeed_StatesThreeSigma) {
+  markCorners(8);
+  ASSERT_TRUE(solved());
+  const Pose pose = *controller_.solvedPose();
+  const sessions::SessionCase expected = sessions::withMeasuredSeed(
+      *document_.session().findCase(source().id), state_.currentCase()->scene.view(), pose,
+      *controller_.answer().covariance);
+  controller_.useAsSeed();
+  EXPECT_EQ(*document_.session().findCase(source().id), expected);
+  EXPECT_EQ(expected.camera_from_station_seed, pose);
+  ASSERT_TRUE(document_.undo()) << "one edit";
+  EXPECT_NE(*document_.session().findCase(source().id), expected);
 }
 
 TEST_F(AnnotationControllerTest, Landmarks_AfterThreeAnnotations_AreProposedAtTheirProjection) {

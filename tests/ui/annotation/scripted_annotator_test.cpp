@@ -71,7 +71,7 @@ class ScriptedAnnotator : public test::WindowTest,
   /// Corners that can be told both in the image and on the drawn edges, the next one always as far
   /// as can be from those before.
   std::vector<Eigen::Vector3d> chooseCorners(std::size_t count) {
-    const Pose drawn = tool_->stationPose();
+    const Pose drawn = *tool_->stationPose();
     const auto& edges = snapper_->mesh()->edges();
     const std::size_t step = std::max<std::size_t>(1, edges.size() / kCandidates);
     std::vector<Eigen::Vector3d> clear_m;
@@ -108,7 +108,7 @@ class ScriptedAnnotator : public test::WindowTest,
         click(seen + kHand_px / std::sqrt(2.0) * Eigen::Vector2d(x, y), Qt::AltModifier);
       };
       const auto station = [&] {
-        const Eigen::Vector2d drawn = pixelOf(tool_->stationPose(), corners_m[i]);
+        const Eigen::Vector2d drawn = pixelOf(*tool_->stationPose(), corners_m[i]);
         zoom(drawn, GetParam());
         click(drawn, Qt::ControlModifier);
       };

@@ -33,6 +33,65 @@ TEST_F(StartPageTest, SlotsTellWhatIsMissing) {
   }));
 }
 
+/// What is wrong stands at its file, and no case is made of it.
+TEST_F(StartPageTest, FilesAreJudgedAsTheyCome_AndRemoved) {
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  const auto small = folder_.path() / "small.png";
+  sessions::writePng(small, std::vector<std::uint8_t>(640 * 480, 9), 640, 480, 1);
+  window_.takeFiles({small, os / "camera.json"});
+  ASSERT_TRUE(wait([&] { return texts().contains(QStringLiteral("✗ not usable")); }));
+  EXPECT_TRUE(texts().contains(QStringLiteral("640 x 480 px, 8 bit")));
+  const QString problem =
+      QStringLiteral("The camera is for 1024 x 1024 px, the image is 640 x 480 px.");
+  EXPECT_TRUE(texts().contains(problem));
+  const auto& verdict = window_.frame().verdict();
+  ASSERT_TRUE(wait([&] { return verdict.verdict().sentence == problem; }));
+  EXPECT_EQ(verdict.verdict().step_text, QStringLiteral("Choose camera..."));
+  auto* files = window_.findChild<SessionFiles*>();
+  files->setMeshUnit("m");
+  window_.takeFiles({os / "model.ply"});
+  files->setMeshUnit("m");
+  window_.takeFiles({os / "seed.json"});
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(window_.document().session().cases.empty()) << "it could not be run";
+  find<QToolButton>("slotRemove0").click();
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 3);
+  window_.takeFiles({os / "image.png"});
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }))
+      << window_.lastMessage().toStdString();
+  window_.document().discardUntitled();
+}
+
+TEST_F(StartPageTest, UnreadableFile_IsShownAtItsSlotOnly) {
+  const auto text = folder_.path() / "text.png";
+  std::ofstream(text) << "no image";
+  window_.takeFiles({text, test::exampleFolder() / "os" / "camera.json"});
+  ASSERT_TRUE(wait([&] { return texts().contains(QStringLiteral("✗ not usable")); }));
+  EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 1) << "the camera";
+}
+
+/// Cancelling the question for the unit leaves all files; the unit's choice then makes the case.
+TEST_F(StartPageTest, UnitChosenAtTheSlot_MakesTheCase) {
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  QTimer cancel;
+  cancel.setInterval(50);
+  QObject::connect(&cancel, &QTimer::timeout, [] {
+    if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget())) dialog->reject();
+  });
+  cancel.start();
+  window_.takeFiles({os / "image.png", os / "camera.json", os / "model.ply", os / "seed.json"});
+  ASSERT_TRUE(rests());
+  cancel.stop();
+  EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 4) << "they stay";
+  EXPECT_TRUE(window_.document().session().cases.empty());
+  ASSERT_TRUE(wait([&] { return !page().findChildren<QRadioButton*>().isEmpty(); }));
+  page().findChildren<QRadioButton*>().front()->click();
+  ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }))
+      << window_.lastMessage().toStdString();
+  window_.document().discardUntitled();
+}
+
 TEST_F(StartPageTest, MeshIsMeasuredInEachUnit) {
   window_.takeFiles({test::exampleFolder() / "bc" / "model.ply"});
   ASSERT_TRUE(wait([&] { return !page().findChildren<QRadioButton*>().isEmpty(); }));
@@ -88,7 +147,8 @@ TEST_F(LeftWorkTest, IsOfferedAndRecoveredOrDiscarded) {
   for (const char* button : {"recoverLeft", "discardLeft"}) {
     {
       Document left;
-      ASSERT_TRUE(left.createUntitled(sessions::makeSession(test::exampleFolder() / "dataset.json")));
+      ASSERT_TRUE(
+          left.createUntitled(sessions::makeSession(test::exampleFolder() / "dataset.json")));
     }
     MainWindow window;
     window.setQuiet(true);

@@ -184,6 +184,41 @@ TEST(Verdict, AnnotationsThatAreTooCoarse_AreNoSuccess) {
   EXPECT_TRUE(test::has(verdict.sentence, "16.0 times the stated sigmas"));
 }
 
+/// One that stands out is switched off; several hide each other, and are weighed.
+TEST(Verdict, SuspectedAnnotations_AreNamedAndRobustIsProposed) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kAnnotate;
+  situation.annotation.has_pose = true;
+  situation.annotation.bad_pair = QStringLiteral("p2");
+  situation.annotation.bad_sigmas = 3.2;
+  EXPECT_EQ(verdictOf(situation).step, Step::kDisablePair);
+  situation.annotation.concern = QStringLiteral("The residuals are 16.0 times the stated sigmas.");
+  for (const char* id : {"p2", "p5", "p7", "p8", "p9"})
+    situation.annotation.suspects << QString::fromLatin1(id);
+  Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.step, Step::kRobust);
+  EXPECT_TRUE(test::has(verdict.sentence, "Suspected: p2, p5, p7 and 2 others."));
+  situation.annotation.robust = true;
+  situation.annotation.concern.clear();
+  verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.tone, VerdictTone::kGood) << "the others fit";
+  EXPECT_TRUE(test::has(verdict.sentence, "Little weight: p2, p5, p7 and 2 others"));
+  EXPECT_EQ(verdict.step, Step::kSeedFromAnnotation);
+}
+
+TEST(Verdict, BlindRound_HasNoFiguresOfAPose) {
+  Situation situation = ready();
+  situation.workspace = Workspace::kAnnotate;
+  situation.annotation.pairs = 3;
+  situation.annotation.blind = true;
+  situation.annotation.unplaced = 4;
+  const Verdict verdict = verdictOf(situation);
+  EXPECT_EQ(verdict.head, QStringLiteral("Blind round: 3 pairs"));
+  EXPECT_TRUE(test::has(verdict.sentence, "Place or remove the 4 that are left"));
+  EXPECT_EQ(verdict.tone, VerdictTone::kPlain);
+  EXPECT_EQ(verdict.step, Step::kNone);
+}
+
 TEST(Verdict, HaltedRun_GoesOn) {
   Situation situation = ready();
   situation.run = RunState::kHalted;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sessions/review/pose_quality.h"
+#include "sessions/session/case_annotations.h"
+#include "sessions/session/case_run.h"
+
+namespace boresight::sessions {
+
+/// Quality of the pose of annotations, by the measure that a run's pose has. Without a pose: no
+/// figure is known.
+PoseQuality annotationQuality(const std::shared_ptr<const LoadedCase>& loaded,
+                              const CaseAnnotationsSolution& solution, double sigmas);
+
+/// Why the pose of annotations is not good enough.
+struct AnnotationConcern {
+  /// Sentences: residuals of more than three times the stated sigmas, a figure beyond the
+  /// requirement. "" when it is good enough.
+  std::string text;
+  /// Annotations of the case that a robust solution gives less than half the weight, by id. Looked
+  /// for where the residuals are too large, or the solution is robust.
+  std::vector<std::string> suspects;
+  bool robust = false;  ///< the solution itself weighs annotations
+};
+AnnotationConcern annotationConcern(const CaseAnnotationsSolution& solution,
+                                    const PoseQuality& quality);
+
+}  // namespace boresight::sessions

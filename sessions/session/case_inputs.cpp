@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_inputs.h"
+
+#include <cmath>
+
+#include "core/base/math.h"
+#include "sessions/io/camera_field.h"
+#include "sessions/io/camera_file.h"
+#include "sessions/io/errors.h"
+#include "sessions/io/labels/image_label.h"
+#include "sessions/io/mesh_file.h"
+#include "sessions/io/pose_file.h"
+#include "sessions/run/problem.h"
+#include "sessions/text/plain_text.h"
+#include "sessions/text/text_table.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sizeInPixels(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " px";
+}
+
+std::string sizeConcern(int width, int height, const Camera& camera) {
+  if (width == camera.width && height == camera.height) return "";
+  return "The camera is for " + sizeInPixels(camera.width, camera.height) + ", the image is " +
+         sizeInPixels(width, height) + ".";
+}
+
+/// First letter and end of a sentence.
+std::string wholeSentence(std::string text) {
+  if (text.empty()) return text;
+  if (text.front() >= 'a' && text.front() <= 'z')
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text.back() == '.' ? text : text + ".";
+}
+
+std::optional<InputConcern> seedOrScaleConcern(const Camera& camera, const SceneMesh& scene,
+                                               const Pose& camera_from_station_seed) {
+  const std::string scale = scaleConcern(matchedBounds(scene.view()), camera_from_station_seed);
+  if (!scale.empty()) return InputConcern{InputKind::kMesh, wholeSentence(scale)};
+  const std::string seed = seedConcern(camera, scene.view(), camera_from_station_seed);
+  if (!seed.empty()) return InputConcern{InputKind::kSeed, wholeSentence(seed)};
+  return std::nullopt;
+}
+
+/// What the files are as far as they could be read.
+struct ReadFiles {
+  std::optional<GrayImage> image;
+  std::optional<CameraFile> camera;
+  std::optional<SceneMesh> scene;
+  std::optional<Pose> camera_from_station_seed;
+};
+
+/// Notes why a file cannot be read; the operator sees its name already.
+template <class Read>
+void judge(JudgedFile& file, Read&& read) {
+  try {
+    file.text = read();
+  } catch (const FileError& error) {
+    file.problem = wholeSentence(error.field().empty() ? error.reason()
+                                                       : error.field() + ": " + error.reason());
+  } catch (const std::exception& error) {
+    file.problem = wholeSentence(error.what());
+  }
+}
+
+std::string fieldOfViewText(const Camera& camera) {
+  const double x_deg = 2.0 * std::atan(0.5 * camera.width / camera.fx) / kDegree_rad;
+  const double y_deg = 2.0 * std::atan(0.5 * camera.height / camera.fy) / kDegree_rad;
+  return fixedText(x_deg, 1) + " x " + fixedText(y_deg, 1) + " deg";
+}
+
+bool hasCameraFile(const CaseFiles& files) {
+  if (!files.camera.empty()) return true;
+  if (files.image.empty() || !hasImageLabel(files.image)) return false;
+  return readImageLabel(files.image).camera.has_value();
+}
+
+ReadFiles readEach(const CaseFiles& files, JudgedFiles& judged) {
+  ReadFiles read;
+  const auto of = [&judged](InputKind kind) -> JudgedFile& {
+    return judged[static_cast<std::size_t>(kind)];
+  };
+  if (!files.image.empty())
+    judge(of(InputKind::kImage), [&] {
+      read.image = readImage(files.image, files.eight_bit);
+      return sizeInPixels(read.image->width, read.image->height) + ", " +
+             std::to_string(read.image->bit_depth) + " bit";
+    });
+  judge(of(InputKind::kCamera), [&]() -> std::string {
+    if (!hasCameraFile(files)) return "";
+    read.camera = readChosenCamera(files.camera, files.image);
+    const Camera& camera = read.camera->camera;
+    return sizeInPixels(camera.width, camera.height) + ", " + fieldOfViewText(camera);
+  });
+  if (!files.parts.empty())
+    judge(of(InputKind::kMesh), [&] {
+      std::vector<PartSource> parts = files.parts;
+      for (PartSource& part : parts)
+        if (part.mesh_unit.empty() && !statesUnit(part.mesh)) part.mesh_unit = "m";
+      read.scene = readScene(parts);
+      return std::to_string(read.scene->faces.size()) + " faces";
+    });
+  if (!files.seed.empty())
+    judge(of(InputKind::kSeed), [&] {
+      PoseFrames frames;
+      if (read.camera) frames.reference = read.camera->reference;
+      for (const fs::path& file : files.transforms)
+        for (FrameTransform& transform : readFrameTransforms(file))
+          frames.transforms.push_back(std::move(transform));
+      const PoseFile pose = readPose(files.seed, frames);
+      read.camera_from_station_seed = pose.camera_from_station;
+      return "station " + fixedText(pose.camera_from_station.translation_m.norm(), 2) + " m away";
+    });
+  return read;
+}
+
+/// Only what was read can contradict the rest.
+void compareFiles(const CaseFiles& files, const ReadFiles& read, JudgedFiles& judged) {
+  const auto object = [&judged](InputKind kind, const std::string& text) {
+    judged[static_cast<std::size_t>(kind)].problem = text;
+  };
+  if (!read.camera) return;
+  const Camera& camera = read.camera->camera;
+  if (read.image) {
+    const std::string size = sizeConcern(read.image->width, read.image->height, camera);
+    if (!size.empty()) return object(InputKind::kCamera, size);
+  }
+  const std::string field = fieldConcern(camera);
+  if (!field.empty()) return object(InputKind::kCamera, wholeSentence(field));
+  bool units_known = true;
+  for (const PartSource& part : files.parts)
+    units_known &= !part.mesh_unit.empty() || statesUnit(part.mesh);
+  if (!read.scene || !units_known || !read.camera_from_station_seed) return;
+  if (const auto concern = seedOrScaleConcern(camera, *read.scene, *read.camera_from_station_seed))
+    object(concern->kind, concern->text);
+}
+
+}  // namespace
+
+bool statesUnit(const fs::path& mesh) {
+  const std::string end = lowerCase(mesh.extension().string());
+  return end == ".gltf" || end == ".glb";
+}
+
+std::optional<InputConcern> inputConcern(const LoadedCase& loaded) {
+  const SessionCase& session_case = loaded.source;
+  if (!session_case.has_seed) return std::nullopt;
+  const std::string size =
+      sizeConcern(loaded.image.width, loaded.image.height, session_case.camera);
+  if (!size.empty()) return InputConcern{InputKind::kCamera, size};
+  const std::string field = fieldConcern(session_case.camera);
+  if (!field.empty()) return InputConcern{InputKind::kCamera, wholeSentence(field)};
+  return seedOrScaleConcern(session_case.camera, loaded.scene,
+                            session_case.camera_from_station_seed);
+}
+
+JudgedFiles judgeFiles(const CaseFiles& files) {
+  JudgedFiles judged;
+  const ReadFiles read = readEach(files, judged);
+  compareFiles(files, read, judged);
+  return judged;
+}
+
+SessionCase withInputFile(SessionCase session_case, InputKind kind, const fs::path& file,
+                          const std::string& mesh_unit) {
+  if (kind == InputKind::kImage) {
+    session_case.image = imageInput(file, {});
+  } else if (kind == InputKind::kCamera) {
+    const CameraFile camera = readChosenCamera(file, {});
+    session_case.camera = camera.camera;
+    session_case.camera_reference = camera.reference;
+    session_case.calibration_sigma = camera.calibration_sigma;
+    session_case.camera_covariance = camera.covariance;
+  } else if (kind == InputKind::kMesh) {
+    PartSource part = session_case.parts.front().source;
+    part.mesh = file;
+    part.mesh_unit = mesh_unit;
+    session_case.parts.front() = meshInputs({part}).front();
+  } else {
+    const PoseFile seed = readPose(file, {session_case.camera_reference, session_case.frames});
+    session_case.has_seed = true;
+    session_case.camera_from_station_seed = seed.camera_from_station;
+    session_case.station_frame = seed.station_frame;
+    session_case.uncertainty = seed.uncertainty.value_or(DeclaredUncertainty());
+    session_case.camera_from_station_working.reset();
+  }
+  return session_case;
+}
+
+SessionCase withMeshUnit(SessionCase session_case, const std::string& mesh_unit) {
+  const fs::path mesh = session_case.parts.front().source.mesh;
+  return withInputFile(std::move(session_case), InputKind::kMesh, mesh, mesh_unit);
+}
+
+}  // namespace boresight::sessions

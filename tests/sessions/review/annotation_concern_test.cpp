@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/review/annotation_concern.h"
+
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/sessions/annotation/annotated_scene.h"
+
+namespace boresight::test {
+namespace {
+
+using sessions::annotationConcern;
+using sessions::AnnotationConcern;
+using sessions::CaseAnnotationsSolution;
+using sessions::PoseQuality;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A pose known to this, where 0.4 mm are required; nothing: not known.
+PoseQuality qualityOf(std::optional<double> found_mm) {
+  sessions::PrecisionFigure figure{{"covariance_lateral", ""},
+                                   "across the view axis",
+                                   "mm",
+                                   0.4,
+                                   found_mm,
+                                   found_mm,
+                                   " at the camera"};
+  return {3.0, {figure}};
+}
+
+/// Eight points of a scene; some of them lie beside their places by so many px.
+CaseAnnotationsSolution solutionWith(const std::map<std::size_t, double>& errors_px,
+                                     bool robust = false) {
+  Random random = randomFor("AnnotationConcern");
+  AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 8, 0, 0.1);
+  for (const auto& [index, error_px] : errors_px)
+    scene.view.annotations.points[index].pixel->x() += error_px;
+  sessions::CaseAnnotations annotations;
+  annotations.case_ids = {"a"};
+  annotations.views = {scene.view};
+  annotations.views[0].camera_from_rig = Pose();
+  return sessions::solveCaseAnnotations(annotations, scene.camera_from_station, {}, robust);
+}
+
+std::string idOf(const CaseAnnotationsSolution& solution, std::size_t index) {
+  return solution.annotations.views[0].annotations.points[index].id;
+}
+
+TEST(AnnotationConcern, GoodAnnotationsWithinTheRequirement_AreNone) {
+  const AnnotationConcern concern = annotationConcern(solutionWith({}), qualityOf(0.3));
+  EXPECT_EQ(concern.text, "");
+  EXPECT_THAT(concern.suspects, IsEmpty());
+  EXPECT_EQ(annotationConcern(CaseAnnotationsSolution(), qualityOf({})).text, "");
+}
+
+TEST(AnnotationConcern, PoseBeyondTheRequirement_HasTheFigureOfTheResult) {
+  EXPECT_EQ(annotationConcern(solutionWith({}), qualityOf(0.9)).text,
+            "Pose known to 0.90 of 0.40 mm (3 sigma across the view axis at the camera).");
+}
+
+/// Three of eight mask each other: none stands out alone.
+TEST(AnnotationConcern, MaskedErrors_AreNamedByTheRobustSolution) {
+  const std::map<std::size_t, double> errors_px = {{1, 8.0}, {4, -7.0}};
+  const CaseAnnotationsSolution solution = solutionWith(errors_px);
+  const AnnotationConcern concern = annotationConcern(solution, qualityOf(0.3));
+  EXPECT_THAT(concern.text, HasSubstr("times the stated sigmas."));
+  EXPECT_THAT(concern.suspects, ElementsAre(idOf(solution, 1), idOf(solution, 4)));
+  EXPECT_FALSE(concern.robust);
+  const AnnotationConcern robust = annotationConcern(solutionWith(errors_px, true), qualityOf(0.3));
+  EXPECT_TRUE(robust.robust);
+  EXPECT_THAT(robust.suspects, ElementsAre(idOf(solution, 1), idOf(solution, 4)));
+  EXPECT_EQ(robust.text, "") << "the others fit";
+}
+
+}  // namespace
+}  // namespace boresight::test

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_inputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/io/errors.h"
+#include "tests/support/example_case.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+CaseFiles exampleFiles() {
+  const std::filesystem::path os = test::exampleFolder() / "os";
+  CaseFiles files;
+  files.image = os / "image.png";
+  files.camera = os / "camera.json";
+  files.parts.emplace_back().mesh = os / "model.ply";
+  files.parts.front().mesh_unit = "m";
+  files.seed = os / "seed.json";
+  return files;
+}
+
+JudgedFile judgedOf(const JudgedFiles& judged, InputKind kind) {
+  return judged[static_cast<std::size_t>(kind)];
+}
+
+TEST(JudgeFiles, GoodFiles_SayWhatTheyAre) {
+  const JudgedFiles judged = judgeFiles(exampleFiles());
+  for (const JudgedFile& file : judged) EXPECT_EQ(file.problem, "");
+  EXPECT_EQ(judgedOf(judged, InputKind::kImage).text, "1024 x 1024 px, 8 bit");
+  EXPECT_THAT(judgedOf(judged, InputKind::kCamera).text,
+              AllOf(HasSubstr("1024 x 1024 px, "), HasSubstr(" deg")));
+  EXPECT_THAT(judgedOf(judged, InputKind::kMesh).text, HasSubstr(" faces"));
+  EXPECT_THAT(judgedOf(judged, InputKind::kSeed).text, HasSubstr("station 0."));
+}
+
+TEST(JudgeFiles, BadFile_HasItsOwnProblemAndSparesTheOthers) {
+  const test::TemporaryFolder folder;
+  CaseFiles files = exampleFiles();
+  files.image = folder.write("a.png", std::string_view("text"));
+  files.parts.front().mesh = folder.write("m.ply", std::string_view("ply\nformat ascii 1.0\n"));
+  const JudgedFiles judged = judgeFiles(files);
+  EXPECT_NE(judgedOf(judged, InputKind::kImage).problem, "");
+  EXPECT_NE(judgedOf(judged, InputKind::kMesh).problem, "");
+  EXPECT_EQ(judgedOf(judged, InputKind::kCamera).problem, "");
+  EXPECT_EQ(judgedOf(judged, InputKind::kSeed).problem, "");
+}
+
+TEST(JudgeFiles, FilesThatDoNotFit_AreNamed) {
+  const test::TemporaryFolder folder;
+  CaseFiles files = exampleFiles();
+  writePng(folder / "s.png", std::vector<std::uint8_t>(640 * 480, 9), 640, 480, 1);
+  files.image = folder / "s.png";
+  EXPECT_EQ(judgedOf(judgeFiles(files), InputKind::kCamera).problem,
+            "The camera is for 1024 x 1024 px, the image is 640 x 480 px.");
+  files = exampleFiles();
+  files.parts.front().mesh_unit = "mm";
+  EXPECT_NE(judgedOf(judgeFiles(files), InputKind::kMesh).problem, "");
+  files.parts.front().mesh_unit.clear();
+  EXPECT_EQ(judgedOf(judgeFiles(files), InputKind::kMesh).problem, "") << "it is still asked for";
+}
+
+/// As the run's own checks say, and only then.
+TEST(InputConcern, IsThatOfTheRun) {
+  const auto refused = [](const SessionCase& session_case) {
+    const auto loaded = loadCase(session_case);
+    const auto concern = inputConcern(*loaded);
+    bool throws = false;
+    try {
+      requireRunnable(*loaded);
+    } catch (const InputError&) {
+      throws = true;
+    }
+    EXPECT_EQ(concern.has_value(), throws);
+    return concern ? std::optional(concern->kind) : std::nullopt;
+  };
+  const SessionCase good = makeCase(exampleFiles()).made;
+  EXPECT_EQ(refused(good), std::nullopt);
+  SessionCase bad = good;
+  bad.camera.width = 1000;
+  EXPECT_EQ(refused(bad), InputKind::kCamera);
+  EXPECT_EQ(refused(withMeshUnit(good, "mm")), InputKind::kMesh);
+  bad = good;
+  bad.camera_from_station_seed.translation_m.x() += 9.0;
+  EXPECT_EQ(refused(bad), InputKind::kSeed);
+}
+
+TEST(WithInputFile, TakesTheFileInPlaceOfTheFormerOne) {
+  const test::TemporaryFolder folder;
+  const SessionCase os = makeCase(exampleFiles()).made;
+  const std::filesystem::path bc = test::exampleFolder() / "bc";
+  EXPECT_EQ(withInputFile(os, InputKind::kImage, bc / "image.png").image.source.file,
+            bc / "image.png");
+  EXPECT_NE(withInputFile(os, InputKind::kImage, bc / "image.png").image.pixels_sha256,
+            os.image.pixels_sha256);
+  EXPECT_EQ(withInputFile(os, InputKind::kMesh, bc / "model.ply", "m").parts.front().source.mesh,
+            bc / "model.ply");
+  SessionCase nudged = os;
+  nudged.camera_from_station_working = Pose();
+  nudged.has_seed = false;
+  EXPECT_EQ(withInputFile(nudged, InputKind::kSeed, test::exampleFolder() / "os/seed.json"), os);
+  EXPECT_EQ(withInputFile(os, InputKind::kCamera, test::exampleFolder() / "os/camera.json"), os);
+  EXPECT_EQ(withMeshUnit(withMeshUnit(os, "mm"), "m"), os);
+  EXPECT_THROW(
+      (void)withInputFile(os, InputKind::kCamera, folder.write("c.json", std::string_view("{"))),
+      InputError);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/session/case_sequence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/math.h"
+#include "sessions/io/errors.h"
+#include "sessions/run/problem.h"
+#include "sessions/session/session_maker.h"
+#include "tests/support/approach_files.h"
+
+namespace boresight::sessions {
+namespace {
+
+using testing::HasSubstr;
+
+class CaseSequenceTest : public testing::Test {
+ protected:
+  /// The approach's case; its own image is the first frame.
+  SequenceOrder order() const {
+    const test::TemporaryFolder& approach = test::approachFolder();
+    CaseFiles files;
+    files.image = approach / "frames/0.png";
+    files.camera = approach / "camera.json";
+    files.parts.emplace_back().mesh = approach / "model.ply";
+    files.parts.front().mesh_unit = "m";
+    files.seed = approach / "seed.json";
+    SequenceOrder order;
+    order.images = approach / "frames";
+    order.session_case = makeCase(files).made;
+    order.options = defaultProfile();
+    order.settings.threads = 1;
+    order.results = folder_ / "r.sqlite";
+    return order;
+  }
+  static CaseSequence open(const SequenceOrder& order, const GrayImage* image = nullptr) {
+    return CaseSequence(order, sequenceInputs(order, {}, image), openImages(order.images));
+  }
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(CaseSequenceTest, StoppedSequence_KeepsItsFramesAndGoesOn) {
+  {
+    CaseSequence sequence = open(order());
+    EXPECT_EQ(sequence.total(), test::kApproachFrames);
+    ASSERT_TRUE(sequence.next());
+    ASSERT_TRUE(sequence.next());
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_FALSE(sequence.next(stop.get_token()));
+    EXPECT_GT(sequence.framesPerSecond(), 0.0);
+  }
+  EXPECT_EQ(readResults(folder_ / "r.sqlite").runs.size(), 2u);
+  CaseSequence rest = open(order());
+  EXPECT_EQ(rest.earlier(), 2u);
+  std::vector<RunResult> results;
+  while (auto result = rest.next()) results.push_back(std::move(*result));
+  ASSERT_EQ(results.size(), 6u) << "those of the file come first";
+  EXPECT_EQ(rest.localized(), 4);
+  EXPECT_TRUE(rest.sequence().lost().empty());
+  EXPECT_FALSE(rest.next()) << "after the end";
+}
+
+/// The window's case has an image of its own, that of the command line has none.
+TEST_F(CaseSequenceTest, OwnImageOfTheCase_MakesNoOtherSequence) {
+  (void)open(order()).next();
+  SequenceOrder without_image = order();
+  without_image.session_case.image = {};
+  EXPECT_EQ(open(without_image).earlier(), 1u);
+  SequenceOrder other_motion = order();
+  other_motion.motion.translation_m.setConstant(0.002);
+  EXPECT_THROW((void)open(other_motion), OutputError);
+}
+
+TEST_F(CaseSequenceTest, StrokesOfTheMask_HideTheStationInEveryFrame) {
+  SequenceOrder masked = order();
+  MaskStroke stroke;
+  stroke.kind = StrokeKind::kPolygon;
+  stroke.points = {{-1.0, -1.0}, {512.0, -1.0}, {512.0, 512.0}, {-1.0, 512.0}};
+  masked.session_case.ignore_strokes.push_back(stroke);
+  const GrayImage image = readImage(masked.images / "0.png");
+  EXPECT_FALSE(open(masked, &image).next()->completed);
+}
+
+TEST_F(CaseSequenceTest, SeedThatSeesNothing_IsRefusedByItsName) {
+  SequenceOrder away = order();
+  away.session_case.camera_from_station_seed.translation_m.x() += 5.0;
+  EXPECT_THAT(folder_.message([&] {
+    (void)sequenceInputs(away, {{}, {}, {}, {"case a", "seed"}});
+  }),
+              HasSubstr("case a: seed: the station is entirely out of view"));
+}
+
+/// Against the exact poses of the pictures.
+TEST_F(CaseSequenceTest, SequenceRow_HasTheMotionSinceTheLastAcceptedFrame) {
+  const test::GeneratedApproach approach(24);
+  CaseSequence sequence = open(order());
+  const Eigen::Vector3d centre_m(0.01, 0.02, 0.03);
+  (void)sequence.next();
+  const SequenceRow row = sequenceRow(*sequence.next(), centre_m);
+  const Pose from = approach.camera_from_station(0);
+  const Pose to = approach.camera_from_station(1);
+  EXPECT_EQ(row.number, 2);
+  EXPECT_EQ(row.name, "1.png");
+  EXPECT_TRUE(row.accepted);
+  EXPECT_NEAR(*row.moved_mm, 1e3 * (to * centre_m - from * centre_m).norm(), 0.4);
+  EXPECT_NEAR(*row.turned_deg, from.rotation.angularDistance(to.rotation) / kDegree_rad, 0.1);
+  EXPECT_GT(row.seconds, 0.0);
+}
+
+TEST_F(CaseSequenceTest, SequenceRow_OfALostFrameHasItsReasonAndNoMotion) {
+  RunResult lost;
+  lost.status = "input_error";
+  lost.message = "a.png: is truncated";
+  lost.dataset_index = 6;
+  const SequenceRow row = sequenceRow(lost, Eigen::Vector3d::Zero());
+  EXPECT_EQ(row.number, 7);
+  EXPECT_FALSE(row.accepted || row.moved_mm || row.turned_deg);
+  EXPECT_EQ(row.reason, "a.png: is truncated");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window/change_input.h"
+
+#include <QtWidgets>
+
+#include "ui/models/text.h"
+#include "ui/panels/widgets.h"
+#include "ui/state/document.h"
+#include "ui/window/case_controller.h"
+#include "ui/window/session_files.h"
+
+namespace boresight::ui {
+namespace {
+
+using sessions::InputKind;
+
+QString changeText(const char* text) { return QCoreApplication::translate("ChangeInput", text); }
+
+/// Empty when the operator has cancelled.
+std::string askUnit(QWidget& window, const QString& mesh, const std::string& former) {
+  QStringList units;
+  for (const char* unit : kMeshUnits) units << QString::fromLatin1(unit);
+  bool chosen = false;
+  const QString unit = QInputDialog::getItem(
+      &window, changeText("Unit of the mesh"), changeText("The coordinates of %1 are in").arg(mesh),
+      units, std::max(0, static_cast<int>(units.indexOf(fromText(former)))), false, &chosen);
+  return chosen ? unit.toStdString() : std::string();
+}
+
+}  // namespace
+
+QString inputName(InputKind kind) {
+  return kind == InputKind::kImage    ? changeText("image")
+         : kind == InputKind::kCamera ? changeText("camera")
+         : kind == InputKind::kMesh   ? changeText("mesh")
+                                      : changeText("seed");
+}
+
+QString inputFilter(InputKind kind) {
+  const QString files =
+      kind == InputKind::kImage
+          ? changeText(
+                "Images (*.png *.jpg *.jpeg *.tif *.tiff *.img *.IMG *.vic *.VIC *.lbl "
+                "*.LBL *.xml)")
+      : kind == InputKind::kCamera ? changeText("Cameras (*.json *.cahv *.cahvor *.cahvore)")
+      : kind == InputKind::kMesh   ? changeText("Meshes (*.ply *.obj *.stl *.gltf *.glb)")
+                                   : changeText("Poses and transforms (*.json)");
+  return files + changeText(";;All files (*)");
+}
+
+void askForInput(const WindowParts& parts, QWidget& window, const QString& case_id,
+                 InputKind kind) {
+  const sessions::SessionCase* found = parts.document.session().findCase(case_id.toStdString());
+  if (!found) return;
+  const std::filesystem::path former =
+      kind == InputKind::kMesh ? found->parts.front().source.mesh : found->image.source.file;
+  const std::string former_unit = found->parts.front().source.mesh_unit;
+  const QString file = QFileDialog::getOpenFileName(
+      &window, changeText("Another %1 for %2").arg(inputName(kind), case_id),
+      fromText(former.parent_path().string()), inputFilter(kind));
+  if (file.isEmpty()) return;
+  std::string unit;
+  if (kind == InputKind::kMesh && !sessions::statesUnit(file.toStdString())) {
+    unit = askUnit(window, QFileInfo(file).fileName(), former_unit);
+    if (unit.empty()) return;
+  }
+  parts.cases.changeInput(case_id, kind, file.toStdString(), unit);
+}
+
+void askForMeshUnit(const WindowParts& parts, QWidget& window, const QString& case_id) {
+  const sessions::SessionCase* found = parts.document.session().findCase(case_id.toStdString());
+  if (!found) return;
+  const sessions::PartSource source = found->parts.front().source;
+  const std::string unit =
+      askUnit(window, fromText(source.mesh.filename().string()), source.mesh_unit);
+  if (!unit.empty()) parts.cases.changeInput(case_id, InputKind::kMesh, source.mesh, unit);
+}
+
+void addChangeInput(QMenu& menu, const WindowParts& parts, QWidget& window,
+                    const QString& case_id) {
+  for (int i = 0; i < sessions::kInputKinds; ++i) {
+    const auto kind = static_cast<InputKind>(i);
+    QString text = inputName(kind);
+    text[0] = text[0].toUpper();
+    menu.addAction(changeText("%1...").arg(text), &parts.cases,
+                   [parts, &window, case_id, kind] { askForInput(parts, window, case_id, kind); });
+  }
+  menu.addAction(changeText("Unit of the mesh..."), &parts.cases,
+                 [parts, &window, case_id] { askForMeshUnit(parts, window, case_id); });
+}
+
+}  // namespace boresight::ui
