@@ -31,7 +31,7 @@ TESTS = {
     "core/localizer": ["localizer_test", "record_writer_test"],
     "core/match": ["match_test", "match_opencv_test"] + CORE_LAST,
     "core/pnp": ["pnp_test", "pnp_opencv_test"] + CORE_LAST,
-    "core/record": ["record_writer_test"],
+    "core/record": ["record_writer_test", "onboard_record_test"],
     "core/refine": ["refine_test"] + CORE_LAST,
     "core/render": ["core_render_tests"] + CORE_LAST,
     "core/search": CORE_LAST,
@@ -110,9 +110,10 @@ def prepare(folders, jobs):
         subprocess.run(["git", "-C", ROOT, "worktree", "remove", "--force", SOURCE], check=True)
     subprocess.run(["git", "-C", ROOT, "worktree", "add", "--detach", SOURCE], check=True,
                    capture_output=True)
-    sessions = "ON" if any(f.startswith("sessions") for f in folders) else "OFF"
+    needs_sessions = any(f.startswith("sessions") or f == "core/record" for f in folders)
+    sessions = "ON" if needs_sessions else "OFF"
     if run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-            "-DBORESIGHT_BUILD_UI=OFF", f"-DBORESIGHT_BUILD_SESSIONS={sessions}"]) != 0:
+            "-DBORESIGHT_UNITY=ON", "-DBORESIGHT_BUILD_UI=OFF", f"-DBORESIGHT_BUILD_SESSIONS={sessions}"]) != 0:
         sys.exit("mutate.py: cannot configure")
     targets = sorted({t.split()[0] for f in folders for t in TESTS[f]})
     if not build(targets, jobs):
