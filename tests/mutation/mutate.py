@@ -17,9 +17,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PLACE = ROOT / "build" / "mutation"
-SOURCE = PLACE / "source"
-BUILD = PLACE / "build"
+SOURCE = ROOT / "build" / "mutation"
+BUILD = SOURCE / "build" / "release"  # as the tree's own, so that a compiler cache knows its files
 
 # The programs that test a folder, the quick ones first, some with a filter.
 CORE_LAST = ["search_test", "localizer_test Localizer.*:Cameras/*"]
@@ -105,11 +104,14 @@ def build(targets, jobs):
 
 
 def prepare(folders, jobs):
-    PLACE.mkdir(parents=True, exist_ok=True)
+    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "HEAD"], check=True,
+                            capture_output=True, text=True).stdout.strip()
     if SOURCE.exists():
-        subprocess.run(["git", "-C", ROOT, "worktree", "remove", "--force", SOURCE], check=True)
-    subprocess.run(["git", "-C", ROOT, "worktree", "add", "--detach", SOURCE], check=True,
-                   capture_output=True)
+        subprocess.run(["git", "-C", SOURCE, "checkout", "--quiet", "--force", "--detach", commit],
+                       check=True)
+    else:
+        subprocess.run(["git", "-C", ROOT, "worktree", "add", "--quiet", "--detach", SOURCE, commit],
+                       check=True)
     needs_sessions = any(f.startswith("sessions") or f == "core/record" for f in folders)
     sessions = "ON" if needs_sessions else "OFF"
     if run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
