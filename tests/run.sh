@@ -21,6 +21,7 @@ esac
 
 installPackages
 installOptionalPackages
+if [ -n "${BORESIGHT_ALL:-}" ]; then configureAndBuild release benchmarks; fi
 for preset in "${presets[@]}"; do
   configureAndBuild "$preset"
   ctest --preset "$preset" --output-on-failure -j2

@@ -17,9 +17,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PLACE = ROOT / "build" / "mutation"
-SOURCE = PLACE / "source"
-BUILD = PLACE / "build"
+SOURCE = ROOT / "build" / "mutation"
+BUILD = SOURCE / "build" / "release"  # as the tree's own, so that a compiler cache knows its files
 
 # The programs that test a folder, the quick ones first, some with a filter.
 CORE_LAST = ["search_test", "localizer_test Localizer.*:Cameras/*"]
@@ -31,7 +30,7 @@ TESTS = {
     "core/localizer": ["localizer_test", "record_writer_test"],
     "core/match": ["match_test", "match_opencv_test"] + CORE_LAST,
     "core/pnp": ["pnp_test", "pnp_opencv_test"] + CORE_LAST,
-    "core/record": ["record_writer_test"],
+    "core/record": ["record_writer_test", "onboard_record_test"],
     "core/refine": ["refine_test"] + CORE_LAST,
     "core/render": ["core_render_tests"] + CORE_LAST,
     "core/search": CORE_LAST,
@@ -105,14 +104,18 @@ def build(targets, jobs):
 
 
 def prepare(folders, jobs):
-    PLACE.mkdir(parents=True, exist_ok=True)
+    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "HEAD"], check=True,
+                            capture_output=True, text=True).stdout.strip()
     if SOURCE.exists():
-        subprocess.run(["git", "-C", ROOT, "worktree", "remove", "--force", SOURCE], check=True)
-    subprocess.run(["git", "-C", ROOT, "worktree", "add", "--detach", SOURCE], check=True,
-                   capture_output=True)
-    sessions = "ON" if any(f.startswith("sessions") for f in folders) else "OFF"
+        subprocess.run(["git", "-C", SOURCE, "checkout", "--quiet", "--force", "--detach", commit],
+                       check=True)
+    else:
+        subprocess.run(["git", "-C", ROOT, "worktree", "add", "--quiet", "--detach", SOURCE, commit],
+                       check=True)
+    needs_sessions = any(f.startswith("sessions") or f == "core/record" for f in folders)
+    sessions = "ON" if needs_sessions else "OFF"
     if run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-            "-DBORESIGHT_BUILD_UI=OFF", f"-DBORESIGHT_BUILD_SESSIONS={sessions}"]) != 0:
+            "-DBORESIGHT_UNITY=ON", "-DBORESIGHT_BUILD_UI=OFF", f"-DBORESIGHT_BUILD_SESSIONS={sessions}"]) != 0:
         sys.exit("mutate.py: cannot configure")
     targets = sorted({t.split()[0] for f in folders for t in TESTS[f]})
     if not build(targets, jobs):

@@ -50,4 +50,10 @@ struct ExampleCase {
   }
 };
 
+/// Station os, read once.
+inline const ExampleCase& osExample() {
+  static const ExampleCase example("os");
+  return example;
+}
+
 }  // namespace boresight::test

@@ -11,6 +11,7 @@
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/ui/patience.h"
 #include "ui/window/main_window.h"
 
 namespace boresight::test {
@@ -42,7 +43,9 @@ class WindowTest : public ::testing::Test {
     window_.show();
   }
 
-  static bool wait(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, 120'000); }
+  static bool wait(const std::function<bool()>& holds) {
+    return QTest::qWaitFor(holds, kPatienceMs);
+  }
   bool resting() {
     return !window_.tasks().isBusy() && window_.run().state() != ui::RunState::kWorking;
   }

@@ -9,12 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "tests/support/not_finite.h"
 
 namespace boresight {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using test::kInfinity;
+using test::kNan;
+
 constexpr long double kAllowed = 4e-16L;
 
 /// Largest |actual - exact| / max(1, |exact|), exact in extended precision.

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "tests/core/geometry/planetary_cameras.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class EveryPlanetaryCamera : public ::testing::TestWithParam<PlanetaryCamera> {
  protected:

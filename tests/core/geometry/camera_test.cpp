@@ -9,13 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/geometry/example_cameras.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class EveryCamera : public ::testing::TestWithParam<NamedCamera> {};
 INSTANTIATE_TEST_SUITE_P(Camera, EveryCamera, ::testing::ValuesIn(exampleCameras()),

@@ -2,21 +2,18 @@
 #include "core/geometry/pose.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
+#include "tests/support/not_finite.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::test {
 namespace {
 
 using ::testing::Not;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Matrix4d homogeneous(const Pose& pose) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();

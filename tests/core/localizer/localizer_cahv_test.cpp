@@ -13,8 +13,6 @@
 namespace boresight::test {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
-
 struct Setting {
   std::string name;
   Camera camera;
@@ -70,7 +68,7 @@ std::vector<Setting> settings() {
   // edges rise on one side than on the other: what one sample per pixel widens is not balanced.
   return {{"SkewMirroredCahv", skewMirrored(), 0.0, 1e-4},
           {"Cahvor", cahvor(), 0.0, 1e-4},
-          {"CahvoreWithADeepPupil", cahvore(), 35.0 * kDegree, 2.5e-4}};
+          {"CahvoreWithADeepPupil", cahvore(), 35.0 * kDegree_rad, 2.5e-4}};
 }
 
 Case caseOf(const Setting& setting, const Picture& picture, std::uint64_t seed) {
@@ -106,12 +104,12 @@ TEST_P(LocalizerOnPlanetaryCameras, ConvergesToTheTruth) {
       EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
       const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
       EXPECT_LT(error.centre_m, GetParam().most_off_m);
-      EXPECT_LT(error.angle_rad, 0.06 * kDegree);
+      EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
       EXPECT_GT(workspace.support.share(), 0.7);
       RecordProperty("centre_mm", std::to_string(1e3 * error.centre_m));
-      RecordProperty("angle_deg", std::to_string(error.angle_rad / kDegree));
+      RecordProperty("angle_deg", std::to_string(error.angle_rad / kDegree_rad));
       std::printf("%s: centre %.4f mm, angle %.4f deg, support %.3f\n", GetParam().name.c_str(),
-                  1e3 * error.centre_m, error.angle_rad / kDegree, workspace.support.share());
+                  1e3 * error.centre_m, error.angle_rad / kDegree_rad, workspace.support.share());
     }
   }
 }

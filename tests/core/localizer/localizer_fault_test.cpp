@@ -8,12 +8,10 @@
 
 #include "core/localizer/localizer.h"
 #include "tests/core/localizer/scene.h"
+#include "tests/support/not_finite.h"
 
 namespace boresight::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Input {
   Case scene = stationCase(1);

@@ -81,7 +81,7 @@ TEST(LocalizerOptions, EveryFieldIsVisitedOnce) {
   EXPECT_EQ(places.size(), names.size());
 }
 
-std::array<std::uint8_t, 32> digestOf(const LocalizerOptions& options) {
+std::array<std::uint8_t, 32> optionsDigest(const LocalizerOptions& options) {
   DigestWriter writer;
   digestOptions(options, writer);
   return writer.digest();
@@ -90,14 +90,14 @@ std::array<std::uint8_t, 32> digestOf(const LocalizerOptions& options) {
 /// Except colour: the problem's digest shows whether a run uses it.
 TEST(LocalizerOptions, EachOption_ChangesTheDigest) {
   LocalizerOptions options = defaultProfile();
-  std::set<std::array<std::uint8_t, 32>> digests = {digestOf(options)};
+  std::set<std::array<std::uint8_t, 32>> digests = {optionsDigest(options)};
   std::size_t count = 1;
   LocalizerOptions::visitFields(options, [&](const OptionInfo& info, auto& field) {
     using Field = std::remove_reference_t<decltype(field)>;
     const Field kept = field;
     field = static_cast<Field>(static_cast<double>(field) >= info.maximum ? info.minimum
                                                                           : info.maximum);
-    const bool is_new = digests.insert(digestOf(options)).second;
+    const bool is_new = digests.insert(optionsDigest(options)).second;
     EXPECT_EQ(is_new, std::string_view(info.name) != "search.color") << info.name;
     count += is_new ? 1 : 0;
     field = kept;

@@ -21,12 +21,6 @@ bool isRight(const Case& scene, const Pose& estimate) {
   return std::abs(error.pitches) < 0.1 && error.rest_m < 0.0008;
 }
 
-LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
-  OwnedRun run(scene.problem(), options);
-  run.finish();
-  return run.localizer.workspace().status;
-}
-
 TEST(LocalizerSearch, RailWhoseEndsAreSeen_IsFoundAtItsPitch) {
   int wrong_without = 0;
   for (const double off_pitches : {-1.5, -1.0, -0.5, 0.0, 0.75, 1.25}) {
@@ -127,13 +121,6 @@ Case turnedCase(std::uint64_t seed, double turn_rad) {
   turned.uncertainty.pivot_in_camera_m = middle_m;
   turned.uncertainty.rotation_rad.z() = kPi;
   return turned;
-}
-
-void expectTruth(const Case& scene, const Workspace& workspace) {
-  EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
-  const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
-  EXPECT_LT(error.centre_m, 0.00012);  // measured: 0.105 mm, a fifth of a pixel
-  EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
 }
 
 TEST(LocalizerSearch, TurnedSeed_IsFoundWithinAStatedUncertainty) {

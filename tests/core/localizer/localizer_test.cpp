@@ -6,36 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/math.h"
 #include "tests/core/localizer/scene.h"
 
 namespace boresight::test {
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
-
-/// Properties of every run that did not converge.
-void expectSeed(const Case& scene, const Workspace& workspace) {
-  EXPECT_NE(workspace.status, LocalizationStatus::kConverged);
-  EXPECT_EQ(workspace.camera_from_station.translation_m, scene.seed.translation_m);
-  EXPECT_EQ(workspace.camera_from_station.rotation.coeffs(), scene.seed.rotation.coeffs());
-  EXPECT_EQ(workspace.covariance, Matrix6d::Zero().eval());
-}
-
-void expectTruth(const Case& scene, const Workspace& workspace, double limit_m, double limit_rad) {
-  EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
-  const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
-  EXPECT_LT(error.centre_m, limit_m);
-  EXPECT_LT(error.angle_rad, limit_rad);
-}
-
-LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
-  OwnedRun run(scene.problem(), options);
-  EXPECT_EQ(run.localizer.status(), Status::kOk);
-  run.finish();
-  const Workspace& workspace = run.localizer.workspace();
-  if (workspace.status != LocalizationStatus::kConverged) expectSeed(scene, workspace);
-  return workspace.status;
-}
 
 class LocalizerOnCameras : public ::testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Cameras, LocalizerOnCameras, ::testing::Bool());
@@ -48,7 +23,7 @@ TEST_P(LocalizerOnCameras, ConvergesFromManySeeds) {
     run.finish();
     const Workspace& workspace = run.localizer.workspace();
     // A quarter of the requirement; measured: 0.03 mm and 0.02 deg.
-    expectTruth(scene, workspace, 0.0001, 0.06 * kDegree);
+    expectTruth(scene, workspace, 0.0001, 0.06 * kDegree_rad);
     EXPECT_GT(workspace.support.share(), 0.7);
     EXPECT_GT(workspace.covariance.diagonal().minCoeff(), 0.0);
   }
@@ -64,9 +39,9 @@ TEST_P(LocalizerOnCameras, PaperProfileIsAccurateWhereItConverges) {
     run.finish();
     const Workspace& workspace = run.localizer.workspace();
     if (workspace.status == LocalizationStatus::kConverged) {
-      expectTruth(scene, workspace, 0.0008, 0.5 * kDegree);
+      expectTruth(scene, workspace, 0.0008, 0.5 * kDegree_rad);
       const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
-      accurate += error.centre_m < 0.0004 && error.angle_rad < 0.25 * kDegree ? 1 : 0;
+      accurate += error.centre_m < 0.0004 && error.angle_rad < 0.25 * kDegree_rad ? 1 : 0;
     } else {
       // Its test on the camera's own position is hard to meet with 0.5 mm pixels.
       EXPECT_EQ(workspace.status, LocalizationStatus::kIterationLimit);
@@ -109,7 +84,7 @@ TEST(Localizer, ConvergesFromCoarserLevels) {
       coarse_iterations += iteration.index == 0 ? 1 : 0;
     });
     EXPECT_EQ(coarse_iterations, 1);
-    expectTruth(scene, run.localizer.workspace(), 0.0002, 0.1 * kDegree);
+    expectTruth(scene, run.localizer.workspace(), 0.0002, 0.1 * kDegree_rad);
   }
 }
 
@@ -125,7 +100,7 @@ TEST(Localizer, ConvergesBehindAnOccluder) {
     ++renders;
   });
   EXPECT_GE(renders, 4);
-  expectTruth(scene, run.localizer.workspace(), 0.0002, 0.1 * kDegree);
+  expectTruth(scene, run.localizer.workspace(), 0.0002, 0.1 * kDegree_rad);
 }
 
 TEST(Localizer, ConvergesWithAFifthOfTheImageIgnored) {
@@ -164,7 +139,7 @@ TEST(Localizer, ConvergesWithAFifthOfTheImageIgnored) {
       EXPECT_LE(ignored, 0.3 * templates.side_px * templates.side_px + 0.5);
     }
   });
-  expectTruth(scene, run.localizer.workspace(), 0.0004, 0.25 * kDegree);
+  expectTruth(scene, run.localizer.workspace(), 0.0004, 0.25 * kDegree_rad);
   scene.ignore = nullptr;
   EXPECT_NE(endOf(scene, defaultProfile()), LocalizationStatus::kRunning);
 }

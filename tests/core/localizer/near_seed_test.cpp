@@ -18,13 +18,6 @@ Case nearCase(std::uint64_t seed, double size_m, double size_deg, double share =
   return scene;
 }
 
-void expectTruth(const Case& scene, const Workspace& workspace) {
-  EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
-  const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
-  EXPECT_LT(error.centre_m, 0.00012);
-  EXPECT_LT(error.angle_rad, 0.06 * kDegree_rad);
-}
-
 /// 0.6 mm and 0.12 deg move the scene by 2 px of the 3 px that a refinement searches.
 TEST(NearSeed, WithinReachOfARefinement_IsRefinedAtOnce) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {

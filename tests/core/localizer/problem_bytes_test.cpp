@@ -51,7 +51,7 @@ struct Decoded {
   ProblemFault fault() const { return check.fault; }
 };
 
-std::string digestOf(const LocalizationProblem& problem, const LocalizerOptions& options) {
+std::string inputDigest(const LocalizationProblem& problem, const LocalizerOptions& options) {
   DigestWriter writer;
   digestOptions(options, writer);
   digestProblem(problem, writer);
@@ -93,7 +93,8 @@ TEST(ProblemBytes, Problem_RoundTrips) {
     EXPECT_EQ(decoded.problem.image.data, nullptr);
     EXPECT_EQ(decoded.problem.camera.valid_radius, problem.camera.valid_radius);
     decoded.problem.image = problem.image;
-    EXPECT_EQ(digestOf(decoded.problem, decoded.options), digestOf(problem, defaultProfile()));
+    EXPECT_EQ(inputDigest(decoded.problem, decoded.options),
+              inputDigest(problem, defaultProfile()));
   }
 }
 
@@ -105,7 +106,8 @@ TEST(ProblemBytes, MaskPartsAndEveryOption_RoundTrip) {
   EXPECT_FALSE(decoded.problem.mesh.parts[1].match);
   ASSERT_NE(decoded.problem.ignore, nullptr);
   decoded.problem.image = unusual.problem.image;
-  EXPECT_EQ(digestOf(decoded.problem, decoded.options), digestOf(unusual.problem, unusual.options));
+  EXPECT_EQ(inputDigest(decoded.problem, decoded.options),
+            inputDigest(unusual.problem, unusual.options));
   EXPECT_EQ(encoded(decoded.problem, decoded.options), unusual.bytes());
 }
 

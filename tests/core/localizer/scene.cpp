@@ -465,6 +465,18 @@ int OwnedRun::finish() {
   return -1;
 }
 
+LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options) {
+  OwnedRun run(scene.problem(), options);
+  EXPECT_EQ(run.localizer.status(), Status::kOk);
+  run.finish();
+  const Workspace& workspace = run.localizer.workspace();
+  if (workspace.status != LocalizationStatus::kConverged) {
+    EXPECT_EQ(workspace.camera_from_station, scene.seed);
+    EXPECT_EQ(workspace.covariance, Matrix6d::Zero().eval());
+  }
+  return workspace.status;
+}
+
 std::array<std::uint8_t, 32> sharedDigest(const LocalizationProblem& problem,
                                           const LocalizerOptions& options, int workers) {
   std::size_t bytes = 0;
@@ -487,6 +499,13 @@ PoseError poseError(const Solid& solid, const Pose& truth, const Pose& estimate)
   const Eigen::Vector3d centre = matchedBounds(solid.view()).centre();
   const Eigen::Quaterniond turn = (truth.rotation.conjugate() * estimate.rotation).normalized();
   return {(truth * centre - estimate * centre).norm(), rotationLog(turn).norm()};
+}
+
+void expectTruth(const Case& scene, const Workspace& workspace, double limit_m, double limit_rad) {
+  EXPECT_STREQ(localizationStatusText(workspace.status), "converged");
+  const PoseError error = poseError(scene.solid, scene.truth, workspace.camera_from_station);
+  EXPECT_LT(error.centre_m, limit_m);
+  EXPECT_LT(error.angle_rad, limit_rad);
 }
 
 double meanDisplacement_px(const Solid& solid, const Camera& camera, const Pose& truth,

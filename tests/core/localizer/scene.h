@@ -10,6 +10,7 @@
 
 #include "core/base/arena.h"
 #include "core/base/image.h"
+#include "core/base/math.h"
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
@@ -129,6 +130,8 @@ struct OwnedRun {
     }
   }
 };
+/// The status at the end of a run; one that did not converge must have kept the seed.
+LocalizationStatus endOf(const Case& scene, const LocalizerOptions& options);
 std::vector<std::byte> blockFor(const LocalizationProblem& problem,
                                 const LocalizerOptions& options);
 
@@ -142,6 +145,9 @@ struct PoseError {
   double angle_rad = 0.0;
 };
 PoseError poseError(const Solid& solid, const Pose& truth, const Pose& estimate);
+/// Converged and near the truth. Measured at the test station: 0.105 mm, a fifth of a pixel.
+void expectTruth(const Case& scene, const Workspace& workspace, double limit_m = 0.00012,
+                 double limit_rad = 0.06 * kDegree_rad);
 /// Mean distance between the projections of the mesh's vertices.
 double meanDisplacement_px(const Solid& solid, const Camera& camera, const Pose& truth,
                            const Pose& estimate);

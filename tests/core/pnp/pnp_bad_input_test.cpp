@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <functional>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "tests/core/pnp/pnp_scene.h"
+#include "tests/support/not_finite.h"
 
 namespace boresight::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// For any status: a finite pose with consistent inliers and residuals.
 void expectSound(const PnpSolution& solution, Status status) {

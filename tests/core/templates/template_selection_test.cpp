@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
@@ -18,6 +22,9 @@ struct DrawnPixel {
   int x, y;
   double nx, ny;
 };
+
+/// A depth that tells pixels apart.
+float depthAt(int x, int y) { return 0.5F + 0.001F * static_cast<float>((7 * x + 3 * y) % 100); }
 
 /// An edge render made by hand: what the selector reads of it, nothing else.
 class DrawnRender {
@@ -32,6 +39,7 @@ class DrawnRender {
     render.camera.cx = 0.5 * width;
     render.camera.cy = 0.5 * height;
     EXPECT_EQ(prepareCamera(render.camera), Status::kOk);
+    render.camera_from_station.translation_m = {0.1, -0.2, 0.3};
     render.edges.width = render.mask.width = width;
     render.edges.height = render.mask.height = height;
   }
@@ -49,7 +57,7 @@ class DrawnRender {
       EdgePixel edge_pixel;
       edge_pixel.x = static_cast<std::int16_t>(pixel.x);
       edge_pixel.y = static_cast<std::int16_t>(pixel.y);
-      edge_pixel.depth_m = 1.0F;
+      edge_pixel.depth_m = depthAt(pixel.x, pixel.y);
       edge_pixel.normal_x = static_cast<std::int8_t>(std::lround(127.0 * pixel.nx));
       edge_pixel.normal_y = static_cast<std::int8_t>(std::lround(127.0 * pixel.ny));
       render.pixels[static_cast<std::size_t>(render.pixel_count++)] = PackedEdgePixel(edge_pixel);
@@ -112,135 +120,182 @@ TEST(TemplateSelector, PrefersCornersToStraightEdges) {
   }
 }
 
-TEST(TemplateSelector, Templates_AreCentredOnEdgePixelsInsideTheImageAndWithinTheCount) {
-  DrawnRender drawn(320, 240);
-  Random random(7);
-  for (int trial = 0; trial < 20; ++trial) {
-    std::vector<DrawnPixel> pixels;
-    for (int i = 0; i < 24000; ++i) {
-      const double angle = random.uniform(0.0, 6.28);
-      pixels.push_back({static_cast<int>(random.below(320)), static_cast<int>(random.below(240)),
-                        std::cos(angle), std::sin(angle)});
+/// The selection by its definition, pixel by pixel: no sums, no bisection.
+class PlainSelection {
+ public:
+  PlainSelection(const EdgeRender& render, int side_px, const BitImage* ignore, int level)
+      : render_(render), side_px_(side_px) {
+    for (const EdgePixel& pixel : render.eachPixel()) {
+      all_.push_back(pixel);
+      if (!inside(pixel)) continue;
+      inside_.push_back(pixel);
+      allowed_.push_back(ignoredShare(pixel, ignore, level) <= 0.3);
     }
-    drawn.set(pixels);
-    TemplateOptions options;
-    options.count = 24 + static_cast<std::int32_t>(random.below(100));
-    Selector selector(options, 320, 240);
-    const int side_px = 8 << random.below(4);
-    ASSERT_EQ(selector.select(drawn.render, side_px), Status::kOk);
-    EXPECT_LE(selector.set.count, options.count);
-    EXPECT_GE(selector.set.count, options.count / 4);
-    std::set<std::pair<int, int>> places;
-    for (int i = 0; i < selector.set.count; ++i) {
-      const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
-      EXPECT_TRUE(drawn.render.edges.get(item.center_x, item.center_y));
-      EXPECT_GE(item.center_x, side_px / 2);
-      EXPECT_GE(item.center_y, side_px / 2);
-      EXPECT_LE(item.center_x + side_px / 2, 320);
-      EXPECT_LE(item.center_y + side_px / 2, 240);
-      EXPECT_TRUE(places.insert({item.center_x, item.center_y}).second);
-      EXPECT_NEAR(item.point_in_station_m.z(), 1.0, 1e-6);
+    for (const EdgePixel& pixel : inside_) distinctness_.push_back(distinctness(pixel));
+  }
+
+  /// Number of cells with a pixel whose square lies in the image.
+  int occupied(int cell_px) const {
+    std::set<Cell> cells;
+    for (const EdgePixel& pixel : inside_) cells.insert(cellOf(pixel, cell_px));
+    return static_cast<int>(cells.size());
+  }
+
+  /// x, y and distinctness of the chosen pixels, row by row of cells.
+  std::vector<std::tuple<int, int, float>> chosen(int cell_px) const {
+    std::map<Cell, std::size_t> best;
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      if (!allowed_[i] || distinctness_[i] < 0.0F) continue;
+      const auto [place, is_new] = best.try_emplace(cellOf(inside_[i], cell_px), i);
+      if (!is_new && distinctness_[i] > distinctness_[place->second]) place->second = i;
     }
+    std::vector<std::tuple<int, int, float>> list;
+    for (const auto& [cell, i] : best)
+      list.emplace_back(inside_[i].x, inside_[i].y, distinctness_[i]);
+    return list;
   }
-}
 
-TEST(TemplateSelector, DistinctnessIsTheSmallerEigenvalueOfTheScatter) {
-  // All within one block-aligned square: the table must give the plain sum.
-  DrawnRender drawn(256, 256);
-  std::vector<DrawnPixel> pixels;
-  Random random(3);
-  double xx = 0, xy = 0, yy = 0;
-  for (int i = 0; i < 60; ++i) {
-    const double angle = random.uniform(0.0, 1.0);
-    const int nx = static_cast<int>(std::lround(127.0 * std::cos(angle)));
-    const int ny = static_cast<int>(std::lround(127.0 * std::sin(angle)));
-    pixels.push_back({120 + i % 8, 120 + i / 8, nx / 127.0, ny / 127.0});
-    xx += nx * nx / 16129.0;
-    xy += nx * ny / 16129.0;
-    yy += ny * ny / 16129.0;
+ private:
+  using Cell = std::pair<int, int>;  ///< row, column
+  static Cell cellOf(const EdgePixel& pixel, int cell_px) {
+    return {pixel.y / cell_px, pixel.x / cell_px};
   }
-  drawn.set(pixels);
-  TemplateOptions options;
-  options.count = 4;
-  Selector selector(options, 256, 256);
-  (void)selector.select(drawn.render, 64);  // how many cells a cluster fills does not matter here
-  ASSERT_GE(selector.set.count, 1);
-  const double smaller = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
-  EXPECT_NEAR(selector.set.templates[0].distinctness, smaller, 1e-3);
-}
-
-TEST(TemplateSelector, RejectsTemplatesWhoseAreaIsIgnored) {
-  DrawnRender drawn(512, 512);
-  drawn.set(squareOutline(100, 100, 300));
-  std::vector<std::byte> memory(4 << 20);
-  Arena arena(memory);
-  BitImage ignore = BitImage::create(arena, 1024, 1024);  // the render is at level 1
-  for (int y = 0; y < 1024; ++y) {
-    for (int x = 0; x < 512; ++x) ignore.set(x, y);
+  bool inside(const EdgePixel& pixel) const {
+    const int half = side_px_ / 2;
+    return std::min(pixel.x, pixel.y) >= half && pixel.x <= render_.edges.width - half &&
+           pixel.y <= render_.edges.height - half;
   }
-  TemplateOptions options;
-  options.count = 64;
-  Selector selector(options);
-  ASSERT_EQ(selector.select(drawn.render, 32, &ignore, 1), Status::kOk);
-  for (int i = 0; i < selector.set.count; ++i) {
-    const int ignored_columns =
-        256 - (selector.set.templates[static_cast<std::size_t>(i)].center_x - 16);
-    EXPECT_LE(ignored_columns, 0.3 * 32);
-  }
-}
-
-/// Small corners far apart, under random ignored rectangles: a corner has a template exactly when a
-/// square around one of its pixels is ignored by no more than the limit, counted pixel by pixel.
-TEST(TemplateSelector, IgnoredShare_IsThatOfCountingPixels) {
-  constexpr int kSide_px = 32;
-  std::vector<DrawnPixel> pixels;
-  for (int top = 40; top < 470; top += 64)
-    for (int left = 40; left < 470; left += 64)
-      for (int i = 0; i < 12; ++i) {
-        pixels.push_back({left + i, top, 0.0, 1.0});
-        pixels.push_back({left, top + i, 1.0, 0.0});
-      }
-  DrawnRender drawn(512, 512);
-  drawn.set(pixels);
-  Random random(7);
-  int left_out = 0;
-  for (int trial = 0; trial < 12; ++trial) {
-    const int level = trial % 3;
+  double ignoredShare(const EdgePixel& pixel, const BitImage* ignore, int level) const {
+    if (ignore == nullptr) return 0.0;
     const int scale = 1 << level;
+    int count = 0;
+    for (int y = (pixel.y - side_px_ / 2) * scale; y < (pixel.y + side_px_ / 2) * scale; ++y)
+      for (int x = (pixel.x - side_px_ / 2) * scale; x < (pixel.x + side_px_ / 2) * scale; ++x)
+        count += x < ignore->width && y < ignore->height && ignore->get(x, y) ? 1 : 0;
+    return static_cast<double>(count) / (side_px_ * scale * side_px_ * scale);
+  }
+  /// Of the edge pixels in the blocks around the pixel's own; -1 for fewer than 12.
+  float distinctness(const EdgePixel& at) const {
+    const int longest = std::max(render_.edges.width, render_.edges.height);
+    const int block = std::max({4, side_px_ / 8, (longest + 255) / 256});
+    const int reach = std::clamp(side_px_ / block / 2, 1, 4);
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    int count = 0;
+    for (const EdgePixel& pixel : all_) {
+      if (std::abs(pixel.x / block - at.x / block) > reach ||
+          std::abs(pixel.y / block - at.y / block) > reach)
+        continue;
+      xx += pixel.normal_x * pixel.normal_x;
+      xy += pixel.normal_x * pixel.normal_y;
+      yy += pixel.normal_y * pixel.normal_y;
+      ++count;
+    }
+    if (count < 12) return -1.0F;
+    const double half = 0.5 * (xx - yy);
+    const double smaller = 0.5 * (xx + yy) - std::sqrt(half * half + xy * xy);
+    return static_cast<float>(std::max(0.0, smaller / (127.0 * 127.0)));
+  }
+
+  const EdgeRender& render_;
+  int side_px_;
+  std::vector<EdgePixel> all_;
+  std::vector<EdgePixel> inside_;
+  std::vector<bool> allowed_;
+  std::vector<float> distinctness_;
+};
+
+/// Pixels with random normals, scattered and in lumps.
+std::vector<DrawnPixel> randomPixels(int width, int height, Random& random) {
+  std::vector<DrawnPixel> pixels;
+  for (int lump = 0; lump < 60; ++lump) {
+    const int extent = 1 + static_cast<int>(random.below(24));
+    const int left = static_cast<int>(random.below(static_cast<std::uint32_t>(width - extent)));
+    const int top = static_cast<int>(random.below(static_cast<std::uint32_t>(height - extent)));
+    const double spread = random.uniform(0.0, 3.0);
+    for (int i = 0; i < 30; ++i) {
+      const double angle = random.uniform(0.0, spread);
+      const auto below = [&] {
+        return static_cast<int>(random.below(static_cast<std::uint32_t>(extent)));
+      };
+      pixels.push_back({left + below(), top + below(), std::cos(angle), std::sin(angle)});
+    }
+  }
+  return pixels;
+}
+
+void ignoreRectangles(BitImage& ignore, Random& random) {
+  for (int i = 0; i < 40; ++i) {
+    const auto x0 = static_cast<int>(random.below(static_cast<std::uint32_t>(ignore.width)));
+    const auto y0 = static_cast<int>(random.below(static_cast<std::uint32_t>(ignore.height)));
+    for (int y = y0; y < std::min(ignore.height, y0 + ignore.height / 12); ++y)
+      for (int x = x0; x < std::min(ignore.width, x0 + ignore.width / 10); ++x) ignore.set(x, y);
+  }
+}
+
+/// Whether the templates are those of `plain` for a cell size that is small enough, while the next
+/// smaller one is not.
+bool isSelectionOf(const PlainSelection& plain, const TemplateSet& set, int most, int longest) {
+  std::vector<std::tuple<int, int, float>> selected;
+  for (const Template& item : set.templates.first(static_cast<std::size_t>(set.count)))
+    selected.emplace_back(item.center_x, item.center_y, item.distinctness);
+  const int least = std::max(2, (longest + 255) / 256);
+  for (int cell_px = least; cell_px <= longest; ++cell_px)
+    if (plain.occupied(cell_px) <= most &&
+        (cell_px == least || plain.occupied(cell_px - 1) > most) &&
+        selected == plain.chosen(cell_px))
+      return true;
+  return false;
+}
+
+TEST(TemplateSelector, RandomRenders_SelectionIsThatOfThePlainDefinition) {
+  Random random(7);
+  int selected = 0;
+  int few = 0;
+  for (int trial = 0; trial < 48; ++trial) {
+    const int width = std::array{200, 320, 640, 1200}[static_cast<std::size_t>(trial % 4)];
+    const int height = width * 3 / 4;
+    DrawnRender drawn(width, height);
+    drawn.set(randomPixels(width, height, random));
+    const int level = static_cast<int>(random.below(3));
     std::vector<std::byte> memory(4 << 20);
     Arena arena(memory);
-    BitImage ignore = BitImage::create(arena, 512 * scale, 512 * scale);
-    for (int i = 0; i < 60; ++i) {
-      const int x0 = static_cast<int>(random.below(512));
-      const int y0 = static_cast<int>(random.below(512));
-      for (int y = y0 * scale; y < std::min(512, y0 + 24) * scale; ++y)
-        for (int x = x0 * scale; x < std::min(512, x0 + 37) * scale; ++x) ignore.set(x, y);
-    }
-    const auto share = [&](int center_x, int center_y) {
-      int count = 0;
-      for (int y = (center_y - kSide_px / 2) * scale; y < (center_y + kSide_px / 2) * scale; ++y)
-        for (int x = (center_x - kSide_px / 2) * scale; x < (center_x + kSide_px / 2) * scale; ++x)
-          count += ignore.get(x, y) ? 1 : 0;
-      return static_cast<double>(count) / (kSide_px * scale * kSide_px * scale);
-    };
+    BitImage ignore = BitImage::create(arena, width << level, (height << level) - 5);
+    ignoreRectangles(ignore, random);
+    const BitImage* const mask = trial % 3 == 0 ? nullptr : &ignore;
     TemplateOptions options;
-    options.count = 1024;
-    Selector selector(options);
-    ASSERT_EQ(selector.select(drawn.render, kSide_px, &ignore, level), Status::kOk);
-    std::set<std::pair<int, int>> selected;
+    options.count = 4 + static_cast<std::int32_t>(random.below(trial % 2 == 0 ? 12 : 400));
+    Selector selector(options, width, height);
+    const int side_px = 8 << random.below(4);
+    const Status status = selector.select(drawn.render, side_px, mask, level);
+    EXPECT_EQ(status, selector.set.count < 6 ? Status::kTooFewTemplates : Status::kOk);
+    EXPECT_EQ(selector.set.side_px, side_px);
+    EXPECT_TRUE(isSelectionOf(PlainSelection(drawn.render, side_px, mask, level), selector.set,
+                              options.count, width))
+        << "trial " << trial << ", side " << side_px << " px";
     for (int i = 0; i < selector.set.count; ++i) {
       const Template& item = selector.set.templates[static_cast<std::size_t>(i)];
-      EXPECT_LE(share(item.center_x, item.center_y), 0.3);
-      selected.insert({(item.center_x - 40) / 64, (item.center_y - 40) / 64});
+      EXPECT_EQ(item.depth_m, depthAt(item.center_x, item.center_y));
+      const Eigen::Vector3d ray((item.center_x - 0.5 * width) / 500.0,
+                                (item.center_y - 0.5 * height) / 500.0, 1.0);
+      const Eigen::Vector3d point_m = item.depth_m * ray - Eigen::Vector3d(0.1, -0.2, 0.3);
+      EXPECT_LT((item.point_in_station_m - point_m).norm(), 1e-9);
     }
-    std::set<std::pair<int, int>> allowed;
-    for (const DrawnPixel& pixel : pixels)
-      if (share(pixel.x, pixel.y) <= 0.3)
-        allowed.insert({(pixel.x - 40) / 64, (pixel.y - 40) / 64});
-    EXPECT_EQ(selected, allowed) << "level " << level;
-    left_out += 49 - static_cast<int>(allowed.size());
+    selected += selector.set.count;
+    few += status == Status::kTooFewTemplates ? 1 : 0;
   }
-  EXPECT_GT(left_out, 20);  // else the masks show nothing
+  EXPECT_GT(selected, 500);
+  EXPECT_GT(few, 0);
+}
+
+TEST(TemplateSelector, InvalidOptionsAndTooLittleMemory_AreRefused) {
+  std::vector<std::byte> memory(4 << 20);
+  Arena arena(memory);
+  TemplateSelector selector;
+  TemplateOptions options;
+  options.count = 3;
+  EXPECT_EQ(selector.create(512, 512, options, arena), Status::kInvalidOption);
+  Arena small(std::span<std::byte>(memory).first(1000));
+  EXPECT_EQ(selector.create(512, 512, TemplateOptions(), small), Status::kArenaTooSmall);
 }
 
 TEST(TemplateSelector, TooFewTemplates_AreReported) {
@@ -262,8 +317,20 @@ TEST(TemplateSide, IsThePowerOfTwoNearestToTheProjectedFeature) {
   EXPECT_EQ(templateSide(options, 0.0128 * 1.43, 0.3, camera), 256);
   EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera), TemplateSelector::kMinSide_px);
   EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), TemplateSelector::kMaxSide_px);
-  camera.width = camera.height = 256;
-  EXPECT_LE(templateSide(options, 1.0, 0.3, camera), 64);
+  EXPECT_EQ(templateSide(options, 0.0128, 0.0, camera), TemplateSelector::kMaxSide_px);
+  options.size_factor = 2.0;
+  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera), 128);
+  // The focal length is the mean of both, whatever the sign of the second.
+  camera.fx = 5000.0;
+  camera.fy = -1000.0;
+  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera), 128);
+  // At most a quarter of the image's smaller side.
+  camera.height = 256;
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), 64);
+  camera.height = 255;
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), 32);
+  camera.height = 40;
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), 8);
 }
 
 }  // namespace

@@ -4,6 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "tests/sessions/annotation/annotated_scene.h"
 
@@ -33,12 +38,16 @@ bool warnsOf(const std::vector<GeometryWarning>& warnings, GeometryWeakness weak
 }
 
 TEST(GeometryMeter, SaysHowManyPairsAreMissing) {
-  const AnnotatedScene two = sceneOf({{0, 0, 0}, {0.1, 0, 0}});
-  const Pose guess = two.camera_from_station;
-  const auto warnings = geometryWarnings(two.views(), &guess, {});
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(warnings[0].prevents);
-  EXPECT_NE(warnings[0].text.find("1 more pair"), std::string::npos) << warnings[0].text;
+  const std::vector<Eigen::Vector3d> places = {{0, 0, 0}, {0.1, 0, 0}};
+  for (const auto& [count, text] : {std::pair{0, "too few annotations: add 3 more pairs"},
+                                    {1, "too few annotations: add 2 more pairs"},
+                                    {2, "too few annotations: add 1 more pair"}}) {
+    const AnnotatedScene scene = sceneOf({places.begin(), places.begin() + count});
+    const auto warnings = geometryWarnings(scene.views(), &scene.camera_from_station, {});
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(warnings[0].prevents);
+    EXPECT_EQ(warnings[0].text, text);
+  }
 }
 
 TEST(GeometryMeter, ThreePointsNeedAGuessAndLeaveNothingToCheck) {
@@ -73,6 +82,60 @@ TEST(GeometryMeter, OneDepthOrOneCorner_IsReported) {
       sceneOf({{0, 0, 0}, {0.02, 0, 0.01}, {0, 0.02, -0.01}, {0.02, 0.02, 0.02}});
   EXPECT_TRUE(warnsOf(geometryWarnings(clustered.views(), &clustered.camera_from_station, station),
                       GeometryWeakness::kClustered, false));
+}
+
+/// The middle and the deviations of the corners of a box that is turned about z by 3-4-5, and of
+/// its diagonals as lines: both ends count.
+TEST(GeometryMeter, SpreadOfABox_IsThatOfItsHalfSides) {
+  const Eigen::Vector3d middle_m(0.02, -0.01, 0.03);
+  const Eigen::Vector3d half_m(0.03, 0.08, 0.05);
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner =
+        half_m.cwiseProduct(Eigen::Vector3d((i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1));
+    corners.push_back(middle_m + Eigen::Vector3d(0.6 * corner.x() - 0.8 * corner.y(),
+                                                 0.8 * corner.x() + 0.6 * corner.y(), corner.z()));
+  }
+  AnnotatedScene lines = sceneOf({});
+  Random random(2);
+  for (std::size_t i = 0; i < 4; ++i)
+    ASSERT_TRUE(test::addLine(lines.view, lines.camera_from_station, corners[i], corners[7 - i],
+                              0.0, 1.0, random));
+  for (const AnnotatedScene& scene : {sceneOf(corners), lines}) {
+    const AnnotatedSpread spread = annotatedSpread(scene.views());
+    EXPECT_EQ(spread.places, 8);
+    EXPECT_LT((spread.middle_in_station_m - middle_m).norm(), 1e-12);
+    EXPECT_LT((spread.deviation_m - Eigen::Vector3d(0.08, 0.05, 0.03)).norm(), 1e-9);
+    EXPECT_NEAR(std::abs(spread.axes_in_station.col(0).dot(Eigen::Vector3d(-0.8, 0.6, 0))), 1,
+                1e-9);
+    EXPECT_NEAR(std::abs(spread.axes_in_station.col(1).z()), 1.0, 1e-9);
+  }
+}
+
+/// Two depths that differ by `share` of their mean.
+TEST(GeometryMeter, OneDepth_IsWithinTwoPercent) {
+  for (const auto& [share, warns] : {std::pair{0.0195, true}, {0.0205, false}}) {
+    const double half_m = 0.5 * share * 0.5;
+    const AnnotatedScene scene = sceneOf(
+        {{-0.1, -0.1, half_m}, {0.1, -0.1, -half_m}, {0.1, 0.1, half_m}, {-0.1, 0.1, -half_m}});
+    EXPECT_EQ(warnsOf(geometryWarnings(scene.views(), &scene.camera_from_station, {}),
+                      GeometryWeakness::kOneDepth, false),
+              warns);
+  }
+}
+
+TEST(GeometryMeter, Clustered_IsBelowAQuarterOfTheStationEitherWay) {
+  const std::vector<Eigen::Vector3d> station = {{-0.1, -0.1, 0}, {0.1, 0.1, 0}};
+  for (const auto& [x, y, warns] : {std::tuple{0.024, 0.1, true},
+                                    {0.1, 0.024, true},
+                                    {0.026, 0.1, false},
+                                    {0.1, 0.026, false}}) {
+    const AnnotatedScene scene = sceneOf({{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}});
+    EXPECT_EQ(warnsOf(geometryWarnings(scene.views(), &scene.camera_from_station, station),
+                      GeometryWeakness::kClustered, false),
+              warns)
+        << x << ' ' << y;
+  }
 }
 
 TEST(GeometryMeter, SpreadAnnotations_GiveNoWarning) {

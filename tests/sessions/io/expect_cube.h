@@ -12,11 +12,11 @@
 #include "core/geometry/mesh.h"
 #include "sessions/io/mesh_file.h"
 
-namespace boresight::sessions::test {
+namespace boresight::test {
 
 /// Sum over the faces of what `part` makes of their corners.
 template <class Part>
-inline double sumOver(const Mesh& mesh, Part&& part) {
+inline double sumOver(const sessions::Mesh& mesh, Part&& part) {
   double sum = 0.0;
   for (const Face& face : mesh.faces) {
     const auto corner = [&](std::size_t i) -> Eigen::Vector3d {
@@ -27,24 +27,24 @@ inline double sumOver(const Mesh& mesh, Part&& part) {
   return sum;
 }
 
-inline double signedVolume_m3(const Mesh& mesh) {
+inline double signedVolume_m3(const sessions::Mesh& mesh) {
   using V = const Eigen::Vector3d&;
   return sumOver(mesh, [](V a, V b, V c) { return a.dot(b.cross(c)) / 6.0; });
 }
 
-inline double area_m2(const Mesh& mesh) {
+inline double area_m2(const sessions::Mesh& mesh) {
   using V = const Eigen::Vector3d&;
   return sumOver(mesh, [](V a, V b, V c) { return 0.5 * (b - a).cross(c - a).norm(); });
 }
 
-inline Status validity(const Mesh& mesh) {
+inline Status validity(const sessions::Mesh& mesh) {
   const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), 0);
   const std::array<ScenePart, 1> parts = {};
   return validateMesh({mesh.vertices_m, mesh.faces, part_of_face, parts});
 }
 
 /// A closed, outward cube whatever the format: 8 vertices, 12 faces, the right place and volume.
-inline void expectCube(const Mesh& mesh, double scale = 1.0) {
+inline void expectCube(const sessions::Mesh& mesh, double scale = 1.0) {
   EXPECT_EQ(mesh.vertices_m.size(), 8u);
   EXPECT_EQ(mesh.faces.size(), 12u);
   EXPECT_TRUE(mesh.info.minimum_m.isApprox(scale * Eigen::Vector3d(-1, -1, 9), 1e-6));
@@ -54,4 +54,4 @@ inline void expectCube(const Mesh& mesh, double scale = 1.0) {
   EXPECT_EQ(validity(mesh), Status::kOk);
 }
 
-}  // namespace boresight::sessions::test
+}  // namespace boresight::test

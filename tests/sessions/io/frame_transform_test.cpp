@@ -20,7 +20,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 const FrameName kRover{"ROVER_FRAME", {194, 835, 1}};
-const FrameName kSite{"SITE_FRAME", {194}};
+const FrameName kSite194{"SITE_FRAME", {194}};
 const nlohmann::ordered_json kSiteJson = {{"name", "SITE_FRAME"}, {"index", {194}}};
 
 /// From the rover to the site: a quarter turn about z, and then some way.
@@ -69,7 +69,7 @@ class FrameTransforms : public ::testing::Test {
 
 TEST_F(FrameTransforms, SaysWhatItIs) {
   const FrameTransform read = transform();
-  EXPECT_EQ(read.target, kSite);
+  EXPECT_EQ(read.target, kSite194);
   EXPECT_EQ(read.source, kRover);
   EXPECT_EQ(read.comment, "localization of sol 12");
   EXPECT_LT(
@@ -80,7 +80,7 @@ TEST_F(FrameTransforms, SaysWhatItIs) {
 
 TEST_F(FrameTransforms, WrittenTransformReadsBackTheSame) {
   FrameTransform written;
-  written.target = kSite;
+  written.target = kSite194;
   written.source = kRover;
   written.target_from_source = {Eigen::Quaterniond(0.9, 0.1, -0.2, 0.3).normalized(), {1, 2, 3}};
   written.covariance = Matrix6d::Identity() * 1e-6 + Matrix6d::Constant(1e-7);
@@ -173,7 +173,7 @@ TEST_F(FrameTransforms, BringAPoseToTheCameraEitherWayRound) {
   for (const FrameTransform& given : {forward, backward}) {
     const PoseFile pose = read(kSiteJson, {camera, {given}});
     EXPECT_LT((pose.camera_from_station.translation_m - in_camera).norm(), 1e-12);
-    EXPECT_EQ(pose.station_frame, kSite);
+    EXPECT_EQ(pose.station_frame, kSite194);
   }
 }
 
@@ -182,7 +182,7 @@ TEST_F(FrameTransforms, ThatContradictEachOtherAreRefused) {
   FrameTransform second = first;
   second.file = "sol13.json";
   second.target_from_source.translation_m.x() += 5e-7;  // rounded otherwise
-  EXPECT_EQ(read(kSiteJson, {roverCamera(), {second, first}}).station_frame, kSite);
+  EXPECT_EQ(read(kSiteJson, {roverCamera(), {second, first}}).station_frame, kSite194);
   for (const bool inverse : {false, true}) {
     second = first;
     second.file = "sol13.json";

@@ -21,13 +21,12 @@
 namespace boresight::sessions {
 namespace {
 
-using boresight::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAreArray;
-using namespace boresight::sessions::test;  // NOLINT: the samples are this file's vocabulary
+using namespace boresight::test;  // NOLINT: the samples are this file's vocabulary
 
 class ReadMesh : public ::testing::Test {
  protected:

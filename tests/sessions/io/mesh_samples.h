@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 /// Small mesh files made by hand, so that the readers are not tested with their own writer.
-namespace boresight::sessions::test {
+namespace boresight::test {
 
 struct PolygonMesh {
   std::vector<Eigen::Vector3f> vertices;
@@ -175,4 +175,4 @@ inline std::string glb(const PolygonMesh& mesh, const std::string& nodes) {
   return bytes;
 }
 
-}  // namespace boresight::sessions::test
+}  // namespace boresight::test

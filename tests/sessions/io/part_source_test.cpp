@@ -17,7 +17,7 @@ using boresight::test::randomFor;
 using boresight::test::randomPose;
 using ::testing::HasSubstr;
 
-const FrameName kBase{"ARM_BASE", {}};
+const FrameName kArmBase{"ARM_BASE", {}};
 const FrameName kFinger{"FINGER", {2}};
 
 FrameTransform joining(const FrameName& target, const FrameName& source, const Pose& pose) {
@@ -82,22 +82,23 @@ TEST(PlacedPart, ChainLeadsToTheFrameThatThePartMovesWith) {
   // The camera on an arm whose telemetry joins it to the station.
   const FrameTree arm({joining(kCameraFrame, kEndEffectorFrame, camera_from_effector),
                        joining(kFinger, kEndEffectorFrame, finger_from_effector),
-                       joining(kEndEffectorFrame, kBase, randomPose(random)),
-                       joining(kBase, kStationFrame, base_from_station),
+                       joining(kEndEffectorFrame, kArmBase, randomPose(random)),
+                       joining(kArmBase, kStationFrame, base_from_station),
                        joining(kStationFrame, {"DECK", {}}, randomPose(random))});
   PartSource part = occluderIn(kFinger);
   part.frame_from_mesh = randomPose(random);
   const PartSource finger = placedPart(part, arm);
   EXPECT_EQ(finger.frame, kCameraFrame);
-  const Pose expected = camera_from_effector * finger_from_effector.inverse() * part.frame_from_mesh;
+  const Pose expected =
+      camera_from_effector * finger_from_effector.inverse() * part.frame_from_mesh;
   const Eigen::Vector3d point_m(0.1, -0.2, 0.3);
   EXPECT_TRUE((finger.frame_from_mesh * point_m).isApprox(expected * point_m, 1e-12));
   EXPECT_EQ(placedPart(occluderIn({"DECK", {}}), arm).frame, kStationFrame);
-  EXPECT_EQ(placedPart(occluderIn(kBase), arm).frame, kStationFrame);
+  EXPECT_EQ(placedPart(occluderIn(kArmBase), arm).frame, kStationFrame);
   // As many transforms to either side.
-  const FrameTree even({joining(kCameraFrame, kBase, randomPose(random)),
-                        joining(kBase, kStationFrame, base_from_station)});
-  EXPECT_THAT(partConcern(occluderIn(kBase), even).reason,
+  const FrameTree even({joining(kCameraFrame, kArmBase, randomPose(random)),
+                        joining(kArmBase, kStationFrame, base_from_station)});
+  EXPECT_THAT(partConcern(occluderIn(kArmBase), even).reason,
               HasSubstr("as many transforms from CAMERA as from STATION"));
 }
 

@@ -11,10 +11,10 @@
 #include "tests/sessions/io/mesh_samples.h"
 #include "tests/support/temporary_folder.h"
 
-namespace boresight::sessions::test {
+namespace boresight::sessions {
 namespace {
 
-using boresight::test::TemporaryFolder;
+using namespace boresight::test;  // NOLINT: the samples are this file's vocabulary
 using ::testing::HasSubstr;
 
 class ReportedMesh : public ::testing::Test {
@@ -140,4 +140,4 @@ TEST_F(ReportedMesh, GltfWithScaledMirroredNestedNodes_HasItsExtentAndPlace) {
 }
 
 }  // namespace
-}  // namespace boresight::sessions::test
+}  // namespace boresight::sessions

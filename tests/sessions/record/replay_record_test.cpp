@@ -53,7 +53,7 @@ void expectSameRender(const sessions::RenderTrace& a, const sessions::RenderTrac
   }
 }
 
-void expectSameTemplates(const IterationTrace& a, const IterationTrace& b) {
+void expectEqualTemplates(const IterationTrace& a, const IterationTrace& b) {
   ASSERT_EQ(a.templates.size(), b.templates.size());
   ASSERT_EQ(a.matches.size(), b.matches.size());
   for (std::size_t i = 0; i < a.templates.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(ReplayRecord, EqualsTheGroundRunInCommonFields) {
     EXPECT_EQ(iteration.rms_px(), b.iterations[i]->rms_px());
     EXPECT_NEAR(iteration.mean_score, b.iterations[i]->mean_score, 1e-6);
     expectSameRender(iteration.render, b.iterations[i]->render);
-    expectSameTemplates(iteration, *b.iterations[i]);
+    expectEqualTemplates(iteration, *b.iterations[i]);
     expectSamePairs(iteration, *b.iterations[i]);
     expectSameScores(iteration, *b.iterations[i]);
   }
@@ -161,7 +161,7 @@ TEST(ReplayRecord, FollowsRollsAttemptsAndOptionsTakenUpOnTheWay) {
   for (std::size_t i = 0; i < replay.iterations.size(); ++i) {
     SCOPED_TRACE(i);
     expectSameRender(replay.iterations[i]->render, run.trace.iterations[i]->render);
-    expectSameTemplates(*replay.iterations[i], *run.trace.iterations[i]);
+    expectEqualTemplates(*replay.iterations[i], *run.trace.iterations[i]);
   }
   EXPECT_THAT(replay.remarks, testing::ElementsAre(HasSubstr("edge points of refinements")));
 }

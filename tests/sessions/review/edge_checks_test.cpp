@@ -18,7 +18,7 @@ namespace {
 using test::DrawnBox;
 using test::findCheck;
 
-std::vector<Check> checksOf(const ReviewSubject& subject) {
+std::vector<Check> edgeChecksOf(const ReviewSubject& subject) {
   std::vector<Check> checks;
   const PredictedEdges edges = predictEdges(
       subject.loaded->source.camera, subject.loaded->scene.view(), subject.camera_from_station);
@@ -60,7 +60,7 @@ class EdgeChecks : public testing::Test {
 };
 
 TEST_F(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
-  const auto checks = checksOf(subject());
+  const auto checks = edgeChecksOf(subject());
   EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
   EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
   EXPECT_GT(figureOf(checks, "edge_fall_off"), 40.0);
@@ -72,13 +72,13 @@ TEST_F(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
 
 TEST_F(EdgeChecks, BlurredImage_FailsBySharpness) {
   const ReviewSubject sharp = subject();
-  EXPECT_LT(figureOf(checksOf(sharp), "edge_width"), 5.0);
+  EXPECT_LT(figureOf(edgeChecksOf(sharp), "edge_width"), 5.0);
   const auto blurred = copyOf(*sharp.loaded);
   cv::Mat pixels(blurred->image.height, blurred->image.width, CV_8U, blurred->image.pixels.data());
   cv::blur(pixels, pixels, cv::Size(16, 1));
   ReviewSubject subject = sharp;
   subject.loaded = blurred;
-  const auto checks = checksOf(subject);
+  const auto checks = edgeChecksOf(subject);
   EXPECT_GT(figureOf(checks, "edge_width"), 10.0);
   EXPECT_EQ(findCheck(checks, "edge_width").state, CheckState::kFailed);
   std::vector<Check> of_image;
@@ -129,8 +129,8 @@ TEST_F(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
 }
 
 TEST_F(EdgeChecks, CoverageFallsWithTheDistanceFromThePose) {
-  const double near = figureOf(checksOf(box.subject(movedBy(0.7, 0.5))), "edge_coverage");
-  const auto away = checksOf(box.subject(movedBy(6.0, 5.0)));
+  const double near = figureOf(edgeChecksOf(box.subject(movedBy(0.7, 0.5))), "edge_coverage");
+  const auto away = edgeChecksOf(box.subject(movedBy(6.0, 5.0)));
   EXPECT_GT(near, 90.0);
   EXPECT_LT(figureOf(away, "edge_coverage"), 35.0);
   EXPECT_EQ(findCheck(away, "edge_coverage").state, CheckState::kFailed);
@@ -139,7 +139,7 @@ TEST_F(EdgeChecks, CoverageFallsWithTheDistanceFromThePose) {
 
 TEST_F(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
   const double added_px = box.addPatch(0.6, 230);
-  const auto checks = checksOf(subject());
+  const auto checks = edgeChecksOf(subject());
   // Of the predicted edges, those on the silhouette count where Canny puts them inside it.
   const double least = 100.0 * added_px / (added_px + box.visibleLength_px());
   EXPECT_GT(figureOf(checks, "edge_clutter"), 0.85 * least);
@@ -148,14 +148,14 @@ TEST_F(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
 }
 
 TEST_F(EdgeChecks, EvidenceIsWhatIsSeenBeyondChance) {
-  const auto right = checksOf(subject());
+  const auto right = edgeChecksOf(subject());
   EXPECT_GT(figureOf(right, "edge_evidence"), 120.0);  // more is seen than at many right poses
   EXPECT_EQ(findCheck(right, "edge_evidence").state, CheckState::kPassed);
-  const auto away = checksOf(box.subject(movedBy(6.0, 5.0)));
+  const auto away = edgeChecksOf(box.subject(movedBy(6.0, 5.0)));
   EXPECT_LT(figureOf(away, "edge_evidence"), 0.5 * figureOf(right, "edge_evidence"));
   EXPECT_EQ(findCheck(away, "edge_evidence").state, CheckState::kFailed);
   hideLeftHalf();
-  const double half = figureOf(checksOf(subject()), "edge_evidence");
+  const double half = figureOf(edgeChecksOf(subject()), "edge_evidence");
   EXPECT_LT(half, figureOf(right, "edge_evidence"));
   EXPECT_GT(half, figureOf(away, "edge_evidence"));
 }
@@ -164,13 +164,13 @@ TEST_F(EdgeChecks, CoverageOfAPoseIsThatOfTheCheck) {
   for (const double moved_px : {0.0, 1.0, 6.0}) {
     const auto subject = box.subject(movedBy(moved_px, 0.5));
     const Share share = coverageOfPose(*subject.loaded, subject.camera_from_station);
-    EXPECT_NEAR(100.0 * share.value(), figureOf(checksOf(subject), "edge_coverage"), 1e-9);
+    EXPECT_NEAR(100.0 * share.value(), figureOf(edgeChecksOf(subject), "edge_coverage"), 1e-9);
   }
 }
 
 TEST_F(EdgeChecks, WhatIsHiddenIsNotSeen) {
   hideLeftHalf();
-  const double seen = figureOf(checksOf(subject()), "edge_coverage");
+  const double seen = figureOf(edgeChecksOf(subject()), "edge_coverage");
   EXPECT_GT(seen, 35.0);
   EXPECT_LT(seen, 65.0);
 }
@@ -187,7 +187,7 @@ TEST_F(EdgeChecks, IgnoredPixels_DoNotCount) {
   for (int y = 0; y < 600; ++y)
     for (int x = 0; x < static_cast<int>(middle_px) + 4; ++x) masked->ignore_bits.set(x, y);
   subject.loaded = masked;
-  const auto checks = checksOf(subject);
+  const auto checks = edgeChecksOf(subject);
   EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
   EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
 }
@@ -253,19 +253,20 @@ TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
 TEST_F(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
   Pose behind = box.camera_from_station_;
   behind.translation_m.z() = -1.0;
-  EXPECT_EQ(findCheck(checksOf(box.subject(behind)), "edge_coverage").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(edgeChecksOf(box.subject(behind)), "edge_coverage").state,
+            CheckState::kFailed);
   ReviewSubject subject = this->subject();
   auto other = std::make_shared<LoadedCase>();
   other->source = subject.loaded->source;
   other->scene = subject.loaded->scene;
   subject.loaded = other;
-  for (const Check& check : checksOf(subject))
+  for (const Check& check : edgeChecksOf(subject))
     EXPECT_EQ(check.state, CheckState::kNotApplicable) << check.id;
 }
 
 TEST_F(EdgeChecks, TheSameImageGivesTheSameFigures) {
   const auto subject = box.subject(movedBy(0.4, 0.2));
-  EXPECT_EQ(checksOf(subject), checksOf(subject));
+  EXPECT_EQ(edgeChecksOf(subject), edgeChecksOf(subject));
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ Matrix6d someCovariance() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-std::vector<Check> checksOf(const ReviewSubject& subject, const CheckLimits& limits) {
+std::vector<Check> precisionChecksOf(const ReviewSubject& subject, const CheckLimits& limits) {
   std::vector<Check> checks;
   addPrecisionChecks(subject, limits, checks);
   return checks;
@@ -216,7 +216,7 @@ class PrecisionChecks : public testing::Test {
 TEST_F(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
   subject_.covariance.picture = someCovariance();
   subject_.requirement = {0.5, 0.5, {}, {}};
-  const auto checks = checksOf(subject_, CheckLimits());
+  const auto checks = precisionChecksOf(subject_, CheckLimits());
   EXPECT_NEAR(findCheck(checks, "covariance_normal").figure.value(), 0.6, 1e-9);
   EXPECT_EQ(findCheck(checks, "covariance_normal").state, CheckState::kFailed);
   EXPECT_NEAR(findCheck(checks, "covariance_lateral").figure.value(), 0.3 * std::sqrt(2.0), 1e-9);
@@ -229,13 +229,14 @@ TEST_F(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
   // it.
   subject_.covariance.picture(3, 3) = 0.5e-3 * 0.5e-3;
   subject_.requirement = {{}, {}, {}, 3.5};
-  const Check check = findCheck(checksOf(subject_, CheckLimits()), "covariance_projection");
+  const Check check =
+      findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_projection");
   EXPECT_NEAR(check.figure.value(), 3.0, 0.25);
   EXPECT_EQ(check.state, CheckState::kPassed);
 }
 
 TEST_F(PrecisionChecks, WithoutCovariance_IsNotApplicable) {
-  EXPECT_EQ(findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").state,
+  EXPECT_EQ(findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal").state,
             CheckState::kNotApplicable);
 }
 
@@ -244,7 +245,7 @@ TEST_F(PrecisionChecks, UnstatedScaleAndCalibration_UseDefaults) {
   subject_.covariance = poseCovariance(session_case, subject_.loaded->scene.view(),
                                        subject_.camera_from_station, 1e-12 * Matrix6d::Identity());
   // 0.02 % of half a metre twice over, less what the box's own depth tells of the focal length.
-  const Check check = findCheck(checksOf(subject_, CheckLimits()), "covariance_normal");
+  const Check check = findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal");
   EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
   EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
   EXPECT_THAT(check.sentence,
@@ -262,7 +263,8 @@ TEST_F(PrecisionChecks, StatedSigmas_ReplaceDefaults) {
     subject_.covariance =
         poseCovariance(session_case, subject_.loaded->scene.view(), subject_.camera_from_station,
                        1e-12 * Matrix6d::Identity());
-    return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").figure.value();
+    return findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal")
+        .figure.value();
   };
   EXPECT_NEAR(figure(0.0, {0.0, 0.0}), 0.003, 1e-6);
   EXPECT_NEAR(figure(0.005, {0.0, 0.0}), 3.0 * 2.5, 1e-3) << "half a percent of half a metre";
@@ -272,7 +274,7 @@ TEST_F(PrecisionChecks, StatedSigmas_ReplaceDefaults) {
 TEST_F(PrecisionChecks, Sentence_StatesTheReferencePoint) {
   subject_.covariance.picture = someCovariance();
   const auto sentence = [&] {
-    return findCheck(checksOf(subject_, CheckLimits()), "covariance_normal").sentence;
+    return findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal").sentence;
   };
   EXPECT_EQ(sentence().rfind("3 sigma at the camera are ", 0), 0U) << sentence();
   auto loaded = std::make_shared<LoadedCase>();

@@ -13,11 +13,6 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const test::ExampleCase& example() {
-  static const test::ExampleCase example_case("os");
-  return example_case;
-}
-
 LocalizerOptions withRenderAgain(double render_again_px) {
   LocalizerOptions options;
   options.loop.render_again_px = render_again_px;
@@ -25,7 +20,7 @@ LocalizerOptions withRenderAgain(double render_again_px) {
 }
 
 LocalizationTrace runOf(const RunPlan& plan) {
-  return localize(example().problem(), plan, RecordLevel::kFull);
+  return localize(test::osExample().problem(), plan, RecordLevel::kFull);
 }
 
 TEST(RunPlan, GoesOnWithOtherOptions) {
@@ -101,8 +96,8 @@ TEST(RunPlan, HoweverItIsRunTheDigestIsTheSame) {
   settings.level = RecordLevel::kSummary;
   settings.threads = 3;
   settings.kernels = Kernels::kPortable;
-  EXPECT_EQ(localize(example().problem(), plan, settings).digest, whole);
-  Runner run(example().problem(), plan);
+  EXPECT_EQ(localize(test::osExample().problem(), plan, settings).digest, whole);
+  Runner run(test::osExample().problem(), plan);
   while (!run.finished()) run.advance(StepUntil::kStage);
   EXPECT_EQ(run.trace().digest, whole);
   EXPECT_EQ(run.trace().complete(), run.trace().iterations.size());

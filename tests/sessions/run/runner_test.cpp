@@ -10,20 +10,15 @@
 namespace boresight::sessions {
 namespace {
 
-const test::ExampleCase& example() {
-  static const test::ExampleCase example_case("os");
-  return example_case;
-}
-
 const LocalizationTrace& wholeRun() {
   static const LocalizationTrace trace =
-      localize(example().problem(), defaultProfile(), RecordLevel::kFull);
+      localize(test::osExample().problem(), defaultProfile(), RecordLevel::kFull);
   return trace;
 }
 
 TEST(Runner, HaltingChangesNoBit) {
   for (const StepUntil until : {StepUntil::kStage, StepUntil::kIteration, StepUntil::kEnd}) {
-    Runner run(example().problem(), defaultProfile());
+    Runner run(test::osExample().problem(), defaultProfile());
     int halts = 0;
     while (!run.finished() && halts < 10000) {
       run.advance(until);
@@ -44,23 +39,23 @@ TEST(Runner, Restart_GivesTheDigestOfANewRun) {
   const test::ExampleCase other("bc");
   Runner run(other.problem(), defaultProfile());
   run.advance(StepUntil::kIteration);
-  run.restart(example().problem());
+  run.restart(test::osExample().problem());
   EXPECT_FALSE(run.finished());
   run.advance(StepUntil::kEnd);
   EXPECT_EQ(run.trace().digest, wholeRun().digest);
   EXPECT_EQ(run.trace().iterations.size(), wholeRun().iterations.size());
-  LocalizationProblem wrong = example().problem();
+  LocalizationProblem wrong = test::osExample().problem();
   wrong.camera_from_station_seed.translation_m.x() = std::nan("");
   run.restart(wrong);
   EXPECT_TRUE(run.finished());
   EXPECT_EQ(run.trace().fault, Status::kInvalidPose);
-  run.restart(example().problem());
+  run.restart(test::osExample().problem());
   run.advance(StepUntil::kEnd);
   EXPECT_EQ(run.trace().digest, wholeRun().digest);
 }
 
 TEST(Runner, StopsBetweenSlicesAndGoesOn) {
-  Runner run(example().problem(), defaultProfile());
+  Runner run(test::osExample().problem(), defaultProfile());
   std::stop_source stopped;
   stopped.request_stop();
   run.advance(StepUntil::kEnd, stopped.get_token());
@@ -71,7 +66,7 @@ TEST(Runner, StopsBetweenSlicesAndGoesOn) {
 }
 
 TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
-  Runner run(example().problem(), defaultProfile(), {.level = RecordLevel::kStages});
+  Runner run(test::osExample().problem(), defaultProfile(), {.level = RecordLevel::kStages});
   run.advance(StepUntil::kStage);
   EXPECT_EQ(run.trace().stage, Stage::kEdges);
   ASSERT_NE(run.trace().edges, nullptr);
@@ -103,7 +98,7 @@ TEST(Runner, ShowsEachStageOfTheIterationUnderWay) {
 }
 
 TEST(Runner, Snapshot_IsImmutable) {
-  Runner run(example().problem(), defaultProfile());
+  Runner run(test::osExample().problem(), defaultProfile());
   run.advance(StepUntil::kIteration);
   const LocalizationTrace before = run.trace();
   const auto first = before.iterations.at(0);

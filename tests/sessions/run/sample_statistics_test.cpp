@@ -12,7 +12,7 @@
 namespace boresight::sessions {
 namespace {
 
-EdgeSample sampleAt(double residual_px, double weight, std::uint8_t kind) {
+EdgeSample sampleOf(double residual_px, double weight, std::uint8_t kind) {
   EdgeSample sample;
   sample.residual_px = residual_px;
   sample.gradient = 5.0;
@@ -25,10 +25,10 @@ TEST(SampleStatistics, CountByKindAndBin) {
   IterationTrace iteration;
   iteration.threshold_px = 1.0;
   auto& samples = iteration.refinement.samples;
-  samples.push_back(sampleAt(0.0, 0.9, kEdgeCrease));
-  samples.push_back(sampleAt(-0.9, 0.2, kEdgeCrease));
-  samples.push_back(sampleAt(5.0, 0.0, kEdgeOccluding | kEdgeCrease));
-  samples.push_back(sampleAt(0.1, 0.8, kEdgeBorder | kEdgeOccluding));
+  samples.push_back(sampleOf(0.0, 0.9, kEdgeCrease));
+  samples.push_back(sampleOf(-0.9, 0.2, kEdgeCrease));
+  samples.push_back(sampleOf(5.0, 0.0, kEdgeOccluding | kEdgeCrease));
+  samples.push_back(sampleOf(0.1, 0.8, kEdgeBorder | kEdgeOccluding));
   samples.push_back(EdgeSample{});  // nothing found
   const SampleStatistics sample_statistics = sampleStatistics(iteration, 5);
   EXPECT_EQ(sample_statistics.all.places, 5);

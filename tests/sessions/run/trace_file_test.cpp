@@ -12,25 +12,18 @@
 #include "sessions/run/archive.h"
 #include "sessions/run/runner.h"
 #include "sessions/run/trace_fields.h"
-#include "tests/support/example_case.h"
+#include "tests/support/example_run.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
+using test::exampleTrace;
 using testing::HasSubstr;
 
 constexpr std::size_t kChecksumBytes = 32;
 constexpr std::size_t kHeaderBytes = 20;
-
-const LocalizationTrace& exampleTrace() {
-  static const LocalizationTrace trace = [] {
-    const test::ExampleCase example("os");
-    return localize(example.problem(), defaultProfile(), RecordLevel::kFull);
-  }();
-  return trace;
-}
 
 /// All fields as bytes: equal bytes, equal traces.
 std::vector<std::uint8_t> bytesOf(const LocalizationTrace& trace) {

@@ -336,14 +336,13 @@ TEST_F(PackedMembers, AnInputThatIsALinkToElsewhereIsRefused) {
 }
 
 TEST_F(PackedMembers, MeshBuffers_AreStatedAndInTheMeshsFolder) {
-  namespace mesh = sessions::test;
-  const mesh::PolygonMesh cube = mesh::cube();
+  const test::PolygonMesh cube = test::cube();
   std::size_t index_count = 0;
-  const std::string buffer = mesh::gltfBuffer(cube, &index_count);
+  const std::string buffer = test::gltfBuffer(cube, &index_count);
   const auto withBuffer = [&](const std::string& uri) {
     SessionCase session_case = *session_.cases[0];
     session_case.parts[0].source.mesh = folder_.write(
-        "mesh/cube.gltf", mesh::gltf(cube, R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"));
+        "mesh/cube.gltf", test::gltf(cube, R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"));
     session_case.parts[0].source.mesh_unit = "";
     session_case.parts[0].sha256 = sessions::inputSha256(session_case.parts[0].source.mesh);
     return withCase(session_, session_case);

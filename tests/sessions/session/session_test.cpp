@@ -210,7 +210,7 @@ Pose somePose(double x_m) {
   return pose;
 }
 
-Session threeCases() {
+Session leftRightTop() {
   Session session;
   for (const char* id : {"left", "right", "top"}) {
     SessionCase session_case;
@@ -231,7 +231,7 @@ void expectNear(const Pose& a, const Pose& b) {
 }
 
 TEST(RigLinks, TheCameraThatIsLinkedLiesWhereItWasSaidFromTheOther) {
-  Session session = withRigLink(threeCases(), "left", "right", somePose(0.1));
+  Session session = withRigLink(leftRightTop(), "left", "right", somePose(0.1));
   EXPECT_EQ(casesOfRig(session, "left"), std::vector<std::string>{"right"});
   expectNear(between(session, "right", "left"), somePose(0.1));
   // A third one linked to the second is linked to the first as well.
@@ -242,7 +242,7 @@ TEST(RigLinks, TheCameraThatIsLinkedLiesWhereItWasSaidFromTheOther) {
 }
 
 TEST(RigLinks, ALinkThatIsDroppedLeavesTheOthersAndARigOfOneIsNone) {
-  Session session = withRigLink(threeCases(), "left", "right", somePose(0.1));
+  Session session = withRigLink(leftRightTop(), "left", "right", somePose(0.1));
   session = withRigLink(session, "left", "top", Pose());
   session = withoutRigLink(session, "left");
   EXPECT_FALSE(session.findCase("left")->rig);
@@ -254,7 +254,7 @@ TEST(RigLinks, ALinkThatIsDroppedLeavesTheOthersAndARigOfOneIsNone) {
 }
 
 TEST(RigLinks, ANewRigDoesNotTakeTheNameOfAnother) {
-  Session session = withRigLink(threeCases(), "left", "right", Pose());
+  Session session = withRigLink(leftRightTop(), "left", "right", Pose());
   session = withoutRigLink(withRigLink(session, "left", "top", Pose()), "left");
   ASSERT_EQ(session.findCase("top")->rig->id, "left");
   SessionCase fourth;
@@ -266,7 +266,7 @@ TEST(RigLinks, ANewRigDoesNotTakeTheNameOfAnother) {
 TEST(RigLinks, NonsenseIsRefused) {
   Pose broken;
   broken.translation_m.x() = std::numeric_limits<double>::quiet_NaN();
-  const Session session = threeCases();
+  const Session session = leftRightTop();
   EXPECT_THROW(withRigLink(session, "left", "left", Pose()), std::invalid_argument);
   EXPECT_THROW(withRigLink(session, "left", "none", Pose()), std::invalid_argument);
   EXPECT_THROW(withRigLink(session, "left", "right", broken), std::invalid_argument);

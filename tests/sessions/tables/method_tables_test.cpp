@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// By hand: NCC completes 3 of 4, of which one is beyond the lateral, one beyond the rotation.
-std::vector<RunResult> sample() {
+std::vector<RunResult> runsOfTwoMethods() {
   return {madeRun("bc-1", "ncc", true, 0.1, 0.2, 1.0), madeRun("bc-2", "ncc", true, -0.3, 0.8, 3.0),
           madeRun("bc-3", "ncc", true, 0.2, 0.2, 5.0),
           madeRun("bc-4", "ncc", false, 9.0, 9.0, 90.0),
@@ -26,7 +26,7 @@ std::vector<RunResult> sample() {
 }
 
 TEST(MethodFigures, AreThoseOfTheRuns) {
-  const auto rows = methodFigures(sample());
+  const auto rows = methodFigures(runsOfTwoMethods());
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].method, "seed");
   EXPECT_EQ(rows[0].runs, 4) << "each seed once, though two methods began from the first";
@@ -123,9 +123,9 @@ TEST(Median, IsTheMiddle) {
 }
 
 TEST(ErrorTable, ShowsThePapersRowsWithACautionWhenAsked) {
-  const std::string without = tableText(errorTable(sample(), false), TableFormat::kText);
+  const std::string without = tableText(errorTable(runsOfTwoMethods(), false), TableFormat::kText);
   EXPECT_THAT(without, testing::Not(testing::HasSubstr("paper")));
-  const std::string with = tableText(errorTable(sample(), true), TableFormat::kText);
+  const std::string with = tableText(errorTable(runsOfTwoMethods(), true), TableFormat::kText);
   EXPECT_THAT(with, HasSubstr("whs (paper)"));
   EXPECT_THAT(with, HasSubstr("0.083 / 0.036 / 0.232"));
   EXPECT_THAT(with, HasSubstr("compare errors, not success"));
@@ -134,14 +134,14 @@ TEST(ErrorTable, ShowsThePapersRowsWithACautionWhenAsked) {
 }
 
 TEST(SuccessTable, ShowsThePapersFarRunsAxisByAxis) {
-  const std::string csv = tableText(successTable(sample(), true), TableFormat::kCsv);
+  const std::string csv = tableText(successTable(runsOfTwoMethods(), true), TableFormat::kCsv);
   EXPECT_THAT(csv, HasSubstr("Mars BC far 1.23 m,,loftr-r (paper),3,100,"));
   EXPECT_THAT(csv, HasSubstr(",66.7,100,0,\r\n"));
   EXPECT_THAT(csv, HasSubstr(",100,100,0,\r\n"));
 }
 
 TEST(ErrorTable, GivesThePapersSharesTheBoundsOf2000Runs) {
-  const std::string csv = tableText(errorTable(sample(), true), TableFormat::kCsv);
+  const std::string csv = tableText(errorTable(runsOfTwoMethods(), true), TableFormat::kCsv);
   // Without failure: 0.05^(1 / 2000) = 0.998503.
   EXPECT_THAT(csv, testing::ContainsRegex("whs \\(paper\\),2000,2000,100,99\\.850[0-9]*,100,"));
 }
@@ -200,9 +200,11 @@ TEST(FailureList, NamesRunsThatWereNotSuccessful) {
 
 TEST(Tables, HaveAsManyCellsAsColumns) {
   for (const bool paper : {false, true})
-    for (const Table& table : {errorTable(sample(), paper), successTable(sample(), paper),
-                               toleranceTable(sample()), timeTable(sample()), strataTable(sample()),
-                               demonstrationTable(sample(), 0.9), flightTable({}, paper)})
+    for (const Table& table :
+         {errorTable(runsOfTwoMethods(), paper), successTable(runsOfTwoMethods(), paper),
+          toleranceTable(runsOfTwoMethods()), timeTable(runsOfTwoMethods()),
+          strataTable(runsOfTwoMethods()), demonstrationTable(runsOfTwoMethods(), 0.9),
+          flightTable({}, paper)})
       for (const auto& row : table.rows) {
         ASSERT_EQ(row.size(), table.columns.size()) << table.name;
         for (std::size_t i = 0; i < row.size(); ++i) {

@@ -21,7 +21,7 @@ using testing::ElementsAre;
 constexpr int kFoot_px = 110;
 
 /// Two methods that differ by a factor in everything, so that neither hides the other.
-std::vector<RunResult> sample() {
+std::vector<RunResult> manyRuns() {
   std::vector<RunResult> runs;
   for (int i = 0; i < 30; ++i)
     for (const double factor : {1.0, 5.0}) {
@@ -40,14 +40,14 @@ std::string begin(const Figure& figure, std::size_t length) {
 }
 
 TEST(ResultFigures, AreFilesOfEachFormat) {
-  for (const Figure& figure : resultFigures(sample(), CanvasFormat::kPdf))
+  for (const Figure& figure : resultFigures(manyRuns(), CanvasFormat::kPdf))
     EXPECT_EQ(begin(figure, 5), "%PDF-") << figure.name;
-  for (const Figure& figure : resultFigures(sample(), CanvasFormat::kSvg))
+  for (const Figure& figure : resultFigures(manyRuns(), CanvasFormat::kSvg))
     EXPECT_EQ(begin(figure, 5), "<?xml") << figure.name;
 }
 
 TEST(ResultFigures, ShowEveryMethodInItsColour) {
-  for (const Figure& figure : resultFigures(sample(), CanvasFormat::kPng)) {
+  for (const Figure& figure : resultFigures(manyRuns(), CanvasFormat::kPng)) {
     const cv::Mat whole = cv::imdecode(figure.bytes, cv::IMREAD_COLOR);
     ASSERT_GT(whole.rows, 2 * kFoot_px) << figure.name;
     const cv::Mat image = whole.rowRange(0, whole.rows - kFoot_px);  // without the names
@@ -61,7 +61,7 @@ TEST(ResultFigures, ShowEveryMethodInItsColour) {
 }
 
 TEST(ResultFigures, StandRunsWithoutTruth) {
-  std::vector<RunResult> runs = sample();
+  std::vector<RunResult> runs = manyRuns();
   for (RunResult& run : runs) {
     run.error.reset();
     run.seed_error.reset();

@@ -6,7 +6,7 @@
 namespace boresight::sessions {
 namespace {
 
-Table sample() {
+Table twoRows() {
   return {
       "some",
       "Some 100 % of a_b",
@@ -18,7 +18,7 @@ Table sample() {
 }
 
 TEST(TableText, IsReadByPeople) {
-  EXPECT_EQ(tableText(sample(), TableFormat::kText),
+  EXPECT_EQ(tableText(twoRows(), TableFormat::kText),
             "Some 100 % of a_b\n"
             "name    error mm mean / max  share %\n"
             "------------------------------------\n"
@@ -28,14 +28,14 @@ TEST(TableText, IsReadByPeople) {
 }
 
 TEST(TableText, IsReadByPrograms) {
-  EXPECT_EQ(tableText(sample(), TableFormat::kCsv),
+  EXPECT_EQ(tableText(twoRows(), TableFormat::kCsv),
             "name,error mm mean,error mm max,share %\r\n"
             "\"a, \"\"b\"\"\",0.125,-1,50\r\n"
             "c_d,,,\r\n");
 }
 
 TEST(TableText, IsSetByLatex) {
-  const std::string text = tableText(sample(), TableFormat::kLatex);
+  const std::string text = tableText(twoRows(), TableFormat::kLatex);
   EXPECT_THAT(text, testing::HasSubstr("\\caption{Some 100 \\% of a\\_b}"));
   EXPECT_THAT(text, testing::HasSubstr("name & error mm mean / max & share \\% \\\\"));
   EXPECT_THAT(text, testing::HasSubstr("c\\_d & - & - \\\\"));

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "sessions/session/case_run.h"
+#include "tests/ui/patience.h"
 #include "tests/ui/window_test.h"
 #include "ui/review/review_panel.h"
 
 namespace boresight::test {
-
-constexpr int kPatienceMs = 120'000;
 
 /// The example, and the run of its first case; made once for all tests.
 struct RunExample {

@@ -8,13 +8,14 @@
 
 #include "sessions/run/runner.h"
 #include "tests/support/loaded_example.h"
+#include "tests/ui/patience.h"
 
 namespace boresight::ui {
 namespace {
 
 using sessions::StepUntil;
 
-constexpr int kPatienceMs = 60000;
+using test::kPatienceMs;
 
 class RunControllerTest : public testing::Test {
  protected:

@@ -10,10 +10,12 @@
 #include <thread>
 #include <vector>
 
+#include "tests/ui/patience.h"
+
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 20000;
+using test::kPatienceMs;
 
 /// A runner, what its tasks gave, and a gate that holds a task until it is opened.
 class TaskRunnerTest : public testing::Test {

@@ -11,6 +11,7 @@
 #include "sessions/run/scene_render.h"
 #include "tests/support/hypotheses_run.h"
 #include "tests/support/loaded_example.h"
+#include "tests/ui/patience.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layer_legend.h"
@@ -20,7 +21,7 @@
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 60'000;
+using test::kPatienceMs;
 
 class ImagePanelTest : public ::testing::Test {
  protected:

@@ -9,12 +9,13 @@
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/ui/patience.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
+using test::kPatienceMs;
 
 class CaseDetailsTest : public ::testing::Test {
  protected:

@@ -16,11 +16,12 @@
 #include "sessions/session/session_maker.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/ui/patience.h"
 
 namespace boresight::ui {
 namespace {
 
-constexpr int kPatienceMs = 120'000;
+using test::kPatienceMs;
 
 /// What the disk has: the saved state, and that of the journal after its edits.
 struct StatesOnDisk {

@@ -18,8 +18,8 @@ using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-ImageLabel labelOf(const TemporaryFolder& folder, const Pds3File& pds,
-                   const Raster& raster = Raster::plain()) {
+ImageLabel readLabelOf(const TemporaryFolder& folder, const Pds3File& pds,
+                       const Raster& raster = Raster::plain()) {
   return readImageLabel(folder.write("image.img", pds.bytes(raster)));
 }
 
@@ -60,7 +60,7 @@ TEST(ImageLabel, ComponentsAreFoundByLetterOrNameInAnyOrder) {
       const char* const names[] = {"GEOMETRIC_CAMERA_MODEL", "GEOMETRIC_CAMERA_MODEL_PARMS",
                                    "CAMERA_MODEL"};
       pds.items = pds3Group(names[round % 3], items);
-      expectModel(labelOf(folder, pds), cahv);
+      expectModel(readLabelOf(folder, pds), cahv);
       VicarFile vicar;
       vicar.items = vicarProperty(names[round % 3], items);
       vicar.items_at_end = round % 2 == 1;
@@ -152,13 +152,13 @@ TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
   items.emplace_back("CALIBRATION_SOURCE_ID", "UNK");
   pds.items = "PRODUCT_ID = \"IMAGE   \"\r\nMISSION_NAME = \"NULL\"\r\n" +
               pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  const ImageLabel label = labelOf(folder, pds);
+  const ImageLabel label = readLabelOf(folder, pds);
   expectModel(label, cahv);
   EXPECT_EQ(label.identifiers, (std::vector<LabelItem>{{"PRODUCT_ID", "IMAGE"}}));
   EXPECT_EQ(label.camera_items, (std::vector<LabelItem>{{"SOLUTION_ID", "telemetry and more"}}));
   items[3].second = "(1 <mm>,2 <mm>,3 <mm>)";
   pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  EXPECT_THAT(labelOf(folder, pds).camera_remark, HasSubstr("the unit 'MM'"));
+  EXPECT_THAT(readLabelOf(folder, pds).camera_remark, HasSubstr("the unit 'MM'"));
 }
 
 TEST(ImageLabel, ExponentsOfFortranAreExponents) {
@@ -191,7 +191,7 @@ std::string remarkFor(const TemporaryFolder& folder, const CahvModel& cahv,
   Pds3File pds;
   pds.items = items + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(cahv));
   pds.image_items = image_items;
-  const ImageLabel label = labelOf(folder, pds, Raster::plain(width, height));
+  const ImageLabel label = readLabelOf(folder, pds, Raster::plain(width, height));
   EXPECT_EQ(label.camera.has_value(), label.camera_remark.empty());
   return label.camera_remark;
 }
@@ -200,7 +200,7 @@ TEST(ImageLabel, CameraModelsThatAreNoneSayWhy) {
   const TemporaryFolder folder;
   const CahvModel cahv = exampleModel(CameraModel::kCahvore, 60, 31, 24);
   Pds3File pds;
-  EXPECT_EQ(labelOf(folder, pds).camera_remark, "the label has no camera model");
+  EXPECT_EQ(readLabelOf(folder, pds).camera_remark, "the label has no camera model");
   EXPECT_EQ(folder.message([&] { readCameraFile(folder.path() / "image.img"); }),
             "image.img: the label has no camera model");
   const auto with = [&](const char* key, const std::string& value) {
@@ -208,7 +208,7 @@ TEST(ImageLabel, CameraModelsThatAreNoneSayWhy) {
     for (auto& item : items)
       if (item.first == key) item.second = value;
     pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-    const ImageLabel label = labelOf(folder, pds);
+    const ImageLabel label = readLabelOf(folder, pds);
     EXPECT_FALSE(label.camera) << key << " = " << value;
     return label.camera_remark;
   };
@@ -222,7 +222,7 @@ TEST(ImageLabel, CameraModelsThatAreNoneSayWhy) {
               HasSubstr("calls component 3 both V and HORIZONTAL"));
   GroupItems items = cameraItems(cahv, "CAHVORETP", false, false);
   pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  EXPECT_THAT(labelOf(folder, pds).camera_remark, HasSubstr("no usable component C"));
+  EXPECT_THAT(readLabelOf(folder, pds).camera_remark, HasSubstr("no usable component C"));
 }
 
 TEST(ImageLabel, CameraModelsThatDoNotFitTheImageAreLeftOut) {
@@ -260,7 +260,7 @@ TEST(ImageLabel, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
   Pds3File pds;
   pds.items = rover + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(part));
   pds.image_items = cut;
-  const ImageLabel label = labelOf(folder, pds, Raster::plain(256, 128));
+  const ImageLabel label = readLabelOf(folder, pds, Raster::plain(256, 128));
   expectModel(label, part);
   ASSERT_TRUE(label.subframe);
   EXPECT_EQ(label.subframe->first_sample, 500);
@@ -292,7 +292,7 @@ TEST(ImageLabel, OfTwoLabelsInAFileTheOneWithAModelCounts) {
     const Bytes whole = vicar.bytes(Raster::plain());
     pds.between.assign(whole.begin(), whole.end() - 2 * 64 * 48);
     if (in_pds != nullptr) pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_pds));
-    return labelOf(folder, pds);
+    return readLabelOf(folder, pds);
   };
   const ImageLabel same = read(&cahv, &cahv);
   expectModel(same, cahv);
@@ -336,7 +336,7 @@ TEST(ImageLabel, MosaicsAndMapsAreFlagged) {
       "GROUP = INSTRUMENT_STATE_PARMS\r\n CFA_TYPE = \"BAYER_RGGB\"\r\nEND_GROUP = "
       "INSTRUMENT_STATE_PARMS\r\nGROUP = DERIVED_IMAGE_PARMS\r\n DERIVED_IMAGE_TYPE = "
       "\"RANGE_MAP\"\r\nEND_GROUP = DERIVED_IMAGE_PARMS\r\n";
-  const ImageLabel label = labelOf(folder, pds);
+  const ImageLabel label = readLabelOf(folder, pds);
   EXPECT_EQ(label.bayer_pattern, "BAYER_RGGB");
   EXPECT_THAT(label.flags, Contains(HasSubstr("the label calls this a RANGE_MAP")));
   const GrayImage image = readImage(folder.path() / "image.img");
