@@ -169,6 +169,15 @@ std::optional<sessions::InputKind> SessionFiles::nextKind() const {
   return std::nullopt;
 }
 
+QString SessionFiles::nameOf(sessions::InputKind kind) const {
+  const sessions::CaseFiles& files = collected_.one;
+  const bool labelled = kind == sessions::InputKind::kCamera && files.camera.empty();
+  if (kind == sessions::InputKind::kImage || labelled) return text(files.image.filename());
+  if (kind == sessions::InputKind::kCamera) return text(files.camera.filename());
+  if (kind == sessions::InputKind::kSeed) return text(files.seed.filename());
+  return files.parts.empty() ? QString() : text(files.parts.front().mesh.filename());
+}
+
 void SessionFiles::askForFile(sessions::InputKind kind) {
   const QString file = QFileDialog::getOpenFileName(
       &window_, tr("The %1 of the case").arg(inputName(kind)), {}, inputFilter(kind));
@@ -307,7 +316,12 @@ void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
 
 /// `kept`: names of files of earlier drops that the case is made of, too.
 void SessionFiles::addCase(const QString& kept) {
-  if (!situation().problem.isEmpty()) return;  // it is shown at its file
+  // Also shown at its file, which is out of sight where a case is open.
+  const FilesSituation files = situation();
+  if (!files.problem.isEmpty()) {
+    Q_EMIT failed(tr("%1: %2").arg(nameOf(*nextKind()), files.problem));
+    return;
+  }
   if (!askForUnits()) return;
   Q_EMIT noted(tr("Reading the files ..."));
   parts_.tasks.start(

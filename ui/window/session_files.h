@@ -106,6 +106,7 @@ class SessionFiles : public QObject {
   void judgeCollected();
   bool has(sessions::InputKind kind) const;
   std::optional<sessions::InputKind> nextKind() const;
+  QString nameOf(sessions::InputKind kind) const;
   void measureMesh();
   bool askForUnits();
   QStringList unitTexts() const;

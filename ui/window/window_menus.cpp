@@ -196,6 +196,7 @@ void WindowMenus::connectRun() {
   });
   on(ui_.runSequence, this, &WindowMenus::showSequence);
   connect(&parts_.sequence, &SequenceRunner::changed, this, &WindowMenus::update);
+  connect(&parts_.cases, &CaseController::stalenessChanged, this, &WindowMenus::update);
   parts_.state.onChange(ViewChange::kCursor, this, &WindowMenus::update);
   ui_.runToEnd->setIcon(iconOf(Icon::kRun));
   ui_.stepIteration->setIcon(iconOf(Icon::kStepIteration));

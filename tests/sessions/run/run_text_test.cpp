@@ -123,7 +123,7 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better: it is more than 1000 times more likely"));
   trace.competing_poses[1].mirrored = true;
-  EXPECT_THAT(explanation(trace), HasSubstr("the mirror image of the mesh explains the image"));
+  EXPECT_THAT(explanation(trace), HasSubstr("the mirror image of the mesh is more than 1000 times more likely"));
 }
 
 TEST(Explanation, SaysThatAnotherPoseHasAboutTheSameScore) {
