@@ -328,7 +328,11 @@ TEST(Verdict, ReviewOfAFailedRun_TellsTheFailure) {
 TEST(Verdict, BadAnnotation_IsSwitchedOff) {
   Situation situation = ready();
   situation.workspace = Workspace::kAnnotate;
-  situation.annotation = {8, 1.72, QStringLiteral("p6"), 12.0, true, {}};
+  situation.annotation.pairs = 8;
+  situation.annotation.rms_px = 1.72;
+  situation.annotation.bad_pair = QStringLiteral("p6");
+  situation.annotation.bad_sigmas = 12.0;
+  situation.annotation.has_pose = true;
   const Verdict verdict = verdictOf(situation);
   EXPECT_EQ(verdict.head, QStringLiteral("8 pairs, rms 1.72 px"));
   EXPECT_TRUE(test::has(verdict.sentence, "p6 stands out"));
