@@ -18,22 +18,23 @@ namespace boresight {
 template <class Sum>
 class ValueWriter {
  public:
+  void u8(std::uint8_t value) { sum_.updateBigEndian(value); }    ///< Adds a value
+  void u32(std::uint32_t value) { sum_.updateBigEndian(value); }  ///< Adds a value
   /// Adds a value.
-  ///@{
-  void u8(std::uint8_t value) { sum_.updateBigEndian(value); }
-  void u32(std::uint32_t value) { sum_.updateBigEndian(value); }
   void i32(std::int32_t value) { u32(static_cast<std::uint32_t>(value)); }
-  void u64(std::uint64_t value) { sum_.updateBigEndian(value); }
+  void u64(std::uint64_t value) { sum_.updateBigEndian(value); }  ///< Adds a value
+  /// Adds a value.
   void f32(float value) {
     if (value != value) return u32(0x7fc00000u);
     u32(value == 0.0f ? 0u : std::bit_cast<std::uint32_t>(value));
   }
+  /// Adds a value.
   void f64(double value) {
     if (value != value) return u64(std::uint64_t{0x7ff80000u} << 32);
     u64(value == 0.0 ? 0u : std::bit_cast<std::uint64_t>(value));
   }
+  /// Adds bytes as they are.
   void bytes(std::span<const std::uint8_t> bytes) { sum_.update(bytes); }
-  ///@}
   /// A section name, so that neighbouring fields cannot be confused: length, then the characters.
   void tag(const char* name) {
     const std::size_t length = std::strlen(name);
