@@ -79,7 +79,7 @@ struct SequenceRow {
   std::int64_t number = 0;  ///< from 1
   std::string name;
   bool accepted = false;
-  std::optional<double> probability;  ///< that the pose is right; of runs that search
+  std::optional<double> probability;  ///< that the pose is right
   std::optional<double> moved_mm;     ///< since the last accepted frame, of the station's centre
   std::optional<double> turned_deg;   ///< since the last accepted frame
   double seconds = 0.0;               ///< of the run

@@ -9,6 +9,7 @@
 
 #include "sessions/io/camera_file.h"
 #include "sessions/io/pose_file.h"
+#include "sessions/session/session_maker.h"
 #include "tests/support/generated_approach.h"
 #include "tests/support/temporary_folder.h"
 
@@ -55,6 +56,18 @@ inline const TemporaryFolder& approachFolder() {
   }();
   (void)made;
   return folder;
+}
+
+/// The approach's case; its own image is the first frame.
+inline sessions::CaseFiles approachFiles() {
+  const TemporaryFolder& folder = approachFolder();
+  sessions::CaseFiles files;
+  files.image = folder / "frames/0.png";
+  files.camera = folder / "camera.json";
+  files.parts.emplace_back().mesh = folder / "model.ply";
+  files.parts.front().mesh_unit = "m";
+  files.seed = folder / "seed.json";
+  return files;
 }
 
 }  // namespace boresight::test

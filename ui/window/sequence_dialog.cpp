@@ -19,6 +19,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr QSize kDialogSize(1080, 640);
+constexpr int kTableWidth_px = 640;  ///< holds all columns
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostMotion = 1000.0;
 constexpr double kMostTurn_deg = 180.0;
@@ -39,8 +40,8 @@ std::vector<TableColumn<sessions::SequenceRow>> sequenceColumns() {
       {tr("Image"), tr("Name of the image."), -1, [](Row row) { return fromText(row.name); }},
       {tr("State"), tr("Accepted, or lost: the next frame starts from the last accepted pose."), -1,
        [tr](Row row) { return row.accepted ? tr("✓ accepted") : tr("✗ lost"); }},
-      {tr("Probability"),
-       tr("Probability that the pose is right; – for a frame that needed no search."), 0,
+      {tr("Probability"), tr("Probability that the pose is right; – for a frame without a pose."),
+       0,
        [](Row row) {
          return row.probability ? probabilityCell(*row.probability) : QStringLiteral("–");
        },
@@ -178,17 +179,22 @@ QWidget* SequenceDialog::buildFrames() {
   auto* split = new QSplitter;
   split->addWidget(table_);
   split->addWidget(picture_);
-  split->setStretchFactor(0, 3);
-  split->setStretchFactor(1, 2);
+  split->setSizes({kTableWidth_px, kDialogSize.width() - kTableWidth_px});
+  split->setStretchFactor(1, 1);
   split->setChildrenCollapsible(false);
   Layer edges = picture_->layer(LayerId::kIterationEdges);
   edges.style = layerInfo(LayerId::kIterationEdges).style;
   edges.style.visible = true;
   picture_->setLayer(std::move(edges));
-  picture_->setHint(tr("Choose a frame: its image and the outline of its pose are shown here."));
+  clearPicture();
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &SequenceDialog::showFrame);
   return split;
+}
+
+void SequenceDialog::clearPicture() {
+  picture_->setImage({});
+  picture_->setHint(tr("Choose a frame: its image and the outline of its pose are shown here."));
 }
 
 void SequenceDialog::setImages(const std::filesystem::path& images) {
@@ -241,7 +247,7 @@ sessions::SequenceOrder SequenceDialog::order() const {
 void SequenceDialog::start() {
   if (!run_->isEnabled()) return;
   problem_.clear();
-  picture_->setImage({});
+  clearPicture();
   parts_.sequence.start(order(), parts_.state.currentCase());
 }
 

@@ -60,6 +60,7 @@ class SequenceDialog : public QDialog {
   void showProgress();
   void showOutcome();
   void showFrame();
+  void clearPicture();
 
   WindowParts parts_;
   SequenceModel* model_;

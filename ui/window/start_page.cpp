@@ -59,7 +59,10 @@ void polish(QWidget* widget) {
 
 void empty(QLayout& layout) {
   while (QLayoutItem* item = layout.takeAt(0)) {
-    if (item->widget()) item->widget()->deleteLater();
+    if (QWidget* widget = item->widget()) {
+      widget->hide();  // it is deleted when the events' loop comes to it
+      widget->deleteLater();
+    }
     delete item;
   }
 }

@@ -39,7 +39,7 @@ TEST(BlindAnnotations, RoundIsBlind_UntilEachOfItsPlacesIsSetOrRemoved) {
   const Annotations& first = scene.view.annotations;
   const AnnotationRounds rounds = {{"A", "now", first}};
   Annotations at_work = blindAnnotations(first);
-  EXPECT_FALSE(isBlind({}, at_work)) << "pairs half made, of nobody before";
+  EXPECT_FALSE(isBlind({}, at_work)) << "no round has these annotations";
   EXPECT_TRUE(isBlind(rounds, at_work));
   at_work.points[0].pixel = Eigen::Vector2d(1.0, 2.0);
   at_work.lines[0].line = first.lines[0].line;

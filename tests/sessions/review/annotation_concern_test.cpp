@@ -31,7 +31,7 @@ PoseQuality qualityOf(std::optional<double> found_mm) {
   return {3.0, {figure}};
 }
 
-/// Eight points of a scene; some of them lie beside their places by so many px.
+/// Eight points of a scene. `errors_px`: errors in x, px, by the index of the point.
 CaseAnnotationsSolution solutionWith(const std::map<std::size_t, double>& errors_px,
                                      bool robust = false) {
   Random random = randomFor("AnnotationConcern");

@@ -17,18 +17,10 @@ using testing::HasSubstr;
 
 class CaseSequenceTest : public testing::Test {
  protected:
-  /// The approach's case; its own image is the first frame.
   SequenceOrder order() const {
-    const test::TemporaryFolder& approach = test::approachFolder();
-    CaseFiles files;
-    files.image = approach / "frames/0.png";
-    files.camera = approach / "camera.json";
-    files.parts.emplace_back().mesh = approach / "model.ply";
-    files.parts.front().mesh_unit = "m";
-    files.seed = approach / "seed.json";
     SequenceOrder order;
-    order.images = approach / "frames";
-    order.session_case = makeCase(files).made;
+    order.images = test::approachFolder() / "frames";
+    order.session_case = makeCase(test::approachFiles()).made;
     order.options = defaultProfile();
     order.settings.threads = 1;
     order.results = folder_ / "r.sqlite";

@@ -17,14 +17,7 @@ namespace {
 class SequenceDialogTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    const test::TemporaryFolder& approach = test::approachFolder();
-    sessions::CaseFiles files;
-    files.image = approach / "frames/0.png";
-    files.camera = approach / "camera.json";
-    files.parts.emplace_back().mesh = approach / "model.ply";
-    files.parts.front().mesh_unit = "m";
-    files.seed = approach / "seed.json";
-    open(sessions::withCase({}, sessions::makeCase(files).made));
+    open(sessions::withCase({}, sessions::makeCase(test::approachFiles()).made));
     find<QAction>("runSequence").trigger();
     dialog_ = window_.findChild<SequenceDialog*>();
     ASSERT_NE(dialog_, nullptr);
@@ -54,6 +47,7 @@ TEST_F(SequenceDialogTest, Folder_GivesARowAFrameAndIsStored) {
   ASSERT_EQ(rows(), test::kApproachFrames) << banner().toStdString();
   EXPECT_TRUE(test::has(banner(), "6 of 6 frames accepted."));
   EXPECT_TRUE(test::has(find<QLabel>("sequenceProgress").text(), "6 of 6 frames; "));
+  EXPECT_FALSE(dialog_->table().horizontalScrollBar()->isVisible()) << "all columns are in sight";
   for (int i = 0; i < rows(); ++i) {
     EXPECT_EQ(cell(i, 0), QString::number(i + 1));
     EXPECT_EQ(cell(i, 1), QStringLiteral("%1.png").arg(i));
