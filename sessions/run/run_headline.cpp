@@ -37,8 +37,7 @@ std::string convergedSentence(const LocalizationTrace& trace) {
 
 /// What the operator may doubt of the seed: not a turn that was searched.
 std::string seedDoubt(const LocalizationTrace& trace) {
-  constexpr double kNearlyHalfTurn_rad = 179.0 * kDegree_rad;
-  return trace.uncertainty.rotation_rad.z() >= kNearlyHalfTurn_rad
+  return searchedEveryTurn(trace)
              ? "Every turn about the view axis was searched: the seed may be tilted or far off."
              : "The seed may be turned or far off.";
 }
@@ -88,6 +87,11 @@ RunHeadline runHeadline(const LocalizationTrace& trace) {
   if (trace.status == LocalizationStatus::kNotSupported)
     return {"Rejected", notSupportedSentence(trace)};
   return {wasRefused(trace) ? "Rejected" : "No pose found", noPoseSentence(trace)};
+}
+
+bool searchedEveryTurn(const LocalizationTrace& trace) {
+  constexpr double kNearlyHalfTurn_rad = 179.0 * kDegree_rad;
+  return trace.uncertainty.rotation_rad.z() >= kNearlyHalfTurn_rad;
 }
 
 }  // namespace boresight::sessions

@@ -14,4 +14,7 @@ struct RunHeadline {
 };
 RunHeadline runHeadline(const LocalizationTrace& trace);
 
+/// Whether the seed's uncertainty covers a turn by any angle about the view axis.
+bool searchedEveryTurn(const LocalizationTrace& trace);
+
 }  // namespace boresight::sessions

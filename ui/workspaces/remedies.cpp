@@ -6,7 +6,7 @@
 #include <QCoreApplication>
 #include <QStringList>
 
-#include "core/base/math.h"
+#include "sessions/run/run_headline.h"
 
 namespace boresight::ui {
 namespace {
@@ -28,12 +28,6 @@ constexpr Remedy kSheet = {Step::kInputs,
 constexpr Remedy kOthers = {
     Step::kCompetingPoses,
     QT_TR_NOOP("Repetition or symmetry: another pose explains the image as well")};
-
-/// A turn by any angle about the view axis was searched.
-bool searchedEveryTurn(const sessions::LocalizationTrace& trace) {
-  constexpr double kNearlyHalfTurn_rad = 179.0 * kDegree_rad;
-  return trace.uncertainty.rotation_rad.z() >= kNearlyHalfTurn_rad;
-}
 
 const std::vector<Remedy>& likeliestFor(const sessions::LocalizationTrace& trace) {
   static const std::vector<Remedy> kNothing;
@@ -84,7 +78,7 @@ std::vector<Remedy> remediesFor(const sessions::LocalizationTrace& trace,
   std::vector<Remedy> remedies = likeliestFor(trace);
   for (Remedy& remedy : remedies)
     remedy.tried = std::ranges::count(tried, remedy.step) > 0 ||
-                   (remedy.step == Step::kWiderSearch && searchedEveryTurn(trace));
+                   (remedy.step == Step::kWiderSearch && sessions::searchedEveryTurn(trace));
   (void)std::ranges::stable_partition(remedies, [](const Remedy& remedy) { return !remedy.tried; });
   return remedies;
 }
