@@ -9,7 +9,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/atomic_file.h"
+#include "sessions/io/files/atomic_file.h"
 
 namespace boresight::app {
 namespace {

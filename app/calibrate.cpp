@@ -8,9 +8,9 @@
 #include "app/commands.h"
 #include "sessions/calibration/calibrated_values.h"
 #include "sessions/calibration/camera_calibration.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/session/session_file.h"
 #include "sessions/text/text_table.h"
 

@@ -5,11 +5,12 @@
 #include <stdexcept>
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/cahvor_file.h"
-#include "sessions/io/camera_conversion.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/cameras/cahvor_file.h"
+#include "sessions/io/cameras/camera_conversion.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/images/camera_of_file.h"
 
 namespace boresight::app {
 namespace {

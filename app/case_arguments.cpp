@@ -3,8 +3,8 @@
 
 #include <iterator>
 
-#include "sessions/io/camera_field.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_sheet.h"
 

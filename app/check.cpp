@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/review/checks.h"
+#include "sessions/checks/checks.h"
+#include "sessions/decision/check.h"
+#include "sessions/decision/decision.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/check.h"
-#include "sessions/session/decision.h"
 
 namespace boresight::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "sessions/baselines/method_options.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/mesh_container.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/meshes/mesh_container.h"
 #include "sessions/run/runner.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"

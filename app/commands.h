@@ -16,9 +16,9 @@
 #include "core/localizer/localizer_options.h"
 #include "sessions/baselines/methods.h"
 #include "sessions/evaluation/bop_dataset.h"
-#include "sessions/io/config_file.h"
-#include "sessions/io/pose_file.h"
-#include "sessions/io/scene_mesh.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/json/config_file.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/session/session_document.h"
 
 namespace boresight::sessions {

@@ -2,12 +2,12 @@
 #include <iostream>
 
 #include "app/commands.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/trace_file.h"
 
 namespace boresight::app {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.h"
-#include "sessions/review/checks.h"
+#include "sessions/checks/checks.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
 

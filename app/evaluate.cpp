@@ -14,7 +14,7 @@
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/batch_facts.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/atomic_file.h"
+#include "sessions/io/files/atomic_file.h"
 #include "sessions/tables/method_tables.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"

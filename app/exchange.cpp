@@ -2,7 +2,7 @@
 
 #include "app/commands.h"
 #include "sessions/exchange/annotation_exchange.h"
-#include "sessions/io/atomic_file.h"
+#include "sessions/io/files/atomic_file.h"
 #include "sessions/review/validated_pose_file.h"
 
 namespace boresight::app {

@@ -4,9 +4,9 @@
 
 #include "app/batch_output.h"
 #include "app/case_arguments.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/video_frames.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/images/video_frames.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/case_sequence.h"
 #include "sessions/text/plain_text.h"

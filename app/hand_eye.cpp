@@ -6,13 +6,13 @@
 #include "app/calibration_text.h"
 #include "app/commands.h"
 #include "sessions/calibration/hand_eye.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/frame_transform.h"
-#include "sessions/io/frame_tree.h"
-#include "sessions/run/run_text.h"
+#include "sessions/io/cameras/frame_transform.h"
+#include "sessions/io/cameras/frame_tree.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::app {
 namespace {

@@ -3,21 +3,21 @@
 #include <optional>
 
 #include "app/case_arguments.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "sessions/checks/review_subject.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/image_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/images/image_file.h"
 #include "sessions/report/result_file.h"
-#include "sessions/review/pose_uncertainty.h"
-#include "sessions/review/review_subject.h"
-#include "sessions/run/acceptance.h"
 #include "sessions/run/image_quality.h"
-#include "sessions/run/overlay.h"
 #include "sessions/run/problem.h"
-#include "sessions/run/run_text.h"
 #include "sessions/run/runner.h"
-#include "sessions/run/trace_file.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/text/text_table.h"
+#include "sessions/trace/acceptance.h"
+#include "sessions/trace/overlay.h"
+#include "sessions/trace/run_text.h"
+#include "sessions/trace/trace_file.h"
 
 namespace boresight::app {
 namespace {

@@ -16,8 +16,8 @@ set(taken
   sessions/examples/README.md examples.md
   sessions/record/README.md replay.md
   sessions/baselines/README.md methods.md
-  sessions/io/cameras.md cameras.md
-  sessions/io/planetary.md image_labels.md
+  sessions/io/cameras/cameras.md cameras.md
+  sessions/io/images/planetary.md image_labels.md
   core/record/FORMAT.md onboard_record.md
   resources/evidence/README.md evidence.md
   resources/evidence/accuracy.md accuracy.md

@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "app/case_arguments.h"
-#include "sessions/io/camera_field.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"

@@ -6,11 +6,11 @@
 
 #include "app/commands.h"
 #include "app/written_pages.h"
-#include "core/localizer/parameter_table.h"
+#include "core/record/parameter_table.h"
 #include "sessions/baselines/methods.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/session/check_limits.h"
+#include "sessions/decision/check_limits.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::app {

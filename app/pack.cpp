@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/session/session_pack.h"
 
 namespace boresight::app {

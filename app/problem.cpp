@@ -2,9 +2,9 @@
 #include <iostream>
 
 #include "app/case_arguments.h"
-#include "core/localizer/problem_bytes.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/labels/image_label.h"
+#include "core/record/problem_bytes.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/images/labels/image_label.h"
 
 namespace boresight::app {
 namespace {

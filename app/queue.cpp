@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/review/queue.h"
 #include "sessions/review/run_difference.h"
 #include "sessions/session/case_run.h"

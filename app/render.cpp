@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/image_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/images/image_file.h"
 #include "sessions/run/problem.h"
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 
 namespace boresight::app {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
+#include "sessions/io/files/atomic_file.h"
 #include "sessions/report/pose_report.h"
 
 namespace boresight::app {

@@ -4,7 +4,7 @@
 
 #include "app/case_arguments.h"
 #include "app/commands.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/stated_inputs.h"
 #include "sessions/session/views_run.h"

@@ -5,9 +5,9 @@
 #include "app/commands.h"
 #include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/solution_file.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/images/camera_of_file.h"
 #include "sessions/session/case_annotations.h"
 
 namespace boresight::app {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
+#include "sessions/io/files/atomic_file.h"
 #include "sessions/tables/error_strips.h"
 #include "sessions/tables/flight_table.h"
 #include "sessions/tables/method_tables.h"

@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "app/commands.h"
-#include "sessions/io/atomic_file.h"
+#include "sessions/io/files/atomic_file.h"
 #include "sessions/report/trends.h"
 
 namespace boresight::app {

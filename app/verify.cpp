@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/review/validated_pose_file.h"
 
 namespace boresight::app {

@@ -6,9 +6,9 @@
 
 #include "app/commands.h"
 #include "sessions/evaluation/run_result.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/json_writer.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/session/views_run.h"

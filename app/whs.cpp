@@ -10,7 +10,7 @@
 
 #include "app/commands.h"
 #include "app/plain_output.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/run/matching_method.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/version.h"

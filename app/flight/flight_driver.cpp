@@ -10,8 +10,8 @@
 #include <span>
 
 #include "core/localizer/localizer.h"
-#include "core/localizer/parameter_table.h"
-#include "core/localizer/problem_bytes.h"
+#include "core/record/parameter_table.h"
+#include "core/record/problem_bytes.h"
 
 namespace boresight::flight {
 namespace {

@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/python/module.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/run/scene_render.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
+#include "sessions/trace/scene_render.h"
 
 namespace boresight::python {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/config_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/config_file.h"
 #include "sessions/version.h"
 
 namespace boresight::python {

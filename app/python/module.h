@@ -6,16 +6,16 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/geometry/pose.h"
-#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::python {
 

@@ -4,12 +4,13 @@
 
 #include "app/python/module.h"
 #include "sessions/annotation/solve_annotations.h"
+#include "sessions/checks/checks.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "sessions/decision/decision.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/camera_file.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/images/camera_of_file.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/review/checks.h"
-#include "sessions/review/pose_uncertainty.h"
-#include "sessions/session/decision.h"
 
 namespace boresight::python {
 namespace {

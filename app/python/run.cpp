@@ -4,9 +4,9 @@
 
 #include "app/python/module.h"
 #include "sessions/evaluation/run_result.h"
-#include "sessions/io/config_file.h"
-#include "sessions/run/run_text.h"
+#include "sessions/io/json/config_file.h"
 #include "sessions/run/runner.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::python {
 namespace {

@@ -2,7 +2,7 @@
 #include "core/record/record_writer.h"
 
 #include "core/base/crc32.h"
-#include "core/localizer/problem_bytes.h"
+#include "core/record/problem_bytes.h"
 #include "core/record/record_hashes.h"
 
 namespace boresight {

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "sessions/io/errors.h"
-#include "sessions/io/json_reader.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {

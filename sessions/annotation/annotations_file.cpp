@@ -5,11 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_fields.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/json/json_fields.h"
 
 namespace boresight::sessions {
 namespace {

@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/annotation/annotations.h"
-#include "sessions/io/json_reader.h"
+#include "sessions/io/json/json_reader.h"
 
 namespace boresight::sessions {
 

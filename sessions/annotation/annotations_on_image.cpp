@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/surface_point.h"
 
 namespace boresight::sessions {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "sessions/annotation/annotations_on_image.h"
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 
 namespace boresight::sessions {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/image_snap.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/json_fields.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/json/json_fields.h"
 
 namespace boresight::sessions {
 namespace {

@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
 namespace {

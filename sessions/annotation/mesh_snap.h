@@ -12,7 +12,7 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "sessions/annotation/annotations.h"
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/surface_point.h"
 
 namespace boresight::sessions {
 

@@ -7,10 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/json_writer.h"
-#include "sessions/run/run_text.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {

@@ -13,7 +13,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
 namespace {

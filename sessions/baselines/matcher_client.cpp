@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
 namespace {

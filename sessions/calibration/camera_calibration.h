@@ -11,7 +11,7 @@
 #include "core/geometry/camera.h"
 #include "sessions/calibration/information.h"
 #include "sessions/calibration/observations.h"
-#include "sessions/io/camera_file.h"
+#include "sessions/io/cameras/camera_file.h"
 
 namespace boresight::sessions {
 

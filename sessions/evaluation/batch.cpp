@@ -16,8 +16,8 @@
 
 #include "sessions/evaluation/model_error.h"
 #include "sessions/evaluation/reseed.h"
-#include "sessions/io/config_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/config_file.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"

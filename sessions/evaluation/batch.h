@@ -10,7 +10,7 @@
 
 #include "sessions/baselines/methods.h"
 #include "sessions/evaluation/run_result.h"
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
 #include "sessions/run/runner.h"
 
 namespace boresight::sessions {

@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/config_file.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/config_file.h"
 #include "sessions/version.h"
 
 #include "sessions/text/utc_time.h"

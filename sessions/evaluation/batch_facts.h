@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/localizer/localizer_options.h"
-#include "sessions/io/dataset_file.h"
-#include "sessions/io/option_value.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/json/option_value.h"
 
 namespace boresight::sessions {
 

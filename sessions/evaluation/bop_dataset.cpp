@@ -9,9 +9,9 @@
 
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/evaluation/reseed.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/image_decoder.h"
-#include "sessions/io/json_reader.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/images/image_decoder.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/units.h"
 

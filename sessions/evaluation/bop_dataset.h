@@ -8,7 +8,7 @@
 
 #include "sessions/evaluation/bop_scene.h"
 #include "sessions/evaluation/run_result.h"
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
 
 namespace boresight::sessions {
 

@@ -9,10 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/units.h"
 

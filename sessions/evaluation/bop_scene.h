@@ -8,7 +8,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/evaluation/posed_image.h"
-#include "sessions/io/json_reader.h"
+#include "sessions/io/json/json_reader.h"
 
 namespace boresight::sessions {
 

@@ -12,7 +12,7 @@
 #include "core/geometry/camera.h"
 #include "core/geometry/pose.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
 
 namespace boresight::sessions {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "sessions/evaluation/run_rows.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/text/utc_time.h"
 
 namespace boresight::sessions {

@@ -14,7 +14,7 @@
 #include "sessions/evaluation/run_result.h"
 #include "sessions/evaluation/run_rows.h"
 #include "sessions/evaluation/sqlite.h"
-#include "sessions/io/file_lock.h"
+#include "sessions/io/files/file_lock.h"
 
 namespace boresight::sessions {
 

@@ -7,8 +7,8 @@
 
 #include "sessions/evaluation/results_file.h"
 #include "sessions/evaluation/run_rows.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
 namespace {

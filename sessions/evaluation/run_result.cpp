@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/json_writer.h"
-#include "sessions/run/acceptance.h"
-#include "sessions/run/run_text.h"
+#include "sessions/io/json/json_writer.h"
+#include "sessions/trace/acceptance.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {

@@ -11,10 +11,10 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
 #include "sessions/run/image_quality.h"
-#include "sessions/run/match_details.h"
-#include "sessions/run/trace.h"
+#include "sessions/trace/match_details.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 
 namespace boresight::sessions {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "sessions/baselines/methods.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/run/problem.h"
 
 namespace boresight::sessions {

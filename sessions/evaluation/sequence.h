@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sessions/evaluation/run_result.h"
-#include "sessions/io/frame_source.h"
-#include "sessions/io/scene_mesh.h"
+#include "sessions/io/images/frame_source.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/run/pose_follower.h"
 #include "sessions/run/runner.h"
 

@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
 
 namespace boresight::sessions {
 namespace {

@@ -8,11 +8,11 @@
 #include <set>
 #include <sstream>
 
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_reader.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_reader.h"
 
 namespace boresight::sessions {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "core/base/crc32.h"
 #include "core/localizer/schedule.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/run/archive.h"
-#include "sessions/run/trace_fields.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/trace/archive.h"
+#include "sessions/trace/trace_fields.h"
 
 namespace boresight::sessions {
 namespace {

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "core/localizer/problem_bytes.h"
+#include "core/record/problem_bytes.h"
 #include "core/record/record_hashes.h"
 #include "core/record/record_writer.h"
-#include "sessions/run/run_plan.h"
-#include "sessions/run/trace.h"
+#include "sessions/trace/run_plan.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

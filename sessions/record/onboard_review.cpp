@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"

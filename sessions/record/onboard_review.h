@@ -12,7 +12,7 @@
 #include "core/localizer/problem.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/run/trace.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -14,10 +14,10 @@
 #include "core/record/record_hashes.h"
 #include "core/templates/template_selection.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/run/iteration_trace.h"
-#include "sessions/run/match_details.h"
-#include "sessions/run/scene_render.h"
 #include "sessions/text/units.h"
+#include "sessions/trace/iteration_trace.h"
+#include "sessions/trace/match_details.h"
+#include "sessions/trace/scene_render.h"
 
 namespace boresight::sessions {
 namespace {

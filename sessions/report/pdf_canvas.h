@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/run/overlay.h"
+#include "sessions/trace/overlay.h"
 
 namespace boresight::sessions {
 

@@ -11,10 +11,10 @@
 #include <Eigen/Core>
 
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/run/overlay.h"
-#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session.h"
+#include "sessions/trace/overlay.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

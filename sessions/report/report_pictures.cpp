@@ -6,8 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 #include "sessions/annotation/annotations_on_image.h"
-#include "sessions/run/overlay.h"
 #include "sessions/session/case_annotations.h"
+#include "sessions/trace/overlay.h"
 
 namespace boresight::sessions {
 namespace {

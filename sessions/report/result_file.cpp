@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
+#include "sessions/checks/pose_uncertainty.h"
 #include "sessions/evaluation/run_result.h"
-#include "sessions/io/config_file.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/review/pose_uncertainty.h"
-#include "sessions/run/acceptance.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/config_file.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/run/image_quality.h"
-#include "sessions/run/run_text.h"
 #include "sessions/session/named_poses.h"
 #include "sessions/session/session_file.h"
+#include "sessions/trace/acceptance.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {

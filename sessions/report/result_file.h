@@ -9,9 +9,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/option_value.h"
-#include "sessions/run/trace.h"
+#include "sessions/io/json/option_value.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

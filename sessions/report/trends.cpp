@@ -6,8 +6,8 @@
 #include <map>
 
 #include "core/base/math.h"
-#include "sessions/review/checks.h"
-#include "sessions/review/pose_uncertainty.h"
+#include "sessions/checks/checks.h"
+#include "sessions/checks/pose_uncertainty.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"

@@ -2,8 +2,8 @@
 #include "sessions/review/annotated_seed.h"
 
 #include "core/base/math.h"
+#include "sessions/checks/pose_uncertainty.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/review/pose_uncertainty.h"
 
 namespace boresight::sessions {
 namespace {

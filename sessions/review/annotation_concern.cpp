@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "sessions/review/pose_uncertainty.h"
-#include "sessions/session/check.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "sessions/decision/check.h"
 
 namespace boresight::sessions {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/review/pose_quality.h"
+#include "sessions/checks/pose_quality.h"
 #include "sessions/session/case_annotations.h"
 #include "sessions/session/case_run.h"
 

@@ -6,13 +6,13 @@
 #include <optional>
 #include <utility>
 
-#include "sessions/io/errors.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/review/checks.h"
+#include "sessions/checks/checks.h"
+#include "sessions/decision/check_limits.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_annotations.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/session/views_run.h"
 #include "sessions/version.h"

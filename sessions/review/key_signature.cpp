@@ -10,7 +10,7 @@
 #include <optional>
 #include <system_error>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 
 extern char** environ;
 

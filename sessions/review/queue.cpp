@@ -12,18 +12,18 @@
 #include <utility>
 
 #include "core/localizer/localizer.h"
+#include "sessions/checks/checks.h"
+#include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/review/checks.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/review/review_status.h"
-#include "sessions/run/run_text.h"
 #include "sessions/run/worker_pool.h"
-#include "sessions/session/check_limits.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/session/session_of_results.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"
+#include "sessions/trace/run_text.h"
 
 namespace boresight::sessions {
 namespace {

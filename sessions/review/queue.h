@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "sessions/checks/review_subject.h"
+#include "sessions/decision/check.h"
 #include "sessions/review/review_status.h"
-#include "sessions/review/review_subject.h"
-#include "sessions/session/check.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

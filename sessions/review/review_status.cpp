@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/annotation/annotations_file.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_fields.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/session/decision.h"
+#include "sessions/decision/decision.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_fields.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/utc_time.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sessions/review/review_subject.h"
-#include "sessions/session/check.h"
+#include "sessions/checks/review_subject.h"
+#include "sessions/decision/check.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

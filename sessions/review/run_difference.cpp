@@ -8,10 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include "sessions/checks/checks.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/option_value.h"
+#include "sessions/io/json/option_value.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/review/checks.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "sessions/decision/check.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/record/compare_records.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/check.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "sessions/run/overlay.h"
+#include "sessions/trace/overlay.h"
 
 namespace boresight::sessions {
 

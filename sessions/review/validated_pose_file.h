@@ -9,10 +9,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sessions/review/review_subject.h"
-#include "sessions/run/trace.h"
-#include "sessions/session/check.h"
+#include "sessions/checks/review_subject.h"
+#include "sessions/decision/check.h"
 #include "sessions/session/session.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

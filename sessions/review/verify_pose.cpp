@@ -5,14 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
+#include "sessions/decision/decision.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/review/key_signature.h"
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
-#include "sessions/session/decision.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
 

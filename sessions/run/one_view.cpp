@@ -4,10 +4,10 @@
 #include <span>
 #include <utility>
 
-#include "sessions/run/iteration_trace.h"
 #include "sessions/run/matching_method.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/stepped_run.h"
+#include "sessions/trace/iteration_trace.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/geometry/pose.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/pose_file.h"
 
 namespace boresight::sessions {
 

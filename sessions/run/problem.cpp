@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "core/base/digest.h"
-#include "sessions/io/errors.h"
-#include "sessions/run/run_text.h"
-#include "sessions/run/scene_render.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/trace/run_text.h"
+#include "sessions/trace/scene_render.h"
 
 namespace boresight::sessions {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "core/localizer/problem.h"
 #include "core/record/record_writer.h"
-#include "sessions/io/image_file.h"
-#include "sessions/io/pose_file.h"
-#include "sessions/io/scene_mesh.h"
-#include "sessions/run/trace.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/images/image_file.h"
+#include "sessions/io/meshes/scene_mesh.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -10,7 +10,7 @@
 #include "core/base/kernels.h"
 #include "core/record/record_writer.h"
 #include "core/views/views_problem.h"
-#include "sessions/run/trace.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -7,8 +7,8 @@
 #include "core/base/digest.h"
 #include "core/pnp/normal_equations.h"
 #include "core/views/views_localizer.h"
-#include "sessions/run/iteration_trace.h"
 #include "sessions/run/stepped_run.h"
+#include "sessions/trace/iteration_trace.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {

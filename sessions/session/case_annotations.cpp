@@ -3,10 +3,10 @@
 
 #include <utility>
 
+#include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/scene_mesh.h"
-#include "sessions/session/check_limits.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/session/input_check.h"
 
 namespace boresight::sessions {

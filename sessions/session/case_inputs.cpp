@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "core/base/math.h"
-#include "sessions/io/camera_field.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/labels/image_label.h"
-#include "sessions/io/mesh_file.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/images/labels/image_label.h"
+#include "sessions/io/meshes/mesh_file.h"
 #include "sessions/run/problem.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "sessions/io/camera_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/json_fields.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/io/mesh_container.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_fields.h"
+#include "sessions/io/json/json_writer.h"
+#include "sessions/io/meshes/mesh_container.h"
 
 namespace boresight::sessions {
 

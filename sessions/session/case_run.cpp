@@ -7,14 +7,14 @@
 #include <system_error>
 #include <utility>
 
-#include "sessions/io/camera_field.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/json_fields.h"
+#include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_fields.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
-#include "sessions/run/trace_file.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
+#include "sessions/trace/trace_file.h"
 
 #include "sessions/text/utc_time.h"
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "sessions/io/image_file.h"
-#include "sessions/io/scene_mesh.h"
-#include "sessions/run/trace.h"
+#include "sessions/io/images/image_file.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/session/session.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -7,8 +7,8 @@
 
 #include "core/base/math.h"
 #include "sessions/baselines/methods.h"
-#include "sessions/io/camera_field.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/input_check.h"
 #include "sessions/version.h"

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/base/image.h"
-#include "sessions/io/image_file.h"
+#include "sessions/io/images/image_file.h"
 
 namespace boresight::sessions {
 

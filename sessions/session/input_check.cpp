@@ -9,10 +9,10 @@
 #include <system_error>
 #include <utility>
 
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/labels/label_files.h"
-#include "sessions/io/mesh_container.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/images/labels/label_files.h"
+#include "sessions/io/meshes/mesh_container.h"
 
 namespace boresight::sessions {
 namespace {

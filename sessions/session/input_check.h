@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/io/scene_mesh.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

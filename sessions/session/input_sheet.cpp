@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "core/base/math.h"
+#include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/camera_field.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/labels/image_label.h"
+#include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/images/labels/image_label.h"
 #include "sessions/run/image_quality.h"
 #include "sessions/run/problem.h"
-#include "sessions/session/check_limits.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/named_poses.h"

@@ -10,7 +10,7 @@
 
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
-#include "sessions/io/image_file.h"
+#include "sessions/io/images/image_file.h"
 #include "sessions/session/case_run.h"
 
 namespace boresight::sessions {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "sessions/io/camera_file.h"
+#include "sessions/io/cameras/camera_file.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

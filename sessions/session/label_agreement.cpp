@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
-#include "sessions/io/labels/image_label.h"
+#include "sessions/io/images/labels/image_label.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pnp/normal_equations.h"
-#include "sessions/io/json_writer.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/io/camera_file.h"
+#include "sessions/io/cameras/camera_file.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

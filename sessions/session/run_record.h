@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sessions/run/run_plan.h"
-#include "sessions/run/trace.h"
+#include "sessions/trace/run_plan.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -7,9 +7,10 @@
 
 #include "core/base/digest.h"
 #include "core/localizer/run_digest.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_fields.h"
+#include "sessions/decision/check_limits.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_fields.h"
 #include "sessions/session/session_file.h"
 
 namespace boresight::sessions {
@@ -287,6 +288,15 @@ bool StaleRuns::isStale(const RunRecord& run, const SharedValue<SessionCase>& sh
   std::string& options = options_digests_[shared_value->feature_size_m.value_or(0.0)];
   if (options.empty()) options = optionsDigest(caseOptions(session, *shared_value, file));
   return run.options_sha256 != options;
+}
+
+Requirement requirementOf(const Session& session, const SessionCase& session_case) {
+  if (session_case.requirement) return *session_case.requirement;
+  const CheckPreset* preset = findCheckPreset(session.review.preset);
+  if (preset == nullptr)
+    throw InputError("session", "review.preset",
+                     "there is no preset '" + session.review.preset + "'");
+  return preset->requirement;
 }
 
 }  // namespace boresight::sessions

@@ -17,12 +17,12 @@
 #include "core/localizer/localizer_options.h"
 #include "sessions/annotation/annotation_round.h"
 #include "sessions/annotation/annotations.h"
-#include "sessions/io/config_file.h"
-#include "sessions/io/dataset_file.h"
-#include "sessions/io/frame_transform.h"
-#include "sessions/io/image_file.h"
-#include "sessions/io/labels/image_label.h"
-#include "sessions/session/decision.h"
+#include "sessions/decision/decision.h"
+#include "sessions/io/cameras/frame_transform.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/images/image_file.h"
+#include "sessions/io/images/labels/image_label.h"
+#include "sessions/io/json/config_file.h"
 #include "sessions/session/ignore_strokes.h"
 #include "sessions/session/keyed_list.h"
 #include "sessions/session/run_record.h"
@@ -240,5 +240,9 @@ class StaleRuns {
   OptionList options_;
   std::map<double, std::string> options_digests_;  ///< by the case's feature size, m
 };
+
+/// A case's own requirement, else that of the session's preset. InputError when there is no such
+/// preset.
+Requirement requirementOf(const Session& session, const SessionCase& session_case);
 
 }  // namespace boresight::sessions

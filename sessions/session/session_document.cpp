@@ -8,10 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_reader.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/session/session_file.h"
 #include "sessions/text/utc_time.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sessions/io/file_lock.h"
+#include "sessions/io/files/file_lock.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

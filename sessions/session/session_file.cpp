@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "sessions/annotation/annotations_file.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/config_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_fields.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/session/decision.h"
+#include "sessions/decision/decision.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/config_file.h"
+#include "sessions/io/json/json_fields.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/version.h"
 
 namespace boresight::sessions {

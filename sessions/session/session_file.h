@@ -7,9 +7,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sessions/io/frame_transform.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/labels/image_label.h"
+#include "sessions/io/cameras/frame_transform.h"
+#include "sessions/io/images/labels/image_label.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/session/session.h"
 
 namespace boresight::sessions {

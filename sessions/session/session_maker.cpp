@@ -6,11 +6,11 @@
 #include <system_error>
 
 #include "core/base/math.h"
+#include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/bop_dataset.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/labels/image_label.h"
-#include "sessions/session/check_limits.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/images/labels/image_label.h"
 #include "sessions/session/input_check.h"
 
 namespace boresight::sessions {

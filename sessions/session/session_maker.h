@@ -18,7 +18,7 @@ struct CaseFiles {
   ImageReadOptions eight_bit;
   /// camera.json, text of calibration or an image with a label; "": the image's own label.
   std::filesystem::path camera;
-  /// Transforms between named frames (sessions/io/cameras.md).
+  /// Transforms between named frames (sessions/io/cameras/cameras.md).
   std::vector<std::filesystem::path> transforms;
   std::vector<PartSource> parts;
   /// "": the chain between STATION and CAMERA, with the transforms' covariances as its uncertainty;

@@ -10,10 +10,10 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/config_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_reader.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/config_file.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/text/text_table.h"
 

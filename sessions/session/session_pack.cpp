@@ -19,11 +19,11 @@
 #include <minizip/zip.h>
 
 #include "sessions/annotation/landmarks.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/labels/label_files.h"
-#include "sessions/io/mesh_file.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/images/labels/label_files.h"
+#include "sessions/io/meshes/mesh_file.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/stated_inputs.h"
 
-#include "sessions/io/frame_tree.h"
+#include "sessions/io/cameras/frame_tree.h"
 
 namespace boresight::sessions {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "sessions/io/camera_field.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/cameras/camera_field.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/rig_links.h"
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/views/views_problem.h"
-#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::sessions {
 

@@ -11,8 +11,8 @@
 
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/dataset_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/review/thumbnail.h"
 #include "sessions/text/text_table.h"
 

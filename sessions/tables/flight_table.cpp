@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "sessions/io/json_reader.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/tables/paper_figures.h"
 #include "sessions/tables/results_set.h"
 

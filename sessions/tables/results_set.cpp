@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
 namespace {

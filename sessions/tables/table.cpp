@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "sessions/io/json_reader.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/text/text_table.h"
 
 namespace boresight::sessions {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sessions/evaluation/bop_scene.h"
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/bop_results.h"

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/io/camera_file.h"
-#include "sessions/io/frame_transform.h"
-#include "sessions/io/frame_tree.h"
+#include "sessions/io/cameras/frame_transform.h"
+#include "sessions/io/cameras/frame_tree.h"
+#include "sessions/io/images/camera_of_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"

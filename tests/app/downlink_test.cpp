@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/cahvor_file.h"
-#include "sessions/io/json_writer.h"
+#include "sessions/io/cameras/cahvor_file.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
 #include "tests/app/run_whs.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {

@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/localizer/problem_bytes.h"
-#include "sessions/io/image_file.h"
+#include "core/record/problem_bytes.h"
+#include "sessions/io/images/image_file.h"
 #include "sessions/record/onboard_record.h"
-#include "sessions/run/trace_file.h"
+#include "sessions/trace/trace_file.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {

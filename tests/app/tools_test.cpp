@@ -10,10 +10,10 @@
 
 #include "sessions/annotation/annotations_file.h"
 #include "sessions/annotation/solution_file.h"
-#include "sessions/run/scene_render.h"
 #include "sessions/session/case_annotations.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"
+#include "sessions/trace/scene_render.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {

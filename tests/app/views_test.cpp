@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pnp/normal_equations.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {

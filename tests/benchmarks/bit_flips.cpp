@@ -33,7 +33,7 @@
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/localizer/localizer.h"
-#include "core/localizer/problem_bytes.h"
+#include "core/record/problem_bytes.h"
 
 namespace boresight::test {
 namespace {

@@ -23,18 +23,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sessions/checks/checks.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "sessions/decision/check_limits.h"
+#include "sessions/decision/decision.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/evaluation/run_result.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/json_fields.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/io/pose_file.h"
-#include "sessions/review/checks.h"
-#include "sessions/review/pose_uncertainty.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_fields.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/run/runner.h"
-#include "sessions/session/check_limits.h"
-#include "sessions/session/decision.h"
 #include "sessions/session/session_maker.h"
 #include "tests/benchmarks/check_cases.h"
 

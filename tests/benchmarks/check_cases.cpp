@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sessions/checks/checks.h"
 #include "sessions/evaluation/reseed.h"
-#include "sessions/io/scene_mesh.h"
-#include "sessions/review/checks.h"
+#include "sessions/io/meshes/scene_mesh.h"
 
 namespace boresight::test {
 namespace {

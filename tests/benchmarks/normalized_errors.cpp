@@ -14,8 +14,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "sessions/io/dataset_file.h"
-#include "sessions/io/scene_mesh.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/run/problem.h"
 #include "sessions/run/runner.h"
 

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
 #include "tests/fuzz/readers.h"
 #include "tests/support/temporary_folder.h"
 

@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "core/base/math.h"
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/files/atomic_file.h"
 #include "tests/app/run_whs.h"
 
 namespace boresight::test {

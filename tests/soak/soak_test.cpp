@@ -19,7 +19,7 @@
 #include "sessions/evaluation/reseed.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/run/runner.h"
-#include "sessions/run/trace_file.h"
+#include "sessions/trace/trace_file.h"
 #include "tests/support/example_case.h"
 #include "tests/support/temporary_folder.h"
 

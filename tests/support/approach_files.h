@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/camera_file.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/cameras/pose_file.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/generated_approach.h"
 #include "tests/support/temporary_folder.h"

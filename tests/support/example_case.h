@@ -5,10 +5,10 @@
 #include <string>
 
 #include "core/localizer/problem.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/image_file.h"
-#include "sessions/io/pose_file.h"
-#include "sessions/io/scene_mesh.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/images/image_file.h"
+#include "sessions/io/meshes/scene_mesh.h"
 
 namespace boresight::test {
 

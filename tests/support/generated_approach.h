@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/localizer/problem.h"
-#include "sessions/io/image_file.h"
+#include "sessions/io/images/image_file.h"
 #include "tests/core/localizer/scene.h"
 
 namespace boresight::test {

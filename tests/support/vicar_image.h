@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/geometry/cahv_model.h"
-#include "sessions/io/camera_file.h"
+#include "sessions/io/cameras/camera_file.h"
 
 namespace boresight::test {
 

@@ -10,7 +10,7 @@
 #include <QFontMetricsF>
 
 #include "sessions/annotation/annotations_on_image.h"
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/surface_point.h"
 #include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {

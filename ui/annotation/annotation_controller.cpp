@@ -6,7 +6,7 @@
 
 #include "core/geometry/mesh.h"
 #include "sessions/annotation/annotations.h"
-#include "sessions/session/check_limits.h"
+#include "sessions/decision/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
 

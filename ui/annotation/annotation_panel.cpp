@@ -15,11 +15,11 @@
 #include "sessions/session/rig_links.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/models/text.h"
-#include "ui/panels/column_fitter.h"
-#include "ui/panels/pose_comparison.h"
-#include "ui/panels/pose_panel.h"
-#include "ui/panels/widgets.h"
+#include "ui/panels/run/pose_comparison.h"
+#include "ui/panels/run/pose_panel.h"
 #include "ui/state/document.h"
+#include "ui/widgets/column_fitter.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "ui_annotation_panel.h"
 
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/annotations_model.h"
 

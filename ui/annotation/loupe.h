@@ -8,7 +8,7 @@
 #include <QPointF>
 #include <QWidget>
 
-#include "sessions/io/image_file.h"
+#include "sessions/io/images/image_file.h"
 #include "ui/annotation/annotation_aim.h"
 #include "ui/views/view_transform.h"
 

@@ -4,8 +4,8 @@
 #include <QtWidgets>
 
 #include "ui/models/text.h"
-#include "ui/panels/widgets.h"
 #include "ui/run/run_controller.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

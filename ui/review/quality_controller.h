@@ -5,7 +5,7 @@
 
 #include <QObject>
 
-#include "sessions/review/pose_quality.h"
+#include "sessions/checks/pose_quality.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {

@@ -3,7 +3,7 @@
 
 #include <exception>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/review/thumbnail.h"
 #include "sessions/session/case_run.h"
 #include "ui/models/text.h"

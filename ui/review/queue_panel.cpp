@@ -10,8 +10,8 @@
 #include <QtWidgets>
 
 #include "ui/models/text.h"
-#include "ui/panels/cases_panel.h"
-#include "ui/panels/widgets.h"
+#include "ui/panels/case/cases_panel.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 

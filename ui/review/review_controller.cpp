@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sessions/session/check_limits.h"
+#include "sessions/decision/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/state/document.h"
 

@@ -10,9 +10,9 @@
 #include <QObject>
 #include <QString>
 
-#include "sessions/review/checks.h"
+#include "sessions/checks/checks.h"
+#include "sessions/checks/review_subject.h"
 #include "sessions/review/review_status.h"
-#include "sessions/review/review_subject.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/view_state.h"
 

@@ -6,10 +6,10 @@
 
 #include <QtWidgets>
 
-#include "sessions/review/pose_quality.h"
-#include "sessions/session/check_limits.h"
+#include "sessions/checks/pose_quality.h"
+#include "sessions/decision/check_limits.h"
 #include "ui/models/text.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 
 namespace boresight::ui {
 namespace {

@@ -8,8 +8,8 @@
 #include <QTimer>
 
 #include "core/geometry/pose.h"
-#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/trace.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {

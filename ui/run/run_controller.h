@@ -9,8 +9,8 @@
 #include <QString>
 
 #include "sessions/run/runner.h"
-#include "sessions/run/trace.h"
 #include "sessions/session/views_run.h"
+#include "sessions/trace/trace.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {

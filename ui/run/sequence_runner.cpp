@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "sessions/io/video_frames.h"
+#include "sessions/io/images/video_frames.h"
 #include "sessions/run/problem.h"
 
 namespace boresight::ui {

@@ -7,7 +7,7 @@
 #include <QCoreApplication>
 
 #include "sessions/annotation/image_snap.h"
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/surface_point.h"
 
 namespace boresight::ui {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 #include "ui/plots/plot_colors.h"
 
 namespace boresight::ui {

@@ -7,8 +7,8 @@
 
 #include <QtWidgets>
 
-#include "sessions/io/undistort.h"
-#include "sessions/run/surface_point.h"
+#include "sessions/io/cameras/undistort.h"
+#include "sessions/trace/surface_point.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/scene/scene_annotator.h"
 #include "ui/scene/scene_overlay.h"

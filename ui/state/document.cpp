@@ -9,7 +9,7 @@
 
 #include <QtWidgets>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::ui {
 namespace {

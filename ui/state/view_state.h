@@ -13,9 +13,9 @@
 #include <QString>
 
 #include "core/geometry/pose.h"
-#include "sessions/run/alternatives.h"
-#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/alternatives.h"
+#include "sessions/trace/trace.h"
 
 namespace boresight::ui {
 

@@ -6,9 +6,9 @@
 
 #include <QtWidgets>
 
-#include "sessions/run/scene_render.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/rig_links.h"
+#include "sessions/trace/scene_render.h"
 #include "ui/models/text.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"

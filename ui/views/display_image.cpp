@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {

@@ -10,7 +10,7 @@
 #include <QString>
 
 #include "core/base/image.h"
-#include "sessions/io/image_file.h"
+#include "sessions/io/images/image_file.h"
 #include "ui/state/view_state.h"
 
 namespace boresight::ui {

@@ -6,8 +6,8 @@
 
 #include <QtWidgets>
 
-#include "sessions/run/scene_render.h"
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/scene_render.h"
+#include "sessions/trace/surface_point.h"
 #include "ui/run/task_runner.h"
 #include "ui/style/icons.h"
 #include "ui/views/canvas_chips.h"

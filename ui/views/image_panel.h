@@ -9,8 +9,8 @@
 #include <QTimer>
 #include <QWidget>
 
-#include "sessions/run/picture_data.h"
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/picture_data.h"
+#include "sessions/trace/surface_point.h"
 #include "ui/state/view_state.h"
 #include "ui/views/layer.h"
 

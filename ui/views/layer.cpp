@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "sessions/run/match_details.h"
+#include "sessions/trace/match_details.h"
 #include "ui/views/view_transform.h"
 
 namespace boresight::ui {

@@ -13,10 +13,10 @@
 #include <QString>
 
 #include "core/base/image.h"
-#include "sessions/run/edge_lines.h"
-#include "sessions/run/picture_data.h"
-#include "sessions/run/trace.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/edge_lines.h"
+#include "sessions/trace/picture_data.h"
+#include "sessions/trace/trace.h"
 #include "ui/style/tokens.h"
 
 namespace boresight::ui {

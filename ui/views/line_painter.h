@@ -5,7 +5,7 @@
 #include <QPen>
 #include <QRectF>
 
-#include "sessions/run/edge_lines.h"
+#include "sessions/trace/edge_lines.h"
 #include "ui/style/tokens.h"
 
 class QPainter;

@@ -7,7 +7,7 @@
 #include <QPointF>
 #include <QString>
 
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/surface_point.h"
 
 class QPainter;
 

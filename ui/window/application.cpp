@@ -8,23 +8,23 @@
 
 #include <QtWidgets>
 
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/version.h"
-#include "ui/panels/hypotheses_panel.h"
-#include "ui/panels/match_view.h"
+#include "ui/panels/diagnose/hypotheses_panel.h"
+#include "ui/panels/diagnose/match_view.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_canvas.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/window/image_share.h"
 #include "ui/window/input_findings.h"
 #include "ui/window/main_window.h"
-#include "ui/window/image_share.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {

@@ -7,7 +7,7 @@
 
 #include <QCoreApplication>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/session/views_run.h"
 #include "ui/models/text.h"
 #include "ui/run/task_runner.h"

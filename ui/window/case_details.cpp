@@ -7,10 +7,10 @@
 #include <QCoreApplication>
 
 #include "core/base/math.h"
+#include "sessions/decision/check_limits.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/review/review_status.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/run/task_runner.h"
 #include "ui/views/display_image.h"

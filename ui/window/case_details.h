@@ -13,7 +13,7 @@
 
 #include "core/geometry/pose.h"
 #include "sessions/session/session.h"
-#include "ui/panels/cases_panel.h"
+#include "ui/panels/case/cases_panel.h"
 
 namespace boresight::ui {
 

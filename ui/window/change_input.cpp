@@ -4,8 +4,8 @@
 #include <QtWidgets>
 
 #include "ui/models/text.h"
-#include "ui/panels/widgets.h"
 #include "ui/state/document.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/session_files.h"
 

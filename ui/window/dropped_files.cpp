@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sessions/io/cahvor_file.h"
-#include "sessions/io/json_reader.h"
-#include "sessions/io/labels/image_label.h"
+#include "sessions/io/cameras/cahvor_file.h"
+#include "sessions/io/images/labels/image_label.h"
+#include "sessions/io/json/json_reader.h"
 #include "sessions/text/plain_text.h"
 
 namespace boresight::ui {

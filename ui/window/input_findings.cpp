@@ -8,8 +8,8 @@
 #include <QMessageBox>
 
 #include "ui/models/text.h"
-#include "ui/panels/widgets.h"
 #include "ui/state/document.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 

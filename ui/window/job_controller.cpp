@@ -3,7 +3,7 @@
 
 #include <QShortcut>
 
-#include "sessions/review/checks.h"
+#include "sessions/checks/checks.h"
 #include "ui/models/text.h"
 #include "ui/review/review_controller.h"
 #include "ui/run/run_controller.h"

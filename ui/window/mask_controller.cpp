@@ -6,8 +6,8 @@
 
 #include "sessions/session/input_check.h"
 #include "sessions/session/session.h"
-#include "ui/panels/levels_panel.h"
-#include "ui/panels/mask_panel.h"
+#include "ui/panels/annotate/levels_panel.h"
+#include "ui/panels/annotate/mask_panel.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"

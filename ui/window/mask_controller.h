@@ -3,7 +3,7 @@
 
 #include <QObject>
 
-#include "sessions/io/image_file.h"
+#include "sessions/io/images/image_file.h"
 #include "sessions/session/session.h"
 #include "ui/state/view_state.h"
 #include "ui/window/window_parts.h"

@@ -5,14 +5,14 @@
 
 #include <QtWidgets>
 
-#include "sessions/io/video_frames.h"
-#include "sessions/run/scene_render.h"
-#include "ui/panels/widgets.h"
+#include "sessions/io/images/video_frames.h"
+#include "sessions/trace/scene_render.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 #include "ui/style/icons.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_view.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 
 namespace boresight::ui {

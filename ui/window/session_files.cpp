@@ -7,18 +7,18 @@
 
 #include <QtWidgets>
 
-#include "sessions/io/mesh_file.h"
-#include "sessions/io/scene_mesh.h"
+#include "sessions/io/meshes/mesh_file.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_of_results.h"
 #include "ui/models/text.h"
-#include "ui/panels/widgets.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/review/pose_export.h"
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/change_input.h"
 

@@ -5,9 +5,9 @@
 
 #include "sessions/session/session_maker.h"
 #include "ui/models/text.h"
-#include "ui/panels/widgets.h"
 #include "ui/state/document.h"
 #include "ui/style/icons.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/session_files.h"
 
 namespace boresight::ui {

@@ -5,7 +5,7 @@
 
 #include <QtWidgets>
 
-#include "sessions/review/checks.h"
+#include "sessions/checks/checks.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/models/text.h"
 #include "ui/review/onboard_panel.h"
@@ -21,8 +21,8 @@
 #include "ui/window/input_findings.h"
 #include "ui/window/session_files.h"
 #include "ui/window/window_docks.h"
-#include "ui/workspaces/uncertainty_dialog.h"
 #include "ui/workspaces/remedies_panel.h"
+#include "ui/workspaces/uncertainty_dialog.h"
 #include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
 

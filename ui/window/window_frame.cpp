@@ -4,8 +4,7 @@
 #include <QtWidgets>
 
 #include "ui/models/text.h"
-#include "ui/panels/cases_panel.h"
-#include "ui/panels/widgets.h"
+#include "ui/panels/case/cases_panel.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/state/document.h"
 #include "ui/style/icons.h"
@@ -13,6 +12,7 @@
 #include "ui/views/compare_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/layers_panel.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/case_menu.h"
 #include "ui/window/session_files.h"

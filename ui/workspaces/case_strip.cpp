@@ -5,9 +5,9 @@
 
 #include <QtWidgets>
 
-#include "ui/panels/cases_panel.h"
-#include "ui/panels/widgets.h"
+#include "ui/panels/case/cases_panel.h"
 #include "ui/style/icons.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <QtWidgets>
 
-#include "ui/panels/widgets.h"
 #include "ui/style/icons.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 

@@ -6,7 +6,7 @@
 #include <QCoreApplication>
 #include <QStringList>
 
-#include "sessions/run/run_headline.h"
+#include "sessions/trace/run_headline.h"
 
 namespace boresight::ui {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <QString>
 
-#include "sessions/run/trace.h"
+#include "sessions/trace/trace.h"
 #include "ui/workspaces/step.h"
 
 namespace boresight::ui {

@@ -3,9 +3,9 @@
 
 #include <QtWidgets>
 
-#include "ui/panels/widgets.h"
 #include "ui/state/view_state.h"
 #include "ui/style/tokens.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 

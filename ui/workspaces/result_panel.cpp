@@ -6,13 +6,13 @@
 #include <QtWidgets>
 
 #include "core/base/math.h"
-#include "sessions/run/acceptance.h"
 #include "sessions/text/text_table.h"
+#include "sessions/trace/acceptance.h"
 #include "ui/models/text.h"
-#include "ui/panels/widgets.h"
 #include "ui/review/quality_controller.h"
 #include "ui/state/view_state.h"
 #include "ui/style/theme.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 

@@ -8,11 +8,11 @@
 #include <QtWidgets>
 
 #include "ui/models/text.h"
-#include "ui/panels/iterations_panel.h"
-#include "ui/panels/widgets.h"
+#include "ui/panels/diagnose/iterations_panel.h"
 #include "ui/state/view_state.h"
 #include "ui/style/theme.h"
 #include "ui/style/tokens.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

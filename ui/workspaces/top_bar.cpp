@@ -3,8 +3,8 @@
 
 #include <QtWidgets>
 
-#include "ui/panels/widgets.h"
 #include "ui/style/tokens.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 

@@ -5,7 +5,7 @@
 
 #include <QDialog>
 
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/pose_file.h"
 
 class QDoubleSpinBox;
 

@@ -6,7 +6,7 @@
 #include <QCoreApplication>
 
 #include "sessions/record/onboard_review.h"
-#include "sessions/run/run_headline.h"
+#include "sessions/trace/run_headline.h"
 #include "ui/models/text.h"
 #include "ui/workspaces/remedies.h"
 

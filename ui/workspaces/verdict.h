@@ -8,10 +8,10 @@
 #include <QString>
 #include <QStringList>
 
+#include "sessions/checks/pose_quality.h"
 #include "sessions/record/compare_records.h"
-#include "sessions/review/pose_quality.h"
 #include "sessions/review/review_status.h"
-#include "sessions/run/trace.h"
+#include "sessions/trace/trace.h"
 #include "ui/run/run_controller.h"
 #include "ui/workspaces/step.h"
 #include "ui/workspaces/workspace.h"

@@ -3,7 +3,7 @@
 
 #include <QtWidgets>
 
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "core/localizer/localizer_options.h"
 #include "sessions/baselines/methods.h"
-#include "sessions/io/frame_transform.h"
-#include "sessions/io/labels/image_label.h"
-#include "sessions/session/check_limits.h"
+#include "sessions/decision/check_limits.h"
+#include "sessions/io/cameras/frame_transform.h"
+#include "sessions/io/images/labels/image_label.h"
 #include "sessions/session/session_file.h"
 #include "tests/app/run_whs.h"
 #include "tests/support/downlink_image.h"

@@ -20,7 +20,7 @@
 
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/model_error.h"
-#include "sessions/io/option_value.h"
+#include "sessions/io/json/option_value.h"
 #include "sessions/run/runner.h"
 #include "tests/benchmarks/degraded/degrade.h"
 

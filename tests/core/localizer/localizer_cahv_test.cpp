@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/localizer/localizer.h"
-#include "core/localizer/problem_bytes.h"
+#include "core/record/problem_bytes.h"
 #include "tests/core/localizer/scene.h"
 
 namespace boresight::test {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/io/scene_mesh.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "tests/sessions/annotation/annotated_scene.h"
 
 namespace boresight::test {

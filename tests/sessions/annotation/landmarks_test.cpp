@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/annotation/box_scene.h"
 #include "tests/sessions/annotation/random_annotations.h"
 #include "tests/support/temporary_folder.h"

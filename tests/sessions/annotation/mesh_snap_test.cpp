@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/io/errors.h"
-#include "sessions/run/surface_point.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/trace/surface_point.h"
 #include "tests/sessions/annotation/box_scene.h"
 #include "tests/support/random_pose.h"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::test {

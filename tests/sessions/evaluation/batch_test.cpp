@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/support/example_case.h"
 
 namespace boresight::sessions {

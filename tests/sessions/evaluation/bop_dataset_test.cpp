@@ -6,7 +6,7 @@
 
 #include "core/base/math.h"
 #include "sessions/evaluation/reseed.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/support/bop_results.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/exchange/posed_images.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/exchange/posed_images.h"
 #include "tests/support/temporary_folder.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sessions/evaluation/pose_error.h"
-#include "sessions/io/dataset_file.h"
+#include "sessions/io/datasets/dataset_file.h"
 
 namespace boresight::sessions {
 namespace {

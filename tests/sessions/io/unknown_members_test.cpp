@@ -6,12 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/camera_conversion.h"
-#include "sessions/io/camera_file.h"
-#include "sessions/io/config_file.h"
-#include "sessions/io/dataset_file.h"
-#include "sessions/io/frame_transform.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/camera_conversion.h"
+#include "sessions/io/cameras/frame_transform.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/json/config_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {

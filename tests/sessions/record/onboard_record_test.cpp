@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/record/recorded_run.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sessions/run/match_details.h"
-#include "sessions/run/run_text.h"
+#include "sessions/trace/match_details.h"
+#include "sessions/trace/run_text.h"
 #include "tests/sessions/record/recorded_run.h"
 #include "tests/support/random_pose.h"
 

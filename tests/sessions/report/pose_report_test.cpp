@@ -8,11 +8,11 @@
 
 #include <gmock/gmock.h>
 
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/checks/checks.h"
+#include "sessions/checks/pose_quality.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/report/pdf_canvas.h"
-#include "sessions/review/checks.h"
-#include "sessions/review/pose_quality.h"
 #include "sessions/review/review_status.h"
 #include "tests/support/annotated_example.h"
 #include "tests/support/temporary_folder.h"

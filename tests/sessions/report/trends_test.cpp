@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sessions/review/pose_uncertainty.h"
+#include "sessions/checks/pose_uncertainty.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"

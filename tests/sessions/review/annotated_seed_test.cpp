@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
-#include "tests/sessions/review/drawn_box.h"
+#include "tests/sessions/checks/drawn_box.h"
 
 namespace boresight::test {
 namespace {

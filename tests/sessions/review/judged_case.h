@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sessions/io/config_file.h"
+#include "sessions/io/json/config_file.h"
 #include "sessions/review/review_status.h"
 #include "tests/sessions/session/random_session.h"
 

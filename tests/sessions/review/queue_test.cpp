@@ -8,8 +8,8 @@
 #include <array>
 #include <mutex>
 
+#include "sessions/decision/check_limits.h"
 #include "sessions/review/thumbnail.h"
-#include "sessions/session/check_limits.h"
 #include "sessions/session/session_maker.h"
 #include "tests/sessions/review/judged_case.h"
 #include "tests/support/example_case.h"

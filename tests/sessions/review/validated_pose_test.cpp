@@ -9,16 +9,16 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/atomic_file.h"
-#include "sessions/io/errors.h"
-#include "sessions/io/file_bytes.h"
-#include "sessions/io/json_writer.h"
-#include "sessions/review/checks.h"
-#include "sessions/review/pose_uncertainty.h"
+#include "sessions/checks/checks.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "sessions/decision/check_limits.h"
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/io/json/json_writer.h"
 #include "sessions/review/review_status.h"
-#include "sessions/run/trace_file.h"
 #include "sessions/session/case_run.h"
-#include "sessions/session/check_limits.h"
+#include "sessions/trace/trace_file.h"
 #include "tests/support/annotated_example.h"
 #include "tests/support/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/annotation/annotated_scene.h"
 #include "tests/sessions/session/random_session.h"
 

@@ -8,7 +8,7 @@
 #include "sessions/session/input_check.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_pack.h"
-#include "tests/sessions/io/mesh_samples.h"
+#include "tests/sessions/io/meshes/mesh_samples.h"
 #include "tests/sessions/session/example_session.h"
 
 namespace boresight::test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/run/problem.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/approach_files.h"

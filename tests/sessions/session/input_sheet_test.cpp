@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/base/math.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/session/example_session.h"
 #include "tests/support/random_pose.h"
 

@@ -6,8 +6,8 @@
 
 #include "core/base/math.h"
 #include "core/geometry/cahv_model.h"
-#include "sessions/io/camera_conversion.h"
-#include "tests/sessions/io/labels/label_fixture.h"
+#include "sessions/io/cameras/camera_conversion.h"
+#include "tests/sessions/io/images/labels/label_fixture.h"
 
 namespace boresight::sessions {
 namespace {

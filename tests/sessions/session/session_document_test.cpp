@@ -13,7 +13,7 @@
 #include <limits>
 #include <thread>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/in_child.h"
 #include "tests/sessions/session/random_session.h"

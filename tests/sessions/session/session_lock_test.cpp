@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sessions/io/file_lock.h"
+#include "sessions/io/files/file_lock.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/session/in_child.h"
 #include "tests/support/temporary_folder.h"
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/geometry/cahv_model.h"
-#include "sessions/io/cahvor_file.h"
-#include "sessions/io/pose_file.h"
+#include "sessions/io/cameras/cahvor_file.h"
+#include "sessions/io/cameras/pose_file.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/input_check.h"
 #include "sessions/session/input_sheet.h"

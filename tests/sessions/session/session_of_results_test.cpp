@@ -6,7 +6,7 @@
 
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/review/queue.h"
 #include "sessions/session/case_run.h"
 #include "tests/support/example_case.h"

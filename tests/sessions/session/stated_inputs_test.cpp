@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/io/errors.h"
-#include "sessions/io/frame_tree.h"
+#include "sessions/io/cameras/frame_tree.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
 namespace {

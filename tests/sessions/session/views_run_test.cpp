@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/views/views_localizer.h"
-#include "sessions/io/errors.h"
-#include "sessions/review/review_subject.h"
+#include "sessions/checks/review_subject.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"

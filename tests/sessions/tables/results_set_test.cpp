@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/evaluation/results_file.h"
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 #include "tests/sessions/tables/made_runs.h"
 #include "tests/support/temporary_folder.h"
 

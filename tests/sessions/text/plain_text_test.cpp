@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "sessions/io/errors.h"
+#include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "ui/models/annotations_model.h"
 #include "ui/models/text.h"
-#include "ui/panels/cases_panel.h"
-#include "ui/panels/hypotheses_panel.h"
-#include "ui/panels/iterations_panel.h"
-#include "ui/panels/match_view.h"
-#include "ui/panels/options_table.h"
+#include "ui/panels/case/cases_panel.h"
+#include "ui/panels/diagnose/hypotheses_panel.h"
+#include "ui/panels/diagnose/iterations_panel.h"
+#include "ui/panels/diagnose/match_view.h"
+#include "ui/panels/diagnose/options_table.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 

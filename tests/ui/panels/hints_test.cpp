@@ -4,8 +4,8 @@
 #include <QtWidgets>
 
 #include "tests/ui/window_test.h"
-#include "ui/panels/column_fitter.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/column_fitter.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

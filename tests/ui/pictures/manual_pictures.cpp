@@ -13,13 +13,13 @@
 #include <QtWidgets>
 
 #include "core/localizer/localizer_options.h"
-#include "sessions/run/iteration_trace.h"
-#include "sessions/run/overlay.h"
-#include "sessions/run/scene_render.h"
-#include "sessions/run/score_map.h"
 #include "sessions/session/case_run.h"
+#include "sessions/trace/iteration_trace.h"
+#include "sessions/trace/overlay.h"
+#include "sessions/trace/scene_render.h"
+#include "sessions/trace/score_map.h"
 #include "ui/manual/manual_window.h"
-#include "ui/panels/hypotheses_panel.h"
+#include "ui/panels/diagnose/hypotheses_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/style/theme.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/math.h"
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 #include "tests/support/loaded_example.h"
 
 namespace boresight::ui {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 #include "tests/support/random_pose.h"
 #include "tests/ui/scene/scene_fixture.h"
 #include "ui/scene/scene_aim.h"

@@ -8,7 +8,7 @@
 
 #include <QImage>
 
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 #include "tests/support/example_run.h"
 #include "tests/support/loaded_example.h"
 #include "ui/scene/scene_content.h"

@@ -6,7 +6,7 @@
 #include <QTest>
 #include <QtWidgets>
 
-#include "sessions/run/surface_point.h"
+#include "sessions/trace/surface_point.h"
 #include "tests/ui/scene/scene_fixture.h"
 #include "ui/scene/scene_canvas.h"
 

@@ -8,7 +8,7 @@
 #include <QtTest>
 #include <QtWidgets>
 
-#include "sessions/run/scene_render.h"
+#include "sessions/trace/scene_render.h"
 #include "tests/support/hypotheses_run.h"
 #include "tests/support/loaded_example.h"
 #include "tests/ui/patience.h"

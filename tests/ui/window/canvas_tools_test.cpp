@@ -5,14 +5,14 @@
 
 #include <cmath>
 
-#include "ui/panels/command_palette.h"
-#include "ui/panels/levels_histogram.h"
-#include "ui/panels/nudge_gizmo.h"
+#include "ui/panels/annotate/levels_histogram.h"
+#include "ui/panels/run/nudge_gizmo.h"
 #include "ui/views/compare_view.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/measure_tool.h"
+#include "ui/widgets/command_palette.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {

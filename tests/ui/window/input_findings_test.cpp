@@ -3,9 +3,9 @@
 
 #include "sessions/session/input_check.h"
 #include "tests/ui/window_test.h"
-#include "ui/panels/widgets.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

@@ -10,7 +10,7 @@
 #include <QProcess>
 
 #include "core/base/random.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_maker.h"

@@ -7,7 +7,7 @@
 #include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
 #include "tests/ui/window_test.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {

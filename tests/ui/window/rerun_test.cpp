@@ -6,7 +6,7 @@
 #include "sessions/session/views_run.h"
 #include "tests/support/turned_view.h"
 #include "tests/ui/window_test.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
 namespace {

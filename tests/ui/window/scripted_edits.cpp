@@ -9,7 +9,7 @@
 #include <QtWidgets>
 
 #include "core/base/random.h"
-#include "sessions/io/file_bytes.h"
+#include "sessions/io/files/file_bytes.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
 #include "ui/window/main_window.h"

@@ -6,8 +6,8 @@
 #include "sessions/evaluation/results_file.h"
 #include "tests/support/approach_files.h"
 #include "tests/ui/window_test.h"
-#include "ui/panels/widgets.h"
 #include "ui/views/image_view.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/job_strip.h"
 

@@ -3,7 +3,7 @@
 
 #include "tests/ui/window_test.h"
 #include "ui/annotation/annotation_controller.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/uncertainty_dialog.h"
 #include "ui/workspaces/verdict_bar.h"

@@ -2,8 +2,8 @@
 #include "ui/workspaces/workspaces.h"
 
 #include "tests/ui/window_test.h"
-#include "ui/panels/cases_panel.h"
-#include "ui/panels/close_ups_panel.h"
+#include "ui/panels/case/cases_panel.h"
+#include "ui/panels/run/close_ups_panel.h"
 #include "ui/run/run_controller.h"
 #include "ui/views/image_view.h"
 #include "ui/window/window_frame.h"

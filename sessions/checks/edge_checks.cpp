@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "core/accept/edge_width.h"
+#include "sessions/checks/checks.h"
+#include "sessions/checks/edge_evidence.h"
+#include "sessions/decision/check.h"
+#include "sessions/session/input_sigmas.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr CheckName kCoverage{"edge_coverage", "Predicted edges that are seen"};
+constexpr CheckName kClutter{"edge_clutter", "Edges on the station that are not predicted"};
+constexpr CheckName kEvidence{"edge_evidence", "Evidence of the edges beyond chance"};
+constexpr CheckName kFallOff{"edge_fall_off", "Edge-coverage sensitivity to displacement"};
+constexpr CheckName kWidth{"edge_width", "Sharpness of the image"};
+constexpr CheckName kFocal{"camera_focal", "Focal length estimated from the edges"};
+constexpr CheckName kCentre{"camera_centre", "Principal point estimated from the edges"};
+
+constexpr const char* kCameraRemedy =
+    "Camera, mesh and image contradict each other: check that the calibration is for this camera, "
+    "focus and image size, and that the mesh is of this station.";
+
+constexpr const char* kUndecidedRemedy =
+    "The image cannot confirm the camera: state its calibration_sigma, or use a nearer image.";
+
+Check coverageCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
+  const double seen = evidence.coverage.value();
+  return measuredCheck(
+      kCoverage, "%", 100.0 * seen, limits.coverage_percent, LimitSide::kAtLeast,
+      "The image shows " + percentText(seen) +
+          " of the edges that this pose predicts, in place and direction.",
+      "Check the overlay: pose or mesh is wrong, or much of the station is dark or hidden.");
+}
+
+Check clutterCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
+  if (evidence.clutter.whole == 0.0)
+    return notAskedCheck(kClutter, "The image shows no edges on the station.");
+  const double share = evidence.clutter.value();
+  return measuredCheck(
+      kClutter, "%", 100.0 * share, limits.clutter_percent, LimitSide::kAtMost,
+      percentText(share) + " of the image's edges on the station are not predicted by the pose.",
+      "Check these edges: shadows and labels are harmless; another station or a part missing in "
+      "the mesh is not.");
+}
+
+/// In print and texture the displaced outlines are seen, too: the evidence expected of a right pose
+/// is then small, and a right pose still has it.
+Check evidenceCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
+  if (evidence.evidence.whole <= 0.0)
+    return notAskedCheck(kEvidence, "Displaced outlines are seen as often as a right pose's.");
+  const double share = evidence.evidence.value();
+  return measuredCheck(kEvidence, "%", 100.0 * share, limits.evidence_percent, LimitSide::kAtLeast,
+                       "Beyond chance, the predicted edges show " +
+                           percentText(std::max(0.0, share)) +
+                           " of the evidence that those of a right pose would.",
+                       "Other poses explain the image about as well: check the overlay.");
+}
+
+Check fallOffCheck(const EdgeEvidence& evidence, const CheckLimits& limits) {
+  const double seen = evidence.coverage.value();
+  const auto least =
+      std::max_element(evidence.fall_off.begin(), evidence.fall_off.end(),
+                       [](const FallOff& a, const FallOff& b) { return a.coverage < b.coverage; });
+  if (least == evidence.fall_off.end() || seen <= 0.0)
+    return notAskedCheck(kFallOff, "No predicted edge is seen.");
+  const double fall = 1.0 - least->coverage / seen;
+  return measuredCheck(kFallOff, "%", 100.0 * fall, limits.fall_off_percent, LimitSide::kAtLeast,
+                       "Displaced by " + sentenceNumber(kDisplaced_px) +
+                           " px in the image, the pose loses at least " + percentText(fall) +
+                           " of the edges seen, least when " + least->direction + ".",
+                       "The image hardly constrains the pose in this direction: use annotations or "
+                       "a second camera.");
+}
+
+/// Motion and defocus, measured where the pose has its edges.
+Check widthCheck(const LoadedCase& loaded, std::span<const EdgePlace> places,
+                 const CheckLimits& limits) {
+  EdgeWidthMeter meter(loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr);
+  for (const EdgePlace& place : places) meter.add(place.pixel, place.normal);
+  const EdgeWidth width = meter.width();
+  if (width.widestDirection() < 0)
+    return notAskedCheck(kWidth, "Too few of the predicted edges are seen.");
+  return measuredCheck(kWidth, "px", width.widest_px(), limits.edge_width_px, LimitSide::kAtMost,
+                       "The image's edges are " + sentenceNumber(width.widest_px()) +
+                           " px wide in the least sharp direction.",
+                       "The image is blurred by motion or focus: use a sharper image.");
+}
+
+/// One of the camera's parameters as the edges would have it.
+struct AskedChange {
+  double change = 0.0;
+  double sigma = 0.0;
+  double calibrated_sigma = 0.0;
+  bool stated = false;  ///< that sigma; else it is assumed
+  std::string unit;
+};
+
+/// A change of this size may be chance.
+double byChance(const AskedChange& asked, double sigmas) {
+  return sigmas * std::hypot(asked.sigma, asked.calibrated_sigma);
+}
+
+/// What exceeds chance. Where nothing is stated of the calibration the image must confirm it: then
+/// what the image cannot exclude counts as well.
+double unexplained(const AskedChange& asked, double sigmas) {
+  const double beyond = std::max(0.0, std::abs(asked.change) - byChance(asked, sigmas));
+  return asked.stated ? beyond : std::max(beyond, sigmas * asked.sigma);
+}
+
+Check cameraCheck(const CheckName& name, const std::string& what, const AskedChange& asked,
+                  double limit, double sigmas) {
+  const double figure = unexplained(asked, sigmas);
+  const bool undecided = !asked.stated && std::abs(asked.change) <= limit + sigmas * asked.sigma;
+  return measuredCheck(
+      name, asked.unit, figure, limit, LimitSide::kAtMost,
+      "Estimated freely, the " + what + sentenceNumber(asked.change) + " " + asked.unit +
+          " (one sigma " + sentenceNumber(asked.sigma) + " " + asked.unit + "). Errors below " +
+          sentenceNumber(byChance(asked, sigmas)) + " " + asked.unit + " cannot be seen.",
+      undecided ? kUndecidedRemedy : kCameraRemedy);
+}
+
+void addCameraChecks(const std::optional<CameraFit>& fit, const SessionCase& session_case,
+                     const CheckLimits& limits, std::vector<Check>& checks) {
+  if (!fit) {
+    const char* why = "The edges do not determine the camera together with the pose.";
+    checks.push_back(notAskedCheck(kFocal, why));
+    checks.push_back(notAskedCheck(kCentre, why));
+    return;
+  }
+  const double percent = 100.0 / session_case.camera.fx;
+  const InputSigmas known(session_case);
+  checks.push_back(
+      cameraCheck(kFocal, "focal length changes by ",
+                  {percent * fit->focal_px, percent * fit->focal_sigma_px,
+                   100.0 * known.calibration.focal_relative, known.calibration_stated, "%"},
+                  limits.focal_percent, limits.sigmas));
+  checks.push_back(
+      cameraCheck(kCentre, "principal point moves by ",
+                  {fit->centre_px, fit->centre_sigma_px, known.calibration.principal_point_px,
+                   known.calibration_stated, "px"},
+                  limits.centre_px, limits.sigmas));
+}
+
+/// A requirement in pixels says nothing of millimetres, and a wrong camera hardly moves the image.
+bool asksForMetric(const Requirement& requirement) {
+  return requirement.normal_mm || requirement.lateral_mm || requirement.rotation_deg;
+}
+
+bool canBeMeasured(const ReviewSubject& subject) {
+  if (subject.loaded == nullptr) return false;
+  const GrayImage& image = subject.loaded->image;
+  const Camera& camera = subject.loaded->source.camera;
+  return !image.pixels.empty() && image.width == camera.width && image.height == camera.height;
+}
+
+void addAll(const CheckName& name, bool failed, const std::string& why,
+            std::vector<Check>& checks) {
+  checks.push_back(failed ? statedCheck(name, false, why, "Check the overlay and the seed.")
+                          : notAskedCheck(name, why));
+}
+
+using Vector9d = Eigen::Matrix<double, 9, 1>;
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+
+constexpr std::size_t kLeastFound = 60;
+constexpr int kRounds = 10;
+/// First the usual constant, so that what a wrong camera leaves does not count as outlying; then a
+/// tighter one: shadows and bevels next to an edge are many and off to one side, and precision is
+/// to spare.
+constexpr double kWideTukey = 4.685;
+constexpr double kTightTukey = 2.0;
+/// Farther ones are mostly another edge.
+constexpr double kFarthest_px = 2.5;
+constexpr double kDeviationOfMedian = 1.4826;
+constexpr double kLeastScale_px = 0.05;
+/// Tiles along the longer side of what is looked at.
+constexpr double kTiles = 12.0;
+/// Against a matrix that cannot be inverted: of its diagonal.
+constexpr double kLeastPivot = 1e-11;
+
+struct Row {
+  Vector9d by;  ///< of the predicted coordinate along the normal
+  double residual_px = 0.0;
+  std::pair<int, int> tile;
+};
+
+std::vector<Row> rowsOf(std::span<const LookedPlace> looked, const Camera& camera,
+                        const Pose& camera_from_station) {
+  std::vector<Row> rows;
+  Eigen::AlignedBox2d box;
+  for (const LookedPlace& looked_place : looked) box.extend(looked_place.place.pixel);
+  const double tile_px = std::max(box.sizes().maxCoeff() / kTiles, 1.0);
+  for (const LookedPlace& looked_place : looked) {
+    PlaceDerivative by;
+    if (!looked_place.found || std::abs(looked_place.found->offset_px) > kFarthest_px ||
+        !placeDerivative(camera, camera_from_station, looked_place.place.point_in_station_m, by))
+      continue;
+    Row row;
+    row.by.head<6>() = by.by_pose.transpose() * looked_place.place.normal;
+    row.by.tail<3>() = by.by_camera.transpose() * looked_place.place.normal;
+    row.residual_px = looked_place.found->offset_px;
+    const Eigen::Vector2d tile = (looked_place.place.pixel - box.min()) / tile_px;
+    row.tile = {static_cast<int>(tile.x()), static_cast<int>(tile.y())};
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+double tukeyWeight(double residual_px, double cut_px) {
+  const double u = residual_px / cut_px;
+  return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
+}
+
+double scaleOf(const std::vector<Row>& rows, const Vector9d& solution) {
+  std::vector<double> sizes;
+  for (const Row& row : rows) sizes.push_back(std::abs(row.residual_px - row.by.dot(solution)));
+  return std::max(kDeviationOfMedian * medianOf(sizes), kLeastScale_px);
+}
+
+struct Solved {
+  Vector9d solution = Vector9d::Zero();
+  Matrix9d inverse = Matrix9d::Zero();
+  double cut_px = 0.0;  ///< beyond, a residual weighs nothing
+};
+
+std::optional<Solved> solveRobustly(const std::vector<Row>& rows) {
+  Solved solved;
+  for (int round = 0; round < kRounds; ++round) {
+    solved.cut_px =
+        (round < kRounds / 2 ? kWideTukey : kTightTukey) * scaleOf(rows, solved.solution);
+    Matrix9d information = Matrix9d::Zero();
+    Vector9d right = Vector9d::Zero();
+    for (const Row& row : rows) {
+      const double weight =
+          tukeyWeight(row.residual_px - row.by.dot(solved.solution), solved.cut_px);
+      information += weight * row.by * row.by.transpose();
+      right += weight * row.residual_px * row.by;
+    }
+    const Vector9d scale = information.diagonal().cwiseSqrt();
+    if (!(scale.minCoeff() > 0.0)) return {};
+    const Vector9d inverse_scale = scale.cwiseInverse();
+    const Matrix9d balanced = inverse_scale.asDiagonal() * information * inverse_scale.asDiagonal();
+    const Eigen::LDLT<Matrix9d> factors(balanced);
+    if (!(factors.vectorD().minCoeff() > kLeastPivot)) return {};
+    solved.inverse = inverse_scale.asDiagonal() * factors.solve(Matrix9d(Matrix9d::Identity())) *
+                     inverse_scale.asDiagonal();
+    solved.solution = solved.inverse * right;
+  }
+  return solved;
+}
+
+Matrix9d clusteredCovariance(const std::vector<Row>& rows, const Solved& solved) {
+  std::map<std::pair<int, int>, Vector9d> scores;
+  for (const Row& row : rows) {
+    const double residual_px = row.residual_px - row.by.dot(solved.solution);
+    const auto place = scores.try_emplace(row.tile, Vector9d::Zero()).first;
+    place->second += tukeyWeight(residual_px, solved.cut_px) * residual_px * row.by;
+  }
+  Matrix9d middle = Matrix9d::Zero();
+  for (const auto& [tile, score] : scores) middle += score * score.transpose();
+  return solved.inverse * middle * solved.inverse;
+}
+
+}  // namespace
+
+void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                   const PredictedEdges& edges, std::vector<Check>& checks) {
+  const bool measurable = canBeMeasured(subject);
+  if (!measurable || edges.places.empty()) {
+    const std::string why = measurable ? "The pose shows no edge of the station in the image."
+                                       : "No image has the camera's size.";
+    addAll(kCoverage, measurable, why, checks);
+    for (const CheckName& name : {kClutter, kEvidence, kFallOff, kWidth, kFocal, kCentre})
+      addAll(name, false, why, checks);
+    return;
+  }
+  const LoadedCase& loaded = *subject.loaded;
+  const ImageEdges image(loaded.image.view(), loaded.ignore ? &loaded.ignore_bits : nullptr,
+                         regionOf(edges));
+  const auto places = thinned(edges.places, kEdgePlaces);
+  const auto looked = lookAt(image, places);
+  EdgeEvidence evidence;
+  evidence.coverage = coverageOf(looked);
+  evidence.clutter = clutterOf(image, edges, looked);
+  evidence.evidence = evidenceOf(image, looked);
+  evidence.fall_off = fallOffOf(image, places, loaded.source.camera, subject.camera_from_station);
+  checks.push_back(coverageCheck(evidence, limits));
+  checks.push_back(clutterCheck(evidence, limits));
+  checks.push_back(evidenceCheck(evidence, limits));
+  checks.push_back(fallOffCheck(evidence, limits));
+  checks.push_back(widthCheck(loaded, places, limits));
+  if (asksForMetric(subject.requirement)) {
+    addCameraChecks(fitCamera(looked, loaded.source.camera, subject.camera_from_station),
+                    loaded.source, limits, checks);
+    return;
+  }
+  for (const CheckName& name : {kFocal, kCentre})
+    checks.push_back(notAskedCheck(
+        name, "The requirement is in pixels, where a wrong camera has little effect."));
+}
+
+std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
+                                   const Pose& camera_from_station) {
+  const std::vector<Row> rows = rowsOf(looked, camera, camera_from_station);
+  if (rows.size() < kLeastFound) return {};
+  const auto solved = solveRobustly(rows);
+  if (!solved) return {};
+  const Matrix9d covariance = clusteredCovariance(rows, *solved);
+  CameraFit fit;
+  fit.focal_px = solved->solution(6);
+  fit.focal_sigma_px = std::sqrt(std::max(0.0, covariance(6, 6)));
+  const Eigen::Vector2d centre = solved->solution.tail<2>();
+  fit.centre_px = centre.norm();
+  const Eigen::Vector2d along =
+      fit.centre_px > 0.0 ? Eigen::Vector2d(centre / fit.centre_px) : Eigen::Vector2d::UnitX();
+  fit.centre_sigma_px =
+      std::sqrt(std::max(0.0, along.dot(covariance.bottomRightCorner<2, 2>() * along)));
+  return fit;
+}
+
+}  // namespace boresight::sessions

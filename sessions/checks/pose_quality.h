@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sessions/checks/review_subject.h"
+#include "sessions/decision/check.h"
+
+namespace boresight::sessions {
+
+/// "0.37 of 0.40 mm": two digits of the limit, more where the two numbers would read alike.
+std::string ofLimitText(double found, double limit, const std::string& unit);
+
+/// How well a pose is known in one of the terms of a requirement.
+struct PrecisionFigure {
+  CheckName check;                 ///< that judges it
+  const char* where = "";          ///< "across the view axis"
+  const char* unit = "";           ///< of the next three
+  std::optional<double> required;  ///< nothing: the requirement does not limit it
+  std::optional<double> found;     ///< by all causes together; nothing without a covariance
+  std::optional<double> by_image;  ///< by the image, or the annotations, alone
+  std::string place;               ///< " at the end effector"; "" where it is the same everywhere
+
+  bool judged() const { return required && found; }
+  bool holds() const { return judged() && *found <= *required; }
+  /// `ofLimitText` of a judged one.
+  std::string text() const { return ofLimitText(*found, *required, unit); }
+};
+
+/// The one measure of a pose's quality: the standard deviations that must fit into the requirement,
+/// with the mesh's scale and the calibration, at the end effector, or at the camera where that is
+/// not known.
+struct PoseQuality {
+  double sigmas = 3.0;                   ///< number of standard deviations that each figure is
+  std::vector<PrecisionFigure> figures;  ///< always the same four, in the order of the checks
+
+  /// The judged one that takes the largest part of its limit; nullptr: none is judged.
+  const PrecisionFigure* worst() const;
+  /// All that the requirement limits are known and within it, and it limits one at least.
+  bool holds() const;
+  /// "3 sigma"
+  std::string sigmasText() const;
+  /// "0.37 of 0.40 mm (3 sigma across the view axis at the end effector)"; why there is no figure
+  /// otherwise.
+  std::string text() const;
+};
+
+PoseQuality poseQuality(const ReviewSubject& subject, double sigmas);
+
+/// Of a run's pose with the session's limits; `loaded` is the case that ran.
+PoseQuality runQuality(const Session& session, const std::shared_ptr<const LoadedCase>& loaded,
+                       const LocalizationTrace& run);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "sessions/decision/decision.h"
+#include "sessions/session/input_sigmas.h"
+
+namespace boresight::sessions {
+
+struct EdgePlace;
+
+/// How a pose that is fitted to edges follows an error of the camera: d xi / d (focal length, cx,
+/// cy in px) of the least squares over the places' distances along their normals,
+/// -(J' J)^-1 J' K. Nothing when the places do not determine the pose.
+std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlace> places,
+                                                        const Camera& camera,
+                                                        const Pose& camera_from_station);
+
+/// How it follows an error of the vectors of a CAHV camera: d xi / d (C, A, H, V ...), 6 x 12,
+/// 18 or 21. The camera's frame stays where it is in the frame of the vectors, so that an error of
+/// C or A moves the pose as well. Nothing also outside the CAHV family.
+std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
+                                             const Camera& camera, const Pose& camera_from_station);
+
+/// The covariance of a case's pose with all of its causes: the one function behind checks,
+/// decisions and exports. `picture` is what the run or the annotations say.
+/// - A mesh that is larger by s about the middle of its box looks the same from 1 + s times the
+///   distance: xi is s times that point in the camera frame, as a translation.
+/// - With a covariance S of the camera's vectors the calibration's term is J S J', with J of
+///   `poseByVectors`.
+/// - Otherwise errors of focal length and principal point are independent; the pose follows them as
+///   `poseByCamera` says at the edges that it shows, or where these do not determine it as a shift
+///   of the same point that undoes the error.
+PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,
+                              const Pose& camera_from_station, const Matrix6d& picture);
+
+/// Where the end effector is, and what a move commanded from the seed has to be corrected by.
+struct EndEffectorPose {
+  Pose station_from_end_effector;
+  /// Where the end effector is in the frame in which it was thought to be: the identity when the
+  /// seed was right. A target planned from the seed as end_effector_seed_from_target is
+  /// inverse(this) * end_effector_seed_from_target from where the end effector is.
+  Pose end_effector_seed_from_end_effector_estimated;
+  /// Of both, over xi = (rotation rad, translation m), right perturbation, in the end effector's
+  /// frame: a_from_end_effector * Exp(xi). Zero when the camera's is.
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// `covariance` is the pose's: left perturbation in the camera frame. The seed is taken as exact.
+/// `camera_from_end_effector_covariance`: left perturbation in the camera frame.
+EndEffectorPose endEffectorPose(
+    const Pose& camera_from_station_seed, const Pose& camera_from_station,
+    const Pose& camera_from_end_effector, const Matrix6d& covariance,
+    const Matrix6d& camera_from_end_effector_covariance = Matrix6d::Zero());
+/// The same of a case that has an end effector, with the covariance that its frames state.
+EndEffectorPose endEffectorPose(const SessionCase& session_case, const Pose& camera_from_station,
+                                const Matrix6d& covariance);
+
+/// The move of the end effector that undoes the seed's error: a target that was planned from the
+/// seed is reached after it. At the end effector's origin, along and about the axes of `frame`.
+/// The arm's own error over so short a move is not included.
+struct Correction {
+  FrameName frame;
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< rotation vector
+  Matrix6d covariance = Matrix6d::Zero();                  ///< (rotation rad, translation m)
+};
+
+/// In the end effector's frame and in every frame that is joined to it; nothing for a case without
+/// an end effector.
+std::vector<Correction> correctionsOf(const SessionCase& session_case,
+                                      const Pose& camera_from_station, const Matrix6d& covariance);
+/// "correction to command in ARM_BASE: translation ... mm +- ..., rotation ... mrad +- ..."; for
+/// the terminal.
+std::string correctionText(const Correction& correction);
+/// By the frame's text: {"translation_m", "rotation_deg", "covariance"}.
+nlohmann::ordered_json toJson(const std::vector<Correction>& corrections);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/checks/checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "sessions/checks/mesh_scale.h"
+#include "sessions/checks/pose_quality.h"
+#include "sessions/decision/check.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/io/files/least_known.h"
+#include "sessions/session/input_sigmas.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr CheckName kAnnotation{"agreement_annotation", "Agreement with the annotation"};
+constexpr CheckName kTruth{"agreement_truth", "Agreement with the truth"};
+constexpr CheckName kCamera{"agreement_camera", "Agreement with the other camera"};
+constexpr CheckName kScale{"mesh_scale", "Mesh scale estimated by the rig"};
+
+std::optional<Pose> endEffector(const ReviewSubject& subject) {
+  if (subject.loaded == nullptr) return {};
+  return subject.loaded->source.camera_from_end_effector;
+}
+
+/// How far two poses are apart: in words, and as the largest part of what is allowed.
+struct Distance {
+  double of_allowed = 0.0;            ///< 1: as far as allowed
+  bool covariance_dominates = false;  ///< it allows more than the requirement does
+  std::string text;
+};
+
+class Measure {
+ public:
+  /// `apart` is the covariance of the difference of both poses; zero: not known.
+  Measure(const ReviewSubject& subject, const Pose& other, const Matrix6d& apart, double sigmas)
+      : subject_(subject),
+        error_(poseError(other, subject.camera_from_station, endEffector(subject))),
+        sigmas_(sigmas),
+        sigma_(poseSigma(apart, endEffector(subject))) {
+    if (!subject.requirement.projection_px || subject.loaded == nullptr) return;
+    const Camera& camera = subject.loaded->source.camera;
+    const auto vertices = matchedVertices(subject.loaded->scene.view());
+    error_.projection_px = projectionError(camera, other, subject.camera_from_station, vertices);
+    sigma_px_ = projectionSigma(camera, subject.camera_from_station, vertices, apart);
+  }
+
+  Distance distance() {
+    const Requirement& required = subject_.requirement;
+    add(required.normal_mm, std::abs(error_.normal_mm), &PoseSigma::normal_mm, "mm along");
+    add(required.lateral_mm, error_.lateral_mm, &PoseSigma::lateral_mm, "mm across");
+    if (!made_.text.empty())
+      made_.text += std::string(" the view axis at the ") + judgedPlace(endEffector(subject_));
+    add(rotationLimit_mrad(required), error_.rotation_mrad, &PoseSigma::out_of_plane_mrad,
+        "mrad between the view axes");
+    constexpr double kHuge_px = 1e6;
+    if (required.projection_px)
+      note(error_.projection_px.value_or(kHuge_px), *required.projection_px,
+           sigmas_ * sigma_px_.value_or(0.0), "px in the image");
+    return made_;
+  }
+
+ private:
+  void add(std::optional<double> required, double error, double PoseSigma::*member,
+           const char* words) {
+    if (required) note(error, *required, sigma_ ? sigmas_ * (*sigma_.*member) : 0.0, words);
+  }
+
+  void note(double error, double required, double known_to, const char* words) {
+    const double allowed = std::hypot(required, known_to);
+    made_.of_allowed = std::max(made_.of_allowed, allowed > 0.0 ? error / allowed : 1e6);
+    made_.covariance_dominates = made_.covariance_dominates || known_to > required;
+    made_.text += (made_.text.empty() ? "" : ", ") + sentenceNumber(error) + " " + words;
+  }
+
+  const ReviewSubject& subject_;
+  PoseError error_;
+  double sigmas_;
+  std::optional<PoseSigma> sigma_;
+  std::optional<double> sigma_px_;
+  Distance made_;
+};
+
+Check agreementCheck(const CheckName& name, const ReviewSubject& subject, const OtherPose& other,
+                     const Matrix6d& apart, const CheckLimits& limits, const std::string& remedy) {
+  const Distance distance =
+      Measure(subject, other.camera_from_station, apart, limits.sigmas).distance();
+  if (distance.text.empty()) return notAskedCheck(name, "The requirement has no limits.");
+  std::string found = "The pose and " + other.from + " differ by " + distance.text + ".";
+  if (distance.covariance_dominates)
+    found += " Their covariances exceed the requirement, so that this check is weak.";
+  return measuredCheck(name, "%", 100.0 * distance.of_allowed, limits.agreement_percent,
+                       LimitSide::kAtMost, found, remedy);
+}
+
+/// Of poses by one camera and mesh, whose errors are in both.
+Matrix6d apartOfOneCamera(const ReviewSubject& subject, const OtherPose& other) {
+  if (!other.covariance.known()) return Matrix6d::Zero();
+  return subject.covariance.picture + other.covariance.picture;
+}
+
+/// Of poses by two cameras that share the mesh.
+Matrix6d apartOfTwoCameras(const ReviewSubject& subject, const OtherPose& other) {
+  if (!other.covariance.known()) return Matrix6d::Zero();
+  return apartOfOneCamera(subject, other) + subject.covariance.calibration +
+         other.covariance.calibration;
+}
+
+Check camerasCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.other_cameras.empty())
+    return notAskedCheck(kCamera, "No other camera of a rig has a pose.");
+  std::optional<Check> worst;
+  for (const OtherPose& other : subject.other_cameras) {
+    Check check =
+        agreementCheck(kCamera, subject, other, apartOfTwoCameras(subject, other), limits,
+                       "One pose or the rig's camera positions are wrong: check both overlays.");
+    if (!worst || check.figure.value_or(0.0) > worst->figure.value_or(0.0))
+      worst = std::move(check);
+  }
+  return *worst;
+}
+
+/// One image cannot tell the mesh's scale from its distance; cameras with a baseline can.
+Check meshScaleCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.loaded == nullptr || subject.other_cameras.empty())
+    return notAskedCheck(kScale,
+                         "One image cannot see the mesh's scale: it needs a rig, or an image from "
+                         "another place on the arm, linked by frames, whose case has run on its "
+                         "own.");
+  const auto scale = meshScaleByRig(subject, matchedBounds(subject.loaded->scene.view()).centre());
+  if (!scale) return notAskedCheck(kScale, "The rig's cameras have no baseline or no covariance.");
+  const InputSigmas known(subject.loaded->source);
+  const double known_to = limits.sigmas * std::hypot(scale->sigma, known.mesh_scale);
+  const double figure = 100.0 * std::max(0.0, std::abs(scale->change) - known_to);
+  return measuredCheck(
+      kScale, "%", figure, limits.scale_percent, LimitSide::kAtMost,
+      "By the rig's baseline the object is " + sentenceNumber(100.0 * std::abs(scale->change)) +
+          " % " + (scale->change < 0.0 ? "larger" : "smaller") + " than its mesh (one sigma " +
+          sentenceNumber(100.0 * scale->sigma) + " %). Errors below " +
+          sentenceNumber(100.0 * known_to) + " % cannot be seen.",
+      "The mesh has another scale than the object, or the rig's camera positions are wrong: "
+      "measure a length of the object.");
+}
+
+Check annotationCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.source == PoseSource::kAnnotation)
+    return notAskedCheck(kAnnotation, "The pose is that of the annotations.");
+  if (!subject.annotated) return notAskedCheck(kAnnotation, "No annotations give a pose.");
+  return agreementCheck(kAnnotation, subject, *subject.annotated,
+                        apartOfOneCamera(subject, *subject.annotated), limits,
+                        "Pose or annotations are wrong: compare overlay and annotations.");
+}
+
+Check truthCheck(const ReviewSubject& subject, const CheckLimits& limits) {
+  if (subject.loaded == nullptr || !subject.loaded->source.camera_from_station_truth)
+    return notAskedCheck(kTruth, "The case has no truth.");
+  const SessionCase& session_case = subject.loaded->source;
+  const OtherPose truth{"the truth",
+                        *session_case.camera_from_station_truth,
+                        {session_case.truth_covariance.value_or(Matrix6d::Zero())}};
+  return agreementCheck(kTruth, subject, truth, apartOfOneCamera(subject, truth), limits,
+                        truth.covariance.known()
+                            ? "One of both poses is wrong: check both overlays."
+                            : "The pose does not meet the requirement: reject it.");
+}
+
+constexpr const char* kNotRequired = "The requirement does not limit this value.";
+constexpr const char* kNoCovariance = "The pose has no covariance.";
+constexpr const char* kPictureRemedy =
+    "The seen edges constrain the pose too weakly: take a nearer image, or one with more of the "
+    "station.";
+constexpr const char* kInputsRemedy =
+    "The image alone would pass: state mesh_scale_sigma and calibration_sigma after measurement, "
+    "or take a nearer image.";
+
+/// Names the motion that the image leaves undetermined, where one stands out.
+std::string imageRemedy(const ReviewSubject& subject) {
+  const std::string least_known =
+      leastKnownText(subject.covariance.picture, subject.camera_from_station);
+  return least_known.empty() ? kPictureRemedy
+                             : "Least known: " + least_known + ". " + kPictureRemedy;
+}
+
+std::string inputsText(const ReviewSubject& subject, const PrecisionFigure& figure) {
+  const double inputs =
+      std::sqrt(std::max(0.0, *figure.found * *figure.found - *figure.by_image * *figure.by_image));
+  std::string text = "The image alone gives " + sentenceNumber(*figure.by_image) + " " +
+                     figure.unit + "; the pose is limited by the mesh's scale";
+  if (subject.loaded == nullptr) return text + " and the camera's calibration allow.";
+  const InputSigmas known(subject.loaded->source);
+  return text + " (" + meshScaleText(known) + ") and the camera's calibration (" +
+         calibrationText(known) + ") allow: " + sentenceNumber(inputs) + " " + figure.unit + ".";
+}
+
+Check precisionCheck(const ReviewSubject& subject, const PrecisionFigure& figure,
+                     const std::string& sigmas) {
+  if (!figure.required) return notAskedCheck(figure.check, kNotRequired);
+  if (!figure.found) return notAskedCheck(figure.check, kNoCovariance);
+  return measuredCheck(figure.check, figure.unit, *figure.found, *figure.required,
+                       LimitSide::kAtMost,
+                       sigmas + figure.place + " are " + sentenceNumber(*figure.found) + " " +
+                           figure.unit + ". " + inputsText(subject, figure),
+                       *figure.by_image <= *figure.required ? kInputsRemedy : imageRemedy(subject));
+}
+
+}  // namespace
+
+void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                        std::vector<Check>& checks) {
+  checks.push_back(annotationCheck(subject, limits));
+  checks.push_back(truthCheck(subject, limits));
+  checks.push_back(camerasCheck(subject, limits));
+  checks.push_back(meshScaleCheck(subject, limits));
+}
+
+bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_station) {
+  const Distance distance = Measure(subject, camera_from_station, Matrix6d::Zero(), 0.0).distance();
+  return !distance.text.empty() && distance.of_allowed <= 1.0;
+}
+
+void addPrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits,
+                        std::vector<Check>& checks) {
+  const PoseQuality quality = poseQuality(subject, limits.sigmas);
+  for (const PrecisionFigure& figure : quality.figures)
+    checks.push_back(precisionCheck(subject, figure, quality.sigmasText()));
+}
+
+}  // namespace boresight::sessions

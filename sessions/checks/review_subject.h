@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose.h"
+#include "sessions/decision/decision.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/record/compare_records.h"
+#include "sessions/session/case_run.h"
+#include "sessions/session/session.h"
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// A pose of the same camera from another source.
+struct OtherPose {
+  std::string from;  ///< for display: "the annotation", "bc-right"
+  Pose camera_from_station;
+  PoseCovariance covariance = {};  ///< of the annotation only the annotations' own part
+  /// Of another camera of the rig: its centre, in this camera's frame.
+  Eigen::Vector3d centre_in_camera_m = Eigen::Vector3d::Zero();
+};
+
+/// A pose of a case, and all that it can be checked by. A value: it may be checked on any thread.
+struct ReviewSubject {
+  std::shared_ptr<const LoadedCase> loaded;
+  Requirement requirement;  ///< the case's own, else the preset's
+  PoseSource source = PoseSource::kRun;
+  Pose camera_from_station;
+  PoseCovariance covariance;
+  std::optional<LocalizationTrace> run;  ///< that the pose came from; nothing of annotated ones
+  std::optional<OtherPose> annotated;    ///< by the case's annotations, unless these are the source
+  std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
+  std::optional<RecordComparison>
+      onboard;  ///< the case's onboard record with the run, if it has one
+};
+
+/// How far a pose is from the truth of its case; nothing where that is not known.
+std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station);
+
+/// Where a recorded run comes from: its trace, or a second run of the same inputs.
+using RunReader = std::function<LocalizationTrace(const RunRecord&)>;
+
+/// What there is to check of a case: its last run (or this one), or the pose of its annotations.
+/// `read_run` is asked for the case's run and for those of the rig's other cameras. InputError when
+/// there is no pose of this source, or something cannot be read.
+ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
+                            PoseSource source, const std::string& digest = {},
+                            const RunReader& read_run = loadSnapshot);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/decision/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sessions/text/plain_text.h"
+
+namespace boresight::sessions {
+namespace {
+
+std::string numberText(double value, const std::string& unit) {
+  char text[40];
+  const bool large = std::abs(value) >= 1000.0 && std::abs(value) < 1e6;  // not as 9e+03
+  std::snprintf(text, sizeof text, large ? "%.0f" : "%.3g", value);
+  return unit.empty() ? std::string(text) : text + (" " + unit);
+}
+
+std::string joined(bool passed, const std::string& found, const std::string& remedy) {
+  return passed || remedy.empty() ? found : found + " " + remedy;
+}
+
+const char* annotation(CheckState state) {
+  constexpr const char* kAnnotations[] = {"pass  ", "FAIL  ", "  -   "};
+  return kAnnotations[static_cast<std::size_t>(state)];
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text;
+}
+
+}  // namespace
+
+const char* checkStateText(CheckState state) {
+  constexpr const char* kTexts[] = {"passed", "failed", "not applicable"};
+  return kTexts[static_cast<std::size_t>(state)];
+}
+
+std::string foundText(const Check& check) {
+  return check.figure ? numberText(*check.figure, check.unit) : "";
+}
+
+std::string limitText(const Check& check) {
+  if (!check.limit) return "";
+  const char* side = check.side == LimitSide::kAtMost ? "at most " : "at least ";
+  return side + numberText(*check.limit, check.unit);
+}
+
+std::string figureText(const Check& check) {
+  if (!check.figure || !check.limit) return foundText(check);
+  return foundText(check) + " (" + limitText(check) + ")";
+}
+
+int countOf(std::span<const Check> checks, CheckState state) {
+  return static_cast<int>(std::count_if(
+      checks.begin(), checks.end(), [state](const Check& check) { return check.state == state; }));
+}
+
+bool allPassed(std::span<const Check> checks) {
+  return countOf(checks, CheckState::kPassed) > 0 && countOf(checks, CheckState::kFailed) == 0;
+}
+
+Check measuredCheck(const CheckName& name, const std::string& unit, double figure, double limit,
+                    LimitSide side, const std::string& found, const std::string& remedy) {
+  const bool holds = side == LimitSide::kAtMost ? figure <= limit : figure >= limit;
+  const bool passed = std::isfinite(figure) && holds;
+  Check check = statedCheck(name, passed, found, remedy);
+  if (std::isfinite(figure)) check.figure = figure;
+  check.limit = limit;
+  check.side = side;
+  check.unit = unit;
+  return check;
+}
+
+Check statedCheck(const CheckName& name, bool passed, const std::string& found,
+                  const std::string& remedy) {
+  Check check;
+  check.id = name.id;
+  check.title = name.title;
+  check.state = passed ? CheckState::kPassed : CheckState::kFailed;
+  check.sentence = joined(passed, found, remedy);
+  return check;
+}
+
+Check notAskedCheck(const CheckName& name, const std::string& why) {
+  Check check;
+  check.id = name.id;
+  check.title = name.title;
+  check.sentence = why;
+  return check;
+}
+
+std::string percentText(double share) {
+  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
+}
+
+std::string sentenceNumber(double value) {
+  const double size = std::abs(value);
+  int decimals = 0;
+  for (double unit = 100.0; size < unit && decimals < 4; unit /= 10.0) ++decimals;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", std::min(decimals, 4), value);
+  return text;
+}
+
+std::string checkCountsText(std::span<const Check> checks) {
+  return std::to_string(countOf(checks, CheckState::kPassed)) + " passed, " +
+         std::to_string(countOf(checks, CheckState::kFailed)) + " failed, " +
+         std::to_string(countOf(checks, CheckState::kNotApplicable)) + " not applicable";
+}
+
+std::string checksText(std::span<const Check> checks, bool all_sentences) {
+  std::size_t width = 0;
+  for (const Check& check : checks) width = std::max(width, check.title.size());
+  std::string text;
+  for (const Check& check : checks) {
+    const std::string figure = figureText(check);
+    const bool plain = figure.empty();
+    text += annotation(check.state);
+    text += plain ? check.title : padded(check.title, width) + "  " + figure;
+    text += "\n";
+    if (all_sentences || check.state != CheckState::kPassed)
+      text += plainLine("      " + check.sentence);
+  }
+  return text + checkCountsText(checks) + "\n";
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/accept/edge_width.h"
+#include "core/base/options.h"
+#include "sessions/decision/decision.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "sessions/io/json/option_value.h"
+
+namespace boresight::sessions {
+
+/// Limits of the checks, declared once for the panel, the session's file and the command line. What
+/// each is for, and where its value comes from: checks.md.
+struct CheckLimits {
+  double last_correction_percent = 25.0;
+  double inlier_count = 12.0;
+  double inlier_ratio_percent = 40.0;
+  double inlier_spread_percent = 40.0;
+  double inlier_depth_percent = 25.0;
+  double border_percent = 40.0;
+  double peak_margin_percent = 2.0;
+  double sigmas = 3.0;
+  double saturated_percent = 75.0;
+  double range_gray = 10.0;
+  double coverage_percent = 30.0;
+  double clutter_percent = 95.0;
+  double evidence_percent = 40.0;
+  double fall_off_percent = 15.0;
+  double edge_width_px = EdgeWidth::kWidest_px;
+  double focal_percent = 0.5;
+  double centre_px = 4.0;
+  double scale_percent = 0.1;
+  double agreement_percent = 100.0;
+  double convergence_percent = 90.0;
+  double competing_percent = 115.0;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"check.last_correction_percent", "%", 0.0, 1000.0,
+                     "Largest last correction relative to the first one, in the image; a first "
+                     "correction below a pixel counts as a pixel."},
+          self.last_correction_percent);
+    visit(OptionInfo{"check.inlier_count", "", 0.0, 10000.0,
+                     "Least number of inliers of the last matching iteration."},
+          self.inlier_count);
+    visit(OptionInfo{"check.inlier_ratio_percent", "%", 0.0, 100.0,
+                     "Least share of inliers among the matches of that iteration."},
+          self.inlier_ratio_percent);
+    visit(OptionInfo{"check.inlier_spread_percent", "%", 0.0, 1000.0,
+                     "Least spread of the inliers in the image in their narrowest direction; 100: "
+                     "as wide as the station's edges."},
+          self.inlier_spread_percent);
+    visit(OptionInfo{"check.inlier_depth_percent", "%", 0.0, 1000.0,
+                     "Least spread of the inliers along the view axis, if the station has depth."},
+          self.inlier_depth_percent);
+    visit(OptionInfo{"check.border_percent", "%", 0.0, 100.0,
+                     "Largest share of matches on the border of their search window, beyond which "
+                     "the true position may lie."},
+          self.border_percent);
+    visit(
+        OptionInfo{
+            "check.peak_margin_percent", "%", 0.0, 100.0,
+            "Least median, over the inliers, of the margin between best and second-best score."},
+        self.peak_margin_percent);
+    visit(
+        OptionInfo{"check.sigmas", "", 0.0, 100.0,
+                   "Number of standard deviations of the pose that must fit into the requirement."},
+        self.sigmas);
+    visit(OptionInfo{"check.saturated_percent", "%", 0.0, 100.0,
+                     "Largest share of saturated pixels in the box that the station fills."},
+          self.saturated_percent);
+    visit(OptionInfo{"check.range_gray", "", 0.0, 255.0,
+                     "Least range of gray levels in the box that the station fills, from the 1st "
+                     "to the 99th percentile."},
+          self.range_gray);
+    visit(OptionInfo{"check.coverage_percent", "%", 0.0, 100.0,
+                     "Least share of the predicted edges that the image shows."},
+          self.coverage_percent);
+    visit(
+        OptionInfo{
+            "check.clutter_percent", "%", 0.0, 100.0,
+            "Largest share of the image's edges on the station that the pose does not predict."},
+        self.clutter_percent);
+    visit(OptionInfo{"check.evidence_percent", "%", 0.0, 1000.0,
+                     "Least evidence of the predicted edges beyond chance, relative to that of a "
+                     "right pose."},
+          self.evidence_percent);
+    visit(OptionInfo{"check.edge_width_px", "px", 0.5, 100.0,
+                     "Largest width of the image's edges in the least sharp direction."},
+          self.edge_width_px);
+    visit(OptionInfo{"check.fall_off_percent", "%", 0.0, 100.0,
+                     "Least share of the seen edges that is lost when the pose is displaced in any "
+                     "direction."},
+          self.fall_off_percent);
+    visit(OptionInfo{"check.focal_percent", "%", 0.0, 100.0,
+                     "Largest significant change of the focal length when estimated from the "
+                     "edges; without calibration_sigma also its largest uncertainty."},
+          self.focal_percent);
+    visit(OptionInfo{"check.centre_px", "px", 0.0, 10000.0,
+                     "Largest significant shift of the principal point when estimated from the "
+                     "edges; without calibration_sigma also its largest uncertainty."},
+          self.centre_px);
+    visit(OptionInfo{"check.scale_percent", "%", 0.0, 100.0,
+                     "Largest significant change of the mesh's scale when estimated from the rig's "
+                     "baseline."},
+          self.scale_percent);
+    visit(OptionInfo{"check.agreement_percent", "%", 0.0, 10000.0,
+                     "Largest distance to another pose (annotation, truth, second camera), "
+                     "relative to requirement and covariances."},
+          self.agreement_percent);
+    visit(OptionInfo{"check.convergence_percent", "%", 0.0, 100.0,
+                     "Least share of further seeds that converge to the same pose."},
+          self.convergence_percent);
+    visit(OptionInfo{"check.competing_percent", "%", 0.0, 1000.0,
+                     "Largest edge coverage of a competing pose or a mirrored station, relative to "
+                     "that of this pose."},
+          self.competing_percent);
+  }
+};
+
+/// Limits under a name, and the requirement of cases that have none of their own.
+struct CheckPreset {
+  std::string name;
+  std::string help;  ///< one sentence: what it is for
+  Requirement requirement;
+  CheckLimits limits;
+};
+
+inline constexpr const char* kDefaultCheckPreset = "sample_transfer";
+
+/// All of them; the default comes first.
+const std::vector<CheckPreset>& checkPresets();
+/// nullptr when there is none of this name.
+const CheckPreset* findCheckPreset(const std::string& name);
+
+/// The first one whose requirement names the same figures (a photograph's names pixels), whatever
+/// their values; the default when there is none.
+const CheckPreset& presetFor(const Requirement& requirement);
+
+/// A preset's limits with those of a session in their place. OptionError when one does not exist or
+/// is out of range; std::invalid_argument when there is no such preset.
+CheckLimits checkLimits(const std::string& preset, const OptionList& changed);
+
+/// The limits of another preset; what was changed of the former ones is dropped.
+/// std::invalid_argument when there is no such preset.
+ReviewSettings withPreset(const ReviewSettings& settings, const std::string& preset);
+
+/// These limits, kept as what differs from the preset. std::invalid_argument when there is none.
+ReviewSettings withLimits(const ReviewSettings& settings, const CheckLimits& limits);
+
+}  // namespace boresight::sessions

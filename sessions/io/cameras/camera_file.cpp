@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/camera_file.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/cameras/raw_metadata.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/json/json_writer.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kLargest = 1e9;
+constexpr const char* kOwnFrame = "CAMERA";
+
+/// By CameraModel.
+constexpr const char* kModelNames[] = {"pinhole", "brown_conrady", "kannala_brandt",
+                                       "cahv",    "cahvor",        "cahvore"};
+
+CahvModel readVectors(CameraModel model, const JsonReader& json) {
+  CahvModel cahv;
+  cahv.model = model;
+  forVectors(cahv, [&json](const char* key, Eigen::Vector3d& vector) {
+    vector = json.at(key).vector3(-kLargest, kLargest);
+  });
+  if (model != CameraModel::kCahvore) return cahv;
+  cahv.type = static_cast<int>(json.at("cahvore_type").integer(1, 3));
+  (void)json.has("cahvore_parameter");  // stated with every type, used with one
+  if (cahv.type == 3) cahv.parameter = json.at("cahvore_parameter").number(-kLargest, kLargest);
+  return cahv;
+}
+
+/// Vectors are those of the whole image: what of it the image at hand is.
+void cutSubframe(const JsonReader& json, CameraFile& file) {
+  Camera& camera = file.camera;
+  const double scale = json.find("scale") ? json.at("scale").number(1e-3, 1e3) : 1.0;
+  const auto firstOf = [&](const char* key) {
+    return json.find(key) ? json.at(key).number(-1e6, 1e6) : 0.0;
+  };
+  const double first_x = firstOf("first_sample");
+  const double first_y = firstOf("first_line");
+  camera.cx = (camera.cx - first_x + 0.5) / scale - 0.5;
+  camera.cy = (camera.cy - first_y + 0.5) / scale - 0.5;
+  const double to_centre_px = 0.5 - 0.5 * scale;
+  if (file.covariance)
+    file.covariance =
+        ofSubframe(*file.covariance, to_centre_px - first_x, to_centre_px - first_y, scale);
+  camera.fx /= scale;
+  camera.fy /= scale;
+  camera.cahv.skew_px /= scale;
+}
+
+constexpr const char* kCameraFormat = "boresight-camera";
+constexpr int kCameraVersion = 1;
+constexpr double kMinFocalLength_px = 1e-3;
+constexpr double kMaxFocalLength_px = 1e7;
+constexpr double kMaxPrincipalPoint_px = 1e6;
+
+CameraModel readModel(const JsonReader& json) {
+  const JsonReader model = json.at("model");
+  const std::string name = model.text();
+  for (int i = 0; i < std::ssize(kModelNames); ++i)
+    if (name == kModelNames[i]) return static_cast<CameraModel>(i);
+  model.fail("unknown camera model '" + name +
+             "' (pinhole, brown_conrady, kannala_brandt, cahv, cahvor or cahvore is needed)");
+}
+
+const char* expectedCoefficients(CameraModel model) {
+  if (model == CameraModel::kBrownConrady) return "brown_conrady needs 4, 5 or 8 coefficients";
+  return "kannala_brandt needs 4 coefficients";
+}
+
+bool coefficientCountFits(CameraModel model, std::size_t count) {
+  if (model == CameraModel::kKannalaBrandt) return count == 4;
+  return count == 4 || count == 5 || count == 8;
+}
+
+void readDistortion(const JsonReader& json, Camera& camera) {
+  if (camera.model == CameraModel::kPinhole) {
+    // Coefficients that would be ignored are refused; zeros change nothing.
+    if (const auto dist = json.find("dist"))
+      for (const JsonReader& coefficient : dist->elements())
+        if (coefficient.number() != 0.0)
+          coefficient.fail("a pinhole camera has no distortion (use brown_conrady)");
+    return;
+  }
+  const JsonReader dist = json.at("dist");
+  const std::vector<JsonReader> coefficients = dist.elements();
+  if (!coefficientCountFits(camera.model, coefficients.size()))
+    dist.fail(std::string(expectedCoefficients(camera.model)) + ", " +
+              std::to_string(coefficients.size()) + " given");
+  for (std::size_t i = 0; i < coefficients.size(); ++i)
+    camera.distortion[i] = coefficients[i].number();
+}
+
+CameraFile readLensCamera(CameraModel model, const JsonReader& json) {
+  Camera camera;
+  camera.model = model;
+  camera.width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
+  camera.height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
+  camera.fx = json.at("fx").number(kMinFocalLength_px, kMaxFocalLength_px);
+  camera.fy = json.at("fy").number(kMinFocalLength_px, kMaxFocalLength_px);
+  camera.cx = json.at("cx").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
+  camera.cy = json.at("cy").number(-kMaxPrincipalPoint_px, kMaxPrincipalPoint_px);
+  readDistortion(json, camera);
+  const Status status = prepareCamera(camera);
+  if (status != Status::kOk)
+    json.fail(std::string("the camera cannot project with these parameters (") +
+              statusText(status) + ")");
+  return {camera};
+}
+
+/// A camera of the CAHV family: its vectors in a reference frame into the camera's own frame.
+CameraFile readCahvCamera(CameraModel model, const JsonReader& json) {
+  for (const char* key : {"fx", "fy", "cx", "cy", "dist"})
+    if (json.has(key))
+      json.failMember(key, std::string("a ") + cameraModelName(model) +
+                               " camera is given by its vectors only (C, A, H, V ...)");
+  const CahvModel cahv = readVectors(model, json);
+  const auto width = static_cast<int>(json.at("width").integer(1, kMaxImageSide_px));
+  const auto height = static_cast<int>(json.at("height").integer(1, kMaxImageSide_px));
+  std::optional<CameraFile> file = cameraOfVectors(cahv, width, height);
+  const auto covariance = json.find("covariance");
+  if (file && covariance)
+    file->covariance =
+        inFrame(readCameraCovariance(*covariance, model), file->reference->camera_from_reference);
+  const auto subframe = json.find("subframe");
+  if (file && subframe) {
+    cutSubframe(*subframe, *file);
+    if (prepareCamera(file->camera) != Status::kOk) file.reset();
+  }
+  if (!file) json.fail(kVectorsCannotProject);
+  if (const auto frame = json.find("reference_frame"))
+    file->reference->frame = readFrameName(*frame);
+  return *file;
+}
+
+/// The vectors in the reference frame; in the camera's own where there is none.
+nlohmann::ordered_json cahvJson(const CameraFile& file) {
+  const CahvModel cahv =
+      cahvFromCamera(file.camera, file.reference ? file.reference->camera_from_reference : Pose());
+  nlohmann::ordered_json json;
+  json["model"] = cameraModelName(cahv.model);
+  json["width"] = file.camera.width;
+  json["height"] = file.camera.height;
+  forVectors(cahv, [&json](const char* key, const Eigen::Vector3d& vector) {
+    json[key] = toJson(vector);
+  });
+  if (cahv.model == CameraModel::kCahvore) {
+    json["cahvore_type"] = cahv.type;
+    json["cahvore_parameter"] = cahv.parameter;
+  }
+  const FrameName frame = file.reference ? file.reference->frame : FrameName{kOwnFrame, {}};
+  if (!frame.name.empty()) json["reference_frame"] = toJson(frame);
+  if (file.covariance)
+    json["covariance"] =
+        toJson(inFrame(*file.covariance,
+                       file.reference ? file.reference->camera_from_reference.inverse() : Pose()));
+  return json;
+}
+
+}  // namespace
+
+std::optional<CameraFile> cameraOfVectors(const CahvModel& cahv, int width, int height) {
+  CameraFile file;
+  CameraReference& reference = file.reference.emplace();
+  if (cameraFromCahv(cahv, width, height, file.camera, reference.camera_from_reference) !=
+      Status::kOk)
+    return std::nullopt;
+  return file;
+}
+
+FrameName readFrameName(const JsonReader& json) {
+  FrameName frame;
+  frame.name = json.at("name").nonEmptyText();
+  if (const auto index = json.find("index"))
+    for (const JsonReader& item : index->elements()) frame.index.push_back(item.integer());
+  return frame;
+}
+
+nlohmann::ordered_json toJson(const FrameName& frame) {
+  nlohmann::ordered_json json = {{"name", frame.name}};
+  if (!frame.index.empty()) json["index"] = frame.index;
+  return json;
+}
+
+std::string frameText(const FrameName& frame) {
+  if (frame.name.empty()) return "a frame without a name";
+  std::string index;
+  for (const std::int64_t item : frame.index)
+    index += (index.empty() ? " (" : ", ") + std::to_string(item);
+  return frame.name + (index.empty() ? "" : index + ")");
+}
+
+double readMeshScaleSigma(const JsonReader& json) { return json.number(0.0, kMaxScaleSigma); }
+
+CalibrationSigma readCalibrationSigma(const JsonReader& json) {
+  return {json.at("focal_relative").number(0.0, kMaxFocalSigma),
+          json.at("principal_point_px").number(0.0, kMaxPrincipalPointSigma_px)};
+}
+
+nlohmann::ordered_json toJson(const CalibrationSigma& sigma) {
+  return {{"focal_relative", sigma.focal_relative},
+          {"principal_point_px", sigma.principal_point_px}};
+}
+
+const char* cameraModelName(CameraModel model) { return kModelNames[static_cast<int>(model)]; }
+
+CameraFile readCameraFile(const JsonReader& json) {
+  if (json.has("format"))
+    json.requireFormat(kCameraFormat, kCameraVersion);  // a file's content in a dataset
+  (void)json.has("fitted_from");  // not read: the camera that this one was fitted to
+  const CameraModel model = readModel(json);
+  CameraFile file = isCahvFamily(model) ? readCahvCamera(model, json) : readLensCamera(model, json);
+  if (const auto sigma = json.find("calibration_sigma"))
+    file.calibration_sigma = readCalibrationSigma(*sigma);
+  return file;
+}
+
+CameraFile readCameraJson(const std::filesystem::path& file) {
+  const JsonDocument document(file);
+  if (isRawMetadata(document.root())) return readRawMetadata(document.root());
+  return document.read(kCameraFormat, kCameraVersion,
+                       [](const JsonReader& json) { return readCameraFile(json); });
+}
+
+Camera readCamera(const JsonReader& json) { return readCameraFile(json).camera; }
+
+nlohmann::ordered_json toJson(const CameraFile& file) {
+  nlohmann::ordered_json json =
+      isCahvFamily(file.camera.model) ? cahvJson(file) : toJson(file.camera);
+  if (file.calibration_sigma) json["calibration_sigma"] = toJson(*file.calibration_sigma);
+  return json;
+}
+
+nlohmann::ordered_json toJson(const Camera& camera) {
+  if (isCahvFamily(camera.model)) return cahvJson({camera});
+  nlohmann::ordered_json json;
+  json["model"] = cameraModelName(camera.model);
+  json["width"] = camera.width;
+  json["height"] = camera.height;
+  json["fx"] = camera.fx;
+  json["fy"] = camera.fy;
+  json["cx"] = camera.cx;
+  json["cy"] = camera.cy;
+  if (camera.model == CameraModel::kPinhole) return json;
+  const auto& distortion = camera.distortion;
+  std::ptrdiff_t count = 4;
+  if (camera.model == CameraModel::kBrownConrady) {
+    const bool rational = std::any_of(distortion.begin() + 5, distortion.end(),
+                                      [](double coefficient) { return coefficient != 0.0; });
+    count = rational ? 8 : 5;
+  }
+  json["dist"] = std::vector<double>(distortion.begin(), distortion.begin() + count);
+  return json;
+}
+
+void writeCamera(const std::filesystem::path& file, const Camera& camera) {
+  writeCamera(file, CameraFile{camera});
+}
+
+void writeCamera(const std::filesystem::path& file, const CameraFile& camera) {
+  nlohmann::ordered_json json = {{"format", kCameraFormat}, {"version", kCameraVersion}};
+  json.update(toJson(camera));
+  writeJsonFile(file, json);
+}
+
+}  // namespace boresight::sessions

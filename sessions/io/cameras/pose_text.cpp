@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/pose_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "core/base/math.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/text/units.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kLargest_m = 1e6;
+
+std::string list(std::initializer_list<double> values) {
+  std::string text = "[";
+  for (const double value : values) {
+    if (text.size() > 1) text += ", ";
+    text += numberText(value == 0.0 ? 0.0 : value);  // not "-0"
+  }
+  return text + "]";
+}
+
+std::string translationText(const Pose& pose) {
+  const Eigen::Vector3d mm = kMillimetres * pose.translation_m;
+  return "translation_mm " + list({mm.x(), mm.y(), mm.z()});
+}
+
+bool isWordPart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// The numbers that stand for themselves. A word is left out with the digits in it ("camera_0",
+/// "p1"), but for the e of an exponent.
+std::vector<double> numbersIn(std::string_view text) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < text.size();) {
+    if (isWordPart(text[i])) {
+      while (i < text.size() &&
+             (isWordPart(text[i]) || std::isdigit(static_cast<unsigned char>(text[i])) != 0))
+        ++i;
+      continue;
+    }
+    const std::size_t sign = text[i] == '+' ? 1 : 0;  // from_chars takes no plus
+    double value = 0.0;
+    const auto [end, error] =
+        std::from_chars(text.data() + i + sign, text.data() + text.size(), value);
+    if (error == std::errc()) {
+      numbers.push_back(value);
+      i = static_cast<std::size_t>(end - text.data());
+    } else {
+      ++i;
+    }
+  }
+  return numbers;
+}
+
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+ParsedPose refused(PoseForm form, std::string problem) {
+  ParsedPose parsed;
+  parsed.form = form;
+  parsed.problem = std::move(problem);
+  return parsed;
+}
+
+/// Six digits, whatever the locale.
+std::string shortNumber(double value) {
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::general, 6);
+  return {buffer.data(), end.ptr};
+}
+
+/// The pose of a rotation and a translation as they were read.
+ParsedPose accepted(PoseForm form, const Eigen::Matrix3d& rotation,
+                    const Eigen::Vector3d& translation, const PoseReading& reading) {
+  const double metres = reading.unit == LengthUnit::kMillimetre ? 1.0 / kMillimetres : 1.0;
+  ParsedPose parsed;
+  parsed.form = form;
+  Pose pose;
+  if (!(translation.cwiseAbs().maxCoeff() * metres < kLargest_m))
+    return refused(form, "The translation is not a number, or 1000 km or more.");
+  if (poseFromMatrix(rotation, translation * metres, pose, parsed.rotation_deviation) !=
+      Status::kOk)
+    return refused(
+        form,
+        rotation.determinant() < 0.0
+            ? "The matrix mirrors (its determinant is negative); it is not a "
+              "rotation."
+            : "The matrix is not a rotation: |R'R - I| is " +
+                  shortNumber(
+                      (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm()) +
+                  "; the limit is 1e-4.");
+  parsed.valid = true;
+  parsed.camera_from_station =
+      reading.direction == PoseDirection::kCameraFromStation ? pose : pose.inverse();
+  return parsed;
+}
+
+ParsedPose fromMatrix(const std::vector<double>& numbers, const PoseReading& reading) {
+  const auto at = [&](std::size_t row, std::size_t column) {
+    const std::size_t rows = numbers.size() / 4;
+    return reading.matrix_order == MatrixOrder::kRowMajor ? numbers[4 * row + column]
+                                                          : numbers[rows * column + row];
+  };
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column)
+      rotation(static_cast<int>(row), static_cast<int>(column)) = at(row, column);
+    translation[static_cast<int>(row)] = at(row, 3);
+  }
+  if (numbers.size() == 16) {
+    const bool last = at(3, 0) == 0.0 && at(3, 1) == 0.0 && at(3, 2) == 0.0 && at(3, 3) == 1.0;
+    if (!last)
+      return refused(PoseForm::kMatrix,
+                     "The matrix's last row is not 0 0 0 1; try the other order.");
+  }
+  return accepted(PoseForm::kMatrix, rotation, translation, reading);
+}
+
+ParsedPose fromQuaternion(const std::vector<double>& numbers, const PoseReading& reading) {
+  const bool w_first = reading.quaternion_order == QuaternionOrder::kWxyz;
+  const Eigen::Vector4d q(numbers[0], numbers[1], numbers[2], numbers[3]);
+  if (!(std::abs(q.norm() - 1.0) <= 1e-4))
+    return refused(PoseForm::kQuaternion, "The quaternion is not of unit length (it is " +
+                                              shortNumber(q.norm()) + "); the limit is 1e-4.");
+  const Eigen::Vector4d unit = q.normalized();
+  const Eigen::Quaterniond rotation = w_first
+                                          ? Eigen::Quaterniond(unit[0], unit[1], unit[2], unit[3])
+                                          : Eigen::Quaterniond(unit[3], unit[0], unit[1], unit[2]);
+  return accepted(PoseForm::kQuaternion, rotation.toRotationMatrix(),
+                  {numbers[4], numbers[5], numbers[6]}, reading);
+}
+
+}  // namespace
+
+Eigen::Quaterniond shownQuaternion(const Eigen::Quaterniond& rotation) {
+  const Eigen::Quaterniond unit = rotation.normalized();
+  for (const double part : {unit.w(), unit.x(), unit.y(), unit.z()}) {
+    if (part > 0.0) return unit;
+    if (part < 0.0) return Eigen::Quaterniond(-unit.coeffs());
+  }
+  return unit;
+}
+
+std::string poseText(const Pose& camera_from_station, PoseForm form) {
+  const Pose& pose = camera_from_station;
+  switch (form) {
+    case PoseForm::kRotationVector: {
+      const Eigen::Vector3d deg = rotationLog(pose.rotation) / kDegree_rad;
+      return "camera_from_station rotation_vector_deg " + list({deg.x(), deg.y(), deg.z()}) + " " +
+             translationText(pose);
+    }
+    case PoseForm::kQuaternion: {
+      const Eigen::Quaterniond q = shownQuaternion(pose.rotation);
+      return "camera_from_station quaternion_wxyz " + list({q.w(), q.x(), q.y(), q.z()}) + " " +
+             translationText(pose);
+    }
+    case PoseForm::kMatrix:
+      break;
+  }
+  const Eigen::Matrix3d rotation = pose.matrix();
+  std::string text = "[";
+  for (int row = 0; row < 3; ++row)
+    text += list({rotation(row, 0), rotation(row, 1), rotation(row, 2), pose.translation_m[row]}) +
+            ",\n ";
+  return text + "[0, 0, 0, 1]]";
+}
+
+PoseReading guessReading(std::string_view text) {
+  PoseReading guess;
+  if (contains(text, "station_from_camera")) guess.direction = PoseDirection::kStationFromCamera;
+  if (contains(text, "xyzw")) guess.quaternion_order = QuaternionOrder::kXyzw;
+  if (contains(text, "mm")) guess.unit = LengthUnit::kMillimetre;
+  const std::vector<double> n = numbersIn(text);
+  if (n.size() != 16) return guess;
+  const bool last_column = n[3] == 0.0 && n[7] == 0.0 && n[11] == 0.0;
+  const bool last_row = n[12] == 0.0 && n[13] == 0.0 && n[14] == 0.0;
+  if (last_column && !last_row) guess.matrix_order = MatrixOrder::kColumnMajor;
+  return guess;
+}
+
+ParsedPose parsePose(std::string_view text, const PoseReading& reading) {
+  const std::vector<double> numbers = numbersIn(text);
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double n) { return isFinite(n); }))
+    return refused(PoseForm::kMatrix, "Not every number is finite.");
+  switch (numbers.size()) {
+    case 16:
+    case 12:
+      return fromMatrix(numbers, reading);
+    case 7:
+      return fromQuaternion(numbers, reading);
+    case 6: {
+      const Eigen::Vector3d deg(numbers[0], numbers[1], numbers[2]);
+      return accepted(PoseForm::kRotationVector, rotationExp(kDegree_rad * deg).toRotationMatrix(),
+                      {numbers[3], numbers[4], numbers[5]}, reading);
+    }
+    default:
+      return refused(PoseForm::kMatrix,
+                     "The text holds " + std::to_string(numbers.size()) +
+                         " numbers; a pose has 16 or 12 (matrix), 7 (quaternion, translation) or "
+                         "6 (rotation vector, translation).");
+  }
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/raw_metadata.h"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace boresight::sessions {
+namespace {
+
+constexpr const char* kComponents = "camera_model_component_list";
+
+/// The numbers of "(1,2,3);(4,5,6);2;0.0", whose parentheses and separators carry no meaning.
+/// InputError for anything else.
+std::vector<double> numbersOf(const JsonReader& json) {
+  const std::string text = json.text();
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end) {
+    if (std::string_view("(),; ").find(*at) != std::string_view::npos) {
+      ++at;
+      continue;
+    }
+    double number = 0.0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || !std::isfinite(number)) json.fail("not a list of numbers");
+    numbers.push_back(number);
+    at = next;
+  }
+  return numbers;
+}
+
+CameraModel modelOf(const JsonReader& json) {
+  const std::string name = json.choice({"CAHV", "CAHVOR", "CAHVORE"});
+  if (name == "CAHV") return CameraModel::kCahv;
+  return name == "CAHVOR" ? CameraModel::kCahvor : CameraModel::kCahvore;
+}
+
+CahvModel modelOf(const JsonReader& type, const JsonReader& components) {
+  CahvModel cahv;
+  cahv.model = modelOf(type);
+  const std::vector<double> numbers = numbersOf(components);
+  std::size_t used = 0;
+  std::size_t needed = 0;
+  forVectors(cahv, [&needed](const char*, const Eigen::Vector3d&) { needed += 3; });
+  if (cahv.model == CameraModel::kCahvore) needed += 2;
+  if (numbers.size() < needed)
+    components.fail(std::to_string(needed) + " numbers are needed, " +
+                    std::to_string(numbers.size()) + " given");
+  forVectors(cahv, [&](const char*, Eigen::Vector3d& vector) {
+    for (int axis = 0; axis < 3; ++axis) vector[axis] = numbers[used++];
+  });
+  if (cahv.model != CameraModel::kCahvore) return cahv;
+  cahv.type = static_cast<int>(numbers[used]);
+  if (cahv.type < 1 || cahv.type > 3 || cahv.type != numbers[used])
+    components.fail("the type of a CAHVORE model is 1, 2 or 3");
+  cahv.parameter = numbers[used + 1];
+  return cahv;
+}
+
+}  // namespace
+
+bool isRawMetadata(const JsonReader& json) { return json.isObject() && json.has(kComponents); }
+
+CameraFile readRawMetadata(const JsonReader& json) {
+  const JsonReader components = json.at(kComponents);
+  const CahvModel cahv = modelOf(json.at("camera_model_type"), components);
+  const JsonReader dimension = json.at("dimension");
+  const std::vector<double> size = numbersOf(dimension);
+  const auto isSide = [](double side) {
+    return side >= 1 && side <= kMaxImageSide_px && side == std::floor(side);
+  };
+  if (size.size() != 2 || !isSide(size[0]) || !isSide(size[1]))
+    dimension.fail("not the width and height of an image");
+  CameraFile file;
+  CameraReference& reference = file.reference.emplace();
+  if (cameraFromCahv(cahv, static_cast<int>(size[0]), static_cast<int>(size[1]), file.camera,
+                     reference.camera_from_reference) != Status::kOk)
+    components.fail("no camera has these vectors");
+  reference.frame = {"ROVER_NAV_FRAME", {json.at("site").integer(), json.at("drive").integer()}};
+  return file;
+}
+
+}  // namespace boresight::sessions

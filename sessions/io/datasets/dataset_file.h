@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/geometry/camera.h"
+#include "core/geometry/pose.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/images/image_file.h"
+#include "sessions/io/json/json_reader.h"
+#include "sessions/io/meshes/scene_mesh.h"
+
+namespace boresight::sessions {
+
+/// Any turn about a line leaves the station as it is.
+struct AxisSymmetry {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();    ///< unit length, station frame
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< on the line, station frame
+};
+
+/// Which other poses of a station look the same. Each transform is station_from_station.
+struct Symmetries {
+  std::vector<Pose> discrete;  ///< without the identity
+  std::vector<AxisSymmetry> continuous;
+
+  bool empty() const { return discrete.empty() && continuous.empty(); }
+};
+
+/// `axis` (of any length, station frame) and, under `point_key`, a point on it; InputError.
+AxisSymmetry readAxisSymmetry(const JsonReader& json, const char* point_key,
+                              double units_per_metre);
+
+/// `symmetries_discrete` (16 numbers each, row by row) and `symmetries_continuous` (axis, offset)
+/// of an entry of BOP's models_info.json, millimetres. InputError.
+Symmetries readBopSymmetries(const JsonReader& model);
+
+/// The turn by `angle_rad` about a symmetry's line.
+Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad);
+
+/// What a result must reach; judges what it names, and names at least one.
+struct Requirement {
+  std::optional<double> normal_mm;
+  std::optional<double> lateral_mm;
+  std::optional<double> rotation_deg;
+  std::optional<double> projection_px;
+
+  bool operator==(const Requirement&) const = default;
+};
+
+struct Station {
+  std::string id;
+  std::vector<PartSource> parts;  ///< at least one
+  std::optional<double> feature_size_m;
+  std::optional<double> mesh_scale_sigma;  ///< relative, one sigma
+  std::optional<DeclaredUncertainty> uncertainty;
+  std::optional<Pose> camera_from_end_effector;
+  Symmetries symmetries;  ///< poses that differ by one of them count as the same
+};
+
+/// Cases with the same `id` were taken at once by rigidly linked cameras.
+struct Rig {
+  std::string id;
+  Pose camera_from_rig;
+
+  bool operator==(const Rig&) const = default;
+};
+
+/// What a BOP dataset calls a case.
+struct BopKey {
+  int scene_id = 0;
+  int image_id = 0;
+  int object_id = 0;
+};
+
+struct Case {
+  std::string id;
+  std::string station;  ///< a key of Dataset::stations
+  std::string camera;   ///< a key of Dataset::cameras
+  std::filesystem::path image;
+  std::optional<std::filesystem::path> ignore;
+  Pose seed_camera_from_station;
+  /// Of a seed that was given in a named frame.
+  std::optional<FrameName> station_frame = std::nullopt;
+  std::optional<Pose> truth_camera_from_station;
+  /// Of a truth that was given in a named frame.
+  std::optional<FrameName> truth_frame = std::nullopt;
+  std::optional<Matrix6d> truth_covariance = std::nullopt;  ///< nothing: it is exact
+  std::optional<Rig> rig;
+  std::vector<std::string> tags;
+  /// What holds for the case: its own, else its seed's (uncertainty), its station's or the
+  /// dataset's (requirement).
+  std::optional<DeclaredUncertainty> uncertainty;
+  std::optional<Requirement> requirement;
+  std::optional<Pose> camera_from_end_effector;
+  std::vector<PartState> part_states = {};  ///< one per part of the station; empty: the station's
+  std::optional<BopKey> bop = {};
+
+  bool hasTag(const std::string& tag) const;
+};
+
+/// dataset.json (`boresight-dataset`, version 1), checked whole; images and meshes are read later.
+struct Dataset {
+  std::filesystem::path file;
+  std::string sha256;  ///< of the file, or of what was chosen of a folder
+  std::optional<Requirement> requirement;
+  std::map<std::string, Station> stations;
+  std::map<std::string, Camera> cameras;
+  std::map<std::string, CameraReference> camera_references;    ///< of those that have one
+  std::map<std::string, CalibrationSigma> calibration_sigmas;  ///< of those that state one
+  std::map<std::string, CameraCovariance> camera_covariances;  ///< of those that state one
+  std::vector<FrameTransform> transforms;  ///< between frames of camera models and of poses
+  std::vector<Case> cases;
+  std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations
+
+  /// nullptr when there is none of this id.
+  const Case* findCase(const std::string& id) const;
+};
+
+/// InputError with the place in the file: formats, ranges, references to stations and cameras that
+/// do not exist, ids given twice, a mesh without a unit.
+Dataset readDataset(const std::filesystem::path& file);
+
+/// InputError when an image, mask or mesh that the dataset names is not there: asked before hours
+/// of work rather than in their midst.
+void requireFiles(const Dataset& dataset);
+
+Requirement readRequirement(const JsonReader& json);
+nlohmann::ordered_json toJson(const Requirement& requirement);
+
+/// The image of a case; InputError also when its size is not the camera's.
+GrayImage readCaseImage(const Dataset& dataset, const Case& dataset_case);
+/// Nothing when the case has no mask.
+std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& dataset_case);
+/// The scene of a station in its own state, all of whose parts are placed in STATION or CAMERA.
+SceneMesh readStationScene(const Station& station);
+
+/// The frames that a case's poses and parts may be given in.
+FrameTree framesOf(const Dataset& dataset, const Case& dataset_case);
+/// The parts of a case's station in the state that they have in the case.
+std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case);
+/// The scene of a case.
+SceneMesh readCaseScene(const Dataset& dataset, const Case& dataset_case);
+
+/// A change of a part's state, as changedState knows them.
+struct PartChange {
+  std::string part;  ///< its name
+  std::string state;
+};
+/// The dataset with these changes in all cases whose station has the part. Its hash is another one:
+/// results of different states are not mixed. InputError.
+Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/files/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "sessions/io/files/errors.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string writeReason(int error) {
+  if (error == ENOENT) return "no such folder";
+  if (error == EISDIR) return "is a folder";
+  if (error == ENOSPC) return "no space left on the device";
+  if (error == EACCES || error == EPERM) return "permission denied";
+  if (error == EROFS) return "the file system is read-only";
+  return std::strerror(error);
+}
+
+[[noreturn]] void fail(const fs::path& file, int error) {
+  throw OutputError(file, writeReason(error));
+}
+
+/// Where a chain of symbolic links ends, so that renaming replaces the file and not the link.
+fs::path linkTarget(const fs::path& file) {
+  constexpr int kMaxLinks = 40;
+  fs::path target = file;
+  for (int i = 0; i < kMaxLinks; ++i) {
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) fail(file, error.value());
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  fail(file, ELOOP);
+}
+
+/// Owns the descriptor, and the temporary name until it is renamed away.
+class OpenFile {
+ public:
+  OpenFile(fs::path reported, fs::path name, int flags, bool temporary)
+      : reported_(std::move(reported)), name_(std::move(name)) {
+    descriptor_ = ::open(name_.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(reported_, errno);
+    temporary_ = temporary;
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (temporary_) ::unlink(name_.c_str());
+  }
+
+  void write(std::span<const std::uint8_t> bytes) const {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) fail(reported_, count < 0 ? errno : EIO);
+      done += static_cast<std::size_t>(count);
+    }
+  }
+  void setMode(mode_t mode) const {
+    if (::fchmod(descriptor_, mode & 07777) != 0) fail(reported_, errno);
+  }
+  void sync() const {
+    // Pipes and some devices cannot be synchronized; that is no failure to write.
+    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(reported_, errno);
+  }
+  void close() {
+    const int result = ::close(std::exchange(descriptor_, -1));
+    if (result != 0 && errno != EINTR) fail(reported_, errno);
+  }
+  void renameTo(const fs::path& target) {
+    if (::rename(name_.c_str(), target.c_str()) != 0) fail(reported_, errno);
+    temporary_ = false;
+  }
+
+ private:
+  fs::path reported_;
+  fs::path name_;
+  int descriptor_ = -1;
+  bool temporary_ = false;
+};
+
+fs::path folderOf(const fs::path& file) {
+  return file.parent_path().empty() ? fs::path(".") : file.parent_path();
+}
+
+fs::path temporaryName(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  return folderOf(target) / (".boresight-" + std::to_string(::getpid()) + "-" +
+                             std::to_string(counter.fetch_add(1)) + ".tmp");
+}
+
+/// The rename itself must survive a power cut. The data is already safe, and not every file system
+/// can synchronize a folder, so a refusal is not reported.
+void syncFolder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  (void)::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes, FileUse use) {
+  if (file.empty()) throw OutputError("(no name)", "a file name is empty");
+  requireNoInput(file, use);
+  const fs::path target = linkTarget(file);
+  struct stat existing {};
+  const bool exists = ::stat(target.c_str(), &existing) == 0;
+  if (exists && S_ISDIR(existing.st_mode)) fail(file, EISDIR);
+  // Renaming would replace a write-protected file, which only asks the folder.
+  if (exists && ::access(target.c_str(), W_OK) != 0) fail(file, errno);
+  if (exists && !S_ISREG(existing.st_mode)) {
+    OpenFile device(file, target, 0, false);
+    device.write(bytes);
+    device.sync();
+    device.close();
+    return;
+  }
+  OpenFile temporary(file, temporaryName(target), O_CREAT | O_EXCL, true);
+  temporary.write(bytes);
+  if (exists) temporary.setMode(existing.st_mode);
+  temporary.sync();
+  temporary.close();
+  temporary.renameTo(target);
+  syncFolder(folderOf(target));
+  noteOutput(target, use);
+}
+
+void writeFileAtomically(const fs::path& file, std::string_view text, FileUse use) {
+  writeFileAtomically(
+      file, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), use);
+}
+
+void moveIntoPlace(const fs::path& finished, const fs::path& file, FileUse use) {
+  requireNoInput(file, use);
+  const int descriptor = ::open(finished.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(file, errno);
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0) fail(file, error);
+  const fs::path target = linkTarget(file);
+  if (::rename(finished.c_str(), target.c_str()) != 0) fail(file, errno);
+  syncFolder(folderOf(target));
+  noteOutput(target, use);
+}
+
+void requireWritable(const fs::path& file, FileUse use) {
+  if (file.empty()) throw OutputError("(no name)", "a file name is empty");
+  requireNoInput(file, use);
+  const fs::path target = linkTarget(file);
+  struct stat info {};
+  if (::stat(target.c_str(), &info) == 0) {
+    if (S_ISDIR(info.st_mode)) fail(file, EISDIR);
+    if (::access(target.c_str(), W_OK) != 0) fail(file, errno);
+    if (!S_ISREG(info.st_mode)) return;
+  }
+  const fs::path folder = folderOf(target);
+  if (::stat(folder.c_str(), &info) != 0) fail(file, errno);
+  if (!S_ISDIR(info.st_mode)) fail(file, ENOTDIR);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(file, errno);
+}
+
+void writeFolderAtomically(const fs::path& folder,
+                           const std::function<void(const fs::path&)>& write) {
+  if (folder.empty()) throw OutputError("(no name)", "a folder name is empty");
+  fs::path target = fs::absolute(folder).lexically_normal();
+  if (!target.has_filename()) target = target.parent_path();  // written with a slash at its end
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(target, error);
+  const bool there = fs::exists(status);
+  if (there && !(fs::is_directory(status) && fs::is_empty(target, error)))
+    throw OutputError(folder, "the name exists; give a new folder");
+  const fs::path temporary = temporaryName(target);
+  if (::mkdir(temporary.c_str(), 0777) != 0) fail(target, errno);
+  try {
+    write(temporary);
+    moveIntoPlace(temporary, target);
+  } catch (...) {
+    fs::remove_all(temporary, error);
+    throw;
+  }
+}
+
+}  // namespace boresight::sessions

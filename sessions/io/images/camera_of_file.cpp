@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/images/camera_of_file.h"
+
+#include "sessions/io/cameras/cahvor_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/images/labels/image_label.h"
+
+namespace boresight::sessions {
+
+CameraFile readCameraFile(const std::filesystem::path& file) {
+  if (isCahvorFile(file)) return readCahvorCamera(file);
+  return hasImageLabel(file) ? readLabelCamera(file) : readCameraJson(file);
+}
+
+Camera readCamera(const std::filesystem::path& file) { return readCameraFile(file).camera; }
+
+CameraFile readChosenCamera(const std::filesystem::path& camera_file,
+                            const std::filesystem::path& image) {
+  if (!camera_file.empty()) return readCameraFile(camera_file);
+  if (!hasImageLabel(image))
+    throw InputError(
+        image, "camera",
+        "none is given, and the image has no label with a camera model: give a camera.json");
+  const ImageLabel label = readImageLabel(image);
+  if (!label.camera)
+    throw InputError(image, "camera",
+                     label.camera_remark + ": give a camera.json or a .cahvor file with --camera");
+  return *label.camera;
+}
+
+}  // namespace boresight::sessions

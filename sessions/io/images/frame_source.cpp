@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/images/frame_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <sstream>
+
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "sessions/text/plain_text.h"
+
+namespace boresight::sessions {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxListBytes = 64 * kMegabyte;
+
+bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// The digits from `at` on without leading zeros; moves `at` behind them.
+std::string numberAt(const std::string& text, std::size_t& at) {
+  const std::size_t begin = std::min(text.find_first_not_of('0', at), text.size());
+  std::size_t end = begin;
+  while (end < text.size() && isDigit(text[end])) ++end;
+  at = end;
+  return text.substr(begin, end - begin);
+}
+
+/// Whether the first name comes before the second one, numbers in them by value.
+bool comesBefore(const std::string& first, const std::string& second) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < first.size() && j < second.size()) {
+    if (isDigit(first[i]) && isDigit(second[j])) {
+      const std::string one = numberAt(first, i);
+      const std::string other = numberAt(second, j);
+      if (one.size() != other.size()) return one.size() < other.size();
+      if (one != other) return one < other;
+    } else {
+      if (first[i] != second[j]) return first[i] < second[j];
+      ++i;
+      ++j;
+    }
+  }
+  const std::size_t left = first.size() - i;
+  const std::size_t right = second.size() - j;
+  return left != right ? left < right : first < second;
+}
+
+bool isImageName(const fs::path& file) {
+  constexpr std::array kEnds = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".img", ".vic"};
+  const std::string end = lowerCase(file.extension().string());
+  return std::find(kEnds.begin(), kEnds.end(), end) != kEnds.end();
+}
+
+std::vector<fs::path> filesOfFolder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->is_regular_file(error) && isImageName(entry->path())) files.push_back(entry->path());
+  if (error) throw InputError(folder, "cannot be listed: " + error.message());
+  if (files.empty())
+    throw InputError(folder,
+                     "has no image; images end in .png, .jpg, .jpeg, .tif, .tiff, .img or "
+                     ".vic");
+  std::sort(files.begin(), files.end(), [](const fs::path& first, const fs::path& second) {
+    return comesBefore(first.filename().string(), second.filename().string());
+  });
+  return files;
+}
+
+std::vector<fs::path> filesOfList(const fs::path& list) {
+  const std::vector<std::uint8_t> bytes = readFileBytes(list, kMaxListBytes);
+  if (std::find(bytes.begin(), bytes.end(), 0) != bytes.end())
+    throw InputError(list, "is not a list of images: a text file with one path a line");
+  std::istringstream stream(std::string(bytes.begin(), bytes.end()));
+  std::vector<fs::path> files;
+  std::set<fs::path> known;
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0)
+      line.pop_back();
+    if (line.empty() || line.front() == '#') continue;
+    files.push_back(list.parent_path() / line);
+    if (!known.insert(files.back().lexically_normal()).second)
+      throw InputError(list, "line " + std::to_string(number), line + " is listed twice");
+  }
+  if (files.empty()) throw InputError(list, "lists no image");
+  return files;
+}
+
+/// Reads each image when it is asked for.
+class ImageFiles final : public FrameSource {
+ public:
+  ImageFiles(std::vector<fs::path> files, fs::path folder, const ImageReadOptions& options)
+      : files_(std::move(files)), folder_(std::move(folder)), options_(options) {}
+
+  std::int64_t count() const override { return static_cast<std::int64_t>(files_.size()); }
+
+  std::optional<Frame> next() override {
+    if (next_ == files_.size()) return std::nullopt;
+    const fs::path& file = files_[next_++];
+    Frame frame{file.lexically_relative(folder_).string(), std::nullopt, ""};
+    try {
+      frame.image = readImage(file, options_);
+    } catch (const FileError& error) {
+      frame.problem = error.what();
+    }
+    return frame;
+  }
+
+  void skip() override { next_ = std::min(next_ + 1, files_.size()); }
+
+ private:
+  std::vector<fs::path> files_;
+  fs::path folder_;  ///< to which names are relative
+  ImageReadOptions options_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> openImages(const fs::path& folder_or_list,
+                                        const ImageReadOptions& options) {
+  std::error_code error;
+  if (!fs::exists(folder_or_list, error))
+    throw InputError(folder_or_list, "there is no such folder or file");
+  const fs::path path = fs::absolute(folder_or_list).lexically_normal();
+  if (fs::is_directory(path, error))
+    return std::make_unique<ImageFiles>(filesOfFolder(path), path, options);
+  return std::make_unique<ImageFiles>(filesOfList(path), path.parent_path(), options);
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/image.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/files/file_bytes.h"
+
+namespace boresight::sessions {
+
+struct ImageLabel;
+
+inline constexpr std::size_t kMaxImageFileBytes = 1024 * kMegabyte;
+/// Sides are bounded by kMaxImageSide_px, so this also bounds memory (134 million pixels).
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
+
+/// Samples that become 0 and 255; those between them linearly, those beyond as these two.
+struct GrayLevels {
+  int black = 0;  ///< less than white
+  int white = 255;
+
+  bool operator==(const GrayLevels&) const = default;
+};
+
+/// Colours of a mosaic's first two lines, two pixels each.
+enum class BayerPattern { kRggb, kBggr, kGrbg, kGbrg };
+inline constexpr const char* kBayerPatternNames[] = {"rggb", "bggr", "grbg", "gbrg"};
+/// By its name; nothing for another word.
+std::optional<BayerPattern> bayerPatternNamed(std::string_view name);
+
+struct ImageReadOptions {
+  /// Bits that the samples use, 1 .. 16, from a label or asked for; without it, those of the file
+  /// (8 or 16).
+  std::optional<int> bit_depth;
+  /// Instead of the linear rule: the 8-bit value of every sample 0 .. 2^n - 1; empty: linear.
+  std::vector<std::uint8_t> table = {};
+  /// The table given by two numbers; not together with `table`.
+  std::optional<GrayLevels> levels = {};
+  /// The samples are such a mosaic: their colours are interpolated first (OpenCV, edge-aware).
+  std::optional<BayerPattern> bayer = {};
+
+  bool operator==(const ImageReadOptions&) const = default;
+};
+
+/// The 8-bit gray image that the core sees, and how it came about.
+struct GrayImage {
+  std::filesystem::path file;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;  ///< row-major, width * height
+  /// Row-major, blue, green and red of each pixel, by the same rule; empty: the file has no colour.
+  std::vector<std::uint8_t> color;
+
+  std::string container;  ///< "PNG", "JPEG", "TIFF", "VICAR", "PDS3", "PDS4"
+  int channels = 1;       ///< of the file: 1 gray, 2 gray + alpha, 3 colour, 4 colour + alpha
+  int sample_bits = 8;    ///< of the decoded samples: 8 or 16
+  int bit_depth = 8;      ///< n of the rule
+  bool bit_depth_stated = false;            ///< asked for, not taken from the file
+  bool bit_depth_of_label = false;          ///< stated by the file's label, or made by its rule
+  std::string rule;                         ///< how samples became 8 bit, for provenance
+  std::shared_ptr<const ImageLabel> label;  ///< of a VICAR, PDS3 or PDS4 image, else null
+  std::vector<std::string> notes;           ///< for the operator, on its file and samples
+  std::string file_sha256;    ///< of a label and the file of its pixels: of both together
+  std::string pixels_sha256;  ///< of `pixels`
+
+  ImageView view() const { return {pixels.data(), width, height, width}; }
+  /// Without data where there is no colour.
+  ColorView colorView() const {
+    if (color.empty()) return {};
+    return {color.data(), width, height, std::ptrdiff_t{ColorView::kChannels} * width};
+  }
+};
+
+/// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour, or an image with a VICAR, PDS3 or
+/// PDS4 label of any samples (label_samples.h says how they become 16 bits; the depth is then that
+/// of the label), whatever its name; alpha is dropped, an orientation tag is not applied
+/// (calibration belongs to the stored pixels). Rule: colour by luma (9798 R +
+/// 19235 G + 3735 B + 16384) >> 15 on the samples, then floor(v * 255 / (2^n - 1) + 0.5) or the
+/// given table; a sample above 2^n - 1 contradicts the stated depth and is refused. InputError when
+/// the file is missing, empty, truncated, damaged, of another format, or too large.
+GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options = {});
+
+/// The samples of an image before they become 8 bit, colour by the same luma: to look at, and to
+/// choose levels by. The core never sees them.
+struct ImageSamples {
+  int width = 0;
+  int height = 0;
+  int sample_bits = 8;                ///< of the file: 8 or 16
+  std::vector<std::uint16_t> values;  ///< row-major, width * height
+  /// The file's own value is offset + scale * value: other than 0 and 1 where numbers that are not
+  /// whole, or negative, became 16 bits.
+  double offset = 0.0;
+  double scale = 1.0;
+  std::string file_sha256;
+};
+
+/// Reads what readImage reads and refuses what it refuses, but for the depth.
+ImageSamples readSamples(const std::filesystem::path& file,
+                         const std::optional<BayerPattern>& bayer = {});
+
+/// The 8-bit values of the samples 0 .. 2^n - 1 by levels with 0 <= black < white <= 2^n - 1:
+/// floor((v - black) * 255 / (white - black) + 0.5), in integers.
+std::vector<std::uint8_t> tableOfLevels(const GrayLevels& levels, int n);
+
+/// The rule for one sample, in integers; v <= 2^n - 1, 1 <= n <= 16.
+std::uint8_t toEightBit(std::uint32_t v, int n);
+
+/// InputError naming both when the image is not of the camera's size.
+void requireSameSize(const GrayImage& image, const Camera& camera);
+
+/// Pixels to ignore, packed as the core wants them.
+struct IgnoreMask {
+  std::filesystem::path file;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint64_t> words;
+  std::int64_t ignored_count = 0;
+  std::string file_sha256;
+
+  /// The core takes masks as `const BitImage*`; the words must not be written through this.
+  BitImage view() const;
+};
+
+/// Reads a mask image of width x height (PNG or TIFF): a pixel is ignored where any channel but
+/// alpha is not zero. A JPEG is refused, because its compression leaves nonzero pixels about.
+/// InputError.
+IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int height);
+
+/// A PNG of 8-bit gray or BGR pixels (channels 1 or 3, row-major), written atomically; OutputError.
+void writePng(const std::filesystem::path& file, std::span<const std::uint8_t> pixels, int width,
+              int height, int channels);
+
+}  // namespace boresight::sessions

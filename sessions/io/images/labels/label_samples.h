@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/io/images/labels/image_label.h"
+#include "sessions/io/images/labels/label_files.h"
+
+namespace boresight::sessions {
+
+/// Samples within `tolerance` of `value` stand for no measurement.
+struct InvalidValue {
+  double value = 0.0;
+  double tolerance = 0.0;
+};
+
+/// Adds the constant that a label states, or each of a list: a number, or the bits of one as
+/// 16#FF7FFFFB#, 0xFF7FFFFB or 2#...#. Up to 32 bits of a floating-point number are those of a
+/// 32-bit one; whole numbers may be of either sign. From 10^30 on, where no measurement lies, a
+/// number is one of its written digits (-3.402823e+38 for the lowest of 32 bits); smaller ones are
+/// exact. At most 32.
+void addInvalidValues(const nlohmann::json* stated, bool floating, int sample_bits,
+                      std::vector<InvalidValue>& values);
+
+/// The samples of an image with a label as 8 or 16 bits of gray, by a rule that is stated.
+struct LabelSamples {
+  std::string container;  ///< "VICAR", "PDS3", "PDS4"
+  int width = 0;
+  int height = 0;
+  int bands = 1;                      ///< of the file: 1, or 3 (red, green, blue, turned into luma)
+  int sample_bits = 8;                ///< of `values`: 8 or 16
+  std::vector<std::uint16_t> values;  ///< row-major
+  /// The file's own value is offset + scale * value.
+  double offset = 0.0;
+  double scale = 1.0;
+  bool quantized = false;          ///< the samples were not whole numbers of 0 .. 65535
+  int highest = 0;                 ///< of all samples, before luma
+  std::int64_t invalid_count = 0;  ///< samples without a value; they are 0
+  std::string rule;                ///< how samples became `values`; empty: as they are
+  std::shared_ptr<const ImageLabel> label;
+  std::string sha256;  ///< of all files read
+};
+
+/// Whole numbers of 0 .. 65535 stay as they are. All others are quantized: the lowest valid sample
+/// becomes 0, the highest 65535, those between them linearly. Samples that the label calls missing
+/// or invalid, and those that are no numbers, become 0 and are counted. InputError: other than 1 or
+/// 3 bands, a product that is no picture, no valid sample at all.
+LabelSamples readLabelSamples(const LabelFiles& files);
+
+}  // namespace boresight::sessions

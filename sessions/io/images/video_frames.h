@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A target of its own (boresight_video): OpenCV's video library loads some 60 others.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "sessions/io/images/frame_source.h"
+
+namespace boresight::sessions {
+
+/// Whether the name ends as that of a video (.mp4, .avi, .mkv, ...).
+bool isVideoName(const std::filesystem::path& file);
+
+/// The frames of a video, named "frame 000001", ..., by OpenCV's reader. A frame that cannot be
+/// decoded ends the sequence. InputError when the file is missing, or no reader of this machine's
+/// OpenCV opens it.
+std::unique_ptr<FrameSource> openVideo(const std::filesystem::path& file);
+
+/// The frames of a video by isVideoName, else those of a folder or list (openImages), whose samples
+/// become 8 bit by `options`. InputError.
+std::unique_ptr<FrameSource> openFrames(const std::filesystem::path& images,
+                                        const ImageReadOptions& options = {});
+
+/// One frame of `openFrames`, counted from 1; nothing when there are fewer. InputError.
+std::optional<Frame> readFrame(const std::filesystem::path& images, std::int64_t number,
+                               const ImageReadOptions& options = {});
+
+}  // namespace boresight::sessions

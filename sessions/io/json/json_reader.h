@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "sessions/io/files/file_bytes.h"
+
+namespace boresight::sessions {
+
+/// The members of a document's objects that its reader asked for.
+class JsonUse {
+ public:
+  void note(const nlohmann::json& object, std::string_view key);
+  void noteAll(const nlohmann::json& object);
+  /// "is not known ..." where a reader opened `object` and did not ask for `key`; else "".
+  std::string refusal(const nlohmann::json& object, const std::string& key) const;
+
+ private:
+  struct Asked {
+    bool all = false;
+    std::vector<const std::string*> names;  ///< in names_
+  };
+  std::set<std::string, std::less<>> names_;
+  std::map<const nlohmann::json*, Asked> asked_;
+};
+
+/// A value inside a JSON document together with its place, e.g. `cases[3].seed`. Every accessor
+/// throws InputError (file, place, reason) when the value is not what is asked for, so a reader
+/// states its format once and its errors follow. Points into the document, which must outlive it.
+class JsonReader {
+ public:
+  JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place)
+      : JsonReader(file, value, std::move(place), nullptr) {}
+
+  /// What `read` makes of this value. InputError for each member that `read` did not ask for: a
+  /// misspelt one would be ignored, and a program that writes the file again would lose it.
+  template <class Read>
+  auto whole(Read&& read) const {
+    JsonUse use;
+    const JsonReader tracked(*file_, *value_, place_, &use);
+    auto result = read(tracked);
+    tracked.requireUsed();
+    return result;
+  }
+  /// InputError unless this is an object of this `format` and `version`.
+  void requireFormat(std::string_view format, int version) const;
+
+  /// Throws InputError for this place.
+  [[noreturn]] void fail(const std::string& reason) const;
+  /// Throws InputError for the member `key` of this object.
+  [[noreturn]] void failMember(std::string_view key, const std::string& reason) const;
+
+  bool has(std::string_view key) const { return find(key).has_value(); }
+  /// Member of an object; must be there.
+  JsonReader at(std::string_view key) const;
+  /// Member of an object, or nothing. A null counts as absent.
+  std::optional<JsonReader> find(std::string_view key) const;
+  std::vector<std::pair<std::string, JsonReader>> members() const;  ///< of an object, by key
+  std::vector<JsonReader> elements() const;                         ///< of an array
+  std::vector<JsonReader> elements(std::size_t count) const;        ///< of an array of `count`
+
+  bool isObject() const;
+  bool isText() const;
+  bool isBoolean() const;
+  bool isNumber() const;
+  bool isInteger() const;  ///< written without fraction or exponent
+
+  double number() const;
+  /// A number in [minimum, maximum].
+  double number(double minimum, double maximum) const;
+  /// A number above `bound`.
+  double numberAbove(double bound) const;
+  /// An integral number in [minimum, maximum]; 5.0 is accepted as 5.
+  std::int64_t integer(std::int64_t minimum = std::numeric_limits<std::int64_t>::min(),
+                       std::int64_t maximum = std::numeric_limits<std::int64_t>::max()) const;
+  bool boolean() const;
+  std::string text() const;
+  std::string nonEmptyText() const;
+  /// One of `choices`.
+  std::string choice(std::initializer_list<const char*> choices) const;
+
+  Eigen::Vector2d vector2() const;
+  /// Three numbers, each in [minimum, maximum].
+  Eigen::Vector3d vector3(double minimum = std::numeric_limits<double>::lowest(),
+                          double maximum = std::numeric_limits<double>::max()) const;
+  /// N rows of N numbers.
+  template <int N>
+  Eigen::Matrix<double, N, N> matrix() const {
+    Eigen::Matrix<double, N, N> result;
+    for (int row = 0; const JsonReader& cells : elements(N)) {
+      for (int column = 0; const JsonReader& cell : cells.elements(N))
+        result(row, column++) = cell.number();
+      ++row;
+    }
+    return result;
+  }
+
+  /// A file named relative to the document's folder (or absolute): no output replaces it from now
+  /// on (file_bytes.h).
+  std::filesystem::path path(FileUse use = FileUse::kInput) const;
+
+  const std::filesystem::path& file() const { return *file_; }
+  const std::string& place() const { return place_; }
+
+ private:
+  JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place,
+             JsonUse* use)
+      : file_(&file), value_(&value), place_(std::move(place)), use_(use) {}
+  JsonReader member(std::string_view key, const nlohmann::json& value) const;
+  JsonReader element(std::size_t index) const;
+  /// Refuses, here and below, members of opened objects that were not asked for.
+  void requireUsed() const;
+  void requireObject() const;
+  /// "not a number (a string)" and the like.
+  std::string mismatch(const char* wanted) const;
+
+  const std::filesystem::path* file_;
+  const nlohmann::json* value_;
+  std::string place_;
+  JsonUse* use_;  ///< or null
+};
+
+/// Shortest text that reads back as the same double.
+std::string numberText(double value);
+
+inline constexpr std::size_t kMaxJsonBytes = 64 * kMegabyte;
+inline constexpr std::size_t kMaxJsonDepth = 64;
+
+/// A parsed JSON file. Refused, each with the place in the file: anything that is not JSON or not
+/// UTF-8, a key given twice, NaN or infinity, numbers that do not fit a double, more than
+/// `kMaxJsonDepth` levels. Comments are not JSON.
+class JsonDocument {
+ public:
+  /// Reads and parses `file`; InputError.
+  explicit JsonDocument(const std::filesystem::path& file);
+  /// Parses text; `file` only names it in messages.
+  JsonDocument(const std::filesystem::path& file, std::string_view text);
+
+  /// The value at the top, of a format that others define; lives as long as the document.
+  JsonReader root() const;
+  /// What `read` makes of the top, an object of this `format` and `version` without members that
+  /// `read` does not ask for. InputError.
+  template <class Read>
+  auto read(std::string_view format, int version, Read&& read) const {
+    return root().whole([&](const JsonReader& top) {
+      top.requireFormat(format, version);
+      return read(top);
+    });
+  }
+
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  std::shared_ptr<const nlohmann::json> value_;
+};
+
+}  // namespace boresight::sessions

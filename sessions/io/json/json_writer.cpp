@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/json/json_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "sessions/io/files/atomic_file.h"
+
+namespace boresight::sessions {
+namespace {
+
+using nlohmann::ordered_json;
+
+bool isPlainList(const ordered_json& value) {
+  return value.is_array() &&
+         std::none_of(value.begin(), value.end(),
+                      [](const ordered_json& element) { return element.is_structured(); });
+}
+
+std::string scalarText(const ordered_json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>()))
+    throw std::logic_error("a number for a JSON file is not finite");
+  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string plainListText(const ordered_json& list) {
+  std::string text = "[";
+  for (const ordered_json& element : list)
+    text += (text.size() > 1 ? ", " : "") + scalarText(element);
+  return text + "]";
+}
+
+void append(const ordered_json& value, const std::string& indent, std::string& text) {
+  if (!value.is_structured() || value.empty()) {
+    text += scalarText(value);
+    return;
+  }
+  if (isPlainList(value)) {
+    text += plainListText(value);
+    return;
+  }
+  const std::string inner = indent + "  ";
+  text += value.is_object() ? "{\n" : "[\n";
+  bool first = true;
+  for (const auto& item : value.items()) {
+    if (!first) text += ",\n";
+    first = false;
+    text += inner;
+    if (value.is_object()) text += ordered_json(item.key()).dump() + ": ";
+    append(item.value(), inner, text);
+  }
+  text += "\n" + indent + (value.is_object() ? "}" : "]");
+}
+
+template <class Matrix>
+ordered_json rowsOf(const Matrix& matrix) {
+  ordered_json rows = ordered_json::array();
+  for (const auto& row : matrix.rowwise())
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
+}  // namespace
+
+std::string prettyJson(const ordered_json& value) {
+  std::string text;
+  append(value, "", text);
+  return text + "\n";
+}
+
+void writeJsonFile(const std::filesystem::path& file, const ordered_json& value) {
+  writeFileAtomically(file, prettyJson(value));
+}
+
+ordered_json toJson(const Eigen::Vector2d& vector) {
+  return ordered_json::array({vector.x(), vector.y()});
+}
+
+ordered_json toJson(const Eigen::Vector3d& vector) {
+  return ordered_json::array({vector.x(), vector.y(), vector.z()});
+}
+
+ordered_json toJson(const Pose& a_from_b) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = a_from_b.matrix();
+  matrix.topRightCorner<3, 1>() = a_from_b.translation_m;
+  return rowsOf(matrix);
+}
+
+ordered_json toJson(const Matrix6d& matrix) { return rowsOf(matrix); }
+
+}  // namespace boresight::sessions

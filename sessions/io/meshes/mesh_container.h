@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/geometry/mesh.h"
+#include "sessions/io/files/file_bytes.h"
+
+namespace boresight::sessions {
+
+enum class MeshFormat { kPly, kObj, kStl, kGltf, kGlb };
+
+const char* meshFormatName(MeshFormat format);
+
+/// By the file's extension; InputError for any other than ply, obj, stl, gltf, glb.
+MeshFormat meshFormatOf(const std::filesystem::path& file);
+
+/// The same without throwing, and the reason for a message.
+std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file);
+std::string unknownMeshFormat(const std::filesystem::path& file);
+
+/// glTF is in metres; the others say nothing of their unit.
+bool carriesUnit(MeshFormat format);
+
+/// What a mesh file declares about its own size.
+struct MeshDeclaration {
+  std::optional<std::int64_t> vertex_count;
+  std::optional<std::int64_t> polygon_count;
+  /// Where the data of a binary PLY begin, when their first byte looks like the end of a line.
+  std::optional<std::size_t> newline_as_data = {};
+  /// A PLY mesh with triangle strips, or with faces before vertices: importers read plainPly() of
+  /// it.
+  bool needs_plain_ply = false;
+};
+
+/// Checks that the bytes are of the format that the extension promises, and complete as far as the
+/// format allows to see it (PLY: every element is there; STL: the facets or `endsolid`; GLB: the
+/// stated length; a cut OBJ cannot be told from a short one). Importers accept cut files silently.
+/// InputError.
+MeshDeclaration checkMeshContainer(const std::filesystem::path& file,
+                                   std::span<const std::uint8_t> bytes, MeshFormat format);
+
+/// Of a mesh file and its buffers together.
+inline constexpr std::size_t kMaxMeshFileBytes = 512 * kMegabyte;
+
+/// A file that a glTF file names as one of its buffers.
+struct MeshBuffer {
+  std::string place;             ///< of its entry in the glTF file, e.g. "buffers[0]"
+  std::string uri;               ///< as the glTF file has it
+  std::string name;              ///< relative to the mesh's folder
+  std::size_t stated_bytes = 0;  ///< `byteLength`; the file may be longer
+  std::vector<std::uint8_t> bytes;
+};
+
+/// A mesh file and its buffers, each read once: no other file that the mesh may name.
+struct MeshFiles {
+  std::filesystem::path file;
+  MeshFormat format = MeshFormat::kPly;
+  std::vector<std::uint8_t> bytes;
+  std::vector<MeshBuffer> buffers;  ///< of glTF, in its order; without those inside the file itself
+  std::string sha256;               ///< of the file and its buffers, one after the other
+};
+
+/// Reads the files of a mesh without parsing its geometry. InputError: not readable, too large, a
+/// buffer outside of the mesh's folder (also by a link).
+MeshFiles readMeshFiles(const std::filesystem::path& file);
+
+/// The part of checkMeshContainer for PLY (ASCII and binary of either byte order): walks every
+/// element that the header declares to its last value. InputError.
+MeshDeclaration checkPly(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+/// Triangles of a mesh file as they come, before welding.
+struct ImportedMesh {
+  std::vector<Eigen::Vector3f> vertices_m;
+  std::vector<Face> faces;
+  std::int64_t file_vertices = 0;
+  std::int64_t file_polygons = 0;
+  std::int64_t lines_and_points = 0;
+  std::int64_t irregular_polygons = 0;  ///< could only be cut into a fan
+};
+
+/// Reads files of which the first passed checkMeshContainer, places every mesh by the transforms of
+/// its nodes, scales to metres, and triangulates. Importer and damaged files: every index and
+/// coordinate is checked here. Opens no file. InputError.
+ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
+                        double metres_per_unit);
+
+/// InputError when a mesh has more of something than can be handled.
+void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::int64_t limit,
+                   const char* what);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/meshes/mesh_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "sessions/io/files/errors.h"
+#include "sessions/io/meshes/mesh_container.h"
+#include "sessions/io/meshes/mesh_faces.h"
+
+namespace boresight::sessions {
+namespace {
+
+constexpr double kSliverRatio = 1e-4;
+
+double unitScale(const std::filesystem::path& file, MeshFormat format, const std::string& unit,
+                 std::string& used_unit) {
+  used_unit = unit;
+  if (unit.empty()) {
+    if (!carriesUnit(format))
+      throw InputError(file, "mesh_unit",
+                       std::string("missing: ") + meshFormatName(format) +
+                           " carries no unit (m, cm, mm, um, in, ...)");
+    used_unit = "m";
+  }
+  const std::optional<double> scale = metresPerUnit(used_unit);
+  if (!scale)
+    throw InputError(file, "mesh_unit",
+                     "unknown unit '" + unit + "' (m, dm, cm, mm, um, in, ft, yd, km)");
+  return *scale;
+}
+
+void measure(const std::filesystem::path& file, Mesh& mesh) {
+  MeshInfo& info = mesh.info;
+  info.minimum_m = info.maximum_m = mesh.vertices_m.front().cast<double>();
+  for (const Eigen::Vector3f& vertex : mesh.vertices_m) {
+    info.minimum_m = info.minimum_m.cwiseMin(vertex.cast<double>());
+    info.maximum_m = info.maximum_m.cwiseMax(vertex.cast<double>());
+  }
+  for (const Face& face : mesh.faces) {
+    const auto corner = [&mesh, &face](std::size_t i) -> Eigen::Vector3d {
+      return mesh.vertices_m[static_cast<std::size_t>(face.vertex[i])].cast<double>();
+    };
+    double longest_m = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      longest_m = std::max(longest_m, (corner((i + 1) % 3) - corner(i)).norm());
+    const double doubled_area_m2 = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    if (doubled_area_m2 <= kSliverRatio * longest_m * longest_m) ++info.sliver_faces;
+  }
+  if (info.sliver_faces == static_cast<std::int64_t>(mesh.faces.size()))
+    throw InputError(file, "faces",
+                     "all " + std::to_string(info.sliver_faces) + " are slivers without area");
+}
+
+}  // namespace
+
+std::string lengthText(double length_m) {
+  char buffer[48];
+  if (length_m < 1.0)
+    std::snprintf(buffer, sizeof(buffer), "%.4g mm", 1000.0 * length_m);
+  else
+    std::snprintf(buffer, sizeof(buffer), "%.4g m", length_m);
+  return buffer;
+}
+
+std::optional<double> metresPerUnit(const std::string& unit) {
+  constexpr std::pair<const char*, double> kUnits[] = {
+      {"m", 1.0},     {"dm", 0.1},    {"cm", 0.01},   {"mm", 0.001},  {"um", 1e-6},
+      {"in", 0.0254}, {"ft", 0.3048}, {"yd", 0.9144}, {"km", 1000.0},
+  };
+  for (const auto& [name, scale] : kUnits)
+    if (unit == name) return scale;
+  return std::nullopt;
+}
+
+Mesh readMesh(const std::filesystem::path& file, const std::string& unit) {
+  return readMesh(readMeshFiles(file), unit);
+}
+
+Mesh readMesh(const MeshFiles& files, const std::string& unit) {
+  const std::filesystem::path& file = files.file;
+  Mesh mesh;
+  MeshInfo& info = mesh.info;
+  info.file = file;
+  info.format = meshFormatName(files.format);
+  info.metres_per_unit = unitScale(file, files.format, unit, info.unit);
+  info.file_sha256 = files.sha256;
+  const MeshDeclaration declared = checkMeshContainer(file, files.bytes, files.format);
+  requireAtMost(file, declared.vertex_count.value_or(0), kMaxMeshVertices, "vertices");
+  requireAtMost(file, declared.polygon_count.value_or(0), kMaxMeshFaces, "faces");
+  const bool states_none =
+      declared.vertex_count && !declared.polygon_count && !declared.needs_plain_ply;
+  if (declared.polygon_count.value_or(1) == 0 || states_none)
+    throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
+
+  const ImportedMesh imported = importMesh(files, declared, info.metres_per_unit);
+  info.file_vertices = imported.file_vertices;
+  info.file_polygons = imported.file_polygons;
+  info.lines_and_points = imported.lines_and_points;
+  info.irregular_polygons = imported.irregular_polygons;
+  if (imported.faces.empty())
+    throw InputError(file, "the mesh has no faces (a point cloud cannot be rendered)");
+  WeldedMesh welded = weldMesh(imported.vertices_m, imported.faces);
+  if (welded.faces.empty())
+    throw InputError(file, "faces", "each has two coinciding corners and no area");
+  mesh.vertices_m = std::move(welded.vertices);
+  mesh.faces = std::move(welded.faces);
+  info.merged_vertices = welded.merged_vertices;
+  info.unused_vertices = welded.unused_vertices;
+  info.collapsed_faces = welded.collapsed_faces;
+  measure(file, mesh);
+  return mesh;
+}
+
+std::vector<std::string> MeshInfo::notes() const {
+  std::vector<std::string> all;
+  const auto count = [&all](std::int64_t number, const char* what) {
+    if (number > 0) all.push_back(std::to_string(number) + " " + what);
+  };
+  count(unused_vertices, "vertices belong to no face and were left out");
+  count(collapsed_faces, "faces have two coinciding corners and were left out");
+  count(lines_and_points, "lines and points were left out");
+  count(irregular_polygons, "polygons intersect themselves or have no area");
+  count(sliver_faces, "faces are slivers");
+  constexpr double kUnusuallyLarge_m = 20.0;
+  constexpr double kUnusuallySmall_m = 0.002;
+  if (diagonal_m() > kUnusuallyLarge_m || diagonal_m() < kUnusuallySmall_m)
+    all.push_back("the mesh measures " + lengthText(diagonal_m()) + " across: check its unit '" +
+                  unit + "'");
+  return all;
+}
+
+}  // namespace boresight::sessions

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where to look closely at how the model's edges meet the image's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// A place of the image where edges of the pose run in several directions.
+struct CloseUp {
+  std::string name;  ///< "upper left": which quarter of the rendered edges
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
+  /// Between rendered and seen edge, along the normal: median over the places within the patch.
+  double distance_px = 0.0;
+};
+
+/// The best place of each quarter of the edges that a refinement used, in reading order; none of a
+/// quarter where no edge of the image was found. `side_px` is the side of the square that will be
+/// looked at. Best is where the smaller eigenvalue of the normals' scatter is largest (the measure
+/// of Shi and Tomasi 1994): a corner shows a shift in any direction, a straight edge only across.
+std::vector<CloseUp> closeUps(const Camera& camera, const RefinementTrace& refinement,
+                              double side_px);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/trace/match_details.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace boresight::sessions {
+namespace {
+
+MatchDetails describeTemplate(const Template& item, std::int32_t index, int level) {
+  MatchDetails match_details;
+  match_details.index = index;
+  match_details.depth_m = static_cast<double>(item.depth_m);
+  match_details.distinctness = static_cast<double>(item.distinctness);
+  match_details.point_in_station_m = item.point_in_station_m;
+  match_details.predicted_px = fullImagePixel(item.center_x, item.center_y, level);
+  return match_details;
+}
+
+double share(std::int32_t part, std::int32_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+void describeMatch(const Match& match, int level, MatchDetails& match_details) {
+  match_details.searched = match.searched;
+  if (!match.searched) return;
+  match_details.at_border = match.at_border;
+  match_details.found_px = fullImagePixel(match.x, match.y, level);
+  match_details.edge_share = share(match.peak.counts.edge_hits, match.norms.edges);
+  match_details.empty_share = share(match.peak.counts.empty_hits, match.norms.empties);
+  match_details.score = whsScore(match.peak.counts, match.norms);
+  if (!match.peak.has_second) return;
+  match_details.second_score = whsScore(match.peak.second_counts, match.norms);
+  const std::int64_t best = whsComparable(match.peak.counts, match.norms);
+  const std::int64_t second = whsComparable(match.peak.second_counts, match.norms);
+  match_details.margin =
+      best > 0 ? static_cast<double>(best - second) / static_cast<double>(best) : 0.0;
+}
+
+/// An onboard record has scores without what they are made of.
+void describeScore(const RecordedScore& recorded, MatchDetails& match_details) {
+  match_details.edge_share = match_details.empty_share = match_details.second_score =
+      match_details.margin = kUnknown;
+  match_details.score = recorded.score;
+  if (!recorded.second_score) return;
+  match_details.second_score = *recorded.second_score;
+  match_details.margin =
+      match_details.score > 0.0
+          ? (match_details.score - match_details.second_score) / match_details.score
+          : 0.0;
+}
+
+}  // namespace
+
+Eigen::Vector2d fullImagePixel(double x, double y, int level) {
+  const double scale = static_cast<double>(1 << level);
+  return {(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5};
+}
+
+std::vector<MatchDetails> matchDetails(const IterationTrace& iteration) {
+  std::vector<MatchDetails> all;
+  all.reserve(iteration.templates.size());
+  for (std::size_t i = 0; i < iteration.templates.size(); ++i) {
+    all.push_back(
+        describeTemplate(iteration.templates[i], static_cast<std::int32_t>(i), iteration.level));
+    if (i < iteration.matches.size())
+      describeMatch(iteration.matches[i], iteration.level, all.back());
+    if (all.back().searched && i < iteration.recorded_scores.size())
+      describeScore(iteration.recorded_scores[i], all.back());
+  }
+  if (iteration.reached < Stage::kPose) return all;
+  const std::size_t solved = std::min({iteration.template_of.size(), iteration.pnp.inlier.size(),
+                                       iteration.pnp.residual_px.size()});
+  for (std::size_t i = 0; i < solved; ++i) {
+    const auto index = static_cast<std::size_t>(iteration.template_of[i]);
+    if (index >= all.size()) continue;
+    all[index].solved = true;
+    all[index].inlier = iteration.pnp.inlier[i] != 0;
+    all[index].residual_px = iteration.pnp.residual_px[i];
+  }
+  return all;
+}
+
+}  // namespace boresight::sessions

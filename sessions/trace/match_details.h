@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sessions/text/units.h"
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// A best score that exceeds the second by less than this share of itself could as well be the
+/// second: its match is worth a look. For display only.
+inline constexpr double kLowMargin = 0.05;
+
+/// What became of one template. Places are pixels of the full image; what the iteration has not
+/// reached, or could not measure, is NaN.
+struct MatchDetails {
+  std::int32_t index = 0;  ///< into the iteration's templates
+  double depth_m = 0.0;
+  double distinctness = 0.0;  ///< as in Template
+  Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
+  Eigen::Vector2d predicted_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d found_px = Eigen::Vector2d::Constant(kUnknown);  ///< sub-pixel
+  bool searched = false;
+  bool at_border = false;          ///< the peak lies on the window's border
+  double score = kUnknown;         ///< S = edge_share + empty_share, in [0, 2]
+  double edge_share = kUnknown;    ///< S+ / c+
+  double empty_share = kUnknown;   ///< S- / c-
+  double second_score = kUnknown;  ///< of the second peak; NaN where there is none
+  double margin = kUnknown;        ///< (best - second) / best, of the integers that are compared
+  bool solved = false;             ///< a pose was looked for with this match
+  bool inlier = false;
+  double residual_px = kUnknown;  ///< distance from the solved pose's projection
+
+  Eigen::Vector2d moved_px() const { return found_px - predicted_px; }
+  bool hasLowMargin() const { return margin < kLowMargin; }
+};
+
+/// One per template of an iteration that was recorded in full.
+std::vector<MatchDetails> matchDetails(const IterationTrace& iteration);
+
+/// The centre of a level's pixel in pixels of the full image.
+Eigen::Vector2d fullImagePixel(double x, double y, int level);
+
+}  // namespace boresight::sessions

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/trace/run_headline.h"
+
+#include <cctype>
+
+#include "core/base/math.h"
+#include "sessions/text/text_table.h"
+#include "sessions/trace/acceptance.h"
+#include "sessions/trace/run_text.h"
+
+namespace boresight::sessions {
+namespace {
+
+std::string percent(double share) { return fixedText(100.0 * share, 1) + " %"; }
+
+std::string countText(std::size_t count, const char* item) {
+  return std::to_string(count) + " " + item + (count == 1 ? "" : "s");
+}
+
+std::string acceptedText(const LocalizationTrace& trace) {
+  const auto& limits = trace.lastOptions().support;
+  if (hasProbability(trace))
+    return " Probability of the pose " + probabilityPercent(trace.probability) + " (" +
+           percent(limits.min_probability) + " needed).";
+  if (!limits.gate) return "";
+  return " " + percent(trace.support.share()) + " of the edges agree (" +
+         percent(limits.min_support) + " needed).";
+}
+
+std::string convergedSentence(const LocalizationTrace& trace) {
+  std::string text = "in " + countText(trace.iterations.size(), "iteration");
+  if (trace.attempts > 1)
+    text += " and " + countText(static_cast<std::size_t>(trace.attempts), "attempt");
+  if (!trace.replayed) text += ", " + fixedText(trace.seconds.total(), 2) + " s";
+  return text + "." + acceptedText(trace);
+}
+
+/// What the operator may doubt of the seed: not a turn that was searched.
+std::string seedDoubt(const LocalizationTrace& trace) {
+  return searchedEveryTurn(trace)
+             ? "Every turn about the view axis was searched: the seed may be tilted or far off."
+             : "The seed may be turned or far off.";
+}
+
+std::string notSupportedSentence(const LocalizationTrace& trace) {
+  const auto& limits = trace.lastOptions().support;
+  if (hasProbability(trace))
+    return "Probability of the pose " + probabilityPercent(trace.probability) + ", " +
+           percent(limits.min_probability) + " needed. " + seedDoubt(trace);
+  const EdgeSupport& support = trace.support;
+  const bool chance = support.coverage() <= 1.5 * support.chanceCoverage();
+  return std::string(chance ? "The edges fit no better than chance: " : "Too few edges fit: ") +
+         percent(support.share()) + " agree, " + percent(limits.min_support) + " needed. " +
+         seedDoubt(trace);
+}
+
+std::string noPoseSentence(const LocalizationTrace& trace) {
+  if (trace.status == LocalizationStatus::kPnpFailed && !trace.iterations.empty()) {
+    const IterationTrace& last = *trace.iterations.back();
+    if (last.kind == IterationKind::kMatch)
+      return "Only " + std::to_string(last.pnp.inlier_count) + " of " +
+             std::to_string(last.correspondence_count) + " matches agree, " +
+             std::to_string(trace.lastOptions().pnp.min_inliers) + " needed.";
+  }
+  std::string text = explanation(trace);
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
+}
+
+/// Whether the pose was found but refused, in contrast to a run that came to no pose.
+bool wasRefused(const LocalizationTrace& trace) {
+  switch (trace.status) {
+    case LocalizationStatus::kNotSupported:
+    case LocalizationStatus::kAmbiguous:
+    case LocalizationStatus::kBlurred:
+    case LocalizationStatus::kCameraMismatch:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+RunHeadline runHeadline(const LocalizationTrace& trace) {
+  if (trace.converged()) return {"Converged", convergedSentence(trace)};
+  if (trace.status == LocalizationStatus::kNotSupported)
+    return {"Rejected", notSupportedSentence(trace)};
+  return {wasRefused(trace) ? "Rejected" : "No pose found", noPoseSentence(trace)};
+}
+
+bool searchedEveryTurn(const LocalizationTrace& trace) {
+  constexpr double kNearlyHalfTurn_rad = 179.0 * kDegree_rad;
+  return trace.uncertainty.rotation_rad.z() >= kNearlyHalfTurn_rad;
+}
+
+}  // namespace boresight::sessions

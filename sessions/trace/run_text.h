@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text and tables of a run.
+#pragma once
+
+#include <string>
+
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// One line per iteration: kind, level, templates, matches, inliers, threshold, correction, rms.
+std::string iterationTable(const LocalizationTrace& trace);
+
+/// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m
+/// and one sigma per axis where a covariance is given (not all zero), which holds at the camera,
+/// the rig's origin (a `name` that begins with "rig"), or `place`. `name` heads it.
+std::string poseText(const Pose& pose, const Matrix6d& covariance,
+                     const std::string& name = "camera_from_station",
+                     const std::string& place = "");
+
+/// Why a run ended as it did: what was measured, what was needed, and what to try. One sentence or
+/// two; empty for a run that converged.
+std::string explanation(const LocalizationTrace& trace);
+
+/// High-water annotation of memory by stage, against the limit if there is one.
+std::string memoryTable(const LocalizationTrace& trace);
+
+/// Where a run stands, for a line that is always in view: how it ended with what speaks for the
+/// pose, why it failed (as `explanation` says), or what it is at. Whole sentences. Of a replayed
+/// run it begins with that.
+std::string runStatusText(const LocalizationTrace& trace);
+
+}  // namespace boresight::sessions

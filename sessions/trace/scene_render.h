@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "core/render/edge_render.h"
+#include "sessions/trace/trace.h"
+
+namespace boresight::sessions {
+
+/// Renders one scene with one camera from many poses; what does not depend on the pose is computed
+/// once. It owns its memory, and its capacity for edge pixels follows the image. Like the core's
+/// stages it does one slice per step, so that a caller with a newer pose can stop in between.
+class SceneRenderer {
+ public:
+  SceneRenderer();
+  ~SceneRenderer();
+  SceneRenderer(SceneRenderer&&) noexcept;
+  SceneRenderer& operator=(SceneRenderer&&) noexcept;
+
+  /// The mesh must outlive the renderer. kInvalidMesh and the core's other statuses come back as
+  /// they are. Throws std::bad_alloc.
+  Status create(const Camera& camera, const MeshView& mesh);
+  /// Starts a render, whether or not the one before was done; the surfaces must outlive its steps.
+  Status begin(const Pose& camera_from_station, const SurfaceRender& surfaces = {});
+  Status step(bool& done);
+  /// A copy of the render, after `done`.
+  RenderTrace record() const;
+  /// All steps of a render at once.
+  Status render(const Pose& camera_from_station, RenderTrace& output,
+                const SurfaceRender& surfaces = {});
+
+ private:
+  struct Equipment;
+  std::unique_ptr<Equipment> equipment_;
+};
+
+/// Salient edges of a scene from one pose, rendered whole.
+Status renderScene(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
+                   RenderTrace& output, const SurfaceRender& surfaces = {});
+
+}  // namespace boresight::sessions

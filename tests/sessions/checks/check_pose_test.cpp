@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole checks of the examples that ship: right ones pass, wrong ones do not.
+#include <filesystem>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "sessions/checks/checks.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "sessions/decision/check.h"
+#include "sessions/evaluation/batch.h"
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/session/session_maker.h"
+#include "tests/sessions/checks/find_check.h"
+#include "tests/support/annotated_example.h"
+#include "tests/support/example_case.h"
+#include "tests/support/loaded_example.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::exampleFolder;
+using test::findCheck;
+
+struct ExampleReview {
+  Session session;
+  std::string case_id;
+  ReviewSubject subject;
+};
+
+/// A station's case, run, stored and read again.
+ExampleReview runExample(const std::string& station) {
+  static const test::TemporaryFolder folder;
+  ExampleReview example_review;
+  example_review.session = makeSession(exampleFolder() / "dataset.json");
+  example_review.case_id = test::caseOfStation(example_review.session, station);
+  const auto loaded = loadCase(*example_review.session.findCase(example_review.case_id));
+  const LocalizationTrace trace = runCase(example_review.session, *loaded);
+  example_review.session = withRun(
+      example_review.session,
+      storeRun(example_review.session, example_review.case_id, trace, folder / "a.boresight.json"));
+  example_review.subject = reviewSubject(example_review.session, loaded, PoseSource::kRun);
+  return example_review;
+}
+
+const ExampleReview& example(const std::string& station) {
+  static const ExampleReview bc = runExample("bc");
+  static const ExampleReview os = runExample("os");
+  return station == "bc" ? bc : os;
+}
+
+CheckLimits presetLimits() { return checkLimits(kDefaultCheckPreset, {}); }
+
+/// The subject's case without the truth, which would tell at once.
+std::shared_ptr<LoadedCase> withoutTruth(const ReviewSubject& subject) {
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source = subject.loaded->source;
+  loaded->source.camera_from_station_truth.reset();
+  loaded->image = subject.loaded->image;
+  loaded->scene = subject.loaded->scene;
+  return loaded;
+}
+
+ReviewSubject displaced(const ReviewSubject& subject, const Vector6d& xi) {
+  ReviewSubject moved = subject;
+  moved.camera_from_station = perturbed(xi, subject.camera_from_station);
+  moved.loaded = withoutTruth(subject);
+  return moved;
+}
+
+TEST(CheckPose, Examples_PassAllChecks) {
+  for (const char* station : {"bc", "os"}) {
+    const auto checks = checkPose(example(station).subject, presetLimits());
+    EXPECT_TRUE(allPassed(checks)) << station << "\n" << checksText(checks, true);
+    EXPECT_EQ(findCheck(checks, "agreement_truth").state, CheckState::kPassed);
+    EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kPassed);
+  }
+}
+
+/// The station's case with another mesh scale or camera, run again from the same seed.
+ReviewSubject runWith(const std::string& station, double mesh_scale,
+                      const std::function<void(SessionCase&)>& change) {
+  const ExampleReview& review = example(station);
+  const auto loaded = withoutTruth(review.subject);
+  change(loaded->source);
+  EXPECT_EQ(prepareCamera(loaded->source.camera), Status::kOk);
+  for (Eigen::Vector3f& vertex : loaded->scene.vertices_in_station_m)
+    vertex *= static_cast<float>(mesh_scale);
+  LocalizerOptions options = caseOptions(review.session, loaded->source, "session");
+  options.support.gate = false;  // the run itself refuses such a focal length
+  const LocalizationTrace trace = runCase(*loaded, options);
+  EXPECT_TRUE(trace.converged());
+  ReviewSubject subject = review.subject;
+  subject.loaded = loaded;
+  subject.camera_from_station = trace.camera_from_station;
+  subject.covariance = poseCovariance(loaded->source, loaded->scene.view(),
+                                      trace.camera_from_station, trace.covariance);
+  subject.run = trace;
+  return subject;
+}
+
+/// One sigma against the true error, along the view axis at the end effector, mm.
+struct Along {
+  double sigma_mm = 0.0;
+  double error_mm = 0.0;
+};
+
+Along alongOf(const std::string& station, const ReviewSubject& subject) {
+  const SessionCase& session_case = example(station).subject.loaded->source;
+  const auto sigma = poseSigma(subject.covariance.total(), session_case.camera_from_end_effector);
+  const PoseError error =
+      poseError(*session_case.camera_from_station_truth, subject.camera_from_station,
+                session_case.camera_from_end_effector);
+  return {sigma.value().normal_mm, std::abs(error.normal_mm)};
+}
+
+TEST(CheckPose, AMeshHalfAPercentTooLargeIsCoveredByItsStatedScaleAndFails) {
+  for (const char* station : {"bc", "os"}) {
+    const auto subject = runWith(
+        station, 1.005, [](SessionCase& session_case) { session_case.mesh_scale_sigma = 0.005; });
+    const Along along = alongOf(station, subject);
+    EXPECT_GT(along.error_mm, 1.5) << station;
+    EXPECT_LT(along.error_mm, 1.2 * along.sigma_mm) << station;
+    const Check check = findCheck(checkPose(subject, presetLimits()), "covariance_normal");
+    EXPECT_EQ(check.state, CheckState::kFailed) << check.sentence;
+    EXPECT_THAT(check.sentence, testing::HasSubstr("scale (0.5 %)"));
+  }
+}
+
+TEST(CheckPose, APrincipalPointTenPixelsOffIsFoundByTheEdges) {
+  for (const char* station : {"bc", "os"})
+    for (const double shift_px : {10.0, -10.0}) {
+      const auto subject = runWith(
+          station, 1.0, [&](SessionCase& session_case) { session_case.camera.cx += shift_px; });
+      const Check check = findCheck(checkPose(subject, presetLimits()), "camera_centre");
+      EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
+    }
+}
+
+TEST(CheckPose, AFocalLengthOffByOneAndAHalfPercentIsFoundByTheEdges) {
+  for (const char* station : {"bc", "os"}) {
+    const auto subject = runWith(station, 1.0, [](SessionCase& session_case) {
+      session_case.camera.fx *= 1.015;
+      session_case.camera.fy *= 1.015;
+    });
+    const Check check = findCheck(checkPose(subject, presetLimits()), "camera_focal");
+    EXPECT_EQ(check.state, CheckState::kFailed) << station << ": " << check.sentence;
+  }
+}
+
+TEST(CheckPose, APoseThatIsOffByThreeMillimetresFails) {
+  const ReviewSubject& subject = example("bc").subject;
+  for (int axis : {3, 4}) {
+    const auto moved = displaced(subject, 0.003 * Vector6d::Unit(axis));
+    const auto checks = checkPose(moved, presetLimits());
+    EXPECT_FALSE(allPassed(checks)) << axis << "\n" << checksText(checks, true);
+  }
+}
+
+TEST(CheckPose, AMeshOfAnotherStationFails) {
+  ReviewSubject subject = example("bc").subject;
+  const auto loaded = withoutTruth(subject);
+  loaded->scene = example("os").subject.loaded->scene;
+  subject.loaded = loaded;
+  const auto checks = checkPose(subject, presetLimits());
+  EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kFailed)
+      << checksText(checks, true);
+}
+
+TEST(CheckPose, FiguresAreTheSameEveryTimeAndIdsAreTheSameForEveryPose) {
+  const auto once = checkPose(example("os").subject, presetLimits());
+  EXPECT_EQ(once, checkPose(example("os").subject, presetLimits()));
+  const auto bare = checkPose(ReviewSubject(), CheckLimits());
+  ASSERT_EQ(once.size(), bare.size());
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].id, bare[i].id);
+    EXPECT_FALSE(once[i].sentence.empty()) << once[i].id;
+    ids.insert(once[i].id);
+  }
+  EXPECT_EQ(ids.size(), once.size());
+}
+
+TEST(CheckPose, AnnotationsOfThePoseAgreeAndArePosesOfTheirOwn) {
+  ExampleReview review = example("bc");
+  review.session.annotations = test::annotatedExample(0.0).annotations;
+  const auto loaded = review.subject.loaded;
+  const auto run = reviewSubject(review.session, loaded, PoseSource::kRun);
+  ASSERT_TRUE(run.annotated);
+  EXPECT_EQ(findCheck(checkPose(run, presetLimits()), "agreement_annotation").state,
+            CheckState::kPassed);
+  const auto annotated = reviewSubject(review.session, loaded, PoseSource::kAnnotation);
+  EXPECT_FALSE(annotated.run);
+  EXPECT_EQ(annotated.camera_from_station, run.annotated->camera_from_station);
+  const auto checks = checkPose(annotated, presetLimits());
+  EXPECT_EQ(findCheck(checks, "edge_coverage").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(checks, "converged").state, CheckState::kNotApplicable);
+}
+
+TEST(CheckPose, OtherCamera_IsComparedThroughTheRig) {
+  ExampleReview review = example("bc");
+  // The same image again, declared as taken by a camera shifted by 10 cm and turned by 0.1 rad: the
+  // pose that it finds disagrees by as much.
+  SessionCase second = *review.session.findCase(review.case_id);
+  second.id = "second";
+  review.session = withCase(review.session, second);
+  RunRecord run = *review.session.lastRunOf(review.case_id);
+  run.case_id = "second";
+  review.session.runs.push_back(run);
+  SessionCase session_case = *review.session.findCase(review.case_id);
+  Pose camera_from_rig;
+  camera_from_rig.rotation = rotationExp({0.1, 0.0, 0.0});
+  camera_from_rig.translation_m = {0.1, 0.0, 0.0};
+  session_case.rig = Rig{"rig", camera_from_rig};
+  second.rig = Rig{"rig", camera_from_rig};
+  review.session = withCase(withCase(review.session, session_case), second);
+  const auto agrees = reviewSubject(review.session, review.subject.loaded, PoseSource::kRun);
+  EXPECT_TRUE(agrees.other_cameras.empty()) << "the loaded case is in no rig yet";
+  const auto loaded = reloadCase(*review.subject.loaded, session_case);
+  const auto same = reviewSubject(review.session, loaded, PoseSource::kRun);
+  ASSERT_EQ(same.other_cameras.size(), 1U);
+  EXPECT_LT(perturbationBetween(same.other_cameras[0].camera_from_station, same.camera_from_station)
+                .norm(),
+            1e-9);
+  EXPECT_LT((same.other_cameras[0].covariance.total() - same.covariance.total()).norm(),
+            1e-6 * same.covariance.total().norm());
+  second.rig->camera_from_rig.translation_m.x() += 0.002;
+  review.session = withCase(review.session, second);
+  const auto apart = reviewSubject(review.session, loaded, PoseSource::kRun);
+  EXPECT_EQ(findCheck(checkPose(apart, presetLimits()), "agreement_camera").state,
+            CheckState::kFailed);
+}
+
+TEST(CheckPose, CaseWithoutPose_IsReportedInOneSentence) {
+  const Session session = makeSession(exampleFolder() / "dataset.json");
+  const auto loaded = loadCase(*session.cases.front());
+  EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kRun), InputError);
+  EXPECT_THROW(reviewSubject(session, loaded, PoseSource::kAnnotation), InputError);
+}
+
+TEST(CheckPose, OtherSeeds_ReturnToThePoseAndAStopKeepsPartialCounts) {
+  const ReviewSubject& subject = example("os").subject;
+  const ConvergenceResult convergence = convergenceTest(subject, 2);
+  EXPECT_EQ(convergence.seeds, 2);
+  EXPECT_EQ(convergence.returned, 2);
+  EXPECT_GT(convergence.coverage, 0.5);
+  for (const ConvergedPose& competing : convergence.competing) {
+    EXPECT_TRUE(competing.mirrored);
+    EXPECT_LT(competing.coverage, convergence.coverage);
+  }
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(convergenceTest(subject, 2, stop.get_token()).seeds, 0);
+  const auto checks = checkPose(subject, presetLimits(), convergence);
+  EXPECT_EQ(findCheck(checks, "convergence_returned").figure, 100.0);
+  EXPECT_EQ(findCheck(checks, "convergence_competing").state, CheckState::kPassed);
+}
+
+TEST(CheckPose, MirroredStation_FailsAsTheRightOneFitsBetter) {
+  // What a mesh mirrored by mistake makes of an image: its own mirror image is the right station.
+  const ExampleReview review = example("os");
+  ReviewSubject subject = review.subject;
+  subject.loaded = mirrorImageOf(*review.subject.loaded, 0);
+  subject.run.reset();
+  LocalizerOptions options = caseOptions(review.session, subject.loaded->source, "session");
+  options.support.gate = false;
+  const LocalizationTrace trace = runCase(*subject.loaded, options);
+  ASSERT_TRUE(trace.converged()) << "this station is nearly its own mirror image";
+  subject.camera_from_station = trace.camera_from_station;
+  const auto checks = checkPose(subject, presetLimits(), convergenceTest(subject, 1));
+  const Check competing = findCheck(checks, "convergence_competing");
+  EXPECT_EQ(competing.state, CheckState::kFailed) << competing.sentence;
+  EXPECT_THAT(competing.sentence, testing::HasSubstr("mirror image"));
+}
+
+TEST(CheckPresets, ArePickedByWhatTheRequirementNames) {
+  Requirement pixels;
+  pixels.projection_px = 3.0;
+  EXPECT_EQ(presetFor(pixels).name, "photographs");
+  Requirement metric;
+  metric.normal_mm = 1.0;
+  metric.lateral_mm = 2.0;
+  metric.rotation_deg = 3.0;
+  EXPECT_EQ(presetFor(metric).name, "sample_transfer");
+  EXPECT_EQ(presetFor(Requirement()).name, kDefaultCheckPreset);
+}
+
+TEST(ChecksText, FailedChecks_StateTheReason) {
+  const auto moved = displaced(example("bc").subject, 0.02 * Vector6d::Unit(3));
+  const std::string text = checksText(checkPose(moved, presetLimits()));
+  EXPECT_THAT(text, testing::HasSubstr("FAIL  Predicted edges that are seen"));
+  EXPECT_THAT(text, testing::HasSubstr("Check the overlay"));
+  EXPECT_THAT(text, testing::HasSubstr(" failed, "));
+}
+
+TEST(ChecksText, NotApplicableChecks_StateTheReason) {
+  Check check;
+  check.title = "Convergence from other seeds";
+  check.state = CheckState::kNotApplicable;
+  check.sentence = "No other seeds were run.";
+  EXPECT_EQ(checksText(std::vector{check}),
+            "  -   Convergence from other seeds\n      No other seeds were run.\n0 passed, 0 "
+            "failed, 1 not applicable\n");
+  check.state = CheckState::kPassed;
+  EXPECT_EQ(checksText(std::vector{check}).find("No other seeds were run."), std::string::npos);
+}
+
+/// Six times the signed volume between the faces and the middle of their box: faces that look the
+/// other way change its sign, whether or not they are closed.
+double sixfoldVolume(const SceneMesh& scene) {
+  double sum = 0.0;
+  const Eigen::Vector3d middle_m = matchedBounds(scene.view()).centre();
+  const auto at = [&](std::int32_t i) -> Eigen::Vector3d {
+    return scene.vertices_in_station_m[static_cast<std::size_t>(i)].cast<double>() - middle_m;
+  };
+  for (const Face& face : scene.faces)
+    sum += at(face.vertex[0]).dot(at(face.vertex[1]).cross(at(face.vertex[2])));
+  return sum;
+}
+
+TEST(MirrorImage, KeepsTheBoxAndTheOutwardSide) {
+  const auto loaded = example("bc").subject.loaded;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto image = mirrorImageOf(*loaded, axis);
+    const BoundingBox was = matchedBounds(loaded->scene.view());
+    const BoundingBox is = matchedBounds(image->scene.view());
+    EXPECT_LT((is.minimum_m - was.minimum_m).norm(), 1e-6);
+    EXPECT_LT((is.maximum_m - was.maximum_m).norm(), 1e-6);
+    const double volume = sixfoldVolume(loaded->scene);
+    EXPECT_NEAR(sixfoldVolume(image->scene), volume, 1e-3 * std::abs(volume));
+    EXPECT_EQ(image->image.pixels, loaded->image.pixels);
+  }
+}
+
+TEST(MirrorImage, MirroredTwice_IsTheOriginal) {
+  const auto loaded = example("bc").subject.loaded;
+  const double middle_m = matchedBounds(loaded->scene.view()).centre()(1);
+  const auto image = mirrorImageOf(*loaded, 1);
+  const SceneMesh twice = mirrored(image->scene, MirrorAxis::kY);
+  for (std::size_t i = 0; i < twice.vertices_in_station_m.size(); ++i) {
+    const Eigen::Vector3f& was = loaded->scene.vertices_in_station_m[i];
+    const Eigen::Vector3f& is = image->scene.vertices_in_station_m[i];
+    EXPECT_EQ(is.x(), was.x());
+    EXPECT_EQ(is.z(), was.z());
+    EXPECT_NEAR(is.y(), 2.0 * middle_m - was.y(), 1e-6);
+    EXPECT_LT((twice.vertices_in_station_m[i] - was).norm(), 1e-6F);
+  }
+  for (std::size_t i = 0; i < twice.faces.size(); ++i)
+    EXPECT_EQ(twice.faces[i].vertex, loaded->scene.faces[i].vertex);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

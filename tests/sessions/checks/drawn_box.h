@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "sessions/checks/review_subject.h"
+
+namespace boresight::test {
+
+/// A box of 12 x 8 x 5 cm half a metre from a camera of 800 x 600 pixels, that sees three of its
+/// faces, and an image of it drawn by OpenCV: no renderer of ours has a part in it.
+class DrawnBox {
+ public:
+  DrawnBox() {
+    camera_.width = 800;
+    camera_.height = 600;
+    camera_.fx = camera_.fy = 1000.0;
+    camera_.cx = 399.5;
+    camera_.cy = 299.5;
+    EXPECT_EQ(prepareCamera(camera_), Status::kOk);
+    camera_from_station_.rotation = rotationExp({2.4, 0.0, 0.0}) * rotationExp({0.0, 0.0, 0.6});
+    camera_from_station_.translation_m = {0.01, -0.005, 0.5};
+    makeMesh();
+    draw();
+  }
+
+  /// A subject with this image, to be checked at a pose of its own.
+  sessions::ReviewSubject subject(const Pose& camera_from_station) const {
+    auto loaded = std::make_shared<sessions::LoadedCase>();
+    loaded->source.camera = camera_;
+    loaded->scene = scene_;
+    loaded->image.width = camera_.width;
+    loaded->image.height = camera_.height;
+    loaded->image.pixels.assign(image_.datastart, image_.dataend);
+    sessions::ReviewSubject review_subject;
+    review_subject.loaded = loaded;
+    review_subject.camera_from_station = camera_from_station;
+    review_subject.requirement.normal_mm = 0.4;
+    review_subject.source = sessions::PoseSource::kAnnotation;
+    return review_subject;
+  }
+
+  Eigen::Vector2d pixelOf(const Eigen::Vector3d& point_m) const {
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+    EXPECT_TRUE(project(camera_, camera_from_station_ * point_m, pixel));
+    return pixel;
+  }
+
+  /// Fills a polygon of the image, its corners to a sixteenth of a pixel, with smooth borders.
+  void fill(const std::vector<Eigen::Vector2d>& corners, int gray) {
+    std::vector<cv::Point> points;
+    for (const Eigen::Vector2d& corner : corners)
+      points.emplace_back(static_cast<int>(std::lround((corner.x() + 0.5) * kFine * 16.0 - 8.0)),
+                          static_cast<int>(std::lround((corner.y() + 0.5) * kFine * 16.0 - 8.0)));
+    cv::fillConvexPoly(fine_, points, cv::Scalar(gray), cv::LINE_8, 4);
+    reduce();
+  }
+
+  /// A patch on the top face, `share` of it in either direction, and the length of its border, px.
+  double addPatch(double share, int gray) {
+    std::vector<Eigen::Vector2d> corners;
+    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+      corners.push_back(pixelOf({share * x * kHalf.x(), share * y * kHalf.y(), kHalf.z()}));
+    fill(corners, gray);
+    double length_px = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) length_px += (corners[(i + 1) % 4] - corners[i]).norm();
+    return length_px;
+  }
+
+  /// Length of the edges that are seen, px: three faces' borders, each shared one once.
+  double visibleLength_px() const { return visible_px_; }
+
+  Camera camera_;
+  Pose camera_from_station_;
+  sessions::SceneMesh scene_;
+  cv::Mat image_;
+
+ private:
+  static constexpr int kFine = 4;
+  inline static const Eigen::Vector3d kHalf{0.06, 0.04, 0.025};
+  static constexpr std::array<std::array<int, 4>, 6> kQuads = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+
+  static Eigen::Vector3d corner(int i) {
+    return {(i & 1) != 0 ? kHalf.x() : -kHalf.x(), (i & 2) != 0 ? kHalf.y() : -kHalf.y(),
+            (i & 4) != 0 ? kHalf.z() : -kHalf.z()};
+  }
+
+  void makeMesh() {
+    scene_.parts.resize(1);
+    for (int i = 0; i < 8; ++i) scene_.vertices_in_station_m.push_back(corner(i).cast<float>());
+    for (const auto& quad : kQuads) {
+      scene_.faces.push_back({{quad[0], quad[1], quad[2]}});
+      scene_.faces.push_back({{quad[0], quad[2], quad[3]}});
+      scene_.part_of_face.insert(scene_.part_of_face.end(), 2, 0);
+    }
+  }
+
+  void draw() {
+    fine_ = cv::Mat(camera_.height * kFine, camera_.width * kFine, CV_8U, cv::Scalar(40));
+    std::array<std::array<bool, 8>, 8> known{};
+    int gray = 90;
+    for (const auto& quad : kQuads) {
+      const Eigen::Vector3d a = camera_from_station_ * corner(quad[0]);
+      const Eigen::Vector3d ab = camera_from_station_ * corner(quad[1]) - a;
+      const Eigen::Vector3d ad = camera_from_station_ * corner(quad[3]) - a;
+      if (ab.cross(ad).dot(a) >= 0.0) continue;  // turned away
+      std::vector<Eigen::Vector2d> corners;
+      for (const int i : quad) corners.push_back(pixelOf(corner(i)));
+      fill(corners, gray);
+      gray += 50;
+      for (std::size_t i = 0; i < 4; ++i) note(quad[i], quad[(i + 1) % 4], known);
+    }
+  }
+
+  void note(int i, int j, std::array<std::array<bool, 8>, 8>& known) {
+    auto& seen =
+        known[static_cast<std::size_t>(std::min(i, j))][static_cast<std::size_t>(std::max(i, j))];
+    if (!seen) visible_px_ += (pixelOf(corner(i)) - pixelOf(corner(j))).norm();
+    seen = true;
+  }
+
+  void reduce() {
+    cv::resize(fine_, image_, cv::Size(camera_.width, camera_.height), 0, 0, cv::INTER_AREA);
+  }
+
+  cv::Mat fine_;
+  double visible_px_ = 0.0;
+};
+
+}  // namespace boresight::test

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edges of a box that OpenCV drew, asked at the pose that it was drawn from and at others.
+#include "sessions/checks/checks.h"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "sessions/checks/edge_evidence.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "tests/sessions/checks/drawn_box.h"
+#include "tests/sessions/checks/find_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::DrawnBox;
+using test::findCheck;
+
+std::vector<Check> edgeChecksOf(const ReviewSubject& subject) {
+  std::vector<Check> checks;
+  const PredictedEdges edges = predictEdges(
+      subject.loaded->source.camera, subject.loaded->scene.view(), subject.camera_from_station);
+  addEdgeChecks(subject, CheckLimits(), edges, checks);
+  return checks;
+}
+
+std::shared_ptr<LoadedCase> copyOf(const LoadedCase& loaded) {
+  auto copy = std::make_shared<LoadedCase>();
+  copy->source = loaded.source;
+  copy->scene = loaded.scene;
+  copy->image = loaded.image;
+  return copy;
+}
+
+double figureOf(const std::vector<Check>& checks, const std::string& id) {
+  return findCheck(checks, id).figure.value_or(-1.0);
+}
+
+class EdgeChecks : public testing::Test {
+ protected:
+  /// At the pose that was drawn.
+  ReviewSubject subject() const { return box.subject(box.camera_from_station_); }
+  PredictedEdges edges() const {
+    return predictEdges(box.camera_, box.scene_.view(), box.camera_from_station_);
+  }
+  /// The box's pose moved across the view so that the image moves by (x_px, y_px).
+  Pose movedBy(double x_px, double y_px) const {
+    Pose moved = box.camera_from_station_;
+    moved.translation_m += 0.5 / 1000.0 * Eigen::Vector3d(x_px, y_px, 0.0);
+    return moved;
+  }
+  void hideLeftHalf() {
+    box.fill({{0.0, 0.0}, {middle_px, 0.0}, {middle_px, 599.0}, {0.0, 599.0}}, 40);
+  }
+
+  DrawnBox box;
+  const double middle_px = box.pixelOf({0.0, 0.0, 0.025}).x();
+};
+
+TEST_F(EdgeChecks, AtThePoseThatWasDrawnAllIsSeenAndExplained) {
+  const auto checks = edgeChecksOf(subject());
+  EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
+  EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
+  EXPECT_GT(figureOf(checks, "edge_fall_off"), 40.0);
+  EXPECT_LT(figureOf(checks, "camera_focal"), 0.6);
+  EXPECT_LT(figureOf(checks, "camera_centre"), 5.0);
+  for (const Check& check : checks)
+    EXPECT_EQ(check.state, CheckState::kPassed) << check.id << ": " << check.sentence;
+}
+
+TEST_F(EdgeChecks, BlurredImage_FailsBySharpness) {
+  const ReviewSubject sharp = subject();
+  EXPECT_LT(figureOf(edgeChecksOf(sharp), "edge_width"), 5.0);
+  const auto blurred = copyOf(*sharp.loaded);
+  cv::Mat pixels(blurred->image.height, blurred->image.width, CV_8U, blurred->image.pixels.data());
+  cv::blur(pixels, pixels, cv::Size(16, 1));
+  ReviewSubject subject = sharp;
+  subject.loaded = blurred;
+  const auto checks = edgeChecksOf(subject);
+  EXPECT_GT(figureOf(checks, "edge_width"), 10.0);
+  EXPECT_EQ(findCheck(checks, "edge_width").state, CheckState::kFailed);
+  std::vector<Check> of_image;
+  addImageChecks(subject, CheckLimits(), of_image);
+  EXPECT_EQ(findCheck(of_image, "image_sharpness").state, CheckState::kFailed);
+}
+
+TEST(ImageChecks, GoodImagePassesAndSpoiledImagesFailByTheirOwnCheck) {
+  const DrawnBox box;
+  const auto checksWith = [&box](double factor, double offset) {
+    ReviewSubject subject = box.subject(box.camera_from_station_);
+    const auto spoiled = copyOf(*subject.loaded);
+    cv::Mat pixels(spoiled->image.height, spoiled->image.width, CV_8U,
+                   spoiled->image.pixels.data());
+    pixels.convertTo(pixels, CV_8U, factor, offset);
+    subject.loaded = spoiled;
+    std::vector<Check> checks;
+    addImageChecks(subject, CheckLimits(), checks);
+    return checks;
+  };
+  for (const Check& check : checksWith(1.0, 0.0))
+    EXPECT_EQ(check.state, CheckState::kPassed) << check.id << ": " << check.sentence;
+  EXPECT_EQ(findCheck(checksWith(1.0, 250.0), "image_saturated").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(checksWith(0.02, 100.0), "image_range").state, CheckState::kFailed);
+  EXPECT_EQ(findCheck(checksWith(0.02, 100.0), "image_sharpness").state,
+            CheckState::kNotApplicable);
+}
+
+TEST_F(EdgeChecks, PlacesAreOnTheDrawnLinesToATenthOfAPixel) {
+  const PredictedEdges edges = this->edges();
+  double length_px = 0.0;
+  for (const EdgePlace& place : edges.places) length_px += place.length_px;
+  EXPECT_NEAR(length_px, box.visibleLength_px(), 0.02 * box.visibleLength_px());
+  const ReviewSubject subject = this->subject();
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (const LookedPlace& looked_place : lookAt(image, edges.places)) {
+    if (!looked_place.found || std::abs(looked_place.found->offset_px) > 1.0) continue;
+    sum += looked_place.found->offset_px;
+    squares += looked_place.found->offset_px * looked_place.found->offset_px;
+    count += 1.0;
+  }
+  ASSERT_GT(count, 500.0);
+  EXPECT_LT(std::abs(sum / count), 0.05);
+  EXPECT_LT(std::sqrt(squares / count), 0.2);
+}
+
+TEST_F(EdgeChecks, CoverageFallsWithTheDistanceFromThePose) {
+  const double near = figureOf(edgeChecksOf(box.subject(movedBy(0.7, 0.5))), "edge_coverage");
+  const auto away = edgeChecksOf(box.subject(movedBy(6.0, 5.0)));
+  EXPECT_GT(near, 90.0);
+  EXPECT_LT(figureOf(away, "edge_coverage"), 35.0);
+  EXPECT_EQ(findCheck(away, "edge_coverage").state, CheckState::kFailed);
+  EXPECT_GT(figureOf(away, "edge_clutter"), 60.0);
+}
+
+TEST_F(EdgeChecks, LinesThatTheBoxDoesNotHaveAreClutterByTheirLength) {
+  const double added_px = box.addPatch(0.6, 230);
+  const auto checks = edgeChecksOf(subject());
+  // Of the predicted edges, those on the silhouette count where Canny puts them inside it.
+  const double least = 100.0 * added_px / (added_px + box.visibleLength_px());
+  EXPECT_GT(figureOf(checks, "edge_clutter"), 0.85 * least);
+  EXPECT_LT(figureOf(checks, "edge_clutter"), 2.0 * least);
+  EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
+}
+
+TEST_F(EdgeChecks, EvidenceIsWhatIsSeenBeyondChance) {
+  const auto right = edgeChecksOf(subject());
+  EXPECT_GT(figureOf(right, "edge_evidence"), 120.0);  // more is seen than at many right poses
+  EXPECT_EQ(findCheck(right, "edge_evidence").state, CheckState::kPassed);
+  const auto away = edgeChecksOf(box.subject(movedBy(6.0, 5.0)));
+  EXPECT_LT(figureOf(away, "edge_evidence"), 0.5 * figureOf(right, "edge_evidence"));
+  EXPECT_EQ(findCheck(away, "edge_evidence").state, CheckState::kFailed);
+  hideLeftHalf();
+  const double half = figureOf(edgeChecksOf(subject()), "edge_evidence");
+  EXPECT_LT(half, figureOf(right, "edge_evidence"));
+  EXPECT_GT(half, figureOf(away, "edge_evidence"));
+}
+
+TEST_F(EdgeChecks, CoverageOfAPoseIsThatOfTheCheck) {
+  for (const double moved_px : {0.0, 1.0, 6.0}) {
+    const auto subject = box.subject(movedBy(moved_px, 0.5));
+    const Share share = coverageOfPose(*subject.loaded, subject.camera_from_station);
+    EXPECT_NEAR(100.0 * share.value(), figureOf(edgeChecksOf(subject), "edge_coverage"), 1e-9);
+  }
+}
+
+TEST_F(EdgeChecks, WhatIsHiddenIsNotSeen) {
+  hideLeftHalf();
+  const double seen = figureOf(edgeChecksOf(subject()), "edge_coverage");
+  EXPECT_GT(seen, 35.0);
+  EXPECT_LT(seen, 65.0);
+}
+
+TEST_F(EdgeChecks, IgnoredPixels_DoNotCount) {
+  hideLeftHalf();
+  ReviewSubject subject = this->subject();
+  const auto masked = copyOf(*subject.loaded);
+  masked->ignore.emplace();
+  masked->ignore->width = 800;
+  masked->ignore->height = 600;
+  masked->ignore->words.assign(static_cast<std::size_t>(BitImage::wordsPerRow(800)) * 600, 0);
+  masked->ignore_bits = masked->ignore->view();
+  for (int y = 0; y < 600; ++y)
+    for (int x = 0; x < static_cast<int>(middle_px) + 4; ++x) masked->ignore_bits.set(x, y);
+  subject.loaded = masked;
+  const auto checks = edgeChecksOf(subject);
+  EXPECT_GT(figureOf(checks, "edge_coverage"), 96.0);
+  EXPECT_LT(figureOf(checks, "edge_clutter"), 4.0);
+}
+
+TEST_F(EdgeChecks, UndeterminedDirection_IsReported) {
+  // Half of the image hidden so that parallel lines of one edge remain: it slides along itself.
+  const PredictedEdges edges = this->edges();
+  std::vector<EdgePlace> parallel;
+  const Eigen::Vector2d along =
+      (box.pixelOf({0.06, 0.04, 0.025}) - box.pixelOf({-0.06, 0.04, 0.025})).normalized();
+  for (const EdgePlace& place : edges.places)
+    if (std::abs(place.normal.dot(along)) < 0.1) parallel.push_back(place);
+  ASSERT_GT(parallel.size(), 200U);
+  const ReviewSubject subject = this->subject();
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(edges));
+  double most = 0.0;
+  for (const FallOff& fall_off : fallOffOf(image, parallel, box.camera_, box.camera_from_station_))
+    most = std::max(most, fall_off.coverage);
+  EXPECT_GT(most, 0.85);
+}
+
+/// The pose that explains the drawn image best with a wrong focal length: farther away.
+TEST_F(EdgeChecks, AWrongFocalLengthIsFoundByItsPerspective) {
+  Camera wrong = box.camera_;
+  wrong.fx *= 1.03;
+  wrong.fy *= 1.03;
+  ASSERT_EQ(prepareCamera(wrong), Status::kOk);
+  const auto follow = poseByCamera(edges().places, box.camera_, box.camera_from_station_);
+  ASSERT_TRUE(follow);
+  const Pose farther = perturbed(Vector6d(30.0 * follow->col(0)), box.camera_from_station_);
+  EXPECT_NEAR(farther.translation_m.z(), 1.03 * 0.5, 0.003);
+  const PredictedEdges wrong_edges = predictEdges(wrong, box.scene_.view(), farther);
+  const auto subject = box.subject(farther);
+  const ImageEdges image(subject.loaded->image.view(), nullptr, regionOf(wrong_edges));
+  const auto fit = fitCamera(lookAt(image, wrong_edges.places), wrong, farther);
+  ASSERT_TRUE(fit);
+  // Half a pixel of perspective is all that tells on so small a box.
+  EXPECT_LT(fit->focal_px, -10.0);
+  EXPECT_GT(fit->focal_px, -36.0);
+  EXPECT_LT(fit->focal_sigma_px, 5.0);
+}
+
+TEST_F(EdgeChecks, UnconfirmedCamera_Fails) {
+  ReviewSubject subject = this->subject();
+  const PredictedEdges edges = this->edges();
+  const auto focalCheck = [&](const CheckLimits& limits) {
+    std::vector<Check> checks;
+    addEdgeChecks(subject, limits, edges, checks);
+    return findCheck(checks, "camera_focal");
+  };
+  CheckLimits limits;
+  limits.focal_percent = 0.001;
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kFailed);
+  const auto stated = copyOf(*subject.loaded);
+  // Known, to five percent: what the edges ask for is within that.
+  stated->source.calibration_sigma = CalibrationSigma{0.05, 0.3};
+  subject.loaded = stated;
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kPassed);
+  subject.requirement = {{}, {}, {}, 3.0};
+  EXPECT_EQ(focalCheck(limits).state, CheckState::kNotApplicable);
+}
+
+TEST_F(EdgeChecks, APoseThatShowsNothingFailsAndAnImageOfAnotherSizeIsNotAsked) {
+  Pose behind = box.camera_from_station_;
+  behind.translation_m.z() = -1.0;
+  EXPECT_EQ(findCheck(edgeChecksOf(box.subject(behind)), "edge_coverage").state,
+            CheckState::kFailed);
+  ReviewSubject subject = this->subject();
+  auto other = std::make_shared<LoadedCase>();
+  other->source = subject.loaded->source;
+  other->scene = subject.loaded->scene;
+  subject.loaded = other;
+  for (const Check& check : edgeChecksOf(subject))
+    EXPECT_EQ(check.state, CheckState::kNotApplicable) << check.id;
+}
+
+TEST_F(EdgeChecks, TheSameImageGivesTheSameFigures) {
+  const auto subject = box.subject(movedBy(0.4, 0.2));
+  EXPECT_EQ(edgeChecksOf(subject), edgeChecksOf(subject));
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gmock/gmock.h>
+
+#include <memory>
+
+#include "sessions/checks/checks.h"
+#include "sessions/checks/pose_uncertainty.h"
+#include "tests/sessions/checks/drawn_box.h"
+#include "tests/sessions/checks/find_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::DrawnBox;
+using test::findCheck;
+
+/// At half a metre, with 0.4 mm asked for along and across the view axis.
+ReviewSubject someSubject() {
+  ReviewSubject subject;
+  subject.camera_from_station.translation_m = {0.0, 0.0, 0.5};
+  subject.requirement = {0.4, 0.4, 0.25, {}};
+  return subject;
+}
+
+class AgreementChecks : public testing::Test {
+ protected:
+  AgreementChecks() { subject_.loaded = loaded_; }
+
+  Pose movedBy(double x_mm, double z_mm) const {
+    Pose moved = subject_.camera_from_station;
+    moved.translation_m += 1e-3 * Eigen::Vector3d(x_mm, 0.0, z_mm);
+    return moved;
+  }
+  Check checkOf(const std::string& id) const {
+    std::vector<Check> checks;
+    addAgreementChecks(subject_, CheckLimits(), checks);
+    return findCheck(checks, id);
+  }
+
+  const std::shared_ptr<LoadedCase> loaded_ = std::make_shared<LoadedCase>();
+  SessionCase& one_ = loaded_->source;
+  ReviewSubject subject_ = someSubject();
+};
+
+TEST_F(AgreementChecks, NoOtherPose_IsNotApplicable) {
+  for (const char* id : {"agreement_annotation", "agreement_truth", "agreement_camera"})
+    EXPECT_EQ(checkOf(id).state, CheckState::kNotApplicable) << id;
+}
+
+TEST_F(AgreementChecks, ExactTruth_IsComparedWithTheRequirement) {
+  one_.camera_from_station_truth = movedBy(0.1, -0.3);
+  EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 75.0, 1e-6);
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kPassed);
+  one_.camera_from_station_truth = movedBy(0.6, 0.0);
+  EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 150.0, 1e-6);
+  EXPECT_EQ(checkOf("agreement_truth").state, CheckState::kFailed);
+}
+
+TEST_F(AgreementChecks, CoarseTruthFromAnnotations_IsComparedWithinItsSigmasAndReportedAsWeak) {
+  setTruth(one_, movedBy(0.0, 8.0));
+  EXPECT_NEAR(checkOf("agreement_truth").figure.value(), 2000.0, 1e-6) << "it is exact";
+  // 3 sigma of 10 mm along the view axis, of the truth and of the pose together.
+  setTruth(one_, movedBy(0.0, 8.0), Matrix6d(9.9e-5 * Matrix6d::Identity()));
+  subject_.covariance.picture = 1e-6 * Matrix6d::Identity();
+  const Check check = checkOf("agreement_truth");
+  EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+  EXPECT_THAT(check.sentence, testing::HasSubstr("this check is weak"));
+}
+
+TEST_F(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
+  subject_.covariance = {1e-12 * Matrix6d::Identity(), Matrix6d::Identity(), Matrix6d::Identity()};
+  subject_.annotated.emplace();
+  subject_.annotated->camera_from_station = movedBy(0.0, 0.8);
+  subject_.annotated->covariance.picture = 1e-12 * Matrix6d::Identity();
+  EXPECT_NEAR(checkOf("agreement_annotation").figure.value(), 200.0, 0.1);
+}
+
+TEST_F(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
+  OtherPose other{"left", movedBy(0.0, 0.8), {1e-12 * Matrix6d::Identity(), {}, {}}};
+  other.covariance.mesh_scale = other.covariance.calibration = Matrix6d::Zero();
+  other.covariance.calibration(5, 5) = 1e-8;
+  subject_.covariance = other.covariance;
+  subject_.other_cameras = {other};
+  EXPECT_NEAR(checkOf("agreement_camera").figure.value(),
+              100.0 * 0.8 / std::hypot(0.4, 0.3 * std::sqrt(2.0)), 0.1);
+}
+
+TEST_F(AgreementChecks, Sentence_StatesWhereThePosesDiffer) {
+  setTruth(one_, movedBy(0.1, -0.3));
+  const auto sentence = [&] { return checkOf("agreement_truth").sentence; };
+  EXPECT_THAT(sentence(), testing::HasSubstr("across the view axis at the camera"));
+  one_.camera_from_end_effector = Pose();
+  EXPECT_THAT(sentence(), testing::HasSubstr("at the end effector"));
+}
+
+TEST_F(AgreementChecks, CoarseAnnotation_IsComparedWithinItsSigmasAndReportedAsWeak) {
+  subject_.annotated.emplace();
+  subject_.annotated->camera_from_station = movedBy(0.6, 0.0);
+  EXPECT_EQ(checkOf("agreement_annotation").state, CheckState::kFailed);
+  // 3 sigma of 0.4 mm per axis: across the axis 3 sqrt(2) 0.4 mm and the requirement together.
+  subject_.annotated->covariance.picture = 1.6e-7 * Matrix6d::Identity();
+  const Check check = checkOf("agreement_annotation");
+  EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+  EXPECT_THAT(check.sentence, testing::HasSubstr("this check is weak"));
+}
+
+TEST_F(AgreementChecks, SeveralCameras_UseTheLargestDistance) {
+  const PoseCovariance unknown;
+  subject_.other_cameras = {{"left", movedBy(0.1, 0.0), unknown},
+                            {"top", movedBy(0.0, 0.8), unknown},
+                            {"right", movedBy(0.2, 0.0), unknown}};
+  const Check check = checkOf("agreement_camera");
+  EXPECT_NEAR(check.figure.value(), 200.0, 1e-6);
+  EXPECT_THAT(check.sentence, testing::HasSubstr("top"));
+}
+
+TEST_F(AgreementChecks, WithinRequirement_NeedsEveryMember) {
+  EXPECT_TRUE(withinRequirement(subject_, movedBy(0.3, 0.3)));
+  EXPECT_FALSE(withinRequirement(subject_, movedBy(0.3, 0.5)));
+  Pose turned = subject_.camera_from_station;
+  turned.rotation = rotationExp({0.005, 0.0, 0.0}) * turned.rotation;
+  EXPECT_FALSE(withinRequirement(subject_, turned));
+}
+
+std::vector<Check> convergenceChecks(const std::optional<ConvergenceResult>& convergence) {
+  std::vector<Check> checks;
+  addConvergenceChecks(convergence, CheckLimits(), checks);
+  return checks;
+}
+
+TEST(ConvergenceChecks, TooFewReturningSeeds_Fail) {
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_returned").state,
+            CheckState::kNotApplicable);
+  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_competing").state,
+            CheckState::kNotApplicable);
+  const double limit = CheckLimits().convergence_percent;
+  ConvergenceResult convergence{100, 100, static_cast<int>(limit), 0.5, {}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").figure, limit);
+  EXPECT_TRUE(allPassed(convergenceChecks(convergence)));
+  --convergence.returned;
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
+            CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kPassed);
+}
+
+TEST(ConvergenceChecks, NoConvergedSeed_IsNotApplicable) {
+  const ConvergenceResult convergence{10, 10, 0, 0.5, {}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
+            CheckState::kFailed);
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kNotApplicable);
+}
+
+TEST(ConvergenceChecks, CompetingPose_FailsOnlyIfItFitsBetter) {
+  ConvergenceResult convergence{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kPassed);
+  EXPECT_NEAR(findCheck(convergenceChecks(convergence), "convergence_competing").figure.value(),
+              60.0, 1e-9);
+  convergence.competing.push_back({Pose(), false, 0.7});
+  const Check other = findCheck(convergenceChecks(convergence), "convergence_competing");
+  EXPECT_EQ(other.state, CheckState::kFailed);
+  EXPECT_THAT(other.sentence, testing::HasSubstr("another pose 70 %"));
+  convergence.competing.push_back({Pose(), true, 0.8});
+  const Check mirrored = findCheck(convergenceChecks(convergence), "convergence_competing");
+  EXPECT_THAT(mirrored.sentence, testing::HasSubstr("mirror image of the station 80 %"));
+  convergence.coverage = 0.0;
+  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
+            CheckState::kFailed);
+}
+
+Check onboardCheck(const ReviewSubject& subject) {
+  std::vector<Check> checks;
+  addOnboardCheck(subject, checks);
+  return findCheck(checks, "agreement_onboard");
+}
+
+TEST(OnboardCheck, States_FollowTheComparison) {
+  ReviewSubject subject = someSubject();
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kNotApplicable);
+  subject.onboard.emplace();
+  subject.onboard->verdict = RunVerdict::kEqual;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
+  subject.onboard->first.emplace();
+  subject.onboard->first->text = "The pixels differ.";
+  subject.onboard->verdict = RunVerdict::kWithinLimits;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
+  EXPECT_THAT(onboardCheck(subject).sentence, testing::HasSubstr("The pixels differ."));
+  subject.onboard->verdict = RunVerdict::kDifferent;
+  EXPECT_EQ(onboardCheck(subject).state, CheckState::kFailed);
+}
+
+/// Independent sigmas: 1 mrad about every axis, 0.1, 0.1 and 0.2 mm along them.
+Matrix6d someCovariance() {
+  Vector6d sigma;
+  sigma << 1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 2e-4;
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+std::vector<Check> precisionChecksOf(const ReviewSubject& subject, const CheckLimits& limits) {
+  std::vector<Check> checks;
+  addPrecisionChecks(subject, limits, checks);
+  return checks;
+}
+
+class PrecisionChecks : public testing::Test {
+ protected:
+  const DrawnBox box_;
+  ReviewSubject subject_ = box_.subject(box_.camera_from_station_);
+};
+
+TEST_F(PrecisionChecks, SigmasAreSetAgainstWhatTheRequirementNames) {
+  subject_.covariance.picture = someCovariance();
+  subject_.requirement = {0.5, 0.5, {}, {}};
+  const auto checks = precisionChecksOf(subject_, CheckLimits());
+  EXPECT_NEAR(findCheck(checks, "covariance_normal").figure.value(), 0.6, 1e-9);
+  EXPECT_EQ(findCheck(checks, "covariance_normal").state, CheckState::kFailed);
+  EXPECT_NEAR(findCheck(checks, "covariance_lateral").figure.value(), 0.3 * std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(findCheck(checks, "covariance_lateral").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(checks, "covariance_rotation").state, CheckState::kNotApplicable);
+}
+
+TEST_F(PrecisionChecks, InTheImageTheyAreTheSpreadOfTheEdges) {
+  // 0.5 mm along x at half a metre with f = 1000 px: a pixel, whatever the place's depth makes of
+  // it.
+  subject_.covariance.picture(3, 3) = 0.5e-3 * 0.5e-3;
+  subject_.requirement = {{}, {}, {}, 3.5};
+  const Check check =
+      findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_projection");
+  EXPECT_NEAR(check.figure.value(), 3.0, 0.25);
+  EXPECT_EQ(check.state, CheckState::kPassed);
+}
+
+TEST_F(PrecisionChecks, WithoutCovariance_IsNotApplicable) {
+  EXPECT_EQ(findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal").state,
+            CheckState::kNotApplicable);
+}
+
+TEST_F(PrecisionChecks, UnstatedScaleAndCalibration_UseDefaults) {
+  const SessionCase& session_case = subject_.loaded->source;
+  subject_.covariance = poseCovariance(session_case, subject_.loaded->scene.view(),
+                                       subject_.camera_from_station, 1e-12 * Matrix6d::Identity());
+  // 0.02 % of half a metre twice over, less what the box's own depth tells of the focal length.
+  const Check check = findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal");
+  EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
+  EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
+  EXPECT_THAT(check.sentence,
+              testing::HasSubstr("limited by the mesh's scale (0.02 %, assumed) and the "
+                                 "camera's calibration (0.02 % and "));
+  EXPECT_THAT(check.sentence, testing::HasSubstr(" px, assumed) allow: 0.4"));
+  EXPECT_THAT(check.sentence, testing::HasSubstr("state mesh_scale_sigma"));
+}
+
+TEST_F(PrecisionChecks, StatedSigmas_ReplaceDefaults) {
+  SessionCase session_case = subject_.loaded->source;
+  const auto figure = [&](double mesh_scale, const CalibrationSigma& calibration) {
+    session_case.mesh_scale_sigma = mesh_scale;
+    session_case.calibration_sigma = calibration;
+    subject_.covariance =
+        poseCovariance(session_case, subject_.loaded->scene.view(), subject_.camera_from_station,
+                       1e-12 * Matrix6d::Identity());
+    return findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal")
+        .figure.value();
+  };
+  EXPECT_NEAR(figure(0.0, {0.0, 0.0}), 0.003, 1e-6);
+  EXPECT_NEAR(figure(0.005, {0.0, 0.0}), 3.0 * 2.5, 1e-3) << "half a percent of half a metre";
+  EXPECT_NEAR(figure(0.0, {0.001, 0.0}), 3.0 * 0.5, 0.15);
+}
+
+TEST_F(PrecisionChecks, Sentence_StatesTheReferencePoint) {
+  subject_.covariance.picture = someCovariance();
+  const auto sentence = [&] {
+    return findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal").sentence;
+  };
+  EXPECT_EQ(sentence().rfind("3 sigma at the camera are ", 0), 0U) << sentence();
+  auto loaded = std::make_shared<LoadedCase>();
+  loaded->source.camera_from_end_effector = Pose();
+  subject_.loaded = loaded;
+  EXPECT_EQ(sentence().rfind("3 sigma at the end effector are ", 0), 0U) << sentence();
+}
+
+}  // namespace
+}  // namespace boresight::sessions

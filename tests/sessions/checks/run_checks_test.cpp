@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs made by hand: what every check says of them is known.
+#include "sessions/checks/checks.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "tests/sessions/checks/find_check.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::findCheck;
+
+/// Templates on a line of pixels 10 ... 100 and their matches, of which the first `inliers` agree.
+struct MadeMatches {
+  int count = 10;
+  int inliers = 10;
+  int at_border = 0;
+  int second_share = 50;  ///< of the best place's edge hits, %
+};
+
+void addMatch(const MadeMatches& made_matches, int index, IterationTrace& iteration) {
+  Template item;
+  item.center_x = 10 * (index + 1);
+  item.center_y = 10 * (index + 1) * (index % 2 == 0 ? 1 : 2);
+  item.depth_m = 0.5F + 0.01F * static_cast<float>(index);
+  iteration.templates.push_back(item);
+  Match match;
+  match.norms = {100, 100};
+  match.peak.x = item.center_x;
+  match.peak.y = item.center_y;
+  match.peak.counts = {100, 0};
+  match.peak.has_second = true;
+  match.peak.second_counts = {made_matches.second_share, 0};
+  match.x = item.center_x;
+  match.y = item.center_y;
+  match.searched = true;
+  match.at_border = index < made_matches.at_border;
+  iteration.matches.push_back(match);
+  iteration.correspondences.emplace_back();
+  iteration.template_of.push_back(index);
+  iteration.pnp.inlier.push_back(index < made_matches.inliers ? 1 : 0);
+  iteration.pnp.residual_px.push_back(0.5);
+  EdgePixel pixel;
+  pixel.x = static_cast<std::int16_t>(item.center_x);
+  pixel.y = static_cast<std::int16_t>(item.center_y);
+  pixel.depth_m = item.depth_m;
+  iteration.render.pixels.push_back(pixel);
+}
+
+std::shared_ptr<IterationTrace> matching(const MadeMatches& made_matches, double correction_px) {
+  auto iteration = std::make_shared<IterationTrace>();
+  iteration->kind = IterationKind::kMatch;
+  iteration->reached = Stage::kFinished;
+  iteration->correction_image_px = correction_px;
+  for (int i = 0; i < made_matches.count; ++i) addMatch(made_matches, i, *iteration);
+  iteration->template_count = iteration->correspondence_count = made_matches.count;
+  iteration->pnp.inlier_count = made_matches.inliers;
+  return iteration;
+}
+
+ReviewSubject subjectOf(const MadeMatches& made_matches, double last_px = 0.1) {
+  ReviewSubject subject;
+  subject.run.emplace();
+  subject.run->status = LocalizationStatus::kConverged;
+  subject.run->iterations.push_back(matching(made_matches, 20.0));
+  auto last = std::make_shared<IterationTrace>();
+  last->kind = IterationKind::kRefine;
+  last->reached = Stage::kFinished;
+  last->status = LocalizationStatus::kConverged;
+  last->correction_image_px = last_px;
+  subject.run->iterations.push_back(last);
+  return subject;
+}
+
+std::vector<Check> checksOf(const ReviewSubject& subject, const CheckLimits& limits = {}) {
+  std::vector<Check> checks;
+  addRunChecks(subject, limits, checks);
+  return checks;
+}
+
+CheckState stateOf(const ReviewSubject& subject, const std::string& id,
+                   const CheckLimits& limits = {}) {
+  return findCheck(checksOf(subject, limits), id).state;
+}
+
+TEST(RunChecks, ARunThatDidNotConvergeFailsAndSaysHowItEnded) {
+  ReviewSubject subject = subjectOf({});
+  EXPECT_EQ(stateOf(subject, "converged"), CheckState::kPassed);
+  subject.run->status = LocalizationStatus::kLeftUncertainty;
+  const Check check = findCheck(checksOf(subject), "converged");
+  EXPECT_EQ(check.state, CheckState::kFailed);
+  EXPECT_NE(check.sentence.find(localizationStatusText(LocalizationStatus::kLeftUncertainty)),
+            std::string::npos)
+      << check.sentence;
+}
+
+TEST(RunChecks, CorrectionsWithFailedLastIteration_AreNotApplicable) {
+  ReviewSubject subject = subjectOf({});
+  subject.run->status = LocalizationStatus::kPnpFailed;
+  auto failed = std::make_shared<IterationTrace>();
+  failed->status = LocalizationStatus::kPnpFailed;
+  subject.run->iterations.push_back(failed);
+  EXPECT_EQ(stateOf(subject, "corrections_shrink"), CheckState::kNotApplicable);
+}
+
+TEST(RunChecks, CorrectionsAreComparedWithTheFirstOne) {
+  const Check shrinks = findCheck(checksOf(subjectOf({}, 4.0)), "corrections_shrink");
+  EXPECT_NEAR(shrinks.figure.value(), 20.0, 1e-9);
+  EXPECT_EQ(shrinks.state, CheckState::kPassed);
+  EXPECT_EQ(stateOf(subjectOf({}, 6.0), "corrections_shrink"), CheckState::kFailed);
+}
+
+TEST(RunChecks, AFirstCorrectionBelowAPixelAsksForNoLessThanAQuarterPixel) {
+  ReviewSubject subject = subjectOf({}, 0.2);
+  subject.run->iterations.front() = matching({}, 0.01);
+  EXPECT_NEAR(findCheck(checksOf(subject), "corrections_shrink").figure.value(), 20.0, 1e-9);
+  EXPECT_EQ(stateOf(subject, "corrections_shrink"), CheckState::kPassed);
+}
+
+TEST(RunChecks, InliersAreCountedAndSetAgainstTheMatches) {
+  const MadeMatches made_matches{.count = 40, .inliers = 10};
+  CheckLimits limits;
+  limits.inlier_count = 10;
+  limits.inlier_ratio_percent = 26;
+  const auto checks = checksOf(subjectOf(made_matches), limits);
+  EXPECT_EQ(findCheck(checks, "inlier_count").figure, 10.0);
+  EXPECT_EQ(findCheck(checks, "inlier_count").state, CheckState::kPassed);
+  EXPECT_EQ(findCheck(checks, "inlier_ratio").figure, 25.0);
+  EXPECT_EQ(findCheck(checks, "inlier_ratio").state, CheckState::kFailed);
+  EXPECT_NE(findCheck(checks, "inlier_ratio").sentence.find("10 of 40"), std::string::npos);
+}
+
+TEST(RunChecks, InliersAtOneEndOfTheStation_Fail) {
+  EXPECT_NEAR(
+      findCheck(checksOf(subjectOf({.count = 20, .inliers = 20})), "inlier_spread").figure.value(),
+      100.0, 1e-6);
+  const auto checks = checksOf(subjectOf({.count = 20, .inliers = 4}));
+  EXPECT_LT(findCheck(checks, "inlier_spread").figure.value(), 30.0);
+  EXPECT_EQ(findCheck(checks, "inlier_spread").state, CheckState::kFailed);
+  // Depth grows with the index: 4 of 20 in a row have sqrt((16 - 1) / (400 - 1)) of the deviation.
+  EXPECT_NEAR(findCheck(checks, "inlier_depth").figure.value(), 19.39, 0.01);
+  EXPECT_EQ(findCheck(checks, "inlier_depth").state, CheckState::kFailed);
+}
+
+TEST(RunChecks, MatchesOnBordersAreCounted) {
+  const Check check = findCheck(checksOf(subjectOf({.count = 20, .inliers = 20, .at_border = 9})),
+                                "matches_at_border");
+  EXPECT_NEAR(check.figure.value(), 45.0, 1e-9);
+  EXPECT_EQ(check.side, LimitSide::kAtMost);
+  EXPECT_EQ(check.state, CheckState::kFailed);
+}
+
+TEST(RunChecks, MarginsAreThoseOfTheScores) {
+  const Check wide = findCheck(checksOf(subjectOf({.second_share = 60})), "peak_margin");
+  EXPECT_NEAR(wide.figure.value(), 40.0, 1e-9);
+  EXPECT_EQ(stateOf(subjectOf({.second_share = 99}), "peak_margin"), CheckState::kFailed);
+}
+
+TEST(RunChecks, OnlyTheLastAttemptCounts) {
+  ReviewSubject subject = subjectOf({}, 0.1);
+  auto early = matching({.inliers = 1}, 500.0);
+  subject.run->iterations.insert(subject.run->iterations.begin(), early);
+  auto& iterations = subject.run->iterations;
+  for (std::size_t i = 1; i < iterations.size(); ++i) {
+    auto later = std::make_shared<IterationTrace>(*iterations[i]);
+    later->attempt = 1;
+    iterations[i] = later;
+  }
+  EXPECT_NEAR(findCheck(checksOf(subject), "corrections_shrink").figure.value(), 0.5, 1e-9);
+  EXPECT_EQ(findCheck(checksOf(subject), "inlier_count").figure, 10.0);
+}
+
+TEST(RunChecks, APoseFromAnnotationsHasTheSameChecksNotApplicable) {
+  const auto of_run = checksOf(subjectOf({}));
+  const auto of_annotations = checksOf(ReviewSubject());
+  ASSERT_EQ(of_annotations.size(), of_run.size());
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < of_run.size(); ++i) {
+    EXPECT_EQ(of_annotations[i].id, of_run[i].id);
+    EXPECT_EQ(of_annotations[i].state, CheckState::kNotApplicable);
+    EXPECT_FALSE(of_annotations[i].sentence.empty());
+    ids.insert(of_run[i].id);
+  }
+  EXPECT_EQ(ids.size(), of_run.size());
+}
+
+TEST(RunChecks, RunWithoutMatching_IsNotApplicable) {
+  ReviewSubject subject;
+  subject.run.emplace();
+  subject.run->status = LocalizationStatus::kTooFewMatches;
+  for (const Check& check : checksOf(subject)) EXPECT_NE(check.state, CheckState::kPassed);
+}
+
+using Points = std::vector<Eigen::Vector2d>;
+
+/// A grid of 11 x 11 points over `width` x `height` px, turned by 30 deg.
+Points grid(double width, double height) {
+  Points points;
+  for (int i = 0; i <= 10; ++i)
+    for (int j = 0; j <= 10; ++j) {
+      const Eigen::Vector2d flat(width * (i / 10.0 - 0.5), height * (j / 10.0 - 0.5));
+      points.emplace_back(0.866 * flat.x() - 0.5 * flat.y() + 100.0,
+                          0.5 * flat.x() + 0.866 * flat.y() + 50.0);
+    }
+  return points;
+}
+
+TEST(InlierSpread, OfPointsThatLieLikeTheOthersIsOne) {
+  EXPECT_NEAR(leastSpread(grid(200, 100), grid(200, 100), 1.0).value(), 1.0, 1e-9);
+}
+
+TEST(InlierSpread, IsTheLeastOverAllDirections) {
+  // Half as wide one way, as wide the other: neither axis is one of the image's.
+  EXPECT_NEAR(leastSpread(grid(100, 100), grid(200, 100), 0.0).value(), 0.5, 1e-3);
+  EXPECT_NEAR(leastSpread(grid(200, 30), grid(200, 100), 0.0).value(), 0.3, 1e-3);
+}
+
+TEST(InlierSpread, OfPointsOnALineAcrossAnAreaIsNearlyNothing) {
+  EXPECT_LT(leastSpread(grid(200, 0), grid(200, 100), 1.0).value(), 0.05);
+}
+
+TEST(InlierSpread, OthersOnALineAskForNoSpreadAcrossIt) {
+  EXPECT_GT(leastSpread(grid(200, 0), grid(200, 0.5), 1.0).value(), 0.9);
+}
+
+TEST(InlierSpread, NeedsPoints) {
+  EXPECT_FALSE(leastSpread(Points{{1.0, 2.0}}, grid(10, 10), 1.0));
+  EXPECT_FALSE(leastSpread(grid(10, 10), Points(), 1.0));
+}
+
+TEST(InlierSpread, DeviationAndMedian) {
+  const std::vector<double> values = {4.0, 1.0, 3.0, 2.0};
+  EXPECT_DOUBLE_EQ(medianOf(values), 2.0);
+  EXPECT_NEAR(deviationOf(values), 1.118033988749895, 1e-12);
+  EXPECT_EQ(deviationOf(std::vector<double>{7.0}), 0.0);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

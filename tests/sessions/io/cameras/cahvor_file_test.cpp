@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/cahvor_file.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sessions/io/images/camera_of_file.h"
+#include "tests/core/geometry/planetary_cameras.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::PlanetaryCamera;
+using boresight::test::planetaryCameras;
+using boresight::test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+/// As calibration programs lay it out.
+constexpr const char* kText = R"(# an invented camera
+
+Model = CAHVORE3,0.37 = general
+
+Dimensions = 1024 768
+
+C =      1.030000     -0.170000     -0.710000
+A =      0.600000      0.000000      0.800000
+H =    307.200000    450.000000    409.600000   # a comment
+V =   -129.600000      0.000000    577.200000
+O =      0.600000      0.000000      0.800000
+R =      0.000008     -0.013400     -0.007300
+E =      0.001900      0.001600      0.001700
+
+Hs    =    450.000000
+Hc    =    512.000000
+Vs    =    450.000000
+Vc    =    384.000000
+Theta =     -1.570796 (-90.000000 deg)
+)";
+
+class CahvorText : public ::testing::Test {
+ protected:
+  std::string error(const std::string& text) {
+    return folder_.message([&] { (void)readCahvorCamera(folder_.write("a.cahvor", text)); });
+  }
+  static std::string with(const std::string& from, const std::string& to) {
+    std::string text = kText;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(CahvorText, Layout_IsRead) {
+  const CahvorFile read = readCahvorFile(folder_.write("a.cahvor", kText));
+  EXPECT_EQ(read.cahv.model, CameraModel::kCahvore);
+  EXPECT_EQ(read.cahv.type, 3);
+  EXPECT_EQ(read.cahv.parameter, 0.37);
+  EXPECT_EQ(read.width, 1024);
+  EXPECT_EQ(read.height, 768);
+  EXPECT_EQ(read.cahv.h_px, Eigen::Vector3d(307.2, 450.0, 409.6));
+  EXPECT_EQ(read.cahv.e_m, Eigen::Vector3d(0.0019, 0.0016, 0.0017));
+  EXPECT_EQ(read.covariance.size(), 0);
+  const CameraFile camera = readCameraFile(folder_ / "a.cahvor");
+  EXPECT_EQ(camera.camera.width, 1024);
+  EXPECT_NEAR(camera.camera.cx, 512.0, 1e-12);
+  EXPECT_NEAR(camera.camera.fx, 450.0, 1e-12);
+  EXPECT_EQ(camera.reference->frame.name, "");
+}
+
+TEST_F(CahvorText, EveryModel_RoundTrip_IsEqualToTheBit) {
+  for (const PlanetaryCamera& camera : planetaryCameras()) {
+    CahvorFile file{camera.cahv, camera.width, camera.height, {}, {}};
+    const int size = camera.cahv.model == CameraModel::kCahv     ? 12
+                     : camera.cahv.model == CameraModel::kCahvor ? 18
+                                                                 : 21;
+    const Eigen::MatrixXd root = Eigen::MatrixXd::Random(size, size);
+    file.covariance = root.transpose() * root;
+    file.covariance = (0.5 * (file.covariance + file.covariance.transpose())).eval();
+    file.internal_covariance = file.covariance.topLeftCorner(5, 5);
+    writeCahvorFile(folder_ / "b.cahvore", file);
+    const CahvorFile again = readCahvorFile(folder_ / "b.cahvore");
+    if (camera.cahv.model == CameraModel::kCahvore) {
+      EXPECT_EQ(again.cahv, camera.cahv) << camera.name;
+    }
+    EXPECT_EQ(again.cahv.h_px, camera.cahv.h_px);
+    EXPECT_EQ(again.cahv.v_px, camera.cahv.v_px);
+    EXPECT_EQ(again.covariance, file.covariance) << camera.name;
+    EXPECT_EQ(again.internal_covariance, file.internal_covariance);
+    const CameraFile camera_file = readCahvorCamera(folder_ / "b.cahvore");
+    for (const PlanetaryCamera::Sight& sight : camera.sights) {
+      Eigen::Vector2d pixel;
+      ASSERT_TRUE(project(camera_file.camera,
+                          camera_file.reference->camera_from_reference * sight.point_m, pixel));
+      EXPECT_LT((pixel - sight.pixel).norm(), 1e-9) << camera.name;
+    }
+  }
+}
+
+/// Scales, centres and the angle between the axes, known of a camera made from them.
+TEST_F(CahvorText, StatesScalesAndCentres) {
+  const CahvorFile file = readCahvorFile(folder_.write("a.cahvor", kText));
+  writeCahvorFile(folder_ / "b.cahvor", file);
+  const std::string text = folder_.read("b.cahvor");
+  EXPECT_THAT(text, HasSubstr("Hs    = 450"));
+  EXPECT_THAT(text, HasSubstr("Hc    = 512"));
+  EXPECT_THAT(text, HasSubstr("Vs    = 450"));
+  EXPECT_THAT(text, HasSubstr("Theta = -1.57079632679"));
+}
+
+TEST_F(CahvorText, InternalCovariance_SetsTheCalibrationSigma) {
+  const auto sigma = [this](const std::string& text) {
+    return readCahvorCamera(folder_.write("a.cahvor", text)).calibration_sigma;
+  };
+  EXPECT_FALSE(sigma(kText));
+  const std::string rest =
+      " 0 0 0 0\n 0 0.25 0 0 0\n 0 0 0.0324 0 0\n 0 0 0 0.16 0\n 0 0 0 0 1e-9\n";
+  const auto stated = sigma(kText + ("\nS internal =\n 0.0081" + rest));
+  ASSERT_TRUE(stated);
+  EXPECT_DOUBLE_EQ(stated->focal_relative, 0.18 / 450.0) << "the worse of Hs and Vs";
+  EXPECT_DOUBLE_EQ(stated->principal_point_px, 0.5) << "the worse of Hc and Vc";
+  std::string zeros = "\nS internal =\n";
+  for (int i = 0; i < 25; ++i) zeros += " 0";
+  EXPECT_FALSE(sigma(kText + zeros + "\n")) << "it says nothing";
+}
+
+TEST_F(CahvorText, NamesWhatIsWrong) {
+  EXPECT_EQ(error("hello"),
+            "a.cahvor: not a camera file: it begins with 'hello' instead of Model = ...");
+  EXPECT_EQ(error(""), "a.cahvor: the file is empty");
+  EXPECT_THAT(error(with("CAHVORE3,0.37", "CAHVORE4")),
+              HasSubstr("Model: 'CAHVORE4' is not known"));
+  EXPECT_THAT(error(with("CAHVORE3,0.37", "CAHVORE3,x")), HasSubstr("is not known"));
+  EXPECT_THAT(error(with("CAHVORE3,0.37", "FISH")), HasSubstr("is not known"));
+  EXPECT_EQ(error(with("Model =", "Lens =")), "a.cahvor: Model: is missing");
+  EXPECT_EQ(error(with("E =", "F =")), "a.cahvor: E: is missing");
+  EXPECT_EQ(error(with("E =", "C =")), "a.cahvor: C: is given twice");
+  EXPECT_EQ(error(with("0.001900 ", "nan ")), "a.cahvor: E: 'nan' is not a number");
+  EXPECT_EQ(error(with("0.001900 ", "")), "a.cahvor: E: 3 numbers are needed, 2 given");
+  EXPECT_THAT(error(with("1024 768", "1024.5 768")), HasSubstr("Dimensions: width and height"));
+  EXPECT_THAT(error(with("1024 768", "0 768")), HasSubstr("Dimensions: width and height"));
+  EXPECT_THAT(error(with("A =      0.6", "A =      0.9")), HasSubstr("A and O must have length 1"));
+  EXPECT_EQ(error(std::string(kText) + "S = 1 2 3\n"),
+            "a.cahvor: S: 441 numbers are needed, 3 given");
+  std::string skewed = std::string(kText) + "S internal =\n";
+  for (int i = 0; i < 25; ++i) skewed += std::to_string(i) + " ";
+  EXPECT_THAT(error(skewed), HasSubstr("S internal: is not a covariance"));
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/camera_conversion.h"
+
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/calib3d.hpp>
+
+#include "core/geometry/cahv_model.h"
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "tests/core/geometry/planetary_cameras.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::planetaryCameras;
+using boresight::test::TemporaryFolder;
+
+Camera cameraOf(const CahvModel& cahv, int width, int height) {
+  Camera camera;
+  Pose camera_from_reference;
+  EXPECT_EQ(cameraFromCahv(cahv, width, height, camera, camera_from_reference), Status::kOk);
+  return camera;
+}
+
+/// A camera with its optical axis along z, where CAHVOR is Brown's radial distortion but for what
+/// the inverse leaves of higher order.
+Camera cahvor(const Eigen::Vector3d& optical_axis) {
+  CahvModel cahv;
+  cahv.model = CameraModel::kCahvor;
+  cahv.h_px = {1000.0, 0.0, 510.0};
+  cahv.v_px = {0.0, 990.0, 380.0};
+  cahv.o = optical_axis.normalized();
+  cahv.r = {0.0, -0.2, 0.05};
+  return cameraOf(cahv, 1024, 768);
+}
+
+/// The pixel that OpenCV gives a point, by the file's own numbers.
+Eigen::Vector2d byOpenCv(const nlohmann::json& json, const Eigen::Vector3d& point_m) {
+  const cv::Matx33d intrinsic(json["fx"], 0, json["cx"], 0, json["fy"], json["cy"], 0, 0, 1);
+  const auto dist = json["dist"].get<std::vector<double>>();
+  std::vector<cv::Point2d> pixel;
+  cv::projectPoints(std::vector<cv::Point3d>{{point_m.x(), point_m.y(), point_m.z()}},
+                    cv::Vec3d(0, 0, 0), cv::Vec3d(0, 0, 0), intrinsic, dist, pixel);
+  return {pixel[0].x, pixel[0].y};
+}
+
+/// Hazard cameras of two rovers, from the labels of published images: their corners lie about 90
+/// deg off the axis.
+std::vector<Camera> hazardCameras() {
+  CahvModel first;
+  first.model = CameraModel::kCahvore;
+  first.c_m = {0.609331, -0.041064, -0.233849};
+  first.a = {0.7034469897398741, -0.005160999924724463, 0.7107289896336624};
+  first.h_px = {351.362, 452.204, 353.494};
+  first.v_px = {35.8065, -1.75143, 682.705};
+  first.o = {0.7044021845276859, -0.00606200158802323, 0.7097751859352164};
+  first.r = {3e-06, -0.012015, -0.007525};
+  first.e_m = {0.001442, 0.001522, 0.000483};
+  first.type = 3;
+  first.parameter = 0.37;
+  CahvModel second = first;
+  second.c_m = {1.03304, -0.17145, -0.707908};
+  second.a = {0.7066621052060955, 0.00032000004764060064, 0.7075511053384475};
+  second.h_px = {356.718, 453.901, 352.1};
+  second.v_px = {43.3011, 3.70251, 685.544};
+  second.o = {0.7047929048180772, -0.000540999926938204, 0.7094129041941484};
+  second.r = {8e-06, -0.013391, -0.007308};
+  second.e_m = {0.001868, 0.001572, 0.001665};
+  return {cameraOf(first, 1024, 1024), cameraOf(second, 1024, 1024)};
+}
+
+TEST(CameraConversion, OfAnOpticalAxisAlongTheCamerasIsExact) {
+  const FittedCamera fitted =
+      fitCamera(cahvor(Eigen::Vector3d::UnitZ()), CameraModel::kBrownConrady);
+  EXPECT_LT(fitted.worst_error_px, 1e-6);
+  EXPECT_NEAR(fitted.camera.fx, 1000.0, 1e-6);
+  EXPECT_NEAR(fitted.camera.cy, 380.0, 1e-6);
+  EXPECT_NEAR(fitted.camera.distortion[0], -0.2, 1e-6);
+  EXPECT_NEAR(fitted.camera.distortion[1], 0.05, 1e-6);
+  EXPECT_EQ(fitted.unseen_count, 0);
+}
+
+TEST(CameraConversion, StatesTheWorstErrorThatOpenCvMakesWithItsFile) {
+  const Camera given = cahvor({0.01, -0.004, 1.0});
+  const TemporaryFolder folder;
+  const FittedCamera fitted = fitCamera(given, CameraModel::kBrownConrady);
+  const double infinite_m = std::numeric_limits<double>::infinity();
+  writeFittedCamera(folder / "fitted.json", fitted, given, "given.cahvor", infinite_m);
+  const auto json = nlohmann::json::parse(folder.read("fitted.json"));
+  double worst_px = 0.0;
+  for (int y = 0; y < given.height; ++y)
+    for (int x = 0; x < given.width; x += y % 97 == 0 || y == given.height - 1 ? 1 : 1023) {
+      const Eigen::Vector2d pixel(x, y);
+      Eigen::Vector3d ray;
+      ASSERT_TRUE(unproject(given, pixel, ray));
+      worst_px = std::max(worst_px, (byOpenCv(json, ray) - pixel).norm());
+    }
+  EXPECT_GT(worst_px, 1e-4);  // a tilted axis is not quite what tangential terms say
+  EXPECT_NEAR(fitted.worst_error_px, worst_px, 0.02 * worst_px);
+  EXPECT_EQ(json["fitted_from"]["file"], "given.cahvor");
+  EXPECT_EQ(json["fitted_from"]["model"], "cahvor");
+  EXPECT_EQ(json["fitted_from"]["worst_error_px"], fitted.worst_error_px);
+  EXPECT_EQ(readCamera(folder / "fitted.json"), fitted.camera);
+}
+
+TEST(CameraConversion, IsNoWorseThanAPinhole) {
+  for (const auto& item : planetaryCameras()) {
+    const Camera given = cameraOf(item.cahv, item.width, item.height);
+    if (isMirrored(given)) continue;
+    const FittedCamera pinhole = fitCamera(given, CameraModel::kPinhole, 1.0);
+    const FittedCamera brown = fitCamera(given, CameraModel::kBrownConrady, 1.0);
+    EXPECT_LE(brown.worst_error_px, pinhole.worst_error_px + 1e-9) << item.name;
+    EXPECT_GE(pinhole.worst_error_px, pinhole.rms_error_px) << item.name;
+  }
+}
+
+TEST(CameraConversion, OfAMovingPupilHoldsAtItsDistance) {
+  CahvModel cahv;
+  cahv.model = CameraModel::kCahvore;
+  cahv.h_px = {600.0, 0.0, 320.0};
+  cahv.v_px = {0.0, 600.0, 240.0};
+  cahv.e_m = {0.02, 0.0, 0.0};
+  cahv.type = 3;
+  cahv.parameter = 0.5;
+  const Camera given = cameraOf(cahv, 640, 480);
+  const FittedCamera near = fitCamera(given, CameraModel::kBrownConrady, 0.2);
+  EXPECT_LT(near.worst_error_px, 0.05);
+  EXPECT_GT(near.worst_error_far_px, 5.0 * near.worst_error_px);
+  // A point of a ray 0.2 m from the centre, by plain projection.
+  Ray ray;
+  ASSERT_TRUE(unprojectRay(given, {600.0, 400.0}, ray));
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 60; ++i)
+    (ray.at(0.5 * (low + high)).norm() < 0.2 ? low : high) = 0.5 * (low + high);
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(project(near.camera, ray.at(low), pixel));
+  EXPECT_LT((pixel - Eigen::Vector2d(600.0, 400.0)).norm(), near.worst_error_px + 1e-9);
+}
+
+TEST(CameraConversion, OfAHazardCameraIsAsGoodAtEveryDistance) {
+  for (const Camera& given : hazardCameras()) {
+    for (const double distance_m : {0.3, 0.5, 2.0, 100.0}) {
+      const FittedCamera brown = fitCamera(given, CameraModel::kBrownConrady, distance_m);
+      EXPECT_LT(brown.rms_error_px, 1.5) << distance_m;
+      EXPECT_LT(brown.worst_error_px, 30.0) << distance_m;
+      EXPECT_LT(brown.unseen_count, 0.01 * brown.checked_count) << distance_m;
+      const FittedCamera fisheye = fitCamera(given, CameraModel::kKannalaBrandt, distance_m);
+      EXPECT_LT(fisheye.rms_error_px, 0.7) << distance_m;
+      EXPECT_LT(fisheye.worst_error_px, 3.5) << distance_m;
+      EXPECT_EQ(fisheye.unseen_count, 0) << distance_m;
+    }
+  }
+}
+
+/// A fisheye whose axis is the camera's, with a field up to the pole of (x/z, y/z): where a
+/// point is seen needs no model.
+TEST(CameraConversion, OfAnEquidistantCameraIsWithinTwoPixelsUpToEightyDegrees) {
+  Camera given;
+  given.model = CameraModel::kKannalaBrandt;
+  given.width = given.height = 1024;
+  given.fx = given.fy = 455.0;
+  given.cx = given.cy = 511.5;
+  ASSERT_EQ(prepareCamera(given), Status::kOk);
+  const FittedCamera fitted = fitCamera(given, CameraModel::kBrownConrady);
+  const Eigen::Vector2d middle(given.cx, given.cy);
+  for (double angle_rad = 0.05; angle_rad < 1.396; angle_rad += 0.05) {
+    const Eigen::Vector3d ray(0.6 * std::tan(angle_rad), 0.8 * std::tan(angle_rad), 1.0);
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(project(fitted.camera, ray, pixel)) << angle_rad;
+    EXPECT_LT((pixel - middle - 455.0 * angle_rad * Eigen::Vector2d(0.6, 0.8)).norm(), 2.0)
+        << angle_rad;
+  }
+}
+
+TEST(CameraConversion, ImpossibleFit_IsRefused) {
+  Camera mirrored = cahvor(Eigen::Vector3d::UnitZ());
+  mirrored.fy = -mirrored.fy;
+  ASSERT_EQ(prepareCamera(mirrored), Status::kOk);
+  EXPECT_THROW((void)fitCamera(mirrored, CameraModel::kBrownConrady), std::runtime_error);
+  EXPECT_THROW((void)fitCamera(cahvor(Eigen::Vector3d::UnitZ()), CameraModel::kCahv),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

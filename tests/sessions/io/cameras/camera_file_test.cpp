@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/camera_file.h"
+#include "sessions/io/images/camera_of_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/random.h"
+#include "sessions/io/cameras/pose_file.h"
+#include "sessions/io/json/json_writer.h"
+#include "tests/core/geometry/planetary_cameras.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::PlanetaryCamera;
+using boresight::test::planetaryCameras;
+using boresight::test::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string cameraText(const std::string& rest) {
+  return R"({"format": "boresight-camera", "version": 1, )" + rest + "}";
+}
+
+constexpr const char* kSize = R"("width": 2048, "height": 1024, )";
+constexpr const char* kFocus = R"("fx": 3100.5, "fy": 3101, "cx": 1023.5, "cy": 511.5)";
+
+class ReadCamera : public ::testing::Test {
+ protected:
+  Camera read(const std::string& rest) {
+    return readCamera(folder_.write("camera.json", cameraText(rest)));
+  }
+  std::string error(const std::string& rest) {
+    return folder_.message([&] { (void)read(rest); });
+  }
+  TemporaryFolder folder_;
+};
+
+/// An entry of the public image feed of Mars 2020, against the same vectors in a camera.json.
+TEST_F(ReadCamera, ReadsTheMetadataOfARawImage) {
+  const std::string start =
+      R"x({"imageid": "NRF_0731", "dimension": "(1288,968)", "site": 36, "drive": 1610,)x"
+      R"( "subframe_rect": [2545.0, 1.0, 2576.0, 1936.0], "scale_factor": 2,)"
+      R"( "camera_model_type": "CAHVORE", "camera_model_component_list": ")";
+  const std::string components =
+      "(0.57409,0.460145,-1.94506);(-0.811535,0.532626,0.240282);(-824.337,-1223.95,0.351512);"
+      "(-496.164,321.169,1666.04);(-0.811482,0.533042,0.23954);(0.000000424,0.0517186,-0.0187155);"
+      "(0.000000012,0.00000003,-0.000000003);2;0.0";
+  const auto file = folder_.write("metadata.json", start + components + "\"}");
+  const CameraFile metadata = readCameraFile(file);
+  const Camera written = read(
+      R"("model": "cahvore", "width": 1288, "height": 968, "C": [0.57409, 0.460145, -1.94506],)"
+      R"( "A": [-0.811535, 0.532626, 0.240282], "H": [-824.337, -1223.95, 0.351512],)"
+      R"( "V": [-496.164, 321.169, 1666.04], "O": [-0.811482, 0.533042, 0.23954],)"
+      R"( "R": [4.24e-07, 0.0517186, -0.0187155], "E": [1.2e-08, 3e-08, -3e-09],)"
+      R"( "cahvore_type": 2, "cahvore_parameter": 0.0)");
+  EXPECT_EQ(metadata.camera, written);
+  ASSERT_TRUE(metadata.reference);
+  EXPECT_EQ(metadata.reference->frame, (FrameName{"ROVER_NAV_FRAME", {36, 1610}}));
+  for (const std::string& wrong : {std::string("(1,2)"), std::string("(1,nan)"), components + ";x"})
+    EXPECT_THAT(folder_.message([&] {
+      (void)readCameraFile(folder_.write("wrong.json", start + wrong + "\"}"));
+    }),
+                HasSubstr("wrong.json: camera_model_component_list: "));
+}
+
+TEST_F(ReadCamera, ReadsEveryModel) {
+  const Camera pinhole = read(std::string(R"("model": "pinhole", )") + kSize + kFocus);
+  EXPECT_EQ(pinhole.model, CameraModel::kPinhole);
+  EXPECT_EQ(pinhole.width, 2048);
+  EXPECT_EQ(pinhole.height, 1024);
+  EXPECT_EQ(pinhole.fx, 3100.5);
+  EXPECT_EQ(pinhole.fy, 3101.0);
+  EXPECT_EQ(pinhole.cx, 1023.5);
+  EXPECT_EQ(pinhole.cy, 511.5);
+
+  for (const char* dist : {"[-0.1, 0.05, 0.001, -0.002]", "[-0.1, 0.05, 0.001, -0.002, 0.01]",
+                           "[-0.1, 0.05, 0.001, -0.002, 0.01, 0.02, 0.03, 0.04]"}) {
+    const Camera brown = read(std::string(R"("model": "brown_conrady", )") + kSize + kFocus +
+                              R"(, "dist": )" + dist);
+    EXPECT_EQ(brown.model, CameraModel::kBrownConrady);
+    EXPECT_EQ(brown.distortion[0], -0.1);
+    EXPECT_EQ(brown.distortion[3], -0.002);
+    Eigen::Vector2d pixel;
+    EXPECT_TRUE(project(brown, Eigen::Vector3d(0.01, 0.02, 1.0), pixel)) << "not prepared";
+  }
+  const Camera fisheye = read(std::string(R"("model": "kannala_brandt", )") + kSize + kFocus +
+                              R"(, "dist": [0.01, 0.002, 0.0003, 0.00004])");
+  EXPECT_EQ(fisheye.model, CameraModel::kKannalaBrandt);
+  EXPECT_EQ(fisheye.distortion[3], 0.00004);
+}
+
+TEST_F(ReadCamera, NamesWhatIsWrong) {
+  const std::string model = R"("model": "pinhole", )";
+  EXPECT_EQ(error(std::string(kSize) + kFocus), "camera.json: model: missing");
+  EXPECT_EQ(error(std::string(R"("model": "lens", )") + kSize + kFocus),
+            "camera.json: model: unknown camera model 'lens' (pinhole, brown_conrady, "
+            "kannala_brandt, cahv, cahvor or cahvore is needed)");
+  EXPECT_EQ(error(model + R"("width": 0, "height": 5, )" + kFocus),
+            "camera.json: width: 0 is outside 1 .. 16384");
+  EXPECT_EQ(error(model + R"("width": 20.5, "height": 5, )" + kFocus),
+            "camera.json: width: not an integer (is 20.5)");
+  EXPECT_EQ(error(model + R"("width": 20000, "height": 5, )" + kFocus),
+            "camera.json: width: 20000 is outside 1 .. 16384");
+  EXPECT_EQ(error(model + kSize + R"("fx": -3100, "fy": 3100, "cx": 5, "cy": 5)"),
+            "camera.json: fx: -3100 is outside 0.001 .. 1e+07");
+  EXPECT_EQ(error(model + kSize + R"("fx": 3100, "cx": 5, "cy": 5)"), "camera.json: fy: missing");
+  EXPECT_EQ(error(model + kSize + kFocus + R"(, "dist": [0.1, 0, 0, 0])"),
+            "camera.json: dist[0]: a pinhole camera has no distortion (use brown_conrady)");
+  EXPECT_EQ(error(model + kSize + kFocus + R"(, "dist": [0, 0, 0, 0])"), "(nothing)");
+}
+
+TEST_F(ReadCamera, RefusesAWrongNumberOfCoefficients) {
+  const auto with = [](const char* model, const char* dist) {
+    return std::string(R"("model": ")") + model + "\", " + kSize + kFocus + R"(, "dist": )" + dist;
+  };
+  EXPECT_EQ(error(with("brown_conrady", "[0.1, 0.2, 0.3]")),
+            "camera.json: dist: brown_conrady needs 4, 5 or 8 coefficients, 3 given");
+  EXPECT_EQ(error(with("kannala_brandt", "[0, 0, 0, 0, 0]")),
+            "camera.json: dist: kannala_brandt needs 4 coefficients, 5 given");
+  EXPECT_EQ(error(with("brown_conrady", "[0, 0, 0, \"x\"]")),
+            "camera.json: dist[3]: not a number (is a string)");
+  EXPECT_EQ(error(std::string(R"("model": "brown_conrady", )") + kSize + kFocus),
+            "camera.json: dist: missing");
+}
+
+TEST_F(ReadCamera, TakesAStatedSigmaOfTheCalibrationAndWritesItBack) {
+  const std::string begin =
+      R"({"format": "boresight-camera", "version": 1, "model": "pinhole", "width": 8, "height": 6,
+          "fx": 10, "fy": 10, "cx": 3.5, "cy": 2.5)";
+  const TemporaryFolder folder;
+  EXPECT_FALSE(readCameraFile(folder.write("a.json", begin + "}")).calibration_sigma);
+  const auto with = [&](const std::string& sigma) {
+    return folder.write("b.json", begin + ", \"calibration_sigma\": " + sigma + "}");
+  };
+  const CameraFile read =
+      readCameraFile(with(R"({"focal_relative": 0.001, "principal_point_px": 0.7})"));
+  EXPECT_EQ(read.calibration_sigma, (CalibrationSigma{0.001, 0.7}));
+  writeCamera(folder / "c.json", read);
+  EXPECT_EQ(readCameraFile(folder / "c.json").calibration_sigma, read.calibration_sigma);
+  for (const char* wrong :
+       {R"({"focal_relative": 0.001})", R"({"focal_relative": -1, "principal_point_px": 0})",
+        R"({"focal_relative": 0.5, "principal_point_px": 0})",
+        R"({"focal_relative": 0, "principal_point_px": 0, "focal_px": 1})"})
+    EXPECT_THAT(folder.message([&] { (void)readCameraFile(with(wrong)); }),
+                HasSubstr("calibration_sigma"))
+        << wrong;
+}
+
+TEST_F(ReadCamera, RefusesOtherFiles) {
+  const auto message = [this](const std::string& name) {
+    return folder_.message([&] { (void)readCamera(folder_ / name); });
+  };
+  EXPECT_EQ(message("none.json"), "none.json: no such file");
+  folder_.write("cut.json", cameraText(kSize).substr(0, 40));
+  EXPECT_NE(message("cut.json").find("not JSON"), std::string::npos);
+}
+
+TEST(WriteCamera, RoundTripIsExact) {
+  const TemporaryFolder folder;
+  Random random(7);
+  for (int i = 0; i < 60; ++i) {
+    Camera camera;
+    camera.model = static_cast<CameraModel>(i % 3);
+    camera.width = 640 + i;
+    camera.height = 480 + i;
+    camera.fx = random.uniform(500.0, 4000.0);
+    camera.fy = camera.fx * random.uniform(0.99, 1.01);
+    camera.cx = random.uniform(300.0, 340.0);
+    camera.cy = random.uniform(200.0, 240.0);
+    const std::size_t used = i % 3 == 0 ? 0 : i % 3 == 2 ? 4 : (i % 2 == 0 ? 5 : 8);
+    for (std::size_t k = 0; k < used; ++k) camera.distortion[k] = random.uniform(-0.01, 0.01);
+    ASSERT_EQ(prepareCamera(camera), Status::kOk);
+    writeCamera(folder / "camera.json", camera);
+    EXPECT_EQ(readCamera(folder / "camera.json"), camera);
+  }
+}
+
+/// As an operator would write it, from the vectors themselves.
+nlohmann::ordered_json written(const PlanetaryCamera& camera) {
+  const CahvModel& cahv = camera.cahv;
+  nlohmann::ordered_json json = {{"format", "boresight-camera"}, {"version", 1}};
+  json["model"] = cameraModelName(cahv.model);
+  json["width"] = camera.width;
+  json["height"] = camera.height;
+  forVectors(cahv, [&json](const char* key, const Eigen::Vector3d& vector) {
+    json[key] = toJson(vector);
+  });
+  if (cahv.model == CameraModel::kCahvore) {
+    json["cahvore_type"] = cahv.type;
+    json["cahvore_parameter"] = cahv.parameter;
+  }
+  json["reference_frame"] = {{"name", "ROVER_NAV_FRAME"}, {"index", {14, 1262, 6}}};
+  return json;
+}
+
+class CahvCamera : public ::testing::TestWithParam<PlanetaryCamera> {
+ protected:
+  CameraFile read(const nlohmann::ordered_json& json) {
+    return readCameraFile(folder_.write("camera.json", json.dump()));
+  }
+  std::string error(const nlohmann::ordered_json& json) {
+    return folder_.message([&] { (void)read(json); });
+  }
+  /// Places of the reference's points in the image, in px; `shift` by a subframe.
+  void expectSights(const CameraFile& file, const Eigen::Vector2d& first = {0.0, 0.0},
+                    double scale = 1.0) {
+    ASSERT_TRUE(file.reference);
+    for (const PlanetaryCamera::Sight& sight : GetParam().sights) {
+      Eigen::Vector2d pixel;
+      ASSERT_TRUE(
+          project(file.camera, file.reference->camera_from_reference * sight.point_m, pixel));
+      const Eigen::Vector2d half(0.5, 0.5);
+      EXPECT_LT((pixel - ((sight.pixel - first + half) / scale - half)).norm(), 1e-8);
+    }
+  }
+  TemporaryFolder folder_;
+};
+INSTANTIATE_TEST_SUITE_P(Cahv, CahvCamera, ::testing::ValuesIn(planetaryCameras()),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST_P(CahvCamera, Projection_EqualsTheVectorFormula) {
+  const CameraFile file = read(written(GetParam()));
+  expectSights(file);
+  EXPECT_EQ(file.reference->frame.name, "ROVER_NAV_FRAME");
+  EXPECT_EQ(file.reference->frame.index, (std::vector<std::int64_t>{14, 1262, 6}));
+}
+
+TEST_P(CahvCamera, WritesItsVectorsInTheReferenceFrame) {
+  writeCamera(folder_ / "again.json", read(written(GetParam())));
+  const CameraFile again = readCameraFile(folder_ / "again.json");
+  expectSights(again);
+  EXPECT_EQ(again.reference->frame.name, "ROVER_NAV_FRAME");
+  EXPECT_EQ(again.reference->frame.index, (std::vector<std::int64_t>{14, 1262, 6}));
+}
+
+TEST_P(CahvCamera, RoundTrip_IsEqualToTheBit) {
+  const Camera camera = read(written(GetParam())).camera;
+  writeCamera(folder_ / "own.json", camera);
+  const CameraFile own = readCameraFile(folder_ / "own.json");
+  EXPECT_EQ(own.camera, camera);
+  EXPECT_EQ(own.reference->frame.name, "CAMERA");
+  EXPECT_EQ(own.reference->camera_from_reference, Pose());
+}
+
+TEST_P(CahvCamera, OfASubframeSeesTheSamePoints) {
+  nlohmann::ordered_json json = written(GetParam());
+  json["width"] = 320;
+  json["height"] = 240;
+  json["subframe"] = {{"first_sample", 200}, {"first_line", 120}, {"scale", 2}};
+  expectSights(read(json), {200.0, 120.0}, 2.0);
+}
+
+TEST_P(CahvCamera, PlacesAPoseOfItsReferenceFrame) {
+  const CameraFile file = read(written(GetParam()));
+  const auto pose_file = folder_.write(
+      "seed.json", R"({"format": "boresight-pose", "version": 1, "reference_from_station":
+                   [[0,-1,0,2],[1,0,0,3],[0,0,1,-4],[0,0,0,1]]})");
+  const Pose pose = readPose(pose_file, {file.reference}).camera_from_station;
+  const Eigen::Vector3d expected =
+      file.reference->camera_from_reference * Eigen::Vector3d(2.0 - 0.5, 3.0 + 0.25, -4.0 + 1.0);
+  EXPECT_LT((pose * Eigen::Vector3d(0.25, 0.5, 1.0) - expected).norm(), 1e-14);
+}
+
+TEST_P(CahvCamera, NamesWhatIsWrong) {
+  const nlohmann::ordered_json good = written(GetParam());
+  for (const char* key : {"C", "A", "H", "V"}) {
+    nlohmann::ordered_json json = good;
+    json.erase(key);
+    EXPECT_EQ(error(json), std::string("camera.json: ") + key + ": missing");
+    json[key] = {1.0, 2.0};
+    EXPECT_THAT(error(json), StartsWith(std::string("camera.json: ") + key));
+  }
+  nlohmann::ordered_json json = good;
+  json["A"] = {1.0, 1.0, 1.0};
+  EXPECT_THAT(error(json), HasSubstr("A and O must have length 1"));
+  json = good;
+  json["fx"] = 1000.0;
+  EXPECT_THAT(error(json), StartsWith("camera.json: fx: a cahv"));
+  json = good;
+  json["subframe"] = {{"scale", 0}};
+  EXPECT_THAT(error(json), StartsWith("camera.json: subframe.scale: 0 is outside"));
+  json = good;
+  json["reference_frame"] = {{"name", ""}};
+  EXPECT_THAT(error(json), StartsWith("camera.json: reference_frame.name"));
+  if (GetParam().cahv.model != CameraModel::kCahvore) return;
+  json = good;
+  json["cahvore_type"] = 4;
+  EXPECT_EQ(error(json), "camera.json: cahvore_type: 4 is outside 1 .. 3");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/frame_tree.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/math.h"
+#include "core/geometry/pose.h"
+#include "sessions/io/files/errors.h"
+#include "tests/support/random_pose.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::randomFor;
+using boresight::test::randomPose;
+using ::testing::HasSubstr;
+
+const FrameName kBase{"ARM_BASE", {}};
+const FrameName kSite{"SITE_FRAME", {3}};
+
+FrameTransform transformOf(const FrameName& target, const FrameName& source, const Pose& pose,
+                           const char* file = "frames.json") {
+  FrameTransform transform;
+  transform.target = target;
+  transform.source = source;
+  transform.target_from_source = pose;
+  transform.comment = "by hand";
+  transform.file = file;
+  return transform;
+}
+
+Eigen::Matrix4d matrixOf(const Pose& pose) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix();
+  matrix.topRightCorner<3, 1>() = pose.translation_m;
+  return matrix;
+}
+
+Matrix6d diagonal(double rotation_rad, double translation_m) {
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(rotation_rad * rotation_rad),
+      Eigen::Vector3d::Constant(translation_m * translation_m);
+  return variances.asDiagonal();
+}
+
+std::string refusal(const std::vector<FrameTransform>& transforms) {
+  try {
+    (void)FrameTree(transforms);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FrameTree, Chain_IsTheProductOfMatrices) {
+  Random random = randomFor("FrameTree.Chain");
+  for (int trial = 0; trial < 50; ++trial) {
+    const Pose camera_from_tool = randomPose(random);
+    const Pose base_from_tool = randomPose(random);
+    const Pose base_from_site = randomPose(random);
+    const FrameTree tree(
+        {transformOf(kBase, kEndEffectorFrame, base_from_tool),
+         transformOf(kSite, kBase, base_from_site.inverse()),
+         transformOf(kEndEffectorFrame, kCameraFrame, camera_from_tool.inverse())});
+    const auto chain = tree.chain(kCameraFrame, kSite);
+    ASSERT_TRUE(chain);
+    EXPECT_EQ(chain->path(), "CAMERA - END_EFFECTOR - ARM_BASE - SITE_FRAME (3)");
+    const Eigen::Matrix4d expected =
+        matrixOf(camera_from_tool) * matrixOf(base_from_tool).inverse() * matrixOf(base_from_site);
+    EXPECT_LT((matrixOf(chain->a_from_b) - expected).norm(), 1e-12);
+    const auto back = tree.chain(kSite, kCameraFrame);
+    ASSERT_TRUE(back);
+    EXPECT_LT((matrixOf(back->a_from_b) - expected.inverse()).norm(), 1e-12);
+    EXPECT_FALSE(tree.chain(kCameraFrame, kStationFrame));
+  }
+}
+
+/// The scatter of chains over draws of each transform, against the covariance of the chain.
+TEST(FrameTree, Covariance_IsTheScatterOfDraws) {
+  Random random = randomFor("FrameTree.Covariance");
+  std::vector<FrameTransform> transforms = {
+      transformOf(kBase, kEndEffectorFrame, randomPose(random)),
+      transformOf(kBase, kSite, randomPose(random)),
+      transformOf(kEndEffectorFrame, kCameraFrame, randomPose(random))};
+  transforms[0].covariance = diagonal(1e-4, 2e-4);
+  transforms[1].covariance = diagonal(5e-5, 4e-4);
+  transforms[2].covariance = diagonal(2e-4, 1e-4);
+  const FrameTree tree(transforms);
+  const auto chain = tree.chain(kCameraFrame, kSite);
+  ASSERT_TRUE(chain && chain->covariance_stated);
+  Matrix6d sum = Matrix6d::Zero();
+  for (const FrameLink& link : chain->links) sum += link.contribution;
+  EXPECT_LT((sum - chain->covariance).norm(), 1e-20);
+
+  Matrix6d scatter = Matrix6d::Zero();
+  constexpr int kDraws = 40000;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<FrameTransform> drawn = transforms;
+    for (FrameTransform& transform : drawn) {
+      Vector6d xi;
+      for (int i = 0; i < 6; ++i)
+        xi[i] = random.normal() * std::sqrt((*transform.covariance)(i, i));
+      transform.target_from_source = perturbed(xi, transform.target_from_source);
+    }
+    const Pose pose = FrameTree(drawn).chain(kCameraFrame, kSite)->a_from_b;
+    const Vector6d xi = perturbationBetween(chain->a_from_b, pose);
+    scatter += xi * xi.transpose() / kDraws;
+  }
+  const Vector6d sigma = sigmasOf(chain->covariance);
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column)
+      EXPECT_NEAR(scatter(row, column), chain->covariance(row, column),
+                  0.03 * sigma[row] * sigma[column])
+          << row << ", " << column;
+}
+
+TEST(FrameTree, Loop_IsRefusedWithBothWays) {
+  Pose a_metre;
+  a_metre.translation_m = {0.0, 0.0, 1.0};
+  Pose two_metres;
+  two_metres.translation_m = {0.0, 0.0, 2.01};
+  EXPECT_EQ(refusal({transformOf(kCameraFrame, kEndEffectorFrame, a_metre, "hand_eye.json"),
+                     transformOf(kEndEffectorFrame, kBase, a_metre, "telemetry.json"),
+                     transformOf(kCameraFrame, kBase, two_metres, "label.json")}),
+            "label.json: leads from ARM_BASE to CAMERA, as does the way CAMERA - END_EFFECTOR - "
+            "ARM_BASE of hand_eye.json, telemetry.json; the two differ by 10.000 mm and 0.000 deg; "
+            "give only the valid one");
+  // The same transform twice, once inverted, is no loop.
+  EXPECT_EQ(refusal({transformOf(kCameraFrame, kBase, a_metre, "a.json"),
+                     transformOf(kBase, kCameraFrame, a_metre.inverse(), "b.json")}),
+            "");
+}
+
+TEST(FrameTree, TransformOfAFrameToItself_IsRefused) {
+  Pose a_metre;
+  a_metre.translation_m = {0.0, 0.0, 1.0};
+  EXPECT_EQ(refusal({transformOf(kBase, kBase, a_metre, "base.json")}),
+            "base.json: leads from ARM_BASE to itself: a transform joins two frames");
+}
+
+TEST(FrameTree, CameraModel_IsALink) {
+  CameraReference reference;
+  reference.frame = kSite;
+  reference.camera_from_reference.translation_m = {1.0, 2.0, 3.0};
+  const auto chain = frameTree(reference, {}).chain(kCameraFrame, kSite);
+  ASSERT_TRUE(chain);
+  EXPECT_EQ(chain->a_from_b, reference.camera_from_reference);
+  reference.frame.name.clear();
+  EXPECT_TRUE(frameTree(reference, {}).frames().empty());
+}
+
+/// A sigma is stated at the source's origin: half a metre away, a turn does not shift it.
+TEST(FramesFile, Sigma_HoldsAtTheOriginOfTheSource) {
+  const test::TemporaryFolder folder;
+  const nlohmann::json file = {
+      {"format", "boresight-frames"},
+      {"version", 1},
+      {"transforms",
+       {{{"target", {{"name", "ARM_BASE"}}},
+         {"source", {{"name", "END_EFFECTOR"}}},
+         {"target_from_source", {{1, 0, 0, 0.5}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
+         {"sigma", {{"translation_mm", {1, 2, 3}}, {"rotation_mrad", {4, 5, 6}}}},
+         {"origin", "telemetry"},
+         {"comment", "joint angles of sol 12"}}}}};
+  const auto transforms = readFrameTransforms(folder.write("frames.json", file.dump()));
+  ASSERT_EQ(transforms.size(), 1u);
+  EXPECT_EQ(transforms[0].origin, TransformSource::kTelemetry);
+  const Matrix6d covariance = *transforms[0].covariance;
+  // The shift of a point p by xi = (w, v) is w x p + v.
+  Eigen::Matrix<double, 3, 6> at_source;
+  const Eigen::Vector3d p(0.5, 0.0, 0.0);
+  at_source << 0, p.z(), -p.y(), 1, 0, 0,  //
+      -p.z(), 0, p.x(), 0, 1, 0,           //
+      p.y(), -p.x(), 0, 0, 0, 1;
+  const Eigen::Matrix3d shift = at_source * covariance * at_source.transpose();
+  EXPECT_LT((shift.diagonal().cwiseSqrt() - Eigen::Vector3d(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
+  EXPECT_LT(
+      (covariance.diagonal().head<3>().cwiseSqrt() - Eigen::Vector3d(4e-3, 5e-3, 6e-3)).norm(),
+      1e-15);
+  // At the target's origin it does.
+  EXPECT_NEAR(std::sqrt(covariance(4, 4)), std::hypot(2e-3, 0.5 * 6e-3), 1e-12);
+}
+
+TEST(FrameRows, HangOnTheCameraAndParentsComeFirst) {
+  const FrameName arm{"ARM_BASE", {}};
+  const FrameName lone{"SITE", {1}};
+  const FrameName other{"SITE", {2}};
+  FrameTransform hand_eye;
+  hand_eye.target = kEndEffectorFrame;  // stated the other way round
+  hand_eye.source = kCameraFrame;
+  hand_eye.target_from_source.translation_m = {0.0, 0.0, -0.4};
+  hand_eye.covariance = 1e-6 * Matrix6d::Identity();
+  hand_eye.comment = "hand-eye";
+  FrameTransform telemetry;
+  telemetry.target = arm;
+  telemetry.source = kEndEffectorFrame;
+  telemetry.comment = "telemetry";
+  FrameTransform sites;
+  sites.target = lone;
+  sites.source = other;
+  const auto rows = frameRows(FrameTree({telemetry, sites, hand_eye}));
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0].frame, kCameraFrame);
+  EXPECT_EQ(rows[1].frame, kEndEffectorFrame);
+  EXPECT_EQ(rows[1].parent, 0);
+  EXPECT_NEAR(rows[1].parent_from_frame.translation_m.z(), 0.4, 1e-12);
+  ASSERT_TRUE(rows[1].sigma);
+  EXPECT_NEAR((*rows[1].sigma)[2], 1e-3, 1e-12);
+  EXPECT_EQ(rows[2].frame, arm);
+  EXPECT_EQ(rows[2].parent, 1);
+  EXPECT_FALSE(rows[2].sigma);
+  EXPECT_EQ(rows[3].parent, -1) << "not joined with the camera";
+  EXPECT_EQ(rows[4].parent, 3);
+  EXPECT_EQ(frameRows(FrameTree()).size(), 1u);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/cameras/pose_text.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_pose.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::poseNear;
+
+TEST(PoseText, ReadsBackWhatItWrites) {
+  Random random = test::randomFor("PoseText");
+  for (int i = 0; i < 50; ++i) {
+    const Pose pose = test::randomPose(random);
+    for (const PoseForm form :
+         {PoseForm::kRotationVector, PoseForm::kQuaternion, PoseForm::kMatrix}) {
+      const std::string text = poseText(pose, form);
+      const ParsedPose parsed = parsePose(text, guessReading(text));
+      ASSERT_TRUE(parsed.valid) << text << '\n' << parsed.problem;
+      EXPECT_EQ(parsed.form, form);
+      EXPECT_THAT(parsed.camera_from_station, poseNear(pose, 1e-12, 1e-12)) << text;
+    }
+  }
+}
+
+TEST(PoseText, ShowsQuaternionsWithWNotNegative) {
+  Random random = test::randomFor("ShowsQuaternions");
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Quaterniond q = test::randomRotation(random);
+    EXPECT_GE(shownQuaternion(q).w(), 0.0);
+    const Eigen::Quaterniond negative(-q.coeffs());
+    EXPECT_EQ(shownQuaternion(q).coeffs(), shownQuaternion(negative).coeffs());
+  }
+  EXPECT_EQ(shownQuaternion(Eigen::Quaterniond(0.0, -1.0, 0.0, 0.0)).x(), 1.0);
+}
+
+TEST(ParsePose, OrderDirectionAndUnit_AreApplied) {
+  // A quarter turn about z, then 1, 2, 3 mm.
+  PoseReading reading;
+  reading.unit = LengthUnit::kMillimetre;
+  const std::string rows = "0 -1 0 1; 1 0 0 2; 0 0 1 3; 0 0 0 1";
+  const ParsedPose plain = parsePose(rows, reading);
+  ASSERT_TRUE(plain.valid) << plain.problem;
+  EXPECT_EQ(plain.camera_from_station.translation_m, Eigen::Vector3d(1e-3, 2e-3, 3e-3));
+  EXPECT_NEAR((plain.camera_from_station.rotation * Eigen::Vector3d::UnitX()).y(), 1.0, 1e-12);
+
+  const std::string columns = "0 1 0 0, -1 0 0 0, 0 0 1 0, 1 2 3 1";
+  EXPECT_FALSE(parsePose(columns, reading).valid);
+  EXPECT_EQ(guessReading(columns).matrix_order, MatrixOrder::kColumnMajor);
+  reading.matrix_order = MatrixOrder::kColumnMajor;
+  EXPECT_THAT(parsePose(columns, reading).camera_from_station,
+              poseNear(plain.camera_from_station, 1e-12, 1e-12));
+  EXPECT_THAT(parsePose("0 1 0  -1 0 0  0 0 1  1 2 3", reading).camera_from_station,
+              poseNear(plain.camera_from_station, 1e-12, 1e-12));
+
+  reading.matrix_order = MatrixOrder::kRowMajor;
+  reading.direction = PoseDirection::kStationFromCamera;
+  EXPECT_THAT(parsePose(rows, reading).camera_from_station,
+              poseNear(plain.camera_from_station.inverse(), 1e-12, 1e-12));
+
+  reading.direction = PoseDirection::kCameraFromStation;
+  const double h = std::sqrt(0.5);
+  const std::string half = std::to_string(h);
+  reading.quaternion_order = QuaternionOrder::kXyzw;
+  EXPECT_THAT(parsePose("0 0 " + half + " " + half + " 1 2 3", reading).camera_from_station,
+              poseNear(plain.camera_from_station, 1e-6, 1e-12));
+  reading.quaternion_order = QuaternionOrder::kWxyz;
+  EXPECT_THAT(parsePose(half + " 0 0 " + half + " 1 2 3", reading).camera_from_station,
+              poseNear(plain.camera_from_station, 1e-6, 1e-12));
+  EXPECT_THAT(parsePose("0 0 90 1e0 +2 3", reading).camera_from_station,
+              poseNear(plain.camera_from_station, 1e-12, 1e-12));
+}
+
+TEST(ParsePose, LeavesOutDigitsThatBelongToNames) {
+  const ParsedPose parsed = parsePose("pose_2 of cam0: r=[0,0,0] t=[0.1,0.2,0.3]", PoseReading());
+  ASSERT_TRUE(parsed.valid) << parsed.problem;
+  EXPECT_EQ(parsed.camera_from_station.translation_m, Eigen::Vector3d(0.1, 0.2, 0.3));
+}
+
+TEST(ParsePose, RefusesWhatIsNoRotation) {
+  const auto problem = [](const std::string& text) { return parsePose(text, {}).problem; };
+  EXPECT_NE(problem("1.001 0 0 0 0 1 0 0 0 0 1 0").find("not a rotation"), std::string::npos);
+  EXPECT_NE(problem("-1 0 0 0 0 1 0 0 0 0 1 0").find("mirrors"), std::string::npos);
+  EXPECT_NE(problem("1 0 0 0.02 0 0 0").find("unit length (it is 1.0002)"), std::string::npos);
+  EXPECT_NE(problem("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2").find("last row"), std::string::npos);
+  EXPECT_NE(problem("1 2 3").find("holds 3 numbers"), std::string::npos);
+  EXPECT_NE(problem("").find("holds 0 numbers"), std::string::npos);
+  EXPECT_NE(problem("0 0 0 1e300 0 0").find("translation"), std::string::npos);
+  EXPECT_NE(problem("nan 0 0 0 0 0").find("numbers"), std::string::npos);
+}
+
+TEST(ParsePose, ProjectsAMatrixThatIsNearlyARotationAndSaysSo) {
+  const ParsedPose parsed = parsePose("1.00001 0 0 0 0 1 0 0 0 0 1 0", PoseReading());
+  ASSERT_TRUE(parsed.valid);
+  EXPECT_GT(parsed.rotation_deviation, 1e-5);
+  EXPECT_LT(parsed.rotation_deviation, 1e-4);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/files/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+#include <csignal>
+#include <string>
+
+#include "sessions/io/files/errors.h"
+#include "sessions/io/files/file_bytes.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+TEST(WriteFileAtomically, WritesANewFileAndNothingElse) {
+  const TemporaryFolder folder;
+  for (const char* text : {"hello\n", ""}) {
+    writeFileAtomically(folder / "out.json", text);
+    EXPECT_EQ(folder.read("out.json"), text);
+    EXPECT_EQ(folder.fileCount(), 1u);
+    std::filesystem::remove(folder / "out.json");
+  }
+}
+
+TEST(WriteFileAtomically, ReplacesAFileAndKeepsItsPermissions) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("out", "a much longer text that was there before");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  writeFileAtomically(file, "new");
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(WriteFileAtomically, FollowsASymbolicLinkInsteadOfReplacingIt) {
+  const TemporaryFolder folder;
+  folder.write("real/out", "old");
+  fs::create_symlink("real/out", folder / "link");
+  writeFileAtomically(folder / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(folder.read("real/out"), "new");
+}
+
+TEST(WriteFileAtomically, SaysThatTheFolderIsMissing) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(folder.message([&] { writeFileAtomically(folder / "no/out.json", "x"); }),
+            "cannot write no/out.json: no such folder");
+  EXPECT_EQ(folder.fileCount(), 0u);
+}
+
+TEST(WriteFileAtomically, RefusesAFolderAsTarget) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "out");
+  EXPECT_EQ(folder.message([&] { writeFileAtomically(folder / "out", "x"); }),
+            "cannot write out: is a folder");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(WriteFileAtomically, ReportsAFullDeviceAndLeavesItAlone) {
+  const fs::path full = "/dev/full";
+  if (!fs::exists(full)) GTEST_SKIP() << "there is no /dev/full here";
+  const TemporaryFolder folder;
+  EXPECT_EQ(folder.message([&] { writeFileAtomically(full, "x"); }),
+            "cannot write /dev/full: no space left on the device");
+  EXPECT_TRUE(fs::is_character_file(full));
+  fs::create_symlink(full, folder / "link");
+  EXPECT_EQ(folder.message([&] { writeFileAtomically(folder / "link", "x"); }),
+            "cannot write link: no space left on the device");
+}
+
+TEST(WriteFileAtomically, KeepsTheOldFileWhenWritingFailsHalfWay) {
+  const TemporaryFolder folder;
+  folder.write("out", "old");
+  // A limit on file sizes fails the write after its first bytes, as a full disk would.
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  struct rlimit small = before;
+  small.rlim_cur = 1000;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string message =
+      folder.message([&] { writeFileAtomically(folder / "out", std::string(5000, 'x')); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(message, ::testing::StartsWith("cannot write out: "));
+  EXPECT_EQ(folder.read("out"), "old");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(WriteFileAtomically, RespectsReadOnlyFoldersAndFiles) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("locked/out", "old");
+  fs::permissions(file, fs::perms::owner_read);
+  EXPECT_EQ(folder.message([&] { writeFileAtomically(file, "x"); }),
+            "cannot write locked/out: permission denied");
+  fs::permissions(folder / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(folder.message([&] { writeFileAtomically(folder / "locked/new", "x"); }),
+            "cannot write locked/new: permission denied");
+  EXPECT_EQ(folder.message([&] { requireWritable(folder / "locked/new"); }),
+            "cannot write locked/new: permission denied");
+  fs::permissions(folder / "locked", fs::perms::owner_all);
+  EXPECT_EQ(folder.read("locked/out"), "old");
+}
+
+TEST(RequireWritable, FailsBeforeTheRun) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(folder.message([&] { requireWritable(folder / "out"); }), "(nothing)");
+  EXPECT_EQ(folder.message([&] { requireWritable(folder / "no/out"); }),
+            "cannot write no/out: no such folder");
+  EXPECT_EQ(folder.message([&] { requireWritable(folder.path()); }),
+            "cannot write " + folder.path().string() + ": is a folder");
+  folder.write("plain", "x");
+  EXPECT_EQ(folder.message([&] { requireWritable(folder / "plain/out"); }),
+            "cannot write plain/out: Not a directory");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(ReadFileBytes, ReadsWhatIsThere) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 200000; ++i) text += static_cast<char>(i * 7);
+  const auto bytes = readFileBytes(folder.write("file", text), kMegabyte);
+  EXPECT_EQ(asText(bytes), text);
+}
+
+TEST(ReadFileBytes, UnreadableFile_IsReportedWithTheReason) {
+  const TemporaryFolder folder;
+  folder.write("empty", "");
+  folder.write("large", std::string(1001, 'x'));
+  EXPECT_EQ(folder.message([&] { readFileBytes(folder / "no", 1000); }), "no: no such file");
+  EXPECT_EQ(folder.message([&] { readFileBytes(folder / "empty", 1000); }),
+            "empty: the file is empty");
+  EXPECT_EQ(folder.message([&] { readFileBytes(folder / "large", 1000); }),
+            "large: larger than the limit of 0 MB");
+  EXPECT_EQ(readFileBytes(folder / "large", 1001).size(), 1001u);
+  EXPECT_EQ(folder.message([&] { readFileBytes(folder.path(), 1000); }),
+            folder.path().string() + ": is a folder, not a file");
+}
+
+TEST(Sha256Text, HashesTheExampleOfTheStandard) {
+  const std::string text = "abc";
+  EXPECT_EQ(sha256Text(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), 3)),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(FileErrors, AreOneLine) {
+  EXPECT_STREQ(InputError("a.json", "x.y", "bad\n\tthing").what(), "a.json: x.y: bad thing");
+  EXPECT_STREQ(InputError("a.json", "bad").what(), "a.json: bad");
+  EXPECT_STREQ(OutputError("a\nb", "full").what(), "cannot write a b: full");
+}
+
+void fill(const std::filesystem::path& folder) {
+  writeFileAtomically(folder / "a", std::string_view("1"));
+  std::filesystem::create_directory(folder / "deep");
+  writeFileAtomically(folder / "deep/b", std::string_view("2"));
+}
+
+TEST(AtomicFolder, AppearsWithAllItsFiles) {
+  const TemporaryFolder folder;
+  writeFolderAtomically(folder / "new", fill);
+  EXPECT_EQ(folder.read("new/a"), "1");
+  EXPECT_EQ(folder.read("new/deep/b"), "2");
+  EXPECT_EQ(folder.fileCount(), 4u);
+  // An empty folder may stand there already, and a slash at the end changes nothing.
+  std::filesystem::create_directory(folder / "empty");
+  writeFolderAtomically(folder / "empty/", fill);
+  EXPECT_EQ(folder.read("empty/a"), "1");
+}
+
+TEST(AtomicFolder, FailedWrite_LeavesNoFolder) {
+  const TemporaryFolder folder;
+  const auto failing = [](const std::filesystem::path& to) {
+    fill(to);
+    throw std::runtime_error("broken off");
+  };
+  EXPECT_THROW(writeFolderAtomically(folder / "new", failing), std::runtime_error);
+  EXPECT_EQ(folder.fileCount(), 0u);
+}
+
+TEST(AtomicFolder, ReplacesNothing) {
+  const TemporaryFolder folder;
+  folder.write("full/a", std::string_view("mine"));
+  const auto message = [&](const char* name) {
+    return folder.message([&] { writeFolderAtomically(folder / name, fill); });
+  };
+  EXPECT_THAT(message("full"), HasSubstr("the name exists"));
+  EXPECT_THAT(message("full/a"), HasSubstr("the name exists"));
+  EXPECT_THAT(message("none/new"), HasSubstr("cannot write"));
+  EXPECT_THROW(writeFolderAtomically("", fill), OutputError);
+  EXPECT_EQ(folder.read("full/a"), "mine");
+  EXPECT_EQ(folder.fileCount(), 2u);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

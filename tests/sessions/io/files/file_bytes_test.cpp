@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/files/file_bytes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <cstring>
+
+#include "sessions/io/files/atomic_file.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_reader.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+
+/// A socket with a name, as a program that listens has it.
+void makeSocket(const std::filesystem::path& file) {
+  const int descriptor = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  ASSERT_LT(file.string().size(), sizeof(address.sun_path));
+  std::strcpy(address.sun_path, file.c_str());
+  ASSERT_EQ(::bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  ::close(descriptor);
+}
+
+TEST(FileBytes, PipesSocketsAndDevicesAreRefusedWithoutReading) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  makeSocket(folder / "socket");
+  for (const std::filesystem::path& file :
+       {folder / "pipe", folder / "socket", std::filesystem::path("/dev/zero"),
+        std::filesystem::path("/dev/null")}) {
+    const std::string name =
+        file.parent_path() == "/dev" ? file.string() : file.filename().string();
+    const std::string expected = name + ": is a pipe, a socket or a device: give a regular file";
+    EXPECT_EQ(folder.message([&] { (void)readFileBytes(file, kMegabyte); }), expected);
+    EXPECT_EQ(folder.message([&] { (void)readBeginning(file, 8); }), expected);
+  }
+  EXPECT_EQ(folder.message([&] { (void)readBeginning(folder.path(), 8); }),
+            folder.path().string() + ": is a folder, not a file");
+}
+
+TEST(FileBytes, BeginningHoldsAtMostTheBytesAskedFor) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "twelve bytes");
+  EXPECT_EQ(asText(readBeginning(file, 6)), "twelve");
+  EXPECT_EQ(asText(readBeginning(file, 100)), "twelve bytes");
+  EXPECT_EQ(folder.message([&] { (void)readBeginning(folder.write("empty", ""), 6); }),
+            "empty: the file is empty");
+}
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class InputFiles : public testing::Test {
+ protected:
+  /// Whether an output of this name and use is refused, and the file is as it was.
+  bool isRefused(const std::string& name, FileUse use = FileUse::kInput) const {
+    const std::string before = folder_.read(name);
+    try {
+      writeFileAtomically(folder_ / name, std::string_view("output"), use);
+    } catch (const OverwriteError&) {
+      EXPECT_EQ(folder_.read(name), before);
+      EXPECT_THROW(requireWritable(folder_ / name, use), OverwriteError);
+      return true;
+    }
+    EXPECT_EQ(folder_.read(name), "output");
+    return false;
+  }
+
+  const test::TemporaryFolder folder_;
+  const fs::path input_ = folder_.write("input.png", "pixels");
+};
+
+TEST_F(InputFiles, AreNotReplaced) {
+  EXPECT_EQ(readFileBytes(input_, 100).size(), 6u);
+  EXPECT_TRUE(isRefused("input.png"));
+  EXPECT_FALSE(isRefused("other.png"));
+  EXPECT_EQ(folder_.message([&] { writeFileAtomically(input_, std::string_view("output")); }),
+            "cannot write input.png: it is the input input.png, which would be overwritten; give "
+            "another file");
+}
+
+TEST_F(InputFiles, AreNotReplacedByAnyOfTheirNames) {
+  fs::create_symlink("input.png", folder_ / "symbolic.png");
+  fs::create_symlink("symbolic.png", folder_ / "twice.png");
+  fs::create_hard_link(input_, folder_ / "hard.png");
+  fs::create_directory_symlink(folder_.path(), folder_ / "folder");
+  readFileBytes(folder_ / "twice.png", 100);
+  for (const char* name :
+       {"input.png", "symbolic.png", "twice.png", "hard.png", "folder/input.png", "./input.png"})
+    EXPECT_TRUE(isRefused(name)) << name;
+}
+
+TEST_F(InputFiles, AreNotReplacedByAFileThatIsMovedThere) {
+  readFileBytes(input_, 100);
+  EXPECT_THROW(moveIntoPlace(folder_.write("made", "output"), input_), OverwriteError);
+  EXPECT_EQ(folder_.read("input.png"), "pixels");
+}
+
+TEST_F(InputFiles, AreNamedByOthers) {
+  const JsonDocument document(folder_.write("d.json", R"({"image": "input.png"})"));
+  (void)document.root().at("image").path();
+  EXPECT_TRUE(isRefused("input.png")) << "a named input is protected before it is read";
+}
+
+TEST_F(InputFiles, ThatTheProgramKeepsUpToDateAreReplacedByTheirOwnKind) {
+  readFileBytes(input_, 100, FileUse::kSession);
+  EXPECT_TRUE(isRefused("input.png"));
+  EXPECT_TRUE(isRefused("input.png", FileUse::kLandmarks));
+  EXPECT_FALSE(isRefused("input.png", FileUse::kSession));
+}
+
+TEST_F(InputFiles, OfTwoUsesAreNotReplacedByEither) {
+  readFileBytes(input_, 100, FileUse::kSession);
+  readFileBytes(input_, 100, FileUse::kInput);
+  readFileBytes(input_, 100, FileUse::kSession);
+  EXPECT_TRUE(isRefused("input.png", FileUse::kSession));
+}
+
+TEST_F(InputFiles, ThatWereOnlyLookedAtAreReplaced) {
+  readFileBytes(input_, 100, FileUse::kFree);
+  EXPECT_FALSE(isRefused("input.png"));
+}
+
+TEST_F(InputFiles, ThatThisProcessWroteAreReplaced) {
+  EXPECT_FALSE(isRefused("made.json"));
+  readFileBytes(folder_ / "made.json", 100);
+  EXPECT_FALSE(isRefused("made.json"));
+  EXPECT_FALSE(isRefused("session.json", FileUse::kSession));
+  EXPECT_TRUE(isRefused("session.json")) << "by another kind of output";
+}
+
+TEST_F(InputFiles, ThatAreGoneLeaveTheirPlaceToOthers) {
+  readFileBytes(input_, 100);
+  fs::remove(input_);
+  // A file system may give the new file what told the old one from all others.
+  folder_.write("next.png", "next");
+  EXPECT_FALSE(isRefused("next.png"));
+  EXPECT_FALSE(isRefused("input.png"));
+}
+
+}  // namespace
+}  // namespace boresight::sessions

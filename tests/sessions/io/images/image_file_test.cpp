@@ -1,0 +1,575 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/images/image_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/random.h"
+#include "sessions/io/files/errors.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+using ::testing::AnyOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+using Bytes = std::vector<std::uint8_t>;
+
+cv::Mat randomImage(int type, int width = 67, int height = 41) {
+  Random random(static_cast<std::uint64_t>(type) + 1);
+  cv::Mat image(height, width, type);
+  for (int y = 0; y < height; ++y) {
+    std::uint8_t* row = image.ptr(y);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(width) * image.elemSize(); ++i)
+      row[i] = static_cast<std::uint8_t>(random.below(256));
+  }
+  return image;
+}
+
+Bytes encoded(const cv::Mat& image, const std::string& extension) {
+  Bytes bytes;
+  EXPECT_TRUE(cv::imencode(extension, image, bytes));
+  return bytes;
+}
+
+/// The rule in doubles.
+std::uint8_t byRule(double v, int n) {
+  return static_cast<std::uint8_t>(std::floor(v * 255.0 / (std::pow(2.0, n) - 1.0) + 0.5));
+}
+
+/// Expects every pixel to be the rule's of the source's sample.
+template <class Sample>
+void expectByRule(const GrayImage& image, const cv::Mat& source, int n) {
+  ASSERT_EQ(cv::Size(image.width, image.height), source.size());
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x)
+      ASSERT_EQ(image.view().at(x, y), byRule(source.at<Sample>(y, x), n)) << x << ' ' << y;
+}
+
+/// Random samples of 12 bits.
+cv::Mat twelveBits() {
+  cv::Mat image = randomImage(CV_16UC1);
+  cv::bitwise_and(image, cv::Scalar(0x0fff), image);
+  return image;
+}
+
+class ReadImage : public ::testing::Test {
+ protected:
+  GrayImage read(const Bytes& bytes, const ImageReadOptions& options = {}) {
+    return readImage(folder_.write("image", bytes), options);
+  }
+  std::string error(const Bytes& bytes, const ImageReadOptions& options = {}) {
+    return folder_.message([&] { (void)read(bytes, options); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST(ToEightBit, IsTheRuleForEveryValueAndDepth) {
+  for (int n = 1; n <= 16; ++n)
+    for (std::uint32_t v = 0; v < (1u << n); ++v)
+      ASSERT_EQ(toEightBit(v, n), byRule(v, n)) << "v " << v << " n " << n;
+  EXPECT_EQ(toEightBit(65535, 16), 255);
+  EXPECT_EQ(toEightBit(128, 16), 0);
+  EXPECT_EQ(toEightBit(129, 16), 1);
+}
+
+TEST_F(ReadImage, KeepsGrayBytesAsTheyAre) {
+  const cv::Mat source = randomImage(CV_8UC1);
+  for (const char* extension : {".png", ".tiff"}) {
+    const Bytes bytes = encoded(source, extension);
+    const GrayImage image = read(bytes);
+    expectByRule<std::uint8_t>(image, source, 8);
+    EXPECT_TRUE(image.color.empty());
+    EXPECT_EQ(image.colorView().data, nullptr);
+    EXPECT_EQ(image.rule, "8-bit values as they are");
+    EXPECT_EQ(image.bit_depth, 8);
+    EXPECT_FALSE(image.bit_depth_stated);
+    EXPECT_EQ(image.channels, 1);
+    EXPECT_EQ(image.file_sha256, sha256Text(bytes));
+    EXPECT_EQ(image.pixels_sha256, sha256Text(image.pixels));
+  }
+}
+
+TEST_F(ReadImage, ReadsJpegAsOpenCvDoes) {
+  const Bytes bytes = encoded(randomImage(CV_8UC1), ".jpg");
+  const cv::Mat expected = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  const GrayImage image = read(bytes);
+  EXPECT_EQ(image.container, "JPEG");
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr()));
+}
+
+TEST_F(ReadImage, TurnsColourGrayAsOpenCvDoesAndKeepsIt) {
+  const cv::Mat source = randomImage(CV_8UC3);
+  cv::Mat expected;
+  cv::cvtColor(source, expected, cv::COLOR_BGR2GRAY);
+  for (const char* extension : {".png", ".tiff"}) {
+    const GrayImage image = read(encoded(source, extension));
+    EXPECT_EQ(image.channels, 3);
+    EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr())) << extension;
+    EXPECT_EQ(image.rule,
+              "luma (9798 R + 19235 G + 3735 B + 16384) >> 15; 8-bit values as they are");
+    EXPECT_TRUE(std::equal(image.color.begin(), image.color.end(), source.ptr(),
+                           source.ptr() + 3 * source.total()));
+    EXPECT_EQ(image.colorView().stride, 3 * source.cols);
+    EXPECT_EQ(image.colorView().data, image.color.data());
+  }
+}
+
+TEST_F(ReadImage, DropsAlpha) {
+  const cv::Mat source = randomImage(CV_8UC4);
+  cv::Mat color;
+  cv::cvtColor(source, color, cv::COLOR_BGRA2BGR);
+  EXPECT_TRUE(std::equal(color.ptr(), color.ptr() + 3 * color.total(),
+                         read(encoded(source, ".png")).color.begin()));
+  cv::Mat expected;
+  cv::cvtColor(source, expected, cv::COLOR_BGRA2GRAY);
+  const GrayImage image = read(encoded(source, ".png"));
+  EXPECT_EQ(image.channels, 4);
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), expected.ptr()));
+  EXPECT_THAT(image.rule, StartsWith("alpha dropped; luma"));
+}
+
+TEST_F(ReadImage, ScalesSixteenBits) {
+  const cv::Mat source = randomImage(CV_16UC1);
+  for (const char* extension : {".png", ".tiff"}) {
+    const GrayImage image = read(encoded(source, extension));
+    EXPECT_EQ(image.sample_bits, 16);
+    EXPECT_EQ(image.bit_depth, 16);
+    EXPECT_FALSE(image.bit_depth_stated);
+    EXPECT_EQ(image.rule, "floor(v * 255 / (2^16 - 1) + 0.5), bit depth that of the file");
+    expectByRule<std::uint16_t>(image, source, 16);
+  }
+}
+
+TEST_F(ReadImage, ScalesBetweenLevels) {
+  const cv::Mat source = twelveBits();
+  ImageReadOptions options{12};
+  options.levels = GrayLevels{300, 1500};
+  const GrayImage image = read(encoded(source, ".png"), options);
+  EXPECT_EQ(image.rule, "linear from 300 (0) to 1500 (255), 12 bits");
+  for (int y = 0; y < source.rows; ++y)
+    for (int x = 0; x < source.cols; ++x) {
+      const double v = std::clamp<double>(source.at<std::uint16_t>(y, x), 300.0, 1500.0);
+      ASSERT_EQ(image.view().at(x, y), std::floor((v - 300.0) * 255.0 / 1200.0 + 0.5));
+    }
+  for (const GrayLevels wrong : {GrayLevels{5, 5}, GrayLevels{-1, 5}, GrayLevels{0, 4096}}) {
+    options.levels = wrong;
+    EXPECT_THAT(error(encoded(source, ".png"), options), HasSubstr("black < white"));
+  }
+  options.levels = GrayLevels{0, 4095};
+  EXPECT_EQ(read(encoded(source, ".png"), options).pixels,
+            read(encoded(source, ".png"), {12}).pixels);
+  options.table.resize(4096);
+  EXPECT_THAT(error(encoded(source, ".png"), options), HasSubstr("cannot be combined"));
+}
+
+TEST_F(ReadImage, GivesTheSamplesThatBecomeEightBit) {
+  for (const int type : {CV_8UC1, CV_16UC1, CV_8UC3, CV_16UC3, CV_16UC4}) {
+    const auto file = folder_.write("image", encoded(randomImage(type), ".png"));
+    const GrayImage image = readImage(file);
+    const ImageSamples samples = readSamples(file);
+    EXPECT_EQ(samples.sample_bits, image.sample_bits);
+    EXPECT_EQ(samples.file_sha256, image.file_sha256);
+    ASSERT_EQ(samples.values.size(), image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      ASSERT_EQ(toEightBit(samples.values[i], samples.sample_bits), image.pixels[i]) << type;
+  }
+}
+
+/// Smooth colours, blue, green and red, of 12 bits.
+cv::Mat smoothColors() {
+  cv::Mat image(40, 60, CV_16UC3);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      image.at<cv::Vec3w>(y, x) = cv::Vec3w(static_cast<std::uint16_t>(300 + 20 * x),
+                                            static_cast<std::uint16_t>(3800 - 30 * y),
+                                            static_cast<std::uint16_t>(1000 + 15 * x + 40 * y));
+  return image;
+}
+
+/// What a sensor below such a mosaic sees; the letters are the colours of a 2 x 2 block.
+cv::Mat mosaicOf(const cv::Mat& colors, const std::string& block) {
+  cv::Mat mosaic(colors.size(), CV_16UC1);
+  for (int y = 0; y < colors.rows; ++y)
+    for (int x = 0; x < colors.cols; ++x) {
+      const char letter = block[static_cast<std::size_t>(2 * (y % 2) + x % 2)];
+      mosaic.at<std::uint16_t>(y, x) = colors.at<cv::Vec3w>(y, x)[letter == 'b'   ? 0
+                                                                  : letter == 'g' ? 1
+                                                                                  : 2];
+    }
+  return mosaic;
+}
+
+/// Largest difference of the gray values from those of the colours, but for a border.
+int farthestFrom(const cv::Mat& colors, const GrayImage& gray) {
+  cv::Mat luma;
+  cv::cvtColor(colors, luma, cv::COLOR_BGR2GRAY);
+  int most = 0;
+  for (int y = 2; y < luma.rows - 2; ++y)
+    for (int x = 2; x < luma.cols - 2; ++x)
+      most =
+          std::max(most, std::abs(gray.view().at(x, y) - byRule(luma.at<std::uint16_t>(y, x), 12)));
+  return most;
+}
+
+TEST_F(ReadImage, InterpolatesTheColoursOfAMosaicByItsPatternAlone) {
+  const cv::Mat colors = smoothColors();
+  for (std::size_t made = 0; made < std::size(kBayerPatternNames); ++made) {
+    const Bytes file = encoded(mosaicOf(colors, kBayerPatternNames[made]), ".png");
+    for (std::size_t stated = 0; stated < std::size(kBayerPatternNames); ++stated) {
+      ImageReadOptions options{12};
+      options.bayer = static_cast<BayerPattern>(stated);
+      const GrayImage gray = read(file, options);
+      const int off = farthestFrom(colors, gray);
+      EXPECT_EQ(off <= 1, made == stated)
+          << kBayerPatternNames[made] << " as " << kBayerPatternNames[stated] << ": " << off;
+      EXPECT_EQ(gray.channels, 3);
+      EXPECT_THAT(gray.rule, HasSubstr(kBayerPatternNames[stated]));
+    }
+  }
+}
+
+TEST_F(ReadImage, RefusesColoursAndTinyImagesAsAMosaic) {
+  ImageReadOptions options;
+  options.bayer = bayerPatternNamed("grbg");
+  ASSERT_EQ(options.bayer, BayerPattern::kGrbg);
+  EXPECT_FALSE(bayerPatternNamed("rgb"));
+  EXPECT_THAT(error(encoded(randomImage(CV_8UC3), ".png"), options), HasSubstr("a mosaic has one"));
+  EXPECT_THAT(error(encoded(randomImage(CV_8UC1, 3, 9), ".png"), options), HasSubstr("too few"));
+}
+
+TEST_F(ReadImage, TakesLumaOfSixteenBitColourBeforeScaling) {
+  const cv::Mat source = randomImage(CV_16UC3);
+  cv::Mat luma;
+  cv::cvtColor(source, luma, cv::COLOR_BGR2GRAY);
+  const GrayImage image = read(encoded(source, ".png"));
+  expectByRule<std::uint16_t>(image, luma, 16);
+  ASSERT_EQ(image.color.size(), 3 * source.total());
+  for (std::size_t i = 0; i < image.color.size(); ++i)
+    ASSERT_EQ(image.color[i], byRule(source.ptr<std::uint16_t>()[i], 16));
+}
+
+TEST_F(ReadImage, UsesAStatedBitDepth) {
+  const cv::Mat source = twelveBits();
+  const GrayImage image = read(encoded(source, ".png"), {12});
+  EXPECT_TRUE(image.bit_depth_stated);
+  EXPECT_EQ(image.rule, "floor(v * 255 / (2^12 - 1) + 0.5), bit depth stated");
+  expectByRule<std::uint16_t>(image, source, 12);
+}
+
+TEST_F(ReadImage, RefusesABitDepthThatThePixelsContradict) {
+  cv::Mat source(3, 4, CV_16UC1, cv::Scalar(0));
+  source.at<std::uint16_t>(2, 1) = 4096;
+  EXPECT_EQ(error(encoded(source, ".png"), {12}),
+            "image: bit_depth: pixel (1, 2) is 4096, more than 12 bits");
+  EXPECT_EQ(error(encoded(source, ".png"), {17}), "image: bit_depth: 17 is outside 1 .. 16");
+  EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".png"), {12}),
+            "image: bit_depth: 12 bits stated, but the file holds 8");
+}
+
+TEST_F(ReadImage, RefusesWhatIsNotAnImage) {
+  EXPECT_EQ(folder_.message([&] { (void)readImage(folder_ / "none.png"); }),
+            "none.png: no such file");
+  EXPECT_EQ(error({}), "image: the file is empty");
+  const std::string text = "{\"format\": \"boresight-pose\"}";
+  const std::string none =
+      "image: not a PNG, JPEG or TIFF image, nor one with a VICAR, PDS3 or PDS4 label "
+      "in it or next to it";
+  EXPECT_EQ(error(Bytes(text.begin(), text.end())), none);
+  EXPECT_EQ(error(encoded(randomImage(CV_8UC1), ".bmp")), none);
+  cv::Mat real(4, 4, CV_32FC1, cv::Scalar(1.0));
+  EXPECT_EQ(error(encoded(real, ".tiff")),
+            "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF "
+            "or PNG of 16 bits, its range spread over 0 .. 65535");
+}
+
+using Tag = std::array<std::uint32_t, 2>;
+
+/// A little-endian TIFF of 2 x 1 pixels with one strip; `tags` replace or add to those of 8-bit
+/// gray.
+Bytes smallTiff(const Bytes& pixels, std::vector<Tag> tags) {
+  const std::vector<Tag> gray = {{256, 2}, {257, 1}, {258, 8},
+                                 {259, 1}, {262, 1}, {273, 8},
+                                 {277, 1}, {278, 1}, {279, std::uint32_t(pixels.size())}};
+  for (const Tag& tag : gray)
+    if (std::none_of(tags.begin(), tags.end(), [&](const Tag& t) { return t[0] == tag[0]; }))
+      tags.push_back(tag);
+  std::sort(tags.begin(), tags.end());
+  Bytes bytes = {'I', 'I', 42, 0};
+  const auto append = [&bytes](std::uint32_t value, int size) {
+    for (int i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  };
+  append(static_cast<std::uint32_t>(8 + pixels.size()), 4);
+  bytes.insert(bytes.end(), pixels.begin(), pixels.end());
+  append(static_cast<std::uint32_t>(tags.size()), 2);
+  for (const Tag& tag : tags) {
+    append(tag[0], 2);
+    append(4, 2);  // type LONG
+    append(1, 4);
+    append(tag[1], 4);
+  }
+  append(0, 4);
+  return bytes;
+}
+
+TEST_F(ReadImage, KeepsTheValuesOfTiffOrRefusesThem) {
+  EXPECT_EQ(read(smallTiff({10, 20}, {})).pixels, (Bytes{10, 20}));
+  EXPECT_EQ(read(smallTiff({10, 20}, {{262, 0}})).pixels, (Bytes{245, 235})) << "0 is white";
+  EXPECT_EQ(read(smallTiff({0xe8, 0x03, 0xff, 0xff}, {{258, 16}})).pixels, (Bytes{4, 255}));
+  EXPECT_EQ(read(smallTiff({0x80}, {{258, 1}})).pixels, (Bytes{255, 0}));
+  EXPECT_EQ(read(smallTiff({0, 0, 0, 128}, {{258, 16}, {262, 0}})).pixels, (Bytes{255, 127}));
+  const Bytes colours = {10, 20, 30, 128, 40, 50, 60, 128};
+  const GrayImage straight = read(smallTiff(colours, {{262, 2}, {277, 4}, {338, 2}}));
+  EXPECT_EQ(straight.color, (Bytes{30, 20, 10, 60, 50, 40})) << "not multiplied by alpha";
+  const std::string other =
+      "image: samples are not unsigned integers of 8 or 16 bits: write the image as a TIFF or PNG "
+      "of 16 bits, its range spread over 0 .. 65535";
+  const Bytes four = {1, 2, 3, 4};
+  EXPECT_EQ(error(smallTiff(four, {{258, 12}})), other);
+  EXPECT_EQ(error(smallTiff(four, {{258, 16}, {339, 2}})), other);
+  EXPECT_EQ(error(smallTiff(colours, {{258, 32}, {339, 3}})), other);
+  EXPECT_THAT(error(smallTiff(colours, {{262, 5}, {277, 4}})),
+              HasSubstr("colours other than gray and RGB"));
+}
+
+TEST_F(ReadImage, OrientationOfTiffIsReportedAndNotApplied) {
+  const Bytes stored = {1, 2, 3, 4, 5, 6};
+  Bytes wide;
+  for (const std::uint8_t value : stored) wide.insert(wide.end(), {0, value});
+  for (std::uint32_t orientation = 1; orientation <= 8; ++orientation) {
+    const std::vector<Tag> tags = {{256, 3}, {257, 2}, {274, orientation}, {278, 2}};
+    const GrayImage image = read(smallTiff(stored, tags));
+    EXPECT_EQ(image.width, 3);
+    EXPECT_EQ(image.pixels, stored) << orientation;
+    std::vector<Tag> deep = tags;
+    deep.push_back({258, 16});
+    EXPECT_EQ(read(smallTiff(wide, deep)).pixels, stored) << orientation;
+    if (orientation == 1) {
+      EXPECT_THAT(image.notes, IsEmpty());
+    } else {
+      EXPECT_THAT(image.notes, ElementsAre("EXIF orientation " + std::to_string(orientation) +
+                                           " is not applied: pixels are used as they are stored"));
+    }
+  }
+  EXPECT_THAT(read(smallTiff(stored, {{256, 3}, {257, 2}, {274, 9}, {278, 2}})).notes, IsEmpty());
+}
+
+/// A TIFF without an image that states an orientation, in the order of bytes of its sender.
+Bytes exifBlock(std::uint8_t orientation) {
+  return {'M', 'M', 0, 42, 0, 0, 0,           8, 0, 1, 0x01, 0x12, 0,
+          3,   0,   0, 0,  1, 0, orientation, 0, 0, 0, 0,    0,    0};
+}
+
+/// `bytes` with the segment APP1 behind the two bytes that begin a JPEG.
+Bytes withExif(Bytes bytes, const Bytes& exif) {
+  Bytes segment = {0xff, 0xe1, 0, static_cast<std::uint8_t>(exif.size() + 8), 'E', 'x', 'i',
+                   'f',  0,    0};
+  segment.insert(segment.end(), exif.begin(), exif.end());
+  bytes.insert(bytes.begin() + 2, segment.begin(), segment.end());
+  return bytes;
+}
+
+TEST_F(ReadImage, OrientationOfJpegIsReportedAndNotApplied) {
+  const Bytes plain = encoded(randomImage(CV_8UC1), ".jpg");
+  const GrayImage expected = read(plain);
+  const GrayImage turned = read(withExif(plain, exifBlock(6)));
+  EXPECT_EQ(turned.width, expected.width);
+  EXPECT_EQ(turned.pixels, expected.pixels);
+  EXPECT_THAT(turned.notes,
+              ElementsAre("EXIF orientation 6 is not applied: pixels are used as they are stored"));
+  EXPECT_THAT(read(withExif(plain, exifBlock(1))).notes, IsEmpty());
+  EXPECT_THAT(read(withExif(plain, {'M', 'M', 0, 42, 0, 0, 0, 99})).notes, IsEmpty());
+}
+
+TEST_F(ReadImage, FurtherPagesOfTiffAreReported) {
+  const cv::Mat first = randomImage(CV_8UC1);
+  cv::imwritemulti((folder_ / "pages.tiff").string(), std::vector<cv::Mat>{first, first.t()});
+  const GrayImage image = readImage(folder_ / "pages.tiff");
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), first.ptr()));
+  EXPECT_THAT(image.notes,
+              ElementsAre("the file holds further images (pages): only the first is read"));
+}
+
+TEST_F(ReadImage, DecodersPrintNothing) {
+  testing::internal::CaptureStderr();
+  EXPECT_THAT(error(smallTiff({1, 2, 3, 4, 5, 6, 7, 8}, {{277, 65535}})), StartsWith("image: "));
+  EXPECT_THAT(error(smallTiff({1, 2, 3, 4}, {{259, 7}})), StartsWith("image: the TIFF image is "));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// The decoder fills what it cannot read and goes on.
+TEST_F(ReadImage, DamagedJpegIsReported) {
+  Bytes bytes = encoded(randomImage(CV_8UC1), ".jpg");
+  const Bytes start_of_scan = {0xff, 0xda};
+  const auto scan =
+      std::search(bytes.begin(), bytes.end(), start_of_scan.begin(), start_of_scan.end());
+  ASSERT_LT(scan - bytes.begin(), std::ssize(bytes) - 400);
+  std::fill(scan + 200, scan + 300, std::uint8_t{0x7f});
+  testing::internal::CaptureStderr();
+  EXPECT_THAT(read(bytes).notes, ElementsAre(HasSubstr("the image may be damaged: ")));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+/// Wherever a file is cut, it is refused: decoders alone would fill the rest with gray.
+TEST_F(ReadImage, RefusesEveryTruncation) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1}) {
+    const cv::Mat source = randomImage(type);
+    for (const char* extension : {".png", ".jpg", ".tiff"}) {
+      if (type == CV_16UC1 && std::string(extension) == ".jpg") continue;
+      const Bytes bytes = encoded(source, extension);
+      // A TIFF ends with the place of its next page, which may be cut.
+      const std::size_t last = bytes.size() - (extension[1] == 't' ? 5 : 1);
+      for (std::size_t size = 1; size <= last; size += 1 + bytes.size() / 97) {
+        const std::string message =
+            error(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)));
+        ASSERT_THAT(message, AnyOf(HasSubstr("truncated"), HasSubstr("not a PNG, JPEG or TIFF")))
+            << extension << " cut to " << size << " of " << bytes.size();
+      }
+      const Bytes nearly(bytes.begin(), bytes.begin() + std::ptrdiff_t(last));
+      EXPECT_THAT(error(nearly), HasSubstr("truncated")) << extension;
+    }
+  }
+}
+
+TEST_F(ReadImage, TruncationOfAJpegIsNotHiddenByTheEndOfItsThumbnail) {
+  Bytes bytes = withExif(encoded(randomImage(CV_8UC1), ".jpg"), {0xff, 0xda, 0xff, 0xd9});
+  EXPECT_EQ(error(bytes), "(nothing)");
+  bytes.resize(bytes.size() - 50);
+  EXPECT_EQ(error(bytes), "image: the JPEG image is truncated");
+}
+
+TEST_F(ReadImage, StripsOfTiffAreReadWholeAndMustBeThere) {
+  const Bytes tall(2 * 2600, 77);
+  EXPECT_EQ(read(smallTiff(tall, {{257, 2600}, {278, 2600}})).pixels, tall);
+  EXPECT_THAT(error(smallTiff({1, 2}, {{273, 0}, {279, 0}})),
+              HasSubstr("a strip or tile is missing"));
+  EXPECT_THAT(error(smallTiff({1, 2}, {{257, 99}, {278, 99}, {279, 198}})), HasSubstr("truncated"));
+}
+
+TEST_F(ReadImage, AcceptsBytesAfterTheEnd) {
+  for (const char* extension : {".png", ".jpg"}) {
+    Bytes bytes = encoded(randomImage(CV_8UC1), extension);
+    bytes.insert(bytes.end(), {1, 2, 0xff, 0xda, 3});
+    EXPECT_EQ(error(bytes), "(nothing)");
+  }
+}
+
+TEST_F(ReadImage, FindsAFlippedBitInAPng) {
+  const Bytes bytes = encoded(randomImage(CV_8UC1), ".png");
+  for (std::size_t i = 8; i < bytes.size(); i += 101) {
+    Bytes changed = bytes;
+    changed[i] ^= 0x10;
+    EXPECT_NE(error(changed), "(nothing)") << "byte " << i;
+  }
+}
+
+TEST_F(ReadImage, ReadsProgressiveJpegAndSkipsFillBytes) {
+  Bytes bytes;
+  ASSERT_TRUE(cv::imencode(".jpg", randomImage(CV_8UC3), bytes,
+                           {cv::IMWRITE_JPEG_PROGRESSIVE, 1, cv::IMWRITE_JPEG_RST_INTERVAL, 2}));
+  EXPECT_EQ(error(bytes), "(nothing)");
+  for (std::size_t size = bytes.size() / 4; size < bytes.size(); size += bytes.size() / 31)
+    EXPECT_EQ(error(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))),
+              "image: the JPEG image is truncated")
+        << "cut to " << size << " of " << bytes.size();
+  bytes.insert(bytes.begin() + 2, 3, 0xff);
+  EXPECT_EQ(error(bytes), "(nothing)");
+}
+
+TEST_F(ReadImage, RefusesHugeDimensionsBeforeDecoding) {
+  // A PNG header alone can ask for gigabytes.
+  EXPECT_THAT(error(encoded(cv::Mat(1, 16385, CV_8UC1, cv::Scalar(0)), ".png")),
+              StartsWith("image: image size: 16385 x 1 is outside the limits"));
+  EXPECT_EQ(error(encoded(cv::Mat(1, 16384, CV_8UC1, cv::Scalar(0)), ".png")), "(nothing)");
+  // Width and height of this TIFF are replaced in its directory (tags 256 and 257).
+  Bytes tiff = encoded(cv::Mat(4, 4, CV_8UC1, cv::Scalar(0)), ".tiff");
+  const std::size_t directory = tiff[4] + 256u * tiff[5];
+  for (std::size_t entry = 0; entry < 2; ++entry) {
+    std::uint8_t* value = &tiff[directory + 2 + 12 * entry + 8];
+    value[0] = 0x00;
+    value[1] = 0x40;
+  }
+  EXPECT_THAT(error(tiff), StartsWith("image: image size: 16384 x 16384 is outside the limits"));
+}
+
+TEST_F(ReadImage, ComparesItsSizeWithTheCameras) {
+  const GrayImage image = read(encoded(randomImage(CV_8UC1), ".png"));
+  Camera camera;
+  camera.width = 67;
+  camera.height = 41;
+  EXPECT_NO_THROW(requireSameSize(image, camera));
+  camera.height = 42;
+  EXPECT_EQ(folder_.message([&] { requireSameSize(image, camera); }),
+            "image: image size: is 67 x 41, but the camera is 67 x 42");
+}
+
+TEST(ReadIgnoreMask, PacksNonzeroPixels) {
+  const TemporaryFolder folder;
+  Random random(5);
+  for (const int type : {CV_8UC1, CV_16UC1, CV_8UC3, CV_8UC4}) {
+    cv::Mat image(9, 130, type, cv::Scalar(0, 0, 0, 255));
+    std::vector<bool> expected(9 * 130, false);
+    std::int64_t count = 0;
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x) {
+        if (random.below(3) != 0) continue;
+        expected[static_cast<std::size_t>(y * 130 + x)] = true;
+        ++count;
+        if (type == CV_16UC1)
+          image.at<std::uint16_t>(y, x) = 0x0100;  // low byte zero
+        else
+          image.ptr(y, x)[image.channels() >= 3 ? 1 : 0] = 1;
+      }
+    const auto file = folder.write("mask.png", encoded(image, ".png"));
+    const IgnoreMask mask = readIgnoreMask(file, 130, 9);
+    EXPECT_EQ(mask.ignored_count, count);
+    const BitImage bits = mask.view();
+    ASSERT_EQ(bits.words.size(), 3u * 9u);
+    for (int y = 0; y < 9; ++y) {
+      for (int x = 0; x < 130; ++x)
+        ASSERT_EQ(bits.get(x, y), expected[static_cast<std::size_t>(y * 130 + x)]);
+      EXPECT_EQ(bits.row(y)[2] >> 2, 0u) << "bits beyond the width are set";
+    }
+  }
+}
+
+TEST(ReadIgnoreMask, RefusesOtherSizesAndJpeg) {
+  const TemporaryFolder folder;
+  const cv::Mat image(9, 130, CV_8UC1, cv::Scalar(0));
+  folder.write("mask.png", encoded(image, ".png"));
+  folder.write("mask.jpg", encoded(image, ".jpg"));
+  EXPECT_EQ(folder.message([&] { (void)readIgnoreMask(folder / "mask.png", 131, 9); }),
+            "mask.png: mask size: is 130 x 9, but the image is 131 x 9");
+  EXPECT_EQ(folder.message([&] { (void)readIgnoreMask(folder / "mask.jpg", 130, 9); }),
+            "mask.jpg: a mask must be lossless: PNG or TIFF, not JPEG");
+  EXPECT_EQ(folder.message([&] { (void)readIgnoreMask(folder / "none.png", 130, 9); }),
+            "none.png: no such file");
+}
+
+TEST(WritePng, RoundTrips) {
+  const TemporaryFolder folder;
+  const cv::Mat gray = randomImage(CV_8UC1);
+  const std::span<const std::uint8_t> pixels(gray.ptr(), gray.total());
+  writePng(folder / "gray.png", pixels, gray.cols, gray.rows, 1);
+  const GrayImage image = readImage(folder / "gray.png");
+  EXPECT_TRUE(std::equal(image.pixels.begin(), image.pixels.end(), pixels.begin()));
+  EXPECT_THROW(writePng(folder / "x.png", pixels, gray.cols + 1, gray.rows, 1), std::logic_error);
+  EXPECT_EQ(folder.message([&] { writePng(folder / "no/x.png", pixels, gray.cols, gray.rows, 1); }),
+            "cannot write no/x.png: no such folder");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

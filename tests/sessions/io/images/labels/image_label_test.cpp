@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+// What labels say: the expectations are what the test wrote into them.
+#include "sessions/io/images/labels/image_label.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/base/random.h"
+#include "sessions/io/images/camera_of_file.h"
+#include "sessions/io/images/image_file.h"
+#include "tests/sessions/io/images/labels/label_fixture.h"
+
+namespace boresight::sessions {
+namespace {
+
+using test::TemporaryFolder;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+ImageLabel readLabelOf(const TemporaryFolder& folder, const Pds3File& pds,
+                       const Raster& raster = Raster::plain()) {
+  return readImageLabel(folder.write("image.img", pds.bytes(raster)));
+}
+
+/// The camera of the label projects as the vectors it was written from.
+void expectModel(const ImageLabel& label, const CahvModel& cahv) {
+  ASSERT_TRUE(label.camera) << label.camera_remark;
+  EXPECT_EQ(label.camera_remark, "");
+  const Camera& camera = label.camera->camera;
+  EXPECT_EQ(camera.model, cahv.model);
+  EXPECT_EQ(camera.width, label.width);
+  ASSERT_TRUE(label.camera->reference);
+  EXPECT_EQ(label.camera->reference->frame, (FrameName{"ROVER_NAV_FRAME", {14, 1262, 6}}));
+  const CahvModel back = cahvFromCamera(camera, label.camera->reference->camera_from_reference);
+  EXPECT_LT((back.c_m - cahv.c_m).norm(), 1e-8);
+  EXPECT_LT((back.h_px - cahv.h_px).norm(), 1e-5);
+  EXPECT_LT((back.v_px - cahv.v_px).norm(), 1e-5);
+  if (cahv.model == CameraModel::kCahv) return;
+  EXPECT_LT((back.o - cahv.o).norm(), 1e-8);
+  EXPECT_LT((back.r - cahv.r).norm(), 1e-8);
+  if (cahv.model == CameraModel::kCahvor) return;
+  EXPECT_LT((back.e_m - cahv.e_m).norm(), 1e-8);
+  EXPECT_EQ(back.type, cahv.type);
+  EXPECT_NEAR(back.parameter, cahv.parameter, 1e-9);
+}
+
+TEST(ImageLabel, ComponentsAreFoundByLetterOrNameInAnyOrder) {
+  const TemporaryFolder folder;
+  Random random(3);
+  for (const CameraModel model : {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore})
+    for (int round = 0; round < 9; ++round) {
+      const CahvModel cahv =
+          exampleModel(model, 40.0 + random.below(200), 28 + random.below(8), 20 + random.below(8));
+      std::string order = "CAHVORETP";
+      for (std::size_t i = order.size() - 1; i > 0; --i)
+        std::swap(order[i], order[random.below(static_cast<std::uint32_t>(i + 1))]);
+      const GroupItems items = cameraItems(cahv, order, round % 3 != 1, round % 3 != 2);
+      Pds3File pds;
+      const char* const names[] = {"GEOMETRIC_CAMERA_MODEL", "GEOMETRIC_CAMERA_MODEL_PARMS",
+                                   "CAMERA_MODEL"};
+      pds.items = pds3Group(names[round % 3], items);
+      expectModel(readLabelOf(folder, pds), cahv);
+      VicarFile vicar;
+      vicar.items = vicarProperty(names[round % 3], items);
+      vicar.items_at_end = round % 2 == 1;
+      const auto file = folder.write("image.vic", vicar.bytes(Raster::plain()));
+      expectModel(readImageLabel(file), cahv);
+      EXPECT_EQ(readCameraFile(file).camera, readImageLabel(file).camera->camera);
+    }
+}
+
+std::string pds4Vector(const std::string& name, const Eigen::Vector3d& v, const char* suffix) {
+  std::string text = "<geom:" + name + ">";
+  for (int i = 0; i < 3; ++i) {
+    const std::string tag =
+        suffix[0] == 'c' ? "c" + std::to_string(i) : std::string(1, "xyz"[i]) + suffix;
+    text += "<geom:" + tag + (suffix == std::string("_position") ? " unit=\"m\"" : "") + ">" +
+            decimals(v[i]) + "</geom:" + tag + ">";
+  }
+  return text + "</geom:" + name + ">";
+}
+
+std::string pds4Index(const char* name, int value) {
+  return "<geom:Coordinate_Space_Index><geom:index_id>" + std::string(name) +
+         "</geom:index_id><geom:index_value_number>" + std::to_string(value) +
+         "</geom:index_value_number></geom:Coordinate_Space_Index>";
+}
+
+const std::string kNavFrame =
+    "<geom:Coordinate_Space_Indexed><geom:coordinate_space_frame_type>ROVER_NAV_FRAME"
+    "</geom:coordinate_space_frame_type>" +
+    pds4Index("SITE", 14) + pds4Index("DRIVE", 1262) + pds4Index("POSE", 6) +
+    "</geom:Coordinate_Space_Indexed>";
+
+std::string pds4Camera(const CahvModel& cahv) {
+  const char* const names[] = {"CAHV", "CAHVOR", "CAHVORE"};
+  const int kind = static_cast<int>(cahv.model) - static_cast<int>(CameraModel::kCahv);
+  std::string model = pds4Vector("Vector_Vertical", cahv.v_px, "_pixel") +
+                      pds4Vector("Vector_Center", cahv.c_m, "_position") +
+                      pds4Vector("Vector_Axis", cahv.a, "_unit") +
+                      pds4Vector("Vector_Horizontal", cahv.h_px, "_pixel");
+  if (kind > 0)
+    model +=
+        pds4Vector("Vector_Optical", cahv.o, "_unit") + pds4Vector("Radial_Terms", cahv.r, "c");
+  if (kind > 1)
+    model += pds4Vector("Entrance_Terms", cahv.e_m, "c") + "<geom:cahvore_model_type>" +
+             std::to_string(cahv.type) +
+             "</geom:cahvore_model_type><geom:cahvore_model_parameter>" + decimals(cahv.parameter) +
+             "</geom:cahvore_model_parameter>";
+  return "<geom:Geometry><geom:Geometry_Lander><geom:Camera_Model_Parameters><geom:model_type>" +
+         std::string(names[kind]) + "</geom:model_type><geom:" + names[kind] + "_Model>" + model +
+         "</geom:" + names[kind] + "_Model><geom:Coordinate_Space_Reference>" + kNavFrame +
+         "</geom:Coordinate_Space_Reference></geom:Camera_Model_Parameters>"
+         "</geom:Geometry_Lander></geom:Geometry>";
+}
+
+TEST(ImageLabel, Pds4GivesTheSameModels) {
+  const TemporaryFolder folder;
+  for (const CameraModel model :
+       {CameraModel::kCahv, CameraModel::kCahvor, CameraModel::kCahvore}) {
+    const CahvModel cahv = exampleModel(model, 77.0, 31.0, 24.0);
+    Pds4File pds;
+    pds.discipline =
+        pds4Camera(cahv) +
+        "<img:Imaging><img:Subframe><img:first_line>1</img:first_line><img:first_sample>1"
+        "</img:first_sample></img:Subframe><img:Sampling><img:sample_bit_mask>2#0000111111111111#"
+        "</img:sample_bit_mask></img:Sampling><img:Commanded_Parameters><img:Subframe>"
+        "<img:first_line>500</img:first_line></img:Subframe></img:Commanded_Parameters>"
+        "</img:Imaging>";
+    folder.write("pixels.img", pds.pixels(Raster::plain()));
+    const ImageLabel label = readImageLabel(folder.write("image.xml", pds.label(Raster::plain())));
+    expectModel(label, cahv);
+    EXPECT_EQ(label.format, "PDS4");
+    EXPECT_EQ(label.bit_depth, 12);
+    ASSERT_TRUE(label.subframe);
+    EXPECT_TRUE(label.subframe->whole());
+  }
+}
+
+TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
+  const TemporaryFolder folder;
+  const CahvModel cahv = exampleModel(CameraModel::kCahv, 60, 31, 24);
+  Pds3File pds;
+  GroupItems items = cameraItems(cahv);
+  for (auto& [key, value] : items)
+    if (key == "MODEL_COMPONENT_1")
+      value = "(" + decimals(cahv.c_m.x()) + " <m>," + decimals(cahv.c_m.y()) + " <m>," +
+              decimals(cahv.c_m.z()) + " <m>)";
+  items.emplace_back("FILTER_NAME", "\"N/A\"");
+  items.emplace_back("SOLUTION_ID", "\"telemetry   \r\n   and more \"");
+  items.emplace_back("CALIBRATION_SOURCE_ID", "UNK");
+  pds.items = "PRODUCT_ID = \"IMAGE   \"\r\nMISSION_NAME = \"NULL\"\r\n" +
+              pds3Group("GEOMETRIC_CAMERA_MODEL", items);
+  const ImageLabel label = readLabelOf(folder, pds);
+  expectModel(label, cahv);
+  EXPECT_EQ(label.identifiers, (std::vector<LabelItem>{{"PRODUCT_ID", "IMAGE"}}));
+  EXPECT_EQ(label.camera_items, (std::vector<LabelItem>{{"SOLUTION_ID", "telemetry and more"}}));
+  items[3].second = "(1 <mm>,2 <mm>,3 <mm>)";
+  pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
+  EXPECT_THAT(readLabelOf(folder, pds).camera_remark, HasSubstr("the unit 'MM'"));
+}
+
+TEST(ImageLabel, ExponentsOfFortranAreExponents) {
+  const TemporaryFolder folder;
+  GroupItems items = cameraItems(exampleModel(CameraModel::kCahv, 60, 31, 24));
+  for (auto& [key, value] : items)
+    if (key == "MODEL_COMPONENT_1") value = "(1.5D-03,-2.5d1,3.D+2)";
+  items.emplace_back("SOLUTION_ID", "\"1.5D-03\"");
+  Pds3File pds;
+  pds.items = "PRODUCT_ID = 1F483D5\r\n" + pds3Group("GEOMETRIC_CAMERA_MODEL", items);
+  VicarFile vicar;
+  vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", items);
+  for (const auto& file : {folder.write("a.img", pds.bytes(Raster::plain())),
+                           folder.write("a.vic", vicar.bytes(Raster::plain()))}) {
+    const ImageLabel label = readImageLabel(file);
+    ASSERT_TRUE(label.camera) << label.camera_remark;
+    const Eigen::Vector3d centre_m =
+        label.camera->reference->camera_from_reference.inverse().translation_m;
+    EXPECT_LT((centre_m - Eigen::Vector3d(0.0015, -25.0, 300.0)).norm(), 1e-9);
+    EXPECT_THAT(label.camera_items, Contains(LabelItem{"SOLUTION_ID", "1.5D-03"}));
+    if (label.format == "PDS3") {
+      EXPECT_THAT(label.identifiers, Contains(LabelItem{"PRODUCT_ID", "1F483D5"}));
+    }
+  }
+}
+
+std::string remarkFor(const TemporaryFolder& folder, const CahvModel& cahv,
+                      const std::string& image_items = "", const std::string& items = "",
+                      int width = 64, int height = 48) {
+  Pds3File pds;
+  pds.items = items + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(cahv));
+  pds.image_items = image_items;
+  const ImageLabel label = readLabelOf(folder, pds, Raster::plain(width, height));
+  EXPECT_EQ(label.camera.has_value(), label.camera_remark.empty());
+  return label.camera_remark;
+}
+
+TEST(ImageLabel, CameraModelsThatAreNoneSayWhy) {
+  const TemporaryFolder folder;
+  const CahvModel cahv = exampleModel(CameraModel::kCahvore, 60, 31, 24);
+  Pds3File pds;
+  EXPECT_EQ(readLabelOf(folder, pds).camera_remark, "the label has no camera model");
+  EXPECT_EQ(folder.message([&] { readCameraFile(folder.path() / "image.img"); }),
+            "image.img: the label has no camera model");
+  const auto with = [&](const char* key, const std::string& value) {
+    GroupItems items = cameraItems(cahv);
+    for (auto& item : items)
+      if (item.first == key) item.second = value;
+    pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
+    const ImageLabel label = readLabelOf(folder, pds);
+    EXPECT_FALSE(label.camera) << key << " = " << value;
+    return label.camera_remark;
+  };
+  EXPECT_EQ(with("MODEL_TYPE", "\"NONE\""), "the label's camera model is NONE");
+  EXPECT_THAT(with("MODEL_TYPE", "\"PSPH\""), HasSubstr("'PSPH', is not one of"));
+  EXPECT_THAT(with("MODEL_COMPONENT_3", "(1,2)"), HasSubstr("no usable component H"));
+  EXPECT_THAT(with("MODEL_COMPONENT_3", "(1,\"N/A\",2)"), HasSubstr("no usable component H"));
+  EXPECT_THAT(with("MODEL_COMPONENT_8", "7"), HasSubstr("does not say its type"));
+  EXPECT_THAT(with("MODEL_COMPONENT_9", "\"UNK\""), HasSubstr("type 3 has no parameter"));
+  EXPECT_THAT(with("MODEL_COMPONENT_ID", "(\"C\",\"A\",\"V\",\"H\",\"O\",\"R\",\"E\",\"T\",\"P\")"),
+              HasSubstr("calls component 3 both V and HORIZONTAL"));
+  GroupItems items = cameraItems(cahv, "CAHVORETP", false, false);
+  pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
+  EXPECT_THAT(readLabelOf(folder, pds).camera_remark, HasSubstr("no usable component C"));
+}
+
+TEST(ImageLabel, CameraModelsThatDoNotFitTheImageAreLeftOut) {
+  const TemporaryFolder folder;
+  const std::string uncut = " FIRST_LINE = 1\r\n FIRST_LINE_SAMPLE = 1\r\n";
+  const auto model = [](double f, double cx, double cy) {
+    return exampleModel(CameraModel::kCahv, f, cx, cy);
+  };
+  EXPECT_EQ(remarkFor(folder, model(60, 31, 24), uncut), "");
+  EXPECT_THAT(remarkFor(folder, model(60, 63, 24), uncut),
+              HasSubstr("its principal point would be at (63.0, 24.0) of 64 x 48 px"));
+  EXPECT_THAT(remarkFor(folder, model(60, 31, 600)), HasSubstr("no sub-frame is stated"));
+  EXPECT_THAT(remarkFor(folder, model(0.5, 31, 24)), HasSubstr("is invalid: focal lengths"));
+  EXPECT_THAT(remarkFor(folder, model(1e7, 31, 24)), HasSubstr("is invalid: focal lengths"));
+  CahvModel longer = model(60, 31, 24);
+  longer.a *= 1.01;
+  EXPECT_THAT(remarkFor(folder, longer), HasSubstr("its axis A has the length 1.0100"));
+  CahvModel odd = exampleModel(CameraModel::kCahvor, 60, 31, 24);
+  odd.o *= 0.9;
+  EXPECT_THAT(remarkFor(folder, odd), HasSubstr("cannot project"));
+  const std::string averaged =
+      "GROUP = INSTRUMENT_STATE_PARMS\r\n PIXEL_AVERAGING_WIDTH = 1\r\n "
+      "PIXEL_AVERAGING_HEIGHT = 4\r\nEND_GROUP = INSTRUMENT_STATE_PARMS\r\n";
+  EXPECT_THAT(remarkFor(folder, model(60, 31, 24), uncut, averaged),
+              HasSubstr("does not fit the down-sampling by 1.00 x 4.00"));
+}
+
+TEST(ImageLabel, SubframesModelIsTakenAndTheWholeDetectorsIsNot) {
+  const TemporaryFolder folder;
+  const std::string cut = " FIRST_LINE = 401\r\n FIRST_LINE_SAMPLE = 501\r\n";
+  const std::string rover = "INSTRUMENT_HOST_ID = MSL\r\nINSTRUMENT_ID = NAV_LEFT_A\r\n";
+  // A detector of 1024 x 1024 with its principal point in the middle.
+  const CahvModel whole = exampleModel(CameraModel::kCahv, 454, 511.5, 511.5);
+  const CahvModel part = exampleModel(CameraModel::kCahv, 454, 11.5, 111.5);
+  Pds3File pds;
+  pds.items = rover + pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(part));
+  pds.image_items = cut;
+  const ImageLabel label = readLabelOf(folder, pds, Raster::plain(256, 128));
+  expectModel(label, part);
+  ASSERT_TRUE(label.subframe);
+  EXPECT_EQ(label.subframe->first_sample, 500);
+  EXPECT_EQ(label.subframe->first_line, 400);
+  EXPECT_THAT(
+      remarkFor(folder, whole, cut, rover, 256, 128),
+      HasSubstr("does not fit the sub-frame at sample 500, line 400: its principal point "
+                "would be at (1011.5, 911.5) of the detector, which has up to 1024 x 1024"));
+  // Another mission's label: both readings are possible, so none is taken.
+  EXPECT_THAT(remarkFor(folder, part, cut, "", 256, 128), HasSubstr("does not state whether"));
+  // Far from the detector's middle the principal point is left of the cut: only one is possible.
+  const std::string right = " FIRST_LINE = 401\r\n FIRST_LINE_SAMPLE = 701\r\n";
+  EXPECT_EQ(
+      remarkFor(folder, exampleModel(CameraModel::kCahv, 454, -188.5, 111.5), right, "", 256, 128),
+      "");
+}
+
+TEST(ImageLabel, OfTwoLabelsInAFileTheOneWithAModelCounts) {
+  const TemporaryFolder folder;
+  const CahvModel cahv = exampleModel(CameraModel::kCahvor, 60, 31, 24);
+  const CahvModel other = exampleModel(CameraModel::kCahvor, 61, 31, 24);
+  const auto read = [&](const CahvModel* in_pds, const CahvModel* in_vicar) {
+    VicarFile vicar;
+    vicar.store = Store::kHalf;
+    vicar.big_endian = true;
+    if (in_vicar != nullptr)
+      vicar.items = vicarProperty("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_vicar));
+    Pds3File pds;
+    const Bytes whole = vicar.bytes(Raster::plain());
+    pds.between.assign(whole.begin(), whole.end() - 2 * 64 * 48);
+    if (in_pds != nullptr) pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", cameraItems(*in_pds));
+    return readLabelOf(folder, pds);
+  };
+  const ImageLabel same = read(&cahv, &cahv);
+  expectModel(same, cahv);
+  EXPECT_EQ(same.format, "PDS3");
+  EXPECT_TRUE(same.flags.empty()) << same.flags.front();
+  const ImageLabel lone = read(nullptr, &cahv);
+  expectModel(lone, cahv);
+  EXPECT_THAT(lone.flags, Contains(HasSubstr("comes from the VICAR header in the file")));
+  const ImageLabel differing = read(&cahv, &other);
+  expectModel(differing, cahv);
+  EXPECT_THAT(differing.flags, Contains(HasSubstr("state different camera models")));
+}
+
+TEST(ImageLabel, FramesAreReadScalarFirst) {
+  const TemporaryFolder folder;
+  // 90 deg about z: x of the rover is y of the site.
+  const GroupItems rover{{"COORDINATE_SYSTEM_NAME", "\"ROVER_NAV_FRAME\""},
+                         {"COORDINATE_SYSTEM_INDEX", "(14,1262)"},
+                         {"ORIGIN_OFFSET_VECTOR", "(-176.5,-129.5,-0.25)"},
+                         {"ORIGIN_ROTATION_QUATERNION", "(0.707106781,0.0,0.0,0.707106781)"},
+                         {"REFERENCE_COORD_SYSTEM_NAME", "\"SITE_FRAME\""},
+                         {"REFERENCE_COORD_SYSTEM_INDEX", "14"}};
+  GroupItems bad = rover;
+  bad[0].second = "\"ARM_FRAME\"";
+  bad[3].second = "(1.0,1.0,0.0,0.0)";
+  for (const ImageLabel& label :
+       labelsOf(folder, {{"ROVER_COORDINATE_SYSTEM", rover}, {"ARM_COORDINATE_SYSTEM", bad}})) {
+    ASSERT_EQ(label.frames.size(), 1u);
+    EXPECT_EQ(label.frames[0].frame, (FrameName{"ROVER_NAV_FRAME", {14, 1262}}));
+    EXPECT_EQ(label.frames[0].reference, (FrameName{"SITE_FRAME", {14}}));
+    const Eigen::Vector3d seen = label.frames[0].reference_from_frame * Eigen::Vector3d(1, 0, 0);
+    EXPECT_LT((seen - Eigen::Vector3d(-176.5, -128.5, -0.25)).norm(), 1e-9);
+    EXPECT_THAT(label.flags, Contains(HasSubstr("the label's place of ARM_FRAME")));
+  }
+}
+
+TEST(ImageLabel, MosaicsAndMapsAreFlagged) {
+  const TemporaryFolder folder;
+  Pds3File pds;
+  pds.items =
+      "GROUP = INSTRUMENT_STATE_PARMS\r\n CFA_TYPE = \"BAYER_RGGB\"\r\nEND_GROUP = "
+      "INSTRUMENT_STATE_PARMS\r\nGROUP = DERIVED_IMAGE_PARMS\r\n DERIVED_IMAGE_TYPE = "
+      "\"RANGE_MAP\"\r\nEND_GROUP = DERIVED_IMAGE_PARMS\r\n";
+  const ImageLabel label = readLabelOf(folder, pds);
+  EXPECT_EQ(label.bayer_pattern, "BAYER_RGGB");
+  EXPECT_THAT(label.flags, Contains(HasSubstr("the label calls this a RANGE_MAP")));
+  const GrayImage image = readImage(folder.path() / "image.img");
+  EXPECT_THAT(image.notes, Contains(HasSubstr("a mosaic of colours (BAYER_RGGB)")));
+  ImageReadOptions options;
+  options.bayer = BayerPattern::kRggb;
+  EXPECT_EQ(readImage(folder.path() / "image.img", options).notes, label.flags);
+  ASSERT_TRUE(image.label);
+  EXPECT_EQ(image.label->bayer_pattern, "BAYER_RGGB");
+}
+
+TEST(ImageLabel, FilesWithoutALabelHaveNone) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(hasImageLabel(folder.path() / "gone.img"));
+  EXPECT_FALSE(hasImageLabel(folder.path()));
+  EXPECT_FALSE(hasImageLabel(folder.write("a.json", "{\"format\": \"boresight-camera\"}")));
+  EXPECT_FALSE(hasImageLabel(folder.write("a.xml", "<?xml version=\"1.0\"?><svg/>")));
+  EXPECT_FALSE(hasImageLabel(folder.write("a.txt", "LBLSIZ")));
+  EXPECT_TRUE(hasImageLabel(folder.write("a", "LBLSIZE=  100")));
+  EXPECT_TRUE(hasImageLabel(folder.write("b", "PDS_VERSION_ID = PDS3\r\n")));
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images with labels, written byte by byte as their formats' descriptions have it.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/cahv_model.h"
+#include "sessions/io/images/labels/image_label.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Samples of an image: at(band, line, sample).
+struct Raster {
+  int width = 0, height = 0, bands = 1;
+  std::vector<double> samples;
+
+  double& at(int band, int line, int sample) {
+    return samples[static_cast<std::size_t>((band * height + line) * width + sample)];
+  }
+  double at(int band, int line, int sample) const {
+    return samples[static_cast<std::size_t>((band * height + line) * width + sample)];
+  }
+  static Raster filled(int width, int height, int bands,
+                       const std::function<double(std::size_t)>& value) {
+    Raster raster{width, height, bands, {}};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(width * height * bands); ++i)
+      raster.samples.push_back(value(i));
+    return raster;
+  }
+  /// Of bytes, large enough for most labels.
+  static Raster plain(int width = 64, int height = 48) {
+    return filled(width, height, 1, [](std::size_t i) { return double(i % 200); });
+  }
+  /// Samples 0, 1, 2, ...
+  static Raster counting(int width, int height, int bands = 1) {
+    return filled(width, height, bands, [](std::size_t i) { return double(i); });
+  }
+};
+
+/// How one sample is stored.
+enum class Store { kByte, kHalf, kFull, kIeee, kVax, kDouble };
+
+inline int bytesOf(Store store) {
+  return store == Store::kByte ? 1 : store == Store::kHalf ? 2 : store == Store::kDouble ? 8 : 4;
+}
+
+inline void append(Bytes& bytes, std::uint64_t bits, int size, bool big_endian) {
+  for (int i = 0; i < size; ++i)
+    bytes.push_back(static_cast<std::uint8_t>(bits >> 8 * (big_endian ? size - 1 - i : i)));
+}
+
+/// VAX F_floating: sign, exponent of excess 128, fraction 0.1f; the word of the sign comes first,
+/// each word's low byte first.
+inline void appendVax(Bytes& bytes, float value) {
+  std::uint32_t bits = 0;
+  if (value != 0.0f) {
+    int exponent = 0;
+    const float fraction = std::frexp(std::abs(value), &exponent);
+    const auto mantissa = static_cast<std::uint32_t>(std::ldexp(fraction, 24)) & 0x7fffffu;
+    bits = (value < 0 ? 0x80000000u : 0u) | static_cast<std::uint32_t>(exponent + 128) << 23 |
+           mantissa;
+  }
+  append(bytes, bits >> 16, 2, false);
+  append(bytes, bits & 0xffffu, 2, false);
+}
+
+inline void appendSample(Bytes& bytes, double value, Store store, bool big_endian) {
+  switch (store) {
+    case Store::kByte:
+    case Store::kHalf:
+    case Store::kFull:
+      return append(bytes, static_cast<std::uint64_t>(static_cast<std::int64_t>(value)),
+                    bytesOf(store), big_endian);
+    case Store::kIeee:
+      return append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4, big_endian);
+    case Store::kVax:
+      return appendVax(bytes, static_cast<float>(value));
+    case Store::kDouble:
+      return append(bytes, std::bit_cast<std::uint64_t>(value), 8, big_endian);
+  }
+}
+
+inline void appendText(Bytes& bytes, const std::string& text) {
+  bytes.insert(bytes.end(), text.begin(), text.end());
+}
+
+inline std::string decimals(double value) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof(buffer), "%.9g", value);
+  return buffer;
+}
+
+inline std::string vectorText(const Eigen::Vector3d& v) {
+  return "(" + decimals(v.x()) + "," + decimals(v.y()) + "," + decimals(v.z()) + ")";
+}
+
+struct VicarFile {
+  Store store = Store::kByte;
+  bool big_endian = false;
+  std::string organization = "BSQ";
+  int prefix_bytes = 0;    ///< NBB
+  int header_records = 0;  ///< NLB
+  std::string items;       ///< property and task items of the label
+  bool items_at_end = false;
+
+  std::string formatName() const {
+    constexpr const char* kNames[] = {"BYTE", "HALF", "FULL", "REAL", "REAL", "DOUB"};
+    return kNames[static_cast<int>(store)];
+  }
+
+  Bytes bytes(const Raster& raster) const {
+    const int n1 = organization == "BIP" ? raster.bands : raster.width;
+    const int record = prefix_bytes + n1 * bytesOf(store);
+    const int label_size = ((2000 + static_cast<int>(items.size())) / record + 1) * record;
+    const auto number = [](const char* key, int value) {
+      return std::string(key) + "=" + std::to_string(value) + "  ";
+    };
+    std::string label = "LBLSIZE=" + std::to_string(label_size);
+    label.resize(24, ' ');
+    label += "FORMAT='" + formatName() + "'  TYPE='IMAGE'  " + number("BUFSIZ", record) +
+             number("DIM", 3) + number("EOL", items_at_end ? 1 : 0) + number("RECSIZE", record) +
+             "ORG='" + organization + "'  " + number("NL", raster.height) +
+             number("NS", raster.width) + number("NB", raster.bands) + number("N1", n1) +
+             number("N2", organization == "BSQ"   ? raster.height
+                          : organization == "BIL" ? raster.bands
+                                                  : raster.width) +
+             number("N3", organization == "BSQ" ? raster.bands : raster.height) + number("N4", 0) +
+             number("NBB", prefix_bytes) + number("NLB", header_records) + "HOST='" +
+             (store == Store::kVax ? "VAX-VMS"
+              : big_endian         ? "SUN-SOLR"
+                                   : "X86-LINUX") +
+             "'  INTFMT='" + (big_endian ? "HIGH" : "LOW") + "'  REALFMT='" +
+             (store == Store::kVax ? "VAX"
+              : big_endian         ? "IEEE"
+                                   : "RIEEE") +
+             "'  COMPRESS='NONE'  EOCI1=0  EOCI2=0  ";
+    if (!items_at_end) label += items;
+    Bytes bytes;
+    appendText(bytes, label);
+    bytes.resize(static_cast<std::size_t>(label_size), 0);
+    for (int i = 0; i < header_records * record; ++i) bytes.push_back(0xa5);
+    appendRecords(bytes, raster);
+    if (items_at_end) {
+      const std::size_t begin = bytes.size();
+      std::string end = "LBLSIZE=" + std::to_string(label_size);
+      end.resize(24, ' ');
+      appendText(bytes, end + items);
+      bytes.resize(begin + static_cast<std::size_t>(label_size), 0);
+    }
+    return bytes;
+  }
+
+ private:
+  void appendRecords(Bytes& bytes, const Raster& r) const {
+    // Of a place (band, line, sample): what grows slowest, then faster.
+    const std::array<std::size_t, 3> order =
+        organization == "BSQ"   ? std::array<std::size_t, 3>{0, 1, 2}
+        : organization == "BIL" ? std::array<std::size_t, 3>{1, 0, 2}
+                                : std::array<std::size_t, 3>{1, 2, 0};
+    const std::array<int, 3> count = {r.bands, r.height, r.width};
+    std::array<int, 3> at = {0, 0, 0};
+    for (at[order[0]] = 0; at[order[0]] < count[order[0]]; ++at[order[0]])
+      for (at[order[1]] = 0; at[order[1]] < count[order[1]]; ++at[order[1]]) {
+        bytes.insert(bytes.end(), static_cast<std::size_t>(prefix_bytes), 0x5a);
+        for (at[order[2]] = 0; at[order[2]] < count[order[2]]; ++at[order[2]])
+          appendSample(bytes, r.at(at[0], at[1], at[2]), store, big_endian);
+      }
+  }
+};
+
+struct Pds3File {
+  std::string sample_type = "MSB_INTEGER";
+  Store store = Store::kHalf;
+  bool big_endian = true;
+  std::string items;        ///< of the label before the image object
+  std::string image_items;  ///< of the image object
+  std::string pixels_file;  ///< detached: their name
+  Bytes between;            ///< between label and pixels, e.g. a VICAR header
+  std::string pointer;      ///< instead of the right ^IMAGE
+
+  static constexpr int kRecord = 128;
+
+  Bytes pixels(const Raster& raster) const {
+    Bytes bytes;
+    for (const double value : raster.samples) appendSample(bytes, value, store, big_endian);
+    return bytes;
+  }
+  std::string label(const Raster& raster, int records) const {
+    const int skipped = records + (static_cast<int>(between.size()) + kRecord - 1) / kRecord;
+    std::string place =
+        pixels_file.empty() ? std::to_string(skipped + 1) : "(\"" + pixels_file + "\",1)";
+    if (!pointer.empty()) place = pointer;
+    return "PDS_VERSION_ID = PDS3\r\nRECORD_TYPE = FIXED_LENGTH\r\nRECORD_BYTES = " +
+           std::to_string(kRecord) + "\r\nLABEL_RECORDS = " + std::to_string(records) + "\r\n" +
+           (between.empty() ? "" : "^IMAGE_HEADER = " + std::to_string(records + 1) + "\r\n") +
+           "^IMAGE = " + place + "\r\n" + items +
+           "OBJECT = IMAGE\r\n LINES = " + std::to_string(raster.height) +
+           "\r\n LINE_SAMPLES = " + std::to_string(raster.width) +
+           "\r\n SAMPLE_TYPE = " + sample_type +
+           "\r\n SAMPLE_BITS = " + std::to_string(8 * bytesOf(store)) +
+           "\r\n BANDS = " + std::to_string(raster.bands) +
+           "\r\n BAND_STORAGE_TYPE = BAND_SEQUENTIAL\r\n" + image_items +
+           "END_OBJECT = IMAGE\r\nEND\r\n";
+  }
+  Bytes bytes(const Raster& raster) const {
+    const int records = 20 + static_cast<int>(items.size() + image_items.size()) / kRecord;
+    Bytes bytes;
+    appendText(bytes, label(raster, records));
+    bytes.resize(static_cast<std::size_t>(records * kRecord), ' ');
+    bytes.insert(bytes.end(), between.begin(), between.end());
+    while (bytes.size() % kRecord != 0) bytes.push_back(' ');
+    const Bytes data = pixels(raster);
+    bytes.insert(bytes.end(), data.begin(), data.end());
+    return bytes;
+  }
+};
+
+struct Pds4File {
+  std::string data_type = "UnsignedMSB2";
+  Store store = Store::kHalf;
+  bool big_endian = true;
+  std::string discipline;  ///< inside Discipline_Area
+  std::string constants;   ///< inside Special_Constants
+  std::string pixels_file = "pixels.img";
+  int offset = 0;
+
+  std::string label(const Raster& r) const {
+    const auto axis = [](const char* name, int count, int number) {
+      return "<Axis_Array><axis_name>" + std::string(name) + "</axis_name><elements>" +
+             std::to_string(count) + "</elements><sequence_number>" + std::to_string(number) +
+             "</sequence_number></Axis_Array>\n";
+    };
+    const std::string array = r.bands == 1 ? "Array_2D_Image" : "Array_3D_Image";
+    const int number = r.bands == 1 ? 1 : 2;
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+           "<Product_Observational xmlns=\"http://pds.nasa.gov/pds4/pds/v1\" "
+           "xmlns:geom=\"http://pds.nasa.gov/pds4/geom/v1\" "
+           "xmlns:img=\"http://pds.nasa.gov/pds4/img/v1\">\n"
+           "<Identification_Area><logical_identifier>urn:test:image</logical_identifier>"
+           "<title>t</title></Identification_Area>\n<Observation_Area><Investigation_Area>"
+           "<name>Mars 2020</name></Investigation_Area><Discipline_Area>" +
+           discipline +
+           "</Discipline_Area></Observation_Area>\n<File_Area_Observational><File><file_name>" +
+           pixels_file + "</file_name></File>\n<" + array + "><offset unit=\"byte\">" +
+           std::to_string(offset) + "</offset><axes>" + std::to_string(r.bands == 1 ? 2 : 3) +
+           "</axes><axis_index_order>Last Index Fastest</axis_index_order>\n<Element_Array>"
+           "<data_type>" +
+           data_type + "</data_type></Element_Array>\n" +
+           (r.bands == 1 ? "" : axis("Band", r.bands, 1)) + axis("Line", r.height, number) +
+           axis("Sample", r.width, number + 1) +
+           (constants.empty() ? "" : "<Special_Constants>" + constants + "</Special_Constants>\n") +
+           "</" + array + "></File_Area_Observational></Product_Observational>\n";
+  }
+  Bytes pixels(const Raster& raster) const {
+    Bytes bytes(static_cast<std::size_t>(offset), 0x77);
+    for (const double value : raster.samples) appendSample(bytes, value, store, big_endian);
+    return bytes;
+  }
+};
+
+/// A camera that looks somewhat down in a vehicle's frame, its principal point near (cx, cy).
+inline CahvModel exampleModel(CameraModel model, double focal_px, double cx, double cy) {
+  CahvModel cahv;
+  cahv.model = model;
+  cahv.c_m = {0.61, -0.04, -0.23};
+  cahv.a = Eigen::Vector3d(0.7, -0.005, 0.71).normalized();
+  const Eigen::Vector3d down = Eigen::Vector3d(0, 0, 1) - cahv.a.z() * cahv.a;
+  const Eigen::Vector3d y = down.normalized();
+  const Eigen::Vector3d x = y.cross(cahv.a);
+  cahv.h_px = focal_px * x + cx * cahv.a;
+  cahv.v_px = focal_px * y + cy * cahv.a;
+  if (model == CameraModel::kCahv) return cahv;
+  cahv.o = (cahv.a + Eigen::Vector3d(0.001, -0.0009, -0.001)).normalized();
+  cahv.r = {3e-06, -0.012015, -0.007525};
+  if (model == CameraModel::kCahvor) return cahv;
+  cahv.e_m = {0.001442, 0.001522, 0.000483};
+  cahv.type = 3;
+  cahv.parameter = 0.37;
+  return cahv;
+}
+
+/// KEY = VALUE lines of a group, for PDS3 with line ends, for VICAR as items.
+using GroupItems = std::vector<std::pair<std::string, std::string>>;
+
+inline std::string pds3Group(const std::string& name, const GroupItems& items) {
+  std::string text = "GROUP = " + name + "\r\n";
+  for (const auto& [key, value] : items) text += " " + key + " = " + value + "\r\n";
+  return text + "END_GROUP = " + name + "\r\n";
+}
+
+inline std::string vicarProperty(const std::string& name, const GroupItems& items) {
+  std::string text = "PROPERTY='" + name + "'  ";
+  for (const auto& [key, value] : items) {
+    std::string quoted = value;
+    for (char& c : quoted)
+      if (c == '"') c = '\'';
+    text += key + "=" + quoted + "  ";
+  }
+  return text;
+}
+
+/// What the same groups say in a PDS3 label and in VICAR labels at the beginning and at the end.
+inline std::vector<ImageLabel> labelsOf(
+    const test::TemporaryFolder& folder,
+    const std::vector<std::pair<std::string, GroupItems>>& groups) {
+  Pds3File pds;
+  VicarFile vicar;
+  for (const auto& [name, items] : groups) {
+    pds.items += pds3Group(name, items);
+    vicar.items += vicarProperty(name, items);
+  }
+  VicarFile at_end = vicar;
+  at_end.items_at_end = true;
+  return {readImageLabel(folder.write("a.img", pds.bytes(Raster::plain()))),
+          readImageLabel(folder.write("a.vic", vicar.bytes(Raster::plain()))),
+          readImageLabel(folder.write("b.vic", at_end.bytes(Raster::plain())))};
+}
+
+/// The group of a camera model; `order` says which component stands where.
+inline GroupItems cameraItems(const CahvModel& cahv, const std::string& order = "CAHVORETP",
+                              bool letters = true, bool names = true) {
+  const std::size_t count = cahv.model == CameraModel::kCahv     ? 4
+                            : cahv.model == CameraModel::kCahvor ? 6
+                                                                 : 9;
+  const std::string all = "CAHVORETP";
+  const char* const words[] = {"CENTER", "AXIS",     "HORIZONTAL", "VERTICAL", "OPTICAL",
+                               "RADIAL", "ENTRANCE", "MTYPE",      "MPARM"};
+  const std::string values[] = {
+      vectorText(cahv.c_m),  vectorText(cahv.a),  vectorText(cahv.h_px),
+      vectorText(cahv.v_px), vectorText(cahv.o),  vectorText(cahv.r),
+      vectorText(cahv.e_m),  decimals(cahv.type), decimals(cahv.parameter)};
+  const char* const types[] = {"CAHV", "CAHVOR", "CAHVORE"};
+  GroupItems items{{"MODEL_TYPE",
+                    std::string("\"") +
+                        types[static_cast<int>(cahv.model) - static_cast<int>(CameraModel::kCahv)] +
+                        "\""}};
+  std::string ids, titles;
+  GroupItems components;
+  for (const char letter : order) {
+    const std::size_t at = all.find(letter);
+    if (at >= count) continue;
+    ids += (ids.empty() ? "(\"" : ",\"") + std::string(1, letter) + "\"";
+    titles += (titles.empty() ? "(\"" : ",\"") + std::string(words[at]) + "\"";
+    components.emplace_back("MODEL_COMPONENT_" + std::to_string(components.size() + 1), values[at]);
+  }
+  if (letters) items.emplace_back("MODEL_COMPONENT_ID", ids + ")");
+  if (names) items.emplace_back("MODEL_COMPONENT_NAME", titles + ")");
+  items.insert(items.end(), components.begin(), components.end());
+  items.emplace_back("REFERENCE_COORD_SYSTEM_NAME", "\"ROVER_NAV_FRAME\"");
+  items.emplace_back("REFERENCE_COORD_SYSTEM_INDEX", "(14,1262,6)");
+  return items;
+}
+
+/// The text with `to` in place of the first `from`.
+inline std::string altered(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+inline std::string textOf(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+}  // namespace boresight::sessions

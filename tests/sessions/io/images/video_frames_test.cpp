@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/images/video_frames.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/videoio.hpp>
+
+#include "sessions/io/images/pixel_image.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using testing::HasSubstr;
+
+/// Five frames of 64 x 48 px, of one colour each, as motion JPEG; false where OpenCV cannot.
+bool writeVideo(const std::filesystem::path& file, bool color) {
+  cv::VideoWriter writer(file.string(), cv::CAP_OPENCV_MJPEG,
+                         cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, cv::Size(64, 48));
+  for (int i = 0; i < 5 && writer.isOpened(); ++i)
+    writer.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar(40 * i, 40 * i, color ? 200 : 40 * i)));
+  return writer.isOpened();
+}
+
+TEST(Video, Frames_AreReadInTheirOrder) {
+  const test::TemporaryFolder folder;
+  for (const bool color : {false, true}) {
+    const std::filesystem::path file = folder / (color ? "color.avi" : "gray.avi");
+    ASSERT_TRUE(writeVideo(file, color));
+    const auto source = openVideo(file);
+    EXPECT_EQ(source->count(), 5);
+    for (int i = 0; i < 5; ++i) {
+      const auto frame = source->next();
+      ASSERT_TRUE(frame && frame->image) << i;
+      EXPECT_EQ(frame->name, "frame 00000" + std::to_string(i + 1));
+      EXPECT_EQ(frame->image->width, 64);
+      EXPECT_EQ(frame->image->height, 48);
+      EXPECT_EQ(frame->image->color.empty(), !color);
+      const double gray = color ? 0.299 * 200 + 0.701 * 40 * i : 40 * i;
+      EXPECT_NEAR(frame->image->pixels[1000], gray, 4.0);
+    }
+    EXPECT_FALSE(source->next());
+  }
+}
+
+/// Of a video and of a folder, whatever comes before the frame.
+TEST(Frames, AnyFrame_IsReadByItsNumber) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(writeVideo(folder / "gray.avi", false));
+  std::filesystem::create_directory(folder / "images");
+  for (int i = 0; i < 5; ++i)
+    writePng(folder / ("images/" + std::to_string(i) + ".png"),
+             std::vector<std::uint8_t>(64 * 48, static_cast<std::uint8_t>(40 * i)), 64, 48, 1);
+  for (const char* images : {"gray.avi", "images"}) {
+    const auto frame = readFrame(folder / images, 4);
+    ASSERT_TRUE(frame && frame->image) << images;
+    EXPECT_NEAR(frame->image->pixels[1000], 120, 4) << images;
+    EXPECT_FALSE(readFrame(folder / images, 6)) << images;
+  }
+  EXPECT_EQ(readFrame(folder / "gray.avi", 4)->name, "frame 000004");
+}
+
+TEST(Video, FileThatIsNone_IsRefusedWithTheRemedy) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("a.mp4", std::string_view("no video"));
+  EXPECT_THAT(folder.message([&] { (void)openVideo(file); }),
+              HasSubstr("cannot read this video; write its frames as PNG images"));
+  EXPECT_THAT(folder.message([&] { (void)openVideo(folder / "none.mp4"); }),
+              HasSubstr("there is no such file"));
+}
+
+TEST(Video, Names_AreKnownByTheirEnds) {
+  EXPECT_TRUE(isVideoName("approach.MP4"));
+  EXPECT_TRUE(isVideoName("a/b.avi"));
+  EXPECT_FALSE(isVideoName("images"));
+  EXPECT_FALSE(isVideoName("images.txt"));
+}
+
+TEST(PixelImage, IsThatOfAFileWithThesePixels) {
+  const test::TemporaryFolder folder;
+  cv::Mat pixels(5, 7, CV_8UC3);
+  cv::randu(pixels, 0, 256);
+  writePng(folder / "a.png", {pixels.data, pixels.total() * 3}, 7, 5, 3);
+  const GrayImage read = readImage(folder / "a.png");
+  const GrayImage made = grayImageOf("a", pixels);
+  EXPECT_EQ(made.pixels, read.pixels);
+  EXPECT_EQ(made.color, read.color);
+  EXPECT_EQ(made.pixels_sha256, read.pixels_sha256);
+  EXPECT_EQ(made.rule, read.rule);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/json/config_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+
+enum class Colour : std::int32_t { kRed = 0, kGreen = 1, kBlue = 2 };
+constexpr const char* kColourNames[] = {"red", "green", "blue"};
+
+/// One field of each kind that an options struct may have.
+struct SampleOptions {
+  bool enabled = true;
+  std::int32_t count = 10;
+  std::int64_t seed = 1;
+  double sigma_px = 1.5;
+  Colour colour = Colour::kGreen;
+
+  bool operator==(const SampleOptions&) const = default;
+
+  template <class Self, class Visitor>
+  static void visitFields(Self& self, Visitor&& visit) {
+    visit(OptionInfo{"sample.enabled", "", 0, 1, "Whether."}, self.enabled);
+    visit(OptionInfo{"sample.count", "", 1, 50, "How many."}, self.count);
+    visit(OptionInfo{"sample.seed", "", 0, 9.3e18, "Of the generator."}, self.seed);
+    visit(OptionInfo{"sample.sigma_px", "px", 0.0, 8.0, "Smoothing."}, self.sigma_px);
+    visit(OptionInfo{"sample.colour", "", 0, 2, "Which.", kColourNames}, self.colour);
+  }
+};
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  Config read(const std::string& rest) {
+    return readConfig(folder_.write("config.json",
+                                    R"({"format": "boresight-config", "version": 1)" + rest + "}"));
+  }
+  std::string error(const std::string& options) {
+    return folder_.message([&] {
+      SampleOptions sample;
+      applyConfig(sample, read(R"(, "options": )" + options));
+    });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ConfigFile, SetsOptionsOfEveryKind) {
+  const Config config = read(R"(, "profile": "paper", "options": {"sample.enabled": false,
+      "sample.count": 20, "sample.seed": 9007199254740993, "sample.sigma_px": 2,
+      "sample.colour": "blue"})");
+  EXPECT_EQ(config.profile, "paper");
+  SampleOptions options;
+  applyConfig(options, config);
+  EXPECT_EQ(options, (SampleOptions{false, 20, 9007199254740993, 2.0, Colour::kBlue}));
+}
+
+TEST_F(ConfigFile, MayBeEmpty) {
+  const Config config = read("");
+  EXPECT_EQ(config.profile, "default");
+  EXPECT_TRUE(config.options.empty());
+}
+
+TEST_F(ConfigFile, NamesTheOptionItsRangeAndItsUnit) {
+  EXPECT_EQ(error(R"({"sample.sigma_px": 9})"),
+            "config.json: options.sample.sigma_px: 9 px is outside 0 .. 8 px");
+  EXPECT_EQ(error(R"({"sample.sigma_px": "wide"})"),
+            "config.json: options.sample.sigma_px: 'wide' is not a number in 0 .. 8 px");
+  EXPECT_EQ(error(R"({"sample.sigma_px": true})"),
+            "config.json: options.sample.sigma_px: true is not a number in 0 .. 8 px");
+  EXPECT_EQ(error(R"({"sample.count": 0})"),
+            "config.json: options.sample.count: 0 is outside 1 .. 50");
+  EXPECT_EQ(error(R"({"sample.count": 2.5})"),
+            "config.json: options.sample.count: 2.5 is not an integer in 1 .. 50");
+  EXPECT_EQ(error(R"({"sample.count": 3.0})"), "(nothing)");
+  EXPECT_EQ(error(R"({"sample.enabled": 1})"),
+            "config.json: options.sample.enabled: 1 is not true or false");
+  EXPECT_EQ(error(R"({"sample.colour": "pink"})"),
+            "config.json: options.sample.colour: 'pink' is not one of red, green, blue");
+  EXPECT_EQ(error(R"({"sample.colour": 1})"),
+            "config.json: options.sample.colour: 1 is not one of red, green, blue");
+  EXPECT_EQ(error(R"({"sample.tint": 1})"), "config.json: options.sample.tint: unknown option");
+  EXPECT_EQ(error(R"({"sample.count": [1]})"),
+            "config.json: options.sample.count: not a number, true, false, or a name");
+}
+
+TEST_F(ConfigFile, LeavesTheOptionsAloneWhenOneIsWrong) {
+  SampleOptions options;
+  EXPECT_THROW(
+      applyConfig(options, read(R"(, "options": {"sample.count": 20, "sample.sigma_px": 9})")),
+      InputError);
+  EXPECT_EQ(options, SampleOptions());
+}
+
+TEST_F(ConfigFile, ReadsBackWhatDiffers) {
+  SampleOptions options;
+  options.sigma_px = 0.1;
+  options.colour = Colour::kRed;
+  options.seed = INT64_MAX;
+  const std::string changed = toJson(changedOptions(options, SampleOptions())).dump();
+  EXPECT_EQ(changed,
+            R"({"sample.seed":9223372036854775807,"sample.sigma_px":0.1,"sample.colour":"red"})");
+  SampleOptions back;
+  applyConfig(back, read(", \"options\": " + changed));
+  EXPECT_EQ(back, options);
+  EXPECT_TRUE(changedOptions(SampleOptions(), SampleOptions()).empty());
+}
+
+TEST(OptionValues, CanBeListed) {
+  const auto all = listOptions(SampleOptions());
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(all[0].kind, OptionKind::kBoolean);
+  EXPECT_EQ(all[1].kind, OptionKind::kInteger);
+  EXPECT_EQ(all[3].unit, "px");
+  EXPECT_EQ(valueText(all[3], all[3].value), "1.5 px");
+  EXPECT_EQ(all[4].kind, OptionKind::kChoice);
+  EXPECT_EQ(all[4].choices.size(), 3u);
+  EXPECT_EQ(valueText(all[4], all[4].value), "green");
+}
+
+TEST(OptionValues, CanBeGivenAsText) {
+  SampleOptions options;
+  applyOptionText(options, "sample.enabled", "false");
+  applyOptionText(options, "sample.count", "20");
+  applyOptionText(options, "sample.sigma_px", "2.5e-1");
+  applyOptionText(options, "sample.colour", "blue");
+  EXPECT_EQ(options, (SampleOptions{false, 20, 1, 0.25, Colour::kBlue}));
+  const auto error = [&options](const char* name, const char* text) {
+    try {
+      applyOptionText(options, name, text);
+    } catch (const OptionError& caught) {
+      return std::string(caught.what());
+    }
+    return std::string("(nothing)");
+  };
+  EXPECT_EQ(error("sample.count", "many"), "sample.count: 'many' is not an integer in 1 .. 50");
+  EXPECT_EQ(error("sample.count", "51"), "sample.count: 51 is outside 1 .. 50");
+  EXPECT_EQ(error("sample.count", ""), "sample.count: '' is not an integer in 1 .. 50");
+  EXPECT_EQ(error("sample.sigma_px", "nan"), "sample.sigma_px: nan px is outside 0 .. 8 px");
+  EXPECT_EQ(error("sample.sigma_px", "1px"), "sample.sigma_px: '1px' is not a number in 0 .. 8 px");
+  EXPECT_EQ(error("sample.enabled", "yes"), "sample.enabled: 'yes' is not true or false");
+  EXPECT_EQ(error("none", "1"), "none: unknown option");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/json/json_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/base/random.h"
+#include "sessions/io/files/errors.h"
+#include "sessions/io/json/json_writer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// What reading `text` with `read` throws.
+template <class Read>
+std::string messageOf(const std::string& text, Read&& read) {
+  try {
+    const JsonDocument document("f.json", text);
+    read(document.root());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "(nothing)";
+}
+
+std::string parseMessage(const std::string& text) {
+  return messageOf(text, [](const JsonReader&) {});
+}
+
+TEST(JsonDocument, NamesThePlaceOfASyntaxError) {
+  EXPECT_THAT(parseMessage("{\"a\": 1,\n \"b\": }"),
+              StartsWith("f.json: not JSON: parse error at line 2, column 7: "));
+  EXPECT_THAT(parseMessage("{\"a\": [1, 2"), HasSubstr("not JSON: the file is truncated"));
+  EXPECT_THAT(parseMessage("\x89PNG\r\n"), HasSubstr("not JSON"));
+  EXPECT_THAT(parseMessage("{} {}"), HasSubstr("not JSON"));
+  EXPECT_THAT(parseMessage("// comment\n{}"), HasSubstr("not JSON"));
+  EXPECT_THAT(parseMessage(" "), HasSubstr("not JSON"));
+}
+
+TEST(JsonDocument, RefusesWhatIsNotUtf8) {
+  EXPECT_THAT(parseMessage("{\"a\": \"\xff\"}"), HasSubstr("not JSON"));
+  EXPECT_EQ(parseMessage("{\"a\": \"\xc3\xa9\"}"), "(nothing)");
+}
+
+TEST(JsonDocument, RefusesNumbersThatAreNotFinite) {
+  for (const char* text : {"{\"m\": [[1, 0], [2, NaN]]}", "[-Infinity]", "[nan]", "[1e999]"})
+    EXPECT_THAT(parseMessage(text), StartsWith("f.json: not JSON: ")) << text;
+}
+
+TEST(JsonDocument, RefusesAKeyThatIsGivenTwice) {
+  EXPECT_EQ(parseMessage("{\"a\": {\"b\": 1, \"c\": [], \"b\": 2}}"), "f.json: b: given twice");
+  EXPECT_EQ(parseMessage("{\"a\": {\"b\": 1}, \"c\": {\"b\": 1}}"), "(nothing)");
+}
+
+TEST(JsonDocument, RefusesDeepNesting) {
+  EXPECT_EQ(parseMessage(std::string(64, '[') + std::string(64, ']')), "(nothing)");
+  EXPECT_THAT(parseMessage(std::string(65, '[') + std::string(65, ']')),
+              HasSubstr("nested deeper than 64 levels"));
+  EXPECT_THAT(parseMessage(std::string(1000000, '[')), HasSubstr("nested deeper"));
+}
+
+TEST(JsonDocument, RefusesTooLargeFiles) {
+  EXPECT_EQ(parseMessage(std::string(kMaxJsonBytes + 1, ' ')),
+            "f.json: larger than the limit of 64 MB");
+}
+
+TEST(JsonDocument, ReadsAFile) {
+  const TemporaryFolder folder;
+  const JsonDocument document(folder.write("a.json", "\xEF\xBB\xBF{\"x\": 5}"));
+  EXPECT_EQ(document.root().at("x").integer(), 5);
+  EXPECT_EQ(folder.message([&] { JsonDocument(folder / "b.json"); }), "b.json: no such file");
+  EXPECT_EQ(folder.message([&] { JsonDocument(folder.write("c.json", "")); }),
+            "c.json: the file is empty");
+}
+
+TEST(JsonDocument, ChecksFormatAndVersion) {
+  const auto message = [](const std::string& text) {
+    return messageOf(text, [](const JsonReader& json) { json.requireFormat("boresight-pose", 1); });
+  };
+  EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 1})"), "(nothing)");
+  EXPECT_EQ(
+      message(R"({"version": 1})"),
+      "f.json: format: missing: a file of its own begins with \"format\": \"boresight-pose\", "
+      "\"version\": 1");
+  EXPECT_EQ(
+      message(R"({"format": "boresight-pose"})"),
+      "f.json: version: missing: a file of its own begins with \"format\": \"boresight-pose\", "
+      "\"version\": 1");
+  EXPECT_EQ(message(R"({"format": "boresight-camera", "version": 1})"),
+            "f.json: format: is 'boresight-camera', not 'boresight-pose'");
+  EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 2})"),
+            "f.json: version: version 2 is not supported (this program reads version 1)");
+  EXPECT_EQ(message("[]"), "f.json: not a JSON object");
+}
+
+/// Reads an object of a required `seed`, an optional `profile`, and `parts` with a `name` each.
+std::string wholeMessage(const std::string& text) {
+  return messageOf(text, [](const JsonReader& json) {
+    json.whole([](const JsonReader& top) {
+      (void)top.at("seed").number();
+      (void)top.find("profile");
+      if (const auto parts = top.find("parts"))
+        for (const JsonReader& part : parts->elements()) (void)part.at("name");
+      if (const auto any = top.find("any")) (void)any->members();
+      return 0;
+    });
+  });
+}
+
+TEST(JsonReader, RefusesMembersThatTheReaderDoesNotAskFor) {
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "parts": [{"name": 1}], "any": {"x": 1}})"), "(nothing)");
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "zoom": 2})"),
+            "f.json: zoom: is not known to this version of the format, which also has: profile, "
+            "parts, any");
+  EXPECT_THAT(wholeMessage(R"({"seed": 1, "zoom": null})"),
+              StartsWith("f.json: zoom: is not known to this version of the format"));
+  EXPECT_EQ(wholeMessage(R"({"seed": 1, "parts": [{"name": 1}, {"name": 2, "size": 3}]})"),
+            "f.json: parts[1].size: is not known to this version of the format");
+}
+
+TEST(JsonReader, NamesMissingAndMistypedMembers) {
+  const std::string text = R"({"n": 1, "s": "x", "l": [1, 2], "o": {"z": null}, "e": ""})";
+  const auto message = [&text](auto read) { return messageOf(text, read); };
+  using J = const JsonReader&;
+  EXPECT_EQ(message([](J j) { j.at("q"); }), "f.json: q: missing");
+  EXPECT_EQ(message([](J j) { j.at("o").at("z"); }), "f.json: o.z: missing");
+  EXPECT_EQ(message([](J j) { j.at("n").at("q"); }), "f.json: n: not an object (is a number)");
+  EXPECT_EQ(message([](J j) { j.at("s").number(); }), "f.json: s: not a number (is a string)");
+  EXPECT_EQ(message([](J j) { j.at("l").number(); }), "f.json: l: not a number (is a list of 2)");
+  EXPECT_EQ(message([](J j) { j.at("n").text(); }), "f.json: n: not a string (is a number)");
+  EXPECT_EQ(message([](J j) { j.at("n").boolean(); }),
+            "f.json: n: not true or false (is a number)");
+  EXPECT_EQ(message([](J j) { j.at("o").elements(); }), "f.json: o: not a list (is an object)");
+  EXPECT_EQ(message([](J j) { j.at("l").vector3(); }),
+            "f.json: l: not a list of 3 (is a list of 2)");
+  EXPECT_EQ(message([](J j) { j.at("e").nonEmptyText(); }), "f.json: e: is empty");
+  EXPECT_EQ(message([](J j) {
+              j.at("s").choice({"y", "z"});
+            }),
+            "f.json: s: 'x' is none of 'y', 'z'");
+}
+
+TEST(JsonReader, ChecksRanges) {
+  const std::string text = R"({"a": 5, "b": 5.0, "c": 5.5, "d": -1, "e": 18446744073709551615,
+                               "f": 1e300, "v": [1, 2, 3.5]})";
+  const auto message = [&text](auto read) { return messageOf(text, read); };
+  using J = const JsonReader&;
+  EXPECT_EQ(message([](J j) { EXPECT_EQ(j.at("a").integer(0, 5), 5); }), "(nothing)");
+  EXPECT_EQ(message([](J j) { EXPECT_EQ(j.at("b").integer(), 5); }), "(nothing)");
+  EXPECT_EQ(message([](J j) { j.at("a").integer(6, 9); }), "f.json: a: 5 is outside 6 .. 9");
+  EXPECT_EQ(message([](J j) { j.at("c").integer(); }), "f.json: c: not an integer (is 5.5)");
+  EXPECT_EQ(message([](J j) { j.at("e").integer(); }), "f.json: e: the integer is too large");
+  EXPECT_EQ(message([](J j) { j.at("f").integer(); }), "f.json: f: not an integer (is 1e+300)");
+  EXPECT_EQ(message([](J j) { j.at("d").number(0, 0.5); }), "f.json: d: -1 is outside 0 .. 0.5");
+  EXPECT_EQ(message([](J j) { j.at("d").numberAbove(-1); }), "f.json: d: -1 is not above -1");
+  EXPECT_EQ(message([](J j) { j.at("v").vector3(0, 3); }), "f.json: v[2]: 3.5 is outside 0 .. 3");
+}
+
+TEST(JsonReader, ReadsMatricesRowByRow) {
+  const JsonDocument document("f.json", "[[1,2,3,4],[5,6,7,8],[9,10,11,12],[13,14,15,16]]");
+  const Eigen::Matrix4d matrix = document.root().matrix<4>();
+  EXPECT_EQ(matrix(0, 3), 4.0);
+  EXPECT_EQ(matrix(3, 0), 13.0);
+  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7]]", [](const JsonReader& j) { j.matrix<4>(); }),
+            "f.json: not a list of 4 (is a list of 2)");
+  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7],[1,2,3,4],[1,2,3,4]]",
+                      [](const JsonReader& j) { j.matrix<4>(); }),
+            "f.json: [1]: not a list of 4 (is a list of 3)");
+}
+
+TEST(JsonReader, ResolvesPathsAgainstTheFile) {
+  const JsonDocument document("/data/set/d.json", R"(["a/b.png", "../c.ply", "/x/y", ""])");
+  const auto all = document.root().elements();
+  EXPECT_EQ(all[0].path(), "/data/set/a/b.png");
+  EXPECT_EQ(all[1].path(), "/data/c.ply");
+  EXPECT_EQ(all[2].path(), "/x/y");
+  EXPECT_THROW((void)all[3].path(), InputError);
+}
+
+TEST(PrettyJson, KeepsEveryBitOfADouble) {
+  Random random(1);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  std::vector<double> values = {0.1, 1.0 / 3.0, 5e-324, std::numeric_limits<double>::max(), -0.0};
+  for (int i = 0; i < 2000; ++i)
+    values.push_back((random.uniform() - 0.5) * std::pow(10.0, random.uniform(-300.0, 300.0)));
+  for (const double value : values) list.push_back(value);
+  const JsonDocument document("f.json", prettyJson(list));
+  const auto read = document.root().elements();
+  ASSERT_EQ(read.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(read[i].number(), values[i]);
+    EXPECT_EQ(std::signbit(read[i].number()), std::signbit(values[i]));
+  }
+}
+
+TEST(PrettyJson, PutsPlainListsOnOneLine) {
+  nlohmann::ordered_json json;
+  json["b"] = {1, 2, 3};
+  json["a"] = {{1.5, 2}, {3, 4}};
+  json["e"] = nlohmann::ordered_json::object();
+  EXPECT_EQ(
+      prettyJson(json),
+      "{\n  \"b\": [1, 2, 3],\n  \"a\": [\n    [1.5, 2],\n    [3, 4]\n  ],\n  \"e\": {}\n}\n");
+}
+
+TEST(PrettyJson, RefusesNumbersThatAreNotFinite) {
+  EXPECT_THROW((void)prettyJson(nlohmann::ordered_json(std::nan(""))), std::logic_error);
+  EXPECT_THROW((void)prettyJson(nlohmann::ordered_json::array({1.0, HUGE_VAL})), std::logic_error);
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/meshes/mesh_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "core/base/random.h"
+#include "sessions/io/files/errors.h"
+#include "tests/sessions/io/meshes/expect_cube.h"
+#include "tests/sessions/io/meshes/mesh_samples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAreArray;
+using namespace boresight::test;  // NOLINT: the samples are this file's vocabulary
+
+class ReadMesh : public ::testing::Test {
+ protected:
+  Mesh read(const std::string& name, const std::string& content, const std::string& unit = "m") {
+    return readMesh(folder_.write(name, content), unit);
+  }
+  std::string error(const std::string& name, const std::string& content,
+                    const std::string& unit = "m") {
+    return folder_.message([&] { (void)read(name, content, unit); });
+  }
+  TemporaryFolder folder_;
+};
+
+/// The cube's quads as one list of strips, each ended by -1, with the elements in either order.
+std::string stripsPly(bool ascii, bool big_endian) {
+  const PolygonMesh mesh = cube();
+  std::vector<std::int32_t> strips;
+  for (const auto& quad : mesh.polygons)
+    for (const std::int32_t index : {quad[0], quad[1], quad[3], quad[2], -1})
+      strips.push_back(index);
+  // A strip that turns around at doubled vertices has no further triangles.
+  strips.insert(strips.end(), {0, 0, 0, 1, 1});
+  std::string text = plyHeader(ascii        ? "ascii"
+                               : big_endian ? "binary_big_endian"
+                                            : "binary_little_endian",
+                               8, 0);
+  const std::string face = "element face 0\nproperty list uchar int vertex_indices\n";
+  text.replace(text.find(face), face.size(),
+               "property uchar red\nelement tristrips 1\nproperty list int int vertex_indices\n");
+  const auto add = [&](auto value) {
+    if (ascii)
+      text += std::to_string(value) + " ";
+    else
+      appendNumber(text, value, big_endian);
+  };
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    for (const float value : vertex) add(value);
+    add(std::uint8_t{200});
+  }
+  add(static_cast<std::int32_t>(strips.size()));
+  for (const std::int32_t index : strips) add(index);
+  return text;
+}
+
+TEST_F(ReadMesh, PlyWithTriangleStrips_IsReadAsTriangles) {
+  expectCube(read("ascii.ply", stripsPly(true, false)));
+  expectCube(read("little.ply", stripsPly(false, false)));
+  expectCube(read("big.ply", stripsPly(false, true)));
+  std::string outside = stripsPly(true, false);
+  outside.replace(outside.rfind("0 0 0 1 1"), 9, "0 1 8 1 1");
+  EXPECT_THAT(error("outside.ply", outside), HasSubstr("vertex 8 does not exist"));
+  const std::string whole = stripsPly(false, false);
+  EXPECT_THAT(error("cut.ply", whole.substr(0, whole.size() - 3)), HasSubstr("truncated"));
+}
+
+TEST_F(ReadMesh, PlyWithFacesBeforeVertices_IsRead) {
+  const std::string text = asciiPly(cube());
+  const std::size_t vertex = text.find("element vertex");
+  const std::size_t face = text.find("element face");
+  const std::size_t body = text.find("end_header\n") + 11;
+  const std::size_t faces = text.find("\n4 ", body) + 1;
+  expectCube(read("faces.ply", text.substr(0, vertex) + text.substr(face, body - 11 - face) +
+                                   text.substr(vertex, face - vertex) + "end_header\n" +
+                                   text.substr(faces) + text.substr(body, faces - body)));
+}
+
+TEST_F(ReadMesh, ReadsEveryFormat) {
+  const std::string node = R"([{"mesh":0}])";
+  expectCube(read("ascii.ply", asciiPly(cube())));
+  expectCube(read("little.ply", binaryPly(cube(), false)));
+  expectCube(read("big.ply", binaryPly(cube(), true)));
+  expectCube(read("CUBE.OBJ", obj(cube())));
+  expectCube(read("binary.stl", binaryStl(cube())));
+  expectCube(read("tricky.stl", binaryStl(cube(), "solid but binary")));
+  expectCube(read("ascii.stl", asciiStl(cube())));
+  expectCube(read("cube.glb", glb(cube(), node), ""));
+  folder_.write("cube.bin", gltfBuffer(cube()));
+  expectCube(read("cube.gltf", gltf(cube(), node, R"("uri":"cube.bin",)"), ""));
+}
+
+TEST_F(ReadMesh, KeepsCoordinatesInMetresExactly) {
+  Random random(4);
+  PolygonMesh source;
+  for (int i = 0; i < 300; ++i)
+    source.vertices.emplace_back(static_cast<float>(random.normal()),
+                                 static_cast<float>(random.normal()),
+                                 static_cast<float>(random.normal()));
+  for (std::int32_t i = 0; i + 2 < 300; i += 3) source.polygons.push_back({i, i + 1, i + 2});
+  const Mesh mesh = read("mesh.ply", binaryPly(source, false));
+  ASSERT_EQ(mesh.vertices_m.size(), 300u);
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(mesh.vertices_m[i], source.vertices[i]);
+  for (std::size_t f = 0; f < 100; ++f)
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mesh.faces[f].vertex[i], source.polygons[f][i]);
+}
+
+/// -0.16 m is 0A D7 23 BE: its first byte is that of a line end.
+TEST_F(ReadMesh, TakesAFirstByteOfTenForData) {
+  PolygonMesh mesh = cube();
+  mesh.vertices[0].x() = -0.16F;
+  for (const bool after_carriage_return : {false, true}) {
+    std::string bytes = binaryPly(mesh, false);
+    if (after_carriage_return) bytes.insert(bytes.find("end_header") + 10, "\r");
+    const Mesh result = read("ten.ply", bytes);
+    EXPECT_THAT(result.vertices_m, UnorderedElementsAreArray(mesh.vertices));
+  }
+}
+
+TEST_F(ReadMesh, ConvertsTheStatedUnit) {
+  expectCube(read("mesh.ply", asciiPly(cube()), "mm"), 1e-3);
+  expectCube(read("mesh.stl", binaryStl(cube()), "in"), 0.0254);
+  expectCube(read("mesh.obj", obj(cube()), "cm"), 1e-2);
+  expectCube(read("mesh.glb", glb(cube(), R"([{"mesh":0}])"), "mm"), 1e-3);
+  EXPECT_EQ(read("mesh.glb", glb(cube(), R"([{"mesh":0}])"), "").info.unit, "m");
+  EXPECT_EQ(metresPerUnit("um"), 1e-6);
+  EXPECT_EQ(metresPerUnit("parsec"), std::nullopt);
+}
+
+TEST_F(ReadMesh, NeverGuessesAUnit) {
+  EXPECT_EQ(error("mesh.ply", asciiPly(cube()), ""),
+            "mesh.ply: mesh_unit: missing: PLY carries no unit (m, cm, mm, um, in, ...)");
+  EXPECT_THAT(error("mesh.stl", binaryStl(cube()), ""), HasSubstr("STL carries no unit"));
+  EXPECT_THAT(error("mesh.obj", obj(cube()), ""), HasSubstr("OBJ carries no unit"));
+  EXPECT_EQ(error("mesh.ply", asciiPly(cube()), "furlong"),
+            "mesh.ply: mesh_unit: unknown unit 'furlong' (m, dm, cm, mm, um, in, ft, yd, km)");
+}
+
+TEST_F(ReadMesh, AppliesNodeTransforms) {
+  // The child is scaled by 2 and moved, its parent turned a quarter about x (y to z) and moved.
+  const std::string nodes =
+      R"([{"children":[1],"rotation":[0.70710678118654757,0,0,0.70710678118654757],)"
+      R"("translation":[100,0,0]},{"mesh":0,"scale":[2,2,2],"translation":[0,5,0]}])";
+  const Mesh mesh = read("mesh.glb", glb(cube(), nodes), "");
+  // x: 2 [-1, 1] + 100; y: -(2 [9, 11]); z: 2 [-1, 1] + 5.
+  EXPECT_TRUE(mesh.info.minimum_m.isApprox(Eigen::Vector3d(98, -22, 3), 1e-5));
+  EXPECT_TRUE(mesh.info.maximum_m.isApprox(Eigen::Vector3d(102, -18, 7), 1e-5));
+  EXPECT_NEAR(signedVolume_m3(mesh), 64.0, 1e-3);
+}
+
+TEST_F(ReadMesh, KeepsFacesOutwardUnderAMirroredNode) {
+  const Mesh mesh = read("mesh.glb", glb(cube(), R"([{"mesh":0,"scale":[-1,1,1]}])"), "");
+  EXPECT_NEAR(signedVolume_m3(mesh), 8.0, 1e-5);
+}
+
+TEST_F(ReadMesh, PlacesAMeshOncePerNode) {
+  const std::string nodes = R"([{"children":[1,2]},{"mesh":0},{"mesh":0,"translation":[10,0,0]}])";
+  const Mesh mesh = read("mesh.glb", glb(cube(), nodes), "");
+  EXPECT_EQ(mesh.faces.size(), 24u);
+  EXPECT_NEAR(mesh.info.maximum_m.x(), 11.0, 1e-6);
+}
+
+TEST_F(ReadMesh, RefusesNodesThatAreNotTrees) {
+  const auto message = [this](const std::string& nodes) {
+    return error("mesh.glb", glb(cube(), nodes), "");
+  };
+  EXPECT_EQ(message(R"([{"children":[1,1]},{"mesh":0}])"),
+            "mesh.glb: nodes[0].children[1]: the node has two parents");
+  EXPECT_EQ(message(R"([{"children":[1]},{"mesh":0,"children":[0]}])"),
+            "mesh.glb: scenes[0].nodes[0]: the scene's root is another node's child");
+  EXPECT_EQ(message(R"([{"children":[2]},{"mesh":0}])"),
+            "mesh.glb: nodes[0].children[0]: 2 is outside 0 .. 1");
+}
+
+/// Nodes that each have the next one as their child, the last with the mesh.
+std::string chainOfNodes(int count) {
+  std::string nodes = "[";
+  for (int i = 1; i < count; ++i) nodes += "{\"children\":[" + std::to_string(i) + "]},";
+  return nodes + "{\"mesh\":0}]";
+}
+
+TEST_F(ReadMesh, RefusesNodesNestedSoDeepThatAnImporterWouldExhaustItsStack) {
+  expectCube(read("deep.glb", glb(cube(), chainOfNodes(256)), ""));
+  const std::string expected = " is nested deeper than 256 nodes, or is its own ancestor";
+  EXPECT_EQ(error("deep.glb", glb(cube(), chainOfNodes(257)), ""),
+            "deep.glb: nodes[256]:" + expected);
+  EXPECT_EQ(error("deep.glb", glb(cube(), chainOfNodes(100'000)), ""),
+            "deep.glb: nodes[256]:" + expected);
+  EXPECT_EQ(error("deep.gltf", gltf(cube(), chainOfNodes(100'000), ""), ""),
+            "deep.gltf: nodes[256]:" + expected);
+  EXPECT_EQ(error("many.glb", glb(cube(), chainOfNodes(100'001)), ""),
+            "many.glb: nodes: 100001 nodes exceed the limit of 100000");
+}
+
+/// No scene has the circle, but skins and animations may lead to it.
+TEST_F(ReadMesh, RefusesNodesInACircle) {
+  EXPECT_EQ(
+      error("circle.glb", glb(cube(), R"([{"mesh":0},{"children":[2]},{"children":[1]}])"), ""),
+      "circle.glb: nodes[1]: is nested deeper than 256 nodes, or is its own ancestor");
+}
+
+/// Skins, images and animations crash importers, and are not needed.
+TEST_F(ReadMesh, Gltf_OnlyTheGeometryIsRead) {
+  const std::string rest =
+      R"("skins":[{"joints":[1e-320]}],"animations":7,"images":[{"bufferView":99}],)"
+      R"("materials":[{"extensions":{"KHR_none":[{}]}}],"asset":)";
+  const auto with = [&](std::string json) {
+    return json.replace(json.find("\"asset\":"), 8, rest);
+  };
+  const std::string nodes = R"([{"mesh":0,"skin":0,"camera":-1,"extras":[[]]}])";
+  folder_.write("cube.bin", gltfBuffer(cube()));
+  expectCube(read("cube.gltf", with(gltf(cube(), nodes, R"("uri":"cube.bin",)")), ""));
+  expectCube(read("cube.glb", glb(cube(), nodes), ""));
+}
+
+/// The importer follows what their members name without a look.
+TEST_F(ReadMesh, RefusesSparseAccessors) {
+  std::string json = gltf(cube(), R"([{"mesh":0}])", "");
+  json.insert(json.find("{\"bufferView\":0") + 1, R"("sparse":{"count":1,"values":{}},)");
+  EXPECT_EQ(
+      error("sparse.gltf", json, ""),
+      "sparse.gltf: accessors[0].sparse: is not read: write the mesh without sparse accessors");
+}
+
+/// A file whose format's own importer does not know it is not offered to the others.
+TEST_F(ReadMesh, RefusesOtherFormatsUnderAKnownName) {
+  const std::string collada =
+      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" )"
+      R"(version="1.4.1"><library_visual_scenes><visual_scene id="s"><node id="n"/>)"
+      R"(</visual_scene></library_visual_scenes></COLLADA>)";
+  for (const char* name : {"scene.obj", "scene.gltf", "scene.glb", "scene.stl"})
+    EXPECT_THAT(error(name, collada, "m"), StartsWith(name)) << name;
+}
+
+class GltfBuffer : public ReadMesh {
+ protected:
+  /// What is said of a mesh in a folder of its own with this buffer.
+  std::string errorOf(const std::string& uri) {
+    return error("mesh/cube.gltf", gltf(cube(), R"([{"mesh":0}])", R"("uri":")" + uri + R"(",)"),
+                 "");
+  }
+};
+
+TEST_F(GltfBuffer, IsReadOnlyInTheMeshsFolder) {
+  const auto outside = folder_.write("outside.bin", gltfBuffer(cube()));
+  folder_.write("mesh/inside.bin", gltfBuffer(cube()));
+  folder_.write("mesh/below/cube 1.bin", gltfBuffer(cube()));
+  std::filesystem::create_symlink("../outside.bin", folder_ / "mesh/link.bin");
+  std::filesystem::create_symlink("..", folder_ / "mesh/up");
+  std::filesystem::create_symlink("inside.bin", folder_ / "mesh/alias.bin");
+  for (const char* uri : {"inside.bin", "./inside.bin", "below/cube%201.bin", "alias.bin"})
+    EXPECT_EQ(errorOf(uri), "(nothing)") << uri;
+  for (const std::string& uri :
+       {std::string("../outside.bin"), std::string("below/../../outside.bin"),
+        std::string("%2e%2e/outside.bin"), outside.string(), std::string("/dev/zero"),
+        std::string("link.bin"), std::string("up/outside.bin")})
+    EXPECT_THAT(errorOf(uri), AllOf(StartsWith("mesh/cube.gltf: buffers[0].uri: '"),
+                                    HasSubstr("is not in the mesh's folder")))
+        << uri;
+}
+
+TEST_F(GltfBuffer, IsRefusedWhenItIsAPipe) {
+  std::filesystem::create_directory(folder_ / "mesh");
+  ASSERT_EQ(::mkfifo((folder_ / "mesh/pipe.bin").c_str(), 0600), 0);
+  EXPECT_EQ(errorOf("pipe.bin"),
+            "mesh/pipe.bin: is a pipe, a socket or a device: give a regular file");
+}
+
+TEST_F(GltfBuffer, TogetherWithTheOthersIsNotLargerThanAMeshMayBe) {
+  std::filesystem::create_directory(folder_ / "mesh");
+  std::ofstream(folder_ / "mesh/large.bin");
+  std::filesystem::resize_file(folder_ / "mesh/large.bin", kMaxMeshFileBytes / 2 + 1);
+  const std::string buffer = R"({"uri":"large.bin","byteLength":8})";
+  EXPECT_THAT(error("mesh/cube.gltf",
+                    R"({"asset":{"version":"2.0"},"buffers":[)" + buffer + "," + buffer + "]}", ""),
+              HasSubstr("large.bin: larger than the limit of 255 MB"));
+}
+
+/// Importers read other files by themselves where they are let.
+TEST_F(GltfBuffer, OfABinaryFileIsNotReadFromElsewhere) {
+  folder_.write("cube.bin", gltfBuffer(cube()));
+  std::string json =
+      gltf(cube(), R"([{"mesh":0}])", R"("uri":")" + (folder_ / "cube.bin").string() + R"(",)");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string file = "glTF";
+  appendNumber(file, std::uint32_t{2}, false);
+  appendNumber(file, static_cast<std::uint32_t>(20 + json.size()), false);
+  appendNumber(file, static_cast<std::uint32_t>(json.size()), false);
+  EXPECT_THAT(error("cube.glb", file + "JSON" + json, ""),
+              StartsWith("cube.glb: not a readable GLB"));
+}
+
+TEST_F(ReadMesh, HashesTheFileAndTheBuffersOfGltf) {
+  const std::string text = asciiPly(cube());
+  const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  EXPECT_EQ(read("mesh.ply", text).info.file_sha256, sha256Text(bytes));
+  std::string buffer = gltfBuffer(cube());
+  folder_.write("mesh.bin", buffer);
+  const std::string scene = gltf(cube(), R"([{"mesh":0}])", R"("uri":"mesh.bin",)");
+  const std::string before = read("mesh.gltf", scene, "").info.file_sha256;
+  buffer[0] ^= 1;
+  folder_.write("mesh.bin", buffer);
+  EXPECT_NE(read("mesh.gltf", scene, "").info.file_sha256, before);
+}
+
+TEST_F(ReadMesh, CountsWhatItLeavesOut) {
+  PolygonMesh mesh = cube();
+  mesh.vertices.emplace_back(50.0F, 0.0F, 0.0F);  // unused
+  mesh.vertices.push_back(mesh.vertices[0]);      // repeated
+  mesh.polygons.push_back({0, 9, 1});             // collapses
+  const Mesh read_mesh = read("mesh.ply", binaryPly(mesh, false));
+  EXPECT_EQ(read_mesh.info.file_vertices, 10);
+  EXPECT_EQ(read_mesh.info.file_polygons, 7);
+  EXPECT_EQ(read_mesh.info.unused_vertices, 1);
+  EXPECT_EQ(read_mesh.info.merged_vertices, 1);
+  EXPECT_EQ(read_mesh.info.collapsed_faces, 1);
+  EXPECT_EQ(read_mesh.info.notes().size(), 2u);
+  expectCube(read_mesh);
+}
+
+TEST_F(ReadMesh, CountsSliversAndRefusesNothingButSlivers) {
+  PolygonMesh mesh = cube();
+  mesh.vertices.emplace_back(0.0F, 0.00001F, 9.0F);
+  mesh.vertices.emplace_back(-1.0F, 0.0F, 9.0F);
+  mesh.vertices.emplace_back(1.0F, 0.0F, 9.0F);
+  mesh.polygons.push_back({8, 9, 10});
+  EXPECT_EQ(read("mesh.ply", binaryPly(mesh, false)).info.sliver_faces, 1);
+  mesh.polygons = {{8, 9, 10}, {8, 10, 9}};
+  EXPECT_EQ(error("mesh.ply", binaryPly(mesh, false)),
+            "mesh.ply: faces: all 2 are slivers without area");
+  mesh.vertices[8] = Eigen::Vector3f(0.0F, 0.0F, 9.0F);
+  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("slivers"));
+  mesh.polygons = {{8, 8, 9}};
+  EXPECT_THAT(error("mesh.ply", binaryPly(mesh, false)), HasSubstr("no area"));
+}
+
+TEST_F(ReadMesh, TriangulatesConcavePolygons) {
+  // An L of area 3, whose fan from the first corner would overlap.
+  PolygonMesh mesh;
+  mesh.vertices = {{2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}, {2, 0, 0}};
+  mesh.polygons = {{0, 1, 2, 3, 4, 5}};
+  for (const char* name : {"mesh.ply", "mesh.obj"}) {
+    const Mesh l = read(name, name[5] == 'p' ? asciiPly(mesh) : obj(mesh));
+    EXPECT_EQ(l.faces.size(), 4u);
+    EXPECT_NEAR(area_m2(l), 3.0, 1e-6);
+    EXPECT_EQ(l.info.irregular_polygons, 0);
+  }
+}
+
+TEST_F(ReadMesh, RefusesPointClouds) {
+  PolygonMesh points = cube();
+  points.polygons.clear();
+  const std::string expected = "the mesh has no faces (a point cloud cannot be rendered)";
+  EXPECT_EQ(error("mesh.ply", asciiPly(points)), "mesh.ply: " + expected);
+  EXPECT_EQ(error("mesh.ply", binaryPly(points, false)), "mesh.ply: " + expected);
+  EXPECT_EQ(error("mesh.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                  "property float y\nproperty float z\nend_header\n0 0 0\n"),
+            "mesh.ply: " + expected);
+  EXPECT_THAT(error("mesh.obj", obj(points)), StartsWith("mesh.obj: "));
+  EXPECT_EQ(error("mesh.stl", binaryStl(points)), "mesh.stl: the mesh has no faces");
+  EXPECT_THAT(error("lines.obj", obj(points) + "l 1 2\n"), StartsWith("lines.obj: "));
+}
+
+TEST_F(ReadMesh, RefusesCoordinatesThatAreNotFinite) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    PolygonMesh mesh = cube();
+    mesh.vertices[5].y() = bad;
+    EXPECT_EQ(error("mesh.ply", binaryPly(mesh, false)), "mesh.ply: vertex 5: not a finite number");
+    EXPECT_THAT(error("mesh.ply", asciiPly(mesh)), HasSubstr("not a finite number"));
+    EXPECT_THAT(error("mesh.stl", binaryStl(mesh)), HasSubstr("not a finite number"));
+    EXPECT_THAT(error("mesh.glb", glb(mesh, R"([{"mesh":0}])"), ""), StartsWith("mesh.glb: "));
+  }
+  PolygonMesh far = cube();
+  far.vertices[2].x() = 1e30F;
+  EXPECT_EQ(error("mesh.ply", binaryPly(far, false)),
+            "mesh.ply: vertex 2: is more than 1000 km from the origin: check the unit");
+}
+
+TEST_F(ReadMesh, RefusesIndicesOutOfRange) {
+  for (const std::int32_t bad : {8, 1000000, -1}) {
+    PolygonMesh mesh = cube();
+    mesh.polygons[3][1] = bad;
+    EXPECT_NE(error("mesh.ply", binaryPly(mesh, false)), "(nothing)") << bad;
+    EXPECT_NE(error("mesh.ply", asciiPly(mesh)), "(nothing)") << bad;
+    if (bad < 0) continue;  // unsigned in glTF, counted from the end in OBJ
+    EXPECT_NE(error("mesh.glb", glb(mesh, R"([{"mesh":0}])"), ""), "(nothing)") << bad;
+    EXPECT_NE(error("mesh.obj", obj(mesh)), "(nothing)") << bad;
+  }
+}
+
+/// Wherever a file is cut, it is refused: importers alone would take what is there.
+TEST_F(ReadMesh, RefusesEveryTruncation) {
+  const std::pair<const char*, std::string> files[] = {
+      {"little.ply", binaryPly(cube(), false)}, {"big.ply", binaryPly(cube(), true)},
+      {"ascii.ply", asciiPly(cube())},          {"binary.stl", binaryStl(cube())},
+      {"ascii.stl", asciiStl(cube())},          {"mesh.glb", glb(cube(), R"([{"mesh":0}])")}};
+  for (const auto& [name, content] : files) {
+    const bool text = std::string(name).starts_with("ascii");
+    // A text without its last line break, or without the name of the solid, is still whole.
+    const std::size_t last = content.size() - (text ? 8 : 1);
+    for (std::size_t size = 1; size <= last; size += 1 + content.size() / 211)
+      ASSERT_NE(error(name, content.substr(0, size)), "(nothing)")
+          << name << " cut to " << size << " of " << content.size();
+    EXPECT_NE(error(name, content.substr(0, last)), "(nothing)") << name;
+  }
+  EXPECT_EQ(error("cut.ply", binaryPly(cube(), false).substr(0, 300)),
+            "cut.ply: the PLY mesh is truncated");
+  folder_.write("cut.bin", gltfBuffer(cube()).substr(0, 100));
+  EXPECT_NE(error("cut.gltf", gltf(cube(), R"([{"mesh":0}])", R"("uri":"cut.bin",)"), ""),
+            "(nothing)");
+}
+
+TEST_F(ReadMesh, RefusesOtherFiles) {
+  EXPECT_EQ(folder_.message([&] { (void)readMesh(folder_ / "none.ply", "m"); }),
+            "none.ply: no such file");
+  EXPECT_EQ(error("empty.ply", ""), "empty.ply: the file is empty");
+  EXPECT_EQ(error("mesh.step", "ISO-10303-21;"),
+            "mesh.step: unknown mesh format '.step' (ply, obj, stl, gltf, glb)");
+  EXPECT_EQ(error("mesh", "x"), "mesh: unknown mesh format '' (ply, obj, stl, gltf, glb)");
+  for (const char* name : {"mesh.ply", "mesh.obj", "mesh.stl", "mesh.gltf", "mesh.glb"}) {
+    EXPECT_THAT(error(name, "\x89PNG\r\n\x1a\n nothing of the kind"), StartsWith(name)) << name;
+    EXPECT_THAT(error(name, std::string(500, '\0')), StartsWith(name)) << name;
+  }
+}
+
+/// A count that leaves data over would drop faces without a word.
+TEST_F(ReadMesh, RefusesCountsThatTheFileContradicts) {
+  const auto with = [](std::string content, const std::string& count) {
+    return content.replace(content.find("face 6") + 5, 1, count);
+  };
+  EXPECT_EQ(error("a.ply", with(asciiPly(cube()), "5")),
+            "a.ply: header: declares vertex 8, face 5, but 11 more bytes follow these elements");
+  for (const bool big_endian : {false, true})
+    EXPECT_EQ(error("b.ply", with(binaryPly(cube(), big_endian), "5")),
+              "b.ply: header: declares vertex 8, face 5, but 17 more bytes follow these elements");
+  for (const char* count : {"5.5", "6.0", "1e9", "0x6", "-6", "", "six"})
+    for (const std::string& content : {asciiPly(cube()), binaryPly(cube(), false)}) {
+      EXPECT_THAT(error("c.ply", with(content, count)),
+                  AllOf(StartsWith("c.ply: header: bad line 'element face"),
+                        HasSubstr(std::string("'") + count + "' is not a whole number")))
+          << count;
+    }
+  EXPECT_THAT(
+      error("d.ply", asciiPly(cube()).replace(asciiPly(cube()).rfind("\n4 ") + 1, 1, "4.0")),
+      HasSubstr("d.ply: face 5: '4.0' is not the length of a list"));
+  expectCube(read("e.ply", asciiPly(cube()) + " \r\n\n"));
+  expectCube(read("f.ply", binaryPly(cube(), false) + "\n"));
+  std::string stl = binaryStl(cube());
+  stl[80] = 11;
+  EXPECT_EQ(error("g.stl", stl),
+            "g.stl: header: declares 11 facets, but the file can hold only 12");
+}
+
+TEST_F(ReadMesh, RefusesHugeDeclarationsBeforeReading) {
+  EXPECT_EQ(error("mesh.ply", plyHeader("ascii", 5000000, 1) + std::string(10000100, '\n')),
+            "mesh.ply: the PLY mesh is truncated");
+  EXPECT_THAT(error("mesh.ply", plyHeader("binary_little_endian", 4000000000u, 4000000000u)),
+              HasSubstr("too many items"));
+  PolygonMesh mesh = cube();
+  mesh.polygons.assign(1000001, {0, 1, 2});
+  EXPECT_EQ(error("mesh.ply", binaryPly(mesh, false)),
+            "mesh.ply: faces: 1000001 exceed the limit of 1000000: decimate the mesh");
+}
+
+/// Damaged files may be refused or read, but never crash or give an invalid mesh.
+TEST_F(ReadMesh, SurvivesDamagedFiles) {
+  const std::pair<const char*, std::string> files[] = {
+      {"mesh.ply", binaryPly(cube(), false)},
+      {"text.ply", asciiPly(cube())},
+      {"mesh.stl", binaryStl(cube())},
+      {"text.stl", asciiStl(cube())},
+      {"mesh.obj", obj(cube())},
+      {"mesh.glb", glb(cube(), R"([{"mesh":0}])")}};
+  Random random(8);
+  for (const auto& [name, content] : files) {
+    for (int round = 0; round < 120; ++round) {
+      std::string damaged = content;
+      for (std::uint32_t i = 0; i <= random.below(4); ++i)
+        damaged[random.below(static_cast<std::uint32_t>(damaged.size()))] =
+            static_cast<char>(random.below(256));
+      try {
+        EXPECT_EQ(validity(read(name, damaged)), Status::kOk);
+      } catch (const InputError&) {
+      }
+    }
+  }
+}
+
+TEST(LengthText, SwitchesToMillimetres) {
+  EXPECT_EQ(lengthText(0.0123), "12.3 mm");
+  EXPECT_EQ(lengthText(4.56), "4.56 m");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sessions/io/meshes/scene_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "sessions/io/files/errors.h"
+#include "tests/sessions/io/meshes/mesh_samples.h"
+#include "tests/support/temporary_folder.h"
+
+namespace boresight::sessions {
+namespace {
+
+using boresight::test::TemporaryFolder;
+
+class SceneMeshTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("cube.ply", test::binaryPly(test::cube(), false));
+    cube_ = readMesh(folder_ / "cube.ply", "m");
+  }
+  static Pose turned(double angle_rad, const Eigen::Vector3d& translation_m) {
+    Pose pose;
+    pose.rotation = rotationExp(Eigen::Vector3d(0, 0, angle_rad));
+    pose.translation_m = translation_m;
+    return pose;
+  }
+  TemporaryFolder folder_;
+  Mesh cube_;
+};
+
+TEST_F(SceneMeshTest, Parts_ArePlacedByTheirTransforms) {
+  SceneMesh scene;
+  ScenePart matched;
+  matched.depth_threshold_m = 0.001;
+  ScenePart occluder;
+  occluder.match = false;
+  addPart(scene, cube_, Pose(), matched);
+  addPart(scene, cube_, turned(std::numbers::pi / 2, Eigen::Vector3d(100, 0, 0)), occluder);
+  const MeshView view = scene.view();
+  EXPECT_EQ(validateMesh(view), Status::kOk);
+  ASSERT_EQ(view.vertices_in_station_m.size(), 16u);
+  ASSERT_EQ(view.faces.size(), 24u);
+  EXPECT_EQ(view.parts[0].depth_threshold_m, 0.001);
+  EXPECT_FALSE(view.parts[1].match);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(scene.vertices_in_station_m[i], cube_.vertices_m[i]) << "placed without a transform";
+    const Eigen::Vector3f& v = cube_.vertices_m[i];
+    EXPECT_TRUE(scene.vertices_in_station_m[8 + i].isApprox(
+        Eigen::Vector3f(100.0F - v.y(), v.x(), v.z()), 1e-6F));
+  }
+  for (std::size_t f = 0; f < 12; ++f) {
+    EXPECT_EQ(view.part_of_face[f], 0);
+    EXPECT_EQ(view.part_of_face[12 + f], 1);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(view.faces[12 + f].vertex[i], cube_.faces[f].vertex[i] + 8);
+  }
+  EXPECT_EQ(matchedVertices(view).size(), 8u);
+  EXPECT_EQ(matchedVertices(view)[3], cube_.vertices_m[3]);
+  EXPECT_NEAR(matchedBounds(view).maximum_m.x(), 1.0, 1e-6);
+}
+
+TEST_F(SceneMeshTest, ReadsPartsFromFiles) {
+  PartSource part;
+  part.mesh = folder_ / "cube.ply";
+  part.mesh_unit = "cm";
+  const SceneMesh scene = readScene(std::vector<PartSource>{part});
+  EXPECT_EQ(scene.faces.size(), 12u);
+  EXPECT_EQ(scene.infos.at(0).unit, "cm");
+  part.state.role = PartRole::kOccludes;
+  EXPECT_EQ(folder_.message([&] { (void)readScene(std::vector<PartSource>{part}); }),
+            "cube.ply: role: no part of the station is matched");
+  EXPECT_THROW((void)readScene({}), InputError);
+  part.mesh = folder_ / "none.ply";
+  EXPECT_EQ(folder_.message([&] { (void)readScene(std::vector<PartSource>{part}); }),
+            "none.ply: no such file");
+}
+
+TEST_F(SceneMeshTest, PartsFixedToTheCamera_ComeLast) {
+  PartSource gripper;
+  gripper.mesh = folder_ / "cube.ply";
+  gripper.mesh_unit = "m";
+  gripper.frame = kCameraFrame;
+  gripper.frame_from_mesh.translation_m.z() = 0.5;
+  gripper.state.role = PartRole::kOccludes;
+  gripper.albedo = 0.25;
+  PartSource station = gripper;
+  station.frame = kStationFrame;
+  station.frame_from_mesh = Pose();
+  station.state = PartState();
+  std::vector<std::size_t> checked;
+  const SceneMesh scene =
+      readScene(std::vector{gripper, station}, {},
+                [&](std::size_t part, const std::string&) { checked.push_back(part); });
+  EXPECT_EQ(checked, (std::vector<std::size_t>{1, 0}));
+  const MeshView view = scene.view();
+  ASSERT_EQ(validateMesh(view), Status::kOk);
+  EXPECT_TRUE(view.parts[0].match && view.parts[1].fixed_to_camera);
+  EXPECT_EQ(scene.albedo_of_part, (std::vector{0.25, 0.25}));
+  EXPECT_EQ(firstVertexInCamera(view), 8u);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(view.vertices_in_station_m[8 + i],
+              Eigen::Vector3f(cube_.vertices_m[i] + Eigen::Vector3f(0, 0, 0.5F)));
+  EXPECT_EQ(matchedVertices(view).size(), 8u);
+  const MeshView still = stationView(scene);
+  EXPECT_EQ(still.vertices_in_station_m.size(), 8u);
+  EXPECT_EQ(still.faces.size(), 12u);
+  EXPECT_EQ(validateMesh(still), Status::kOk);
+}
+
+TEST_F(SceneMeshTest, PartsThatAreNotUsed_AreNotRead) {
+  PartSource station;
+  station.mesh = folder_ / "cube.ply";
+  station.mesh_unit = "m";
+  PartSource missing = station;
+  missing.mesh = folder_ / "none.ply";
+  for (const PartState& state :
+       {PartState{PartRole::kMatched, false}, PartState{PartRole::kIgnored, true}}) {
+    missing.state = state;
+    EXPECT_EQ(readScene(std::vector{missing, station}).parts.size(), 1u);
+  }
+  station.state.present = false;
+  EXPECT_EQ(folder_.message([&] { (void)readScene(std::vector{station, missing}); }),
+            "cube.ply: role: no part of the station is matched");
+}
+
+TEST_F(SceneMeshTest, SuspectsAWrongUnit) {
+  // A station 0.4 m away, 0.3 m across: as it is, in millimetres taken for metres, the reverse.
+  const Pose seed = turned(0.1, Eigen::Vector3d(0.01, 0.02, 0.4));
+  const auto concern = [&seed](double scale) {
+    BoundingBox box;
+    box.minimum_m = scale * Eigen::Vector3d(-0.1, -0.1, 0.0);
+    box.maximum_m = scale * Eigen::Vector3d(0.1, 0.1, 0.1);
+    return scaleConcern(box, seed);
+  };
+  EXPECT_EQ(concern(1.0), "");
+  EXPECT_EQ(concern(1000.0),
+            "the mesh measures 300 m across, but the seed's camera is 400.6 mm away");
+  EXPECT_EQ(concern(0.001),
+            "the mesh measures 0.3 mm across, but the seed's camera is 400.6 mm away");
+  // A camera inside a hall, and one whose frame is the station's.
+  EXPECT_EQ(concern(50.0), "");
+  BoundingBox ahead;
+  ahead.minimum_m = Eigen::Vector3d(-0.1, -0.1, 0.3);
+  ahead.maximum_m = Eigen::Vector3d(0.1, 0.1, 0.5);
+  EXPECT_EQ(scaleConcern(ahead, Pose()), "");
+}
+
+TEST_F(SceneMeshTest, NamesTheFileOfAWrongUnit) {
+  Mesh large = cube_;
+  for (Eigen::Vector3f& vertex : large.vertices_m) vertex *= 100.0F;
+  const auto message = [&](double z_m) {
+    SceneMesh scene;
+    addPart(scene, large, Pose(), ScenePart());
+    return folder_.message(
+        [&] { requirePlausibleScale(scene, turned(0.0, Eigen::Vector3d(0, 0, z_m))); });
+  };
+  EXPECT_EQ(message(0.4), "(nothing)") << "the camera is 900 m from the box";
+  EXPECT_EQ(message(-900.5), "(nothing)");
+  for (Eigen::Vector3f& vertex : large.vertices_m) vertex.z() -= 1000.0F;
+  EXPECT_EQ(message(0.4),
+            "cube.ply: mesh_unit: the mesh measures 346.4 m across, but the seed's camera is 400 "
+            "mm away (unit 'm'): check the unit");
+}
+
+}  // namespace
+}  // namespace boresight::sessions

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/case/calibration_panel.h"
+
+#include "tests/support/calibration_session.h"
+#include "tests/ui/window_test.h"
+
+namespace boresight::ui {
+namespace {
+
+class CalibrationPanelTest : public test::WindowTest {
+ protected:
+  void calibrate() {
+    window_.dock(QStringLiteral("calibration"))->show();
+    find<QPushButton>("calibrate").click();
+    ASSERT_TRUE(rests());
+  }
+  QString summary() {
+    return find<CalibrationPanel>("CalibrationPanel")
+        .findChild<QLabel*>(QStringLiteral("summary"))
+        ->text();
+  }
+};
+
+TEST_F(CalibrationPanelTest, FindsALongerLensAndUsesItForItsCases) {
+  open(test::sessionOfALongerLens(8));
+  calibrate();
+  EXPECT_TRUE(test::has(summary(), "8 image"));
+  const auto& table = find<QTableWidget>("calibrationParameters");
+  ASSERT_EQ(table.rowCount(), 3);
+  EXPECT_EQ(table.item(0, 0)->text(), QStringLiteral("Focal length, px"));
+  EXPECT_TRUE(test::has(summary(), "The focal length changes by"));
+  const double before = window_.document().session().cases[0]->camera.fx;
+  ASSERT_TRUE(find<QPushButton>("use").isEnabled());
+  find<QPushButton>("use").click();
+  ASSERT_TRUE(rests());
+  for (const auto& session_case : window_.document().session().cases) {
+    EXPECT_NEAR(session_case->camera.fx / before, test::kLongerFocalLength, 1e-3);
+    EXPECT_TRUE(session_case->calibration_sigma);
+  }
+  QTest::keySequence(&window_, QKeySequence::Undo);
+  EXPECT_EQ(window_.document().session().cases[0]->camera.fx, before);
+}
+
+TEST_F(CalibrationPanelTest, SaysWhyItCannot) {
+  openExample();
+  calibrate();
+  EXPECT_TRUE(test::has(summary(), "Not calibrated: there are no images with observations"));
+  EXPECT_FALSE(find<QPushButton>("use").isEnabled());
+  EXPECT_TRUE(find<QPushButton>("calibrate").isEnabled());
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/case/cases_panel.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <QSet>
+#include <QtTest>
+#include <QtWidgets>
+
+namespace boresight::ui {
+namespace {
+
+using Tester = QAbstractItemModelTester;
+
+class CasesPanelTest : public testing::Test {
+ protected:
+  CasesPanelTest() {
+    panel_.resize(500, 400);
+    panel_.show();
+    std::vector<CaseRow> rows(3);
+    rows[0].id = QStringLiteral("os-2");
+    rows[1].id = QStringLiteral("bc-1");
+    rows[1].state = CaseState::kFailed;
+    rows[2].id = QStringLiteral("os-1");
+    panel_.setRows(rows);
+    table_ = panel_.findChild<QTableView*>();
+  }
+  QPushButton* button(const char* name) const {
+    return panel_.findChild<QPushButton*>(QString::fromLatin1(name));
+  }
+  void clickRow(int row) {
+    QTest::mouseClick(table_->viewport(), Qt::LeftButton, Qt::NoModifier,
+                      table_->visualRect(table_->model()->index(row, 0)).center());
+  }
+
+  CasesPanel panel_;
+  QTableView* table_ = nullptr;
+};
+
+TEST_F(CasesPanelTest, AClickAsksForACase) {
+  QSignalSpy opened(&panel_, &CasesPanel::openRequested);
+  EXPECT_FALSE(button("run")->isEnabled());
+  clickRow(1);
+  ASSERT_EQ(opened.count(), 1);
+  EXPECT_EQ(opened.at(0).at(0).toString(), QStringLiteral("os-1"));
+  QSignalSpy ran(&panel_, &CasesPanel::runRequested);
+  QTest::mouseClick(button("run"), Qt::LeftButton);
+  ASSERT_EQ(ran.count(), 1);
+  EXPECT_EQ(ran.at(0).at(0).toString(), QStringLiteral("os-1"));
+}
+
+TEST_F(CasesPanelTest, ShowsTheOpenCaseWithoutAskingForIt) {
+  QSignalSpy opened(&panel_, &CasesPanel::openRequested);
+  panel_.setCurrent(QStringLiteral("os-2"));
+  EXPECT_EQ(table_->currentIndex().row(), 2);
+  EXPECT_EQ(opened.count(), 0);
+}
+
+TEST_F(CasesPanelTest, RunAll_RunsTheListedCases) {
+  QTest::keyClicks(panel_.findChild<QLineEdit*>(), QStringLiteral("os"));
+  QSignalSpy ran(&panel_, &CasesPanel::runAllRequested);
+  QTest::mouseClick(button("runAll"), Qt::LeftButton);
+  ASSERT_EQ(ran.count(), 1);
+  EXPECT_EQ(ran.at(0).at(0).toStringList().join(QLatin1Char(' ')), QStringLiteral("os-1 os-2"));
+  panel_.setRunnable(false);
+  EXPECT_FALSE(button("runAll")->isEnabled());
+}
+
+TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
+  std::vector<CaseRow> rows(1);
+  rows[0].id = QString(60, QLatin1Char('w'));
+  rows[0].state = CaseState::kAnnotated;
+  rows[0].normal_mm = -0.123;
+  rows[0].lateral_mm = 10.456;
+  panel_.resize(252, 400);  // of a window 1280 wide
+  panel_.setRows(rows);
+  const auto right = [this](int column) {
+    return table_->columnViewportPosition(column) + table_->columnWidth(column);
+  };
+  EXPECT_LE(right(CasesModel::kNormal_mm), table_->viewport()->width());
+  const QImage annotated = table_->viewport()->grab().toImage();
+  rows[0].state = CaseState::kFailed;
+  panel_.setRows(rows);
+  EXPECT_NE(table_->viewport()->grab(QRect(0, 0, right(CasesModel::kCase), 44)).toImage(),
+            annotated.copy(0, 0, right(CasesModel::kCase), 44))
+      << "the state is shown next to the name";
+}
+
+TEST_F(CasesPanelTest, TheEndOfALongNameIsSeenInANarrowList) {
+  panel_.resize(252, 400);
+  std::vector<CaseRow> rows(1);
+  const auto painted = [&](int number) {
+    rows[0].id = QStringLiteral("a_dataset_of_a_long_name-s%1").arg(number);
+    panel_.setRows(rows);
+    return table_->viewport()->grab().toImage();
+  };
+  EXPECT_NE(painted(1), painted(4)) << "the end is what tells a case from the next";
+}
+
+TEST_F(CasesPanelTest, TheWholeStateIsSeenInTheNarrowestList) {
+  std::vector<CaseRow> rows(1);
+  rows[0].id = QStringLiteral("x");
+  rows[0].thumbnail = QImage(64, 64, QImage::Format_Grayscale8);
+  rows[0].thumbnail.fill(Qt::gray);
+  int needed = 0;
+  for (int i = 0; i < kCaseStateCount; ++i) {
+    rows[0].state = static_cast<CaseState>(i);
+    panel_.setRows(rows);
+    table_->resizeColumnToContents(CasesModel::kCase);
+    needed = std::max(needed, table_->columnWidth(CasesModel::kCase));
+  }
+  panel_.resize(panel_.minimumSizeHint().width(), 400);
+  rows[0].id = QString(60, QLatin1Char('w'));
+  panel_.setRows(rows);
+  EXPECT_GE(table_->columnWidth(CasesModel::kCase), needed);
+}
+
+TEST_F(CasesPanelTest, WiderList_ShowsMoreOfALongName) {
+  std::vector<CaseRow> rows(1);
+  rows[0].id = QStringLiteral("a_dataset_of_a_long_name-s1");
+  panel_.resize(252, 400);
+  panel_.setRows(rows);
+  const int narrow = table_->columnWidth(CasesModel::kCase);
+  panel_.resize(600, 400);
+  EXPECT_GT(table_->columnWidth(CasesModel::kCase), narrow);
+}
+
+TEST_F(CasesPanelTest, ListsOneState) {
+  panel_.findChild<QComboBox*>()->setCurrentIndex(1 + static_cast<int>(CaseState::kFailed));
+  EXPECT_EQ(panel_.listed(), QStringList{QStringLiteral("bc-1")});
+}
+
+TEST_F(CasesPanelTest, KeepsTheChosenCaseWhileStatesChange) {
+  clickRow(0);
+  std::vector<CaseRow> rows = {panel_.model().at(0), panel_.model().at(1), panel_.model().at(2)};
+  rows[0].state = CaseState::kRunning;
+  QSignalSpy opened(&panel_, &CasesPanel::openRequested);
+  panel_.setRows(rows);
+  EXPECT_EQ(table_->currentIndex().row(), 0);
+  EXPECT_EQ(opened.count(), 0);
+}
+
+CaseRow rowNamed(const char* id, CaseState state, std::optional<double> normal_mm = {}) {
+  CaseRow row;
+  row.id = QString::fromLatin1(id);
+  row.station = row.id.left(2);
+  row.state = state;
+  row.normal_mm = normal_mm;
+  return row;
+}
+
+std::vector<CaseRow> someRows() {
+  return {rowNamed("bc-2", CaseState::kConverged, 0.25), rowNamed("os-1", CaseState::kNew),
+          rowNamed("bc-1", CaseState::kFailed, 9.5)};
+}
+
+class CasesModelTest : public testing::Test {
+ protected:
+  CasesModelTest() {
+    filter_.setSourceModel(&model_);
+    model_.setRows(someRows());
+  }
+
+  QStringList listed() const {
+    QStringList ids;
+    for (int row = 0; row < filter_.rowCount(); ++row)
+      ids.append(filter_.index(row, 0).data().toString());
+    return ids;
+  }
+
+  CasesModel model_;
+  RowsFilter filter_;
+  Tester model_tester_{&model_, Tester::FailureReportingMode::Fatal};
+  Tester filter_tester_{&filter_, Tester::FailureReportingMode::Fatal};
+};
+
+TEST_F(CasesModelTest, ShowsStateAndErrors) {
+  EXPECT_EQ(model_.index(0, CasesModel::kNormal_mm).data().toString(), QStringLiteral("0.250"));
+  EXPECT_EQ(model_.index(1, CasesModel::kNormal_mm).data().toString(), QString());
+  EXPECT_EQ(model_.index(0, CasesModel::kState).data().toString(), QStringLiteral("✓ converged"));
+  EXPECT_EQ(model_.rowOf(QStringLiteral("bc-1")), 2);
+  EXPECT_EQ(model_.rowOf(QStringLiteral("none")), -1);
+}
+
+TEST_F(CasesModelTest, SaysThatARunIsStale) {
+  std::vector<CaseRow> rows = someRows();
+  rows[0].stale = true;
+  model_.setRows(rows);
+  EXPECT_EQ(model_.index(0, CasesModel::kState).data().toString(),
+            QStringLiteral("✓ converged, outdated"));
+  EXPECT_TRUE(
+      model_.index(0, 0)
+          .data(Qt::ToolTipRole)
+          .toString()
+          .contains(QStringLiteral("Outdated: the run was made with other inputs or options")));
+}
+
+TEST_F(CasesModelTest, States_HaveDistinctSigns) {
+  QSet<QChar> signs;
+  for (int i = 0; i < kCaseStateCount; ++i)
+    signs.insert(CasesModel::stateText(static_cast<CaseState>(i)).at(0));
+  EXPECT_EQ(signs.size(), kCaseStateCount);
+}
+
+TEST_F(CasesModelTest, EqualCases_UpdateRowsInPlace) {
+  QSignalSpy resets(&model_, &QAbstractItemModel::modelReset);
+  QSignalSpy changes(&model_, &QAbstractItemModel::dataChanged);
+  std::vector<CaseRow> rows = someRows();
+  rows[1].state = CaseState::kRunning;
+  model_.setRows(rows);
+  EXPECT_EQ(changes.count(), 1);
+  EXPECT_EQ(resets.count(), 0);
+  rows.pop_back();
+  model_.setRows(rows);
+  EXPECT_EQ(resets.count(), 1);
+}
+
+TEST_F(CasesModelTest, UnknownValues_SortLast) {
+  model_.setRows({rowNamed("a", CaseState::kNew), rowNamed("b", CaseState::kConverged, 10.0),
+                  rowNamed("c", CaseState::kNew), rowNamed("d", CaseState::kConverged, 9.0),
+                  rowNamed("e", CaseState::kConverged, 11.0)});
+  filter_.sort(CasesModel::kNormal_mm, Qt::DescendingOrder);
+  EXPECT_EQ(listed().mid(0, 3).join(QLatin1Char(' ')), QStringLiteral("e b d"));
+  filter_.sort(CasesModel::kNormal_mm, Qt::AscendingOrder);
+  EXPECT_EQ(listed().mid(0, 3).join(QLatin1Char(' ')), QStringLiteral("d b e"));
+  filter_.sort(CasesModel::kCase, Qt::DescendingOrder);
+  EXPECT_EQ(listed().join(QLatin1Char(' ')), QStringLiteral("e d c b a"));
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/case/input_sheet_panel.h"
+
+#include <gtest/gtest.h>
+#include <QtTest/QTest>
+#include <QtWidgets>
+
+namespace boresight::ui {
+namespace {
+
+sessions::InputSheet someSheet() {
+  sessions::InputSheet sheet;
+  sheet.lines = {{"image", "1280 x 1024 px, 8 bit"}, {"seed distance", "0.412 m"}};
+  return sheet;
+}
+
+class InputSheetPanelTest : public testing::Test {
+ protected:
+  InputSheetPanelTest() { panel_.show(); }
+  QString flags() const { return panel_.findChild<QLabel*>(QStringLiteral("flags"))->text(); }
+
+  InputSheetPanel panel_;
+};
+
+TEST_F(InputSheetPanelTest, ShowsTheLinesOfASheet) {
+  EXPECT_EQ(flags(), QStringLiteral("No case is open."));
+  panel_.setSheet(someSheet());
+  auto* table = panel_.findChild<QTableWidget*>();
+  ASSERT_EQ(table->rowCount(), 2);
+  EXPECT_EQ(table->item(1, 0)->text(), QStringLiteral("seed distance"));
+  EXPECT_EQ(table->item(1, 1)->text(), QStringLiteral("0.412 m"));
+  EXPECT_TRUE(flags().startsWith(QStringLiteral("✓")));
+  panel_.setSheet(std::nullopt);
+  EXPECT_EQ(table->rowCount(), 0);
+}
+
+TEST_F(InputSheetPanelTest, RedFlagsComeFirstInPlainSentences) {
+  sessions::InputSheet sheet = someSheet();
+  sheet.flags = {{"station_size", "the station is 1000 times too large"}, {"other", "also this"}};
+  panel_.setSheet(sheet);
+  EXPECT_EQ(flags(), QStringLiteral("⚠ the station is 1000 times too large\n⚠ also this"));
+  EXPECT_TRUE(panel_.text().startsWith(flags()));
+}
+
+TEST_F(InputSheetPanelTest, UncertaintyButton_OpensTheDialog) {
+  auto* button = panel_.findChild<QPushButton*>(QStringLiteral("inputSigmas"));
+  EXPECT_FALSE(button->isEnabled());
+  panel_.setSheet(someSheet());
+  int asked = 0;
+  QObject::connect(&panel_, &InputSheetPanel::sigmasRequested, [&asked] { ++asked; });
+  button->click();
+  EXPECT_EQ(asked, 1);
+}
+
+TEST(InputSigmasDialogTest, Dialog_ShowsAssumedAndReturnsStatedSigmas) {
+  sessions::SessionCase session_case;
+  session_case.camera.width = session_case.camera.height = 2048;
+  session_case.mesh_scale_sigma = 0.001;
+  InputSigmasDialog dialog(session_case, nullptr);
+  EXPECT_EQ(dialog.meshScaleSigma(), 0.001);
+  EXPECT_FALSE(dialog.calibrationSigma());
+  auto* focal = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("focal"));
+  EXPECT_NEAR(focal->value(), 0.02, 1e-12) << "what is assumed, in percent";
+  dialog.findChild<QGroupBox*>(QStringLiteral("cameraStated"))->setChecked(true);
+  focal->setValue(0.05);
+  ASSERT_TRUE(dialog.calibrationSigma());
+  EXPECT_NEAR(dialog.calibrationSigma()->focal_relative, 5e-4, 1e-12);
+  EXPECT_EQ(dialog.calibrationSigma()->principal_point_px, 0.5);
+}
+
+TEST(JudgementDialogTest, StatesPlaceAndRequirementAndKeepsTheRest) {
+  sessions::SessionCase session_case;
+  session_case.requirement.emplace().projection_px = 5.0;
+  const Pose exact{Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0), {0.0, 1.0 / 3.0, 0.39}};
+  session_case.camera_from_end_effector = exact;
+  JudgementDialog dialog(session_case, nullptr);
+  EXPECT_EQ(dialog.cameraFromEndEffector(), exact) << "unchanged to the bit";
+  EXPECT_EQ(dialog.requirement(), session_case.requirement);
+  dialog.findChild<QDoubleSpinBox*>(QStringLiteral("endEffectorZ"))->setValue(410.0);
+  EXPECT_NEAR(dialog.cameraFromEndEffector()->translation_m.z(), 0.41, 1e-12);
+  EXPECT_EQ(dialog.cameraFromEndEffector()->translation_m.y(), 1.0 / 3.0);
+  EXPECT_EQ(dialog.cameraFromEndEffector()->rotation.w(), 0.8);
+  dialog.findChild<QGroupBox*>(QStringLiteral("requirementStated"))->setChecked(true);
+  ASSERT_TRUE(dialog.requirement());
+  EXPECT_EQ(dialog.requirement()->lateral_mm, 0.4);
+  EXPECT_EQ(dialog.requirement()->projection_px, 5.0);
+  dialog.findChild<QGroupBox*>(QStringLiteral("endEffectorStated"))->setChecked(false);
+  EXPECT_FALSE(dialog.cameraFromEndEffector());
+}
+
+TEST_F(InputSheetPanelTest, CopiesWhatIsChosen) {
+  panel_.setSheet(someSheet());
+  auto* table = panel_.findChild<QTableWidget*>();
+  panel_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&panel_));
+  table->selectRow(1);
+  table->setFocus();
+  QTest::keyClick(table, Qt::Key_C, Qt::ControlModifier);
+  EXPECT_EQ(QApplication::clipboard()->text(), QStringLiteral("seed distance\t0.412 m\n"));
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/run/pose_panel.h"
+
+#include <gtest/gtest.h>
+#include <QtTest>
+#include <QtWidgets>
+
+#include "core/base/math.h"
+#include "sessions/evaluation/pose_error.h"
+#include "tests/support/example_run.h"
+#include "tests/support/loaded_example.h"
+#include "tests/support/random_pose.h"
+#include "ui/panels/run/nudge_box.h"
+
+namespace boresight::ui {
+namespace {
+
+using test::poseNear;
+
+class PosePanelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    static const auto value = test::loadedExample("os");
+    state_.setCase(value);
+    state_.setSnapshot(test::exampleRun());
+    QObject::connect(
+        &panel_, &PosePanel::gestureFinished,
+        [this](const Pose& before, const Pose& after) { gestures_.emplace_back(before, after); });
+    panel_.resize(700, 900);
+    panel_.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel_));
+  }
+
+  template <class Widget>
+  Widget& find(const char* name) {
+    auto* found = panel_.findChild<Widget*>(QString::fromUtf8(name));
+    EXPECT_NE(found, nullptr) << name;
+    return *found;
+  }
+  enum Row { kX = 0, kZ = 2, kRotationX = 3, kQuaternionW = 6 };
+  QString cell(Row row, PoseRole role) {
+    return find<QTableWidget>("poses").item(row, 1 + static_cast<int>(role))->text();
+  }
+  QWidget& pad() {
+    auto& found = find<QLabel>("nudgePad");
+    found.setFocus();
+    return found;
+  }
+
+  ViewState state_;
+  PosePanel panel_{state_};
+  std::vector<std::pair<Pose, Pose>> gestures_;
+};
+
+TEST_F(PosePanelTest, APoseIsShownInTheFramesThatHaveNames) {
+  EXPECT_FALSE(find<QLabel>("namedPoses").isVisibleTo(&panel_)) << "none has a name";
+  sessions::SessionCase session_case = state_.currentCase()->source;
+  const Pose camera_from_rover{Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX())),
+                               {1.0, 2.0, 3.0}};
+  session_case.camera_reference =
+      sessions::CameraReference{camera_from_rover, {"ROVER_FRAME", {7}}};
+  state_.setCase(sessions::loadCase(session_case));
+  find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kSeed));
+  const QStringList lines = find<QLabel>("namedPoses").text().split(QLatin1Char('\n'));
+  ASSERT_EQ(lines.size(), 4);
+  EXPECT_EQ(lines[0], QStringLiteral("reference_from_station in ROVER_FRAME (7)"));
+  const Pose expected = camera_from_rover.inverse() * session_case.camera_from_station_seed;
+  for (int row = 0; row < 3; ++row)
+    EXPECT_NEAR(lines[row + 1].simplified().split(QLatin1Char(' ')).last().toDouble(),
+                expected.translation_m[row], 1e-6);
+}
+
+TEST_F(PosePanelTest, ShowsEveryPoseInEveryForm) {
+  const Pose truth = *state_.currentCase()->source.camera_from_station_truth;
+  EXPECT_NEAR(cell(kZ, PoseRole::kTruth).toDouble(), 1e3 * truth.translation_m.z(), 1e-4);
+  const Eigen::Vector3d deg = rotationLog(truth.rotation) / kDegree_rad;
+  EXPECT_NEAR(cell(kRotationX, PoseRole::kTruth).toDouble(), deg.x(), 1e-5);
+  EXPECT_GE(cell(kQuaternionW, PoseRole::kTruth).toDouble(), 0.0);
+  find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kTruth));
+  const QStringList rows = find<QLabel>("matrix").text().split(QLatin1Char('\n'));
+  ASSERT_EQ(rows.size(), 4);
+  const QStringList row = rows[1].split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  ASSERT_EQ(row.size(), 4);
+  EXPECT_NEAR(row[1].toDouble(), truth.matrix()(1, 1), 1e-6);
+  EXPECT_NEAR(row[3].toDouble(), truth.translation_m.y(), 1e-7);
+  EXPECT_EQ(cell(kX, PoseRole::kNudged), QString(QChar(0x2013)));
+}
+
+TEST_F(PosePanelTest, FollowsTheCursor) {
+  state_.setCursor({0, Stage::kFinished});
+  const Pose first = test::exampleRun()->iterations.front()->camera_from_station;
+  EXPECT_NEAR(cell(kX, PoseRole::kEstimate).toDouble(), 1e3 * first.translation_m.x(), 1e-4);
+}
+
+TEST_F(PosePanelTest, ZeroHasNoSign) {
+  state_.setNudgedPose(Pose{Eigen::Quaterniond::Identity(), {-1e-9, 0.0, 0.0}});
+  EXPECT_EQ(cell(kX, PoseRole::kNudged), QStringLiteral("0.0000"));
+}
+
+TEST_F(PosePanelTest, CopiedPose_CanBePasted) {
+  const Pose truth = *state_.currentCase()->source.camera_from_station_truth;
+  find<QComboBox>("copiedRole").setCurrentIndex(static_cast<int>(PoseRole::kTruth));
+  for (const char* button : {"copyRotationVector", "copyQuaternion", "copyMatrix"}) {
+    QTest::mouseClick(&find<QPushButton>(button), Qt::LeftButton);
+    const std::string text = QGuiApplication::clipboard()->text().toStdString();
+    const auto parsed = sessions::parsePose(text, sessions::guessReading(text));
+    ASSERT_TRUE(parsed.valid) << text;
+    EXPECT_THAT(parsed.camera_from_station, poseNear(truth, 1e-12, 1e-12));
+  }
+}
+
+TEST_F(PosePanelTest, PastesAsOneGesture) {
+  const Pose truth = *state_.currentCase()->source.camera_from_station_truth;
+  panel_.copyPose(PoseRole::kTruth, sessions::PoseForm::kQuaternion);
+  QTimer::singleShot(0, [] {
+    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    dialog->accept();
+  });
+  const Pose before = state_.shownPose();
+  panel_.pastePose();
+  ASSERT_TRUE(state_.nudgedPose());
+  EXPECT_THAT(*state_.nudgedPose(), poseNear(truth, 1e-12, 1e-12));
+  ASSERT_EQ(gestures_.size(), 1u);
+  EXPECT_THAT(gestures_[0].first, poseNear(before, 0.0, 0.0));
+}
+
+TEST_F(PosePanelTest, AKeyHeldDownIsOneGesture) {
+  QWidget& field = pad();
+  const Pose before = state_.shownPose();
+  QTest::keyPress(&field, Qt::Key_Right);
+  for (int i = 0; i < 4; ++i) {
+    QKeyEvent repeated(QEvent::KeyPress, Qt::Key_Right, Qt::NoModifier, QString(), true);
+    QApplication::sendEvent(&field, &repeated);
+    QKeyEvent released(QEvent::KeyRelease, Qt::Key_Right, Qt::NoModifier, QString(), true);
+    QApplication::sendEvent(&field, &released);
+  }
+  EXPECT_TRUE(gestures_.empty());
+  QTest::keyRelease(&field, Qt::Key_Right);
+  ASSERT_EQ(gestures_.size(), 1u);
+  EXPECT_THAT(gestures_[0].first, poseNear(before, 0.0, 0.0));
+  const Eigen::Vector3d moved_m =
+      gestures_[0].second.translation_m - gestures_[0].first.translation_m;
+  EXPECT_LT((moved_m - Eigen::Vector3d(5e-3, 0, 0)).norm(), 1e-12);
+  EXPECT_NEAR(find<QDoubleSpinBox>("moveX").value(), 5.0, 1e-9);
+}
+
+TEST_F(PosePanelTest, ModifiersTurnAndChangeTheStep) {
+  QWidget& field = pad();
+  const Pose before = state_.shownPose();
+  const auto angle_deg = [&] {
+    return rotationLog(state_.shownPose().rotation * before.rotation.conjugate()).norm() /
+           kDegree_rad;
+  };
+  QTest::keyClick(&field, Qt::Key_PageUp, Qt::ControlModifier);
+  EXPECT_NEAR(angle_deg(), 0.2, 1e-9);
+  QTest::keyClick(&field, Qt::Key_PageUp, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_NEAR(angle_deg(), 2.2, 1e-9);
+  QTest::keyClick(&field, Qt::Key_PageUp, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_NEAR(angle_deg(), 2.22, 1e-9);
+  EXPECT_NEAR(find<QDoubleSpinBox>("turnZ").value(), 2.22, 1e-4);
+  // About the station's centre, which therefore stays.
+  const Eigen::Vector3d centre_m = panel_.nudgeController().frame().centre_in_station_m;
+  EXPECT_LT((state_.shownPose() * centre_m - before * centre_m).norm(), 1e-9);
+  EXPECT_EQ(gestures_.size(), 3u);
+}
+
+TEST_F(PosePanelTest, AValueTypedIsOneGestureAndMovesNothingElse) {
+  auto& box = find<QDoubleSpinBox>("moveZ");
+  const Pose before = state_.shownPose();
+  box.setFocus();
+  box.selectAll();
+  QTest::keyClicks(&box, QStringLiteral("12.5"));
+  EXPECT_FALSE(state_.nudgedPose()) << "half a number must not move anything";
+  QTest::keyClick(&box, Qt::Key_Return);
+  ASSERT_TRUE(state_.nudgedPose());
+  EXPECT_LT(
+      (state_.nudgedPose()->translation_m - before.translation_m - Eigen::Vector3d(0, 0, 0.0125))
+          .norm(),
+      1e-12);
+  EXPECT_EQ(gestures_.size(), 1u);
+}
+
+TEST_F(PosePanelTest, StepsOfASpinBoxInOneGoAreOneGesture) {
+  auto& box = find<QDoubleSpinBox>("turnX");
+  box.setFocus();
+  for (int i = 0; i < 5; ++i) box.stepUp();
+  EXPECT_TRUE(gestures_.empty());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !gestures_.empty(); }, 10000));
+  EXPECT_EQ(gestures_.size(), 1u);
+  EXPECT_NEAR(box.value(), 1.0, 1e-9);
+}
+
+TEST_F(PosePanelTest, BackAndDiscard_ResetTheNudgedPose) {
+  const Pose estimate = state_.shownPose();
+  QTest::keyClick(&pad(), Qt::Key_Left);
+  QTest::mouseClick(&find<QPushButton>("backToEstimate"), Qt::LeftButton);
+  ASSERT_TRUE(state_.nudgedPose());
+  EXPECT_THAT(*state_.nudgedPose(), poseNear(estimate, 0.0, 0.0));
+  EXPECT_EQ(find<QDoubleSpinBox>("moveX").value(), 0.0);
+  QTest::keyClick(&pad(), Qt::Key_Left);
+  QTest::mouseClick(&find<QPushButton>("dropNudged"), Qt::LeftButton);
+  EXPECT_FALSE(state_.nudgedPose());
+  EXPECT_EQ(gestures_.size(), 4u);
+  EXPECT_THAT(gestures_.back().second, poseNear(estimate, 0.0, 0.0));
+  EXPECT_FALSE(find<QPushButton>("useAsSeed").isEnabled());
+}
+
+TEST_F(PosePanelTest, AnUndoneNudgeShowsInTheValues) {
+  const Pose before = state_.shownPose();
+  QTest::keyClick(&pad(), Qt::Key_Right);
+  state_.setNudgedPose(before);  // as an undo command does
+  EXPECT_EQ(find<QDoubleSpinBox>("moveX").value(), 0.0);
+}
+
+TEST_F(PosePanelTest, OffersTheNudgedPoseAsSeed) {
+  std::optional<Pose> seed;
+  QObject::connect(&panel_, &PosePanel::useAsSeedRequested, [&](const Pose& pose) { seed = pose; });
+  QTest::keyClick(&pad(), Qt::Key_Up);
+  QTest::mouseClick(&find<QPushButton>("useAsSeed"), Qt::LeftButton);
+  ASSERT_TRUE(seed);
+  EXPECT_THAT(*seed, poseNear(state_.shownPose(), 0.0, 0.0));
+}
+
+TEST_F(PosePanelTest, NudgesAlongStationAxesWhenAsked) {
+  find<QComboBox>("axes").setCurrentIndex(static_cast<int>(NudgeAxes::kStation));
+  const Pose before = state_.shownPose();
+  QTest::keyClick(&pad(), Qt::Key_Right);
+  const Eigen::Vector3d moved_m =
+      before.rotation.conjugate() * (state_.shownPose().translation_m - before.translation_m);
+  EXPECT_LT((moved_m - Eigen::Vector3d(1e-3, 0, 0)).norm(), 1e-12);
+}
+
+TEST_F(PosePanelTest, ComparesAnyTwoPosesAgainstTheRequirement) {
+  PoseJudgement judgement;
+  judgement.requirement.emplace();
+  judgement.requirement->normal_mm = 1e-6;
+  judgement.requirement->lateral_mm = 1e6;
+  panel_.setJudgement(judgement);
+  auto& label = find<QLabel>("difference");
+  const sessions::PoseError error = sessions::poseError(
+      *state_.currentCase()->source.camera_from_station_truth, state_.shownPose(), std::nullopt);
+  EXPECT_TRUE(label.text().contains(QString::number(error.normal_mm, 'f', 4)));
+  EXPECT_TRUE(label.text().contains(QString::number(error.geodesic_mrad, 'f', 4)));
+  EXPECT_TRUE(label.text().contains(QStringLiteral("beyond")));
+  EXPECT_TRUE(label.text().contains(QStringLiteral("within")));
+  find<QComboBox>("differenceOf").setCurrentIndex(static_cast<int>(PoseRole::kNudged));
+  EXPECT_TRUE(label.text().contains(QStringLiteral("no pose")));
+}
+
+TEST_F(PosePanelTest, ShowsOneSigmaOfASolvedPoseOnly) {
+  EXPECT_TRUE(find<QLabel>("sigma").text().contains(QStringLiteral("mrad")));
+  state_.setCursor({0, Stage::kMatch});
+  EXPECT_TRUE(find<QLabel>("sigma").text().startsWith(QStringLiteral("No covariance")));
+}
+
+TEST_F(PosePanelTest, SurvivesTheCaseBeingClosed) {
+  QTest::keyClick(&pad(), Qt::Key_Right);
+  state_.setCase(nullptr);
+  EXPECT_FALSE(find<QDoubleSpinBox>("moveX").isEnabled());
+  EXPECT_EQ(cell(kX, PoseRole::kSeed), QString(QChar(0x2013)));
+  QTest::keyClick(&find<QLabel>("nudgePad"), Qt::Key_Right);
+  EXPECT_FALSE(state_.nudgedPose());
+  panel_.pastePose();
+}
+
+TEST(PastePoseDialog, RefusesWhatIsNoRotationInASentence) {
+  PastePoseDialog dialog(QStringLiteral("1.1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1"));
+  EXPECT_FALSE(dialog.parsed().valid);
+  EXPECT_TRUE(dialog.findChild<QLabel*>(QStringLiteral("verdict"))
+                  ->text()
+                  .contains(QStringLiteral("not a rotation")));
+  for (const QPushButton* button : dialog.findChildren<QPushButton*>())
+    EXPECT_NE(button->isEnabled(), button->text().startsWith(QStringLiteral("Nudge")));
+}
+
+TEST(PastePoseDialog, Guess_CanBeCorrected) {
+  PastePoseDialog dialog(QStringLiteral("0 1 0 0  -1 0 0 0  0 0 1 0  0.1 0.2 0.3 1"));
+  ASSERT_TRUE(dialog.parsed().valid);
+  EXPECT_EQ(dialog.parsed().camera_from_station.translation_m, Eigen::Vector3d(0.1, 0.2, 0.3));
+  dialog.findChild<QComboBox*>(QStringLiteral("direction"))->setCurrentIndex(1);
+  EXPECT_LT(
+      (dialog.parsed().camera_from_station.inverse().translation_m - Eigen::Vector3d(0.1, 0.2, 0.3))
+          .norm(),
+      1e-12);
+  dialog.findChild<QComboBox*>(QStringLiteral("matrixOrder"))->setCurrentIndex(0);
+  EXPECT_FALSE(dialog.parsed().valid);
+}
+
+NudgeFrame frameOf(NudgeAxes axes, NudgePivot pivot) { return {axes, pivot, {0.1, -0.2, 0.05}}; }
+
+constexpr NudgeAxes kAxes[] = {NudgeAxes::kCamera, NudgeAxes::kStation};
+constexpr NudgePivot kPivots[] = {NudgePivot::kStationCentre, NudgePivot::kCameraCentre};
+
+TEST(Nudge, GoesBetweenAnyTwoPoses) {
+  Random random = test::randomFor("Nudge");
+  for (const NudgeAxes axes : kAxes)
+    for (const NudgePivot pivot : kPivots)
+      for (int i = 0; i < 30; ++i) {
+        const NudgeFrame frame = frameOf(axes, pivot);
+        const Pose from = test::randomPose(random);
+        const Pose to = test::randomPose(random);
+        EXPECT_THAT(nudged(from, nudgeBetween(from, to, frame), frame), poseNear(to, 1e-9, 1e-9));
+      }
+}
+
+TEST(Nudge, TurnsAboutAPivotThatStays) {
+  Random random = test::randomFor("TurnsAboutAPivot");
+  for (const NudgeAxes axes : kAxes)
+    for (const NudgePivot pivot : kPivots) {
+      const NudgeFrame frame = frameOf(axes, pivot);
+      const Pose before = test::randomPose(random);
+      Vector6d turn = Vector6d::Zero();
+      turn.head<3>() = test::randomVector(random, 0.5);
+      const Pose after = nudged(before, turn, frame);
+      const Eigen::Vector3d pivot_in_station_m = pivot == NudgePivot::kStationCentre
+                                                     ? frame.centre_in_station_m
+                                                     : before.inverse().translation_m;
+      EXPECT_LT((after * pivot_in_station_m - before * pivot_in_station_m).norm(), 1e-12);
+      EXPECT_NEAR(rotationLog(after.rotation * before.rotation.conjugate()).norm(),
+                  turn.head<3>().norm(), 1e-12);
+    }
+}
+
+TEST(Nudge, MovesAlongTheAxesThatAreChosen) {
+  Random random = test::randomFor("MovesAlong");
+  const Pose before = test::randomPose(random);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vector6d move = Vector6d::Zero();
+    move[3 + axis] = 0.01;
+    const Pose camera =
+        nudged(before, move, frameOf(NudgeAxes::kCamera, NudgePivot::kStationCentre));
+    EXPECT_LT((camera.translation_m - before.translation_m - move.tail<3>()).norm(), 1e-12);
+    const Pose station =
+        nudged(before, move, frameOf(NudgeAxes::kStation, NudgePivot::kStationCentre));
+    const Eigen::Vector3d moved_in_station_m =
+        before.rotation.conjugate() * (station.translation_m - before.translation_m);
+    EXPECT_LT((moved_in_station_m - move.tail<3>()).norm(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace boresight::ui

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/case/calibration_panel.h"
+
+#include <QtWidgets>
+
+#include "sessions/calibration/calibrated_values.h"
+#include "ui/models/text.h"
+#include "ui/run/task_runner.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
+#include "ui/widgets/widgets.h"
+
+namespace boresight::ui {
+namespace {
+
+/// Pixels with three decimals; coefficients with four digits.
+QString figureText(const sessions::CalibratedValue& value, double figure) {
+  return value.unit.empty() ? QString::number(figure, 'g', 4) : numberText(figure, 3);
+}
+
+QStringList rowOf(const sessions::CalibratedValue& value) {
+  QString name = fromText(value.name);
+  name[0] = name[0].toUpper();
+  if (!value.unit.empty()) name += QStringLiteral(", ") + fromText(value.unit);
+  QStringList row = {name, figureText(value, value.before)};
+  if (!value.isDetermined())
+    return row << QStringLiteral("\u2013") << CalibrationPanel::tr("not determined")
+               << QStringLiteral("\u2013");
+  return row << figureText(value, value.after) << figureText(value, value.sigma)
+             << numberText(value.changeInSigmas(), 1);
+}
+
+QString summaryText(const sessions::CameraCalibration& calibration,
+                    const std::vector<sessions::CalibratedValue>& values) {
+  QStringList lines = {
+      CalibrationPanel::tr("%n image(s), rms %1 px, noise factor %2 (1: residuals as the sigmas "
+                           "say).",
+                           "", static_cast<int>(calibration.camera_from_station.size()))
+          .arg(numberText(calibration.rms_px, 3), numberText(calibration.noise_factor, 2))};
+  if (const std::string change = sessions::changeText(values); !change.empty())
+    lines.prepend(fromText(change));
+  for (const sessions::Undetermined& direction : calibration.undetermined)
+    lines << CalibrationPanel::tr(
+                 "Not determined by these images: %1. Add images from other "
+                 "distances and turned about the view axis.")
+                 .arg(fromText(sessions::directionText(direction)));
+  return lines.join(QLatin1Char('\n'));
+}
+
+}  // namespace
+
+CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRunner& tasks,
+                                   QWidget* parent)
+    : QWidget(parent), document_(document), state_(state), tasks_(tasks) {
+  ui_.setupUi(this);
+  styleTable(*ui_.parameters);
+  ui_.parameters->setObjectName(QStringLiteral("calibrationParameters"));
+  ui_.parameters->horizontalHeader()->setStretchLastSection(true);
+  connect(ui_.calibrate, &QPushButton::clicked, this, &CalibrationPanel::calibrate);
+  connect(ui_.use, &QPushButton::clicked, this, &CalibrationPanel::use);
+  state_.onChange(ViewChange::kCase, this, [this] {
+    const std::string shown = shownCaseId(document_, state_);
+    if (shown != case_id_ || !calibration_) forget({});
+  });
+  forget({});
+}
+
+/// What was found is of another camera, or nothing was found.
+void CalibrationPanel::forget(const QString& reason) {
+  calibration_.reset();
+  ui_.parameters->setRowCount(0);
+  ui_.use->setEnabled(false);
+  ui_.calibrate->setEnabled(state_.currentCase() != nullptr);
+  ui_.summary->setText(!reason.isEmpty() ? reason
+                                         : tr("Many images of the station, annotated or localized, "
+                                              "say how the camera is."));
+}
+
+void CalibrationPanel::calibrate() {
+  const sessions::FreeParameters free{ui_.focal->isChecked(), ui_.centre->isChecked(),
+                                      ui_.distortion->isChecked()};
+  const auto source = ui_.source->currentIndex() == 0 ? sessions::ObservationSource::kAnnotations
+                                                      : sessions::ObservationSource::kRuns;
+  const std::string id = shownCaseId(document_, state_);
+  const sessions::SessionCase* shown = document_.session().findCase(id);
+  if (shown == nullptr) return;
+  forget(tr("Calibrating ..."));
+  ui_.calibrate->setEnabled(false);
+  tasks_.start(
+      QStringLiteral("calibration"),
+      [session = document_.session(), id, source, free](const std::stop_token&) {
+        return sessions::calibrateCameraOf(session, id, source, free);
+      },
+      [this, id, before = shown->camera](const sessions::CameraCalibration& calibration) {
+        take(id, before, calibration);
+      },
+      [this](const QString& problem) { forget(tr("Not calibrated: %1.").arg(problem)); });
+}
+
+void CalibrationPanel::take(const std::string& case_id, const Camera& before,
+                            const sessions::CameraCalibration& calibration) {
+  const auto values = sessions::calibratedValues(before, calibration);
+  forget(summaryText(calibration, values));
+  calibration_ = calibration;
+  case_id_ = case_id;
+  for (const sessions::CalibratedValue& value : values) addRow(*ui_.parameters, rowOf(value));
+  ui_.parameters->resizeColumnsToContents();
+  ui_.use->setEnabled(calibration.undetermined.empty());
+}
+
+void CalibrationPanel::use() {
+  if (!calibration_ || !document_.session().findCase(case_id_)) return;
+  document_.edit(sessions::withCalibration(document_.session(), case_id_, *calibration_),
+                 tr("Use the calibrated camera"));
+}
+
+}  // namespace boresight::ui

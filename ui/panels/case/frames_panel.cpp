@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/case/frames_panel.h"
+
+#include <algorithm>
+
+#include <QtWidgets>
+
+#include "ui/models/text.h"
+#include "ui/state/view_state.h"
+#include "ui/widgets/column_fitter.h"
+#include "ui/widgets/widgets.h"
+
+namespace boresight::ui {
+namespace {
+
+enum Column { kFrame, kPlace, kSigma_mm, kSigma_mrad, kSource, kComment, kColumns };
+constexpr int kRow = Qt::UserRole;
+constexpr int kIndentation = 12;  // frames hang on one another five deep
+
+QString placeText(const sessions::FrameRow& row) {
+  if (!row.transform) return {};
+  const Eigen::Vector3d place_mm = 1e3 * row.parent_from_frame.translation_m;
+  return QStringLiteral("%1  %2  %3")
+      .arg(numberText(place_mm.x(), 1), numberText(place_mm.y(), 1), numberText(place_mm.z(), 1));
+}
+
+QString sigmaText(const sessions::FrameRow& row, double factor, int first) {
+  if (!row.transform) return {};
+  if (!row.sigma) return FramesPanel::tr("exact");
+  return numberText(factor * row.sigma->segment<3>(first).maxCoeff(), 2);
+}
+
+QTreeWidgetItem* itemOf(const sessions::FrameRow& row, int index) {
+  auto* item = new QTreeWidgetItem;
+  item->setData(kFrame, kRow, index);
+  item->setText(kFrame, fromText(sessions::frameText(row.frame)));
+  item->setText(kPlace, placeText(row));
+  item->setText(kSigma_mm, sigmaText(row, 1e3, 3));
+  item->setText(kSigma_mrad, sigmaText(row, 1e3, 0));
+  if (!row.transform) return item;
+  const auto source = static_cast<std::size_t>(row.transform->origin);
+  item->setText(kSource, fromText(sessions::kTransformSourceNames[source]));
+  item->setText(kComment, fromText(row.transform->comment));
+  const QString file = fromText(row.transform->file.string());
+  for (int column = 0; column < kColumns; ++column) item->setToolTip(column, file);
+  return item;
+}
+
+}  // namespace
+
+FramesPanel::FramesPanel(ViewState& state, QWidget* parent)
+    : QWidget(parent),
+      state_(state),
+      tree_(named(new QTreeWidget, "frames")),
+      add_(named(new QPushButton(tr("Add...")), "addFrames",
+                 tr("Add the transforms of a file; one between the same two frames is replaced"))),
+      remove_(named(new QPushButton(tr("Remove")), "removeFrame",
+                    tr("Remove the chosen transform from the case"))) {
+  tree_->setColumnCount(kColumns);
+  tree_->setHeaderLabels({tr("Frame"), tr("Place, mm"), tr("Sigma, mm"),
+                          tr("Sigma, mrad"), tr("Source"), tr("Comment")});
+  tree_->headerItem()->setToolTip(kPlace, tr("Of the origin, in the frame above"));
+  tree_->headerItem()->setToolTip(kSigma_mm, tr("One sigma of the worst axis"));
+  tree_->headerItem()->setToolTip(kSigma_mrad, tr("One sigma of the worst axis"));
+  tree_->setFrameShape(QFrame::NoFrame);
+  tree_->setIndentation(kIndentation);
+  tree_->header()->setStretchLastSection(false);
+  new ColumnFitter(*tree_, {kComment, kSource, kSigma_mrad, kSigma_mm});
+  tree_->setAccessibleName(tr("Frames"));
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(add_);
+  buttons->addWidget(remove_);
+  buttons->addStretch(1);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(4, 4, 4, 4);
+  column->addWidget(tree_, 1);
+  column->addLayout(buttons);
+  connect(add_, &QPushButton::clicked, this, &FramesPanel::addRequested);
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    if (const auto chosen = removable()) Q_EMIT removeRequested(*chosen);
+  });
+  connect(tree_, &QTreeWidget::currentItemChanged, this, &FramesPanel::showChosen);
+  state_.onChange(ViewChange::kCase, this, &FramesPanel::showCase);
+  showCase();
+}
+
+void FramesPanel::showCase() {
+  tree_->clear();
+  const ViewState::CasePtr& loaded_case = state_.currentCase();
+  rows_ = loaded_case ? sessions::frameRows(sessions::framesOf(loaded_case->source))
+                      : std::vector<sessions::FrameRow>();
+  std::vector<QTreeWidgetItem*> items;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    items.push_back(itemOf(rows_[i], static_cast<int>(i)));
+    if (rows_[i].parent < 0)
+      tree_->addTopLevelItem(items.back());
+    else
+      items[static_cast<std::size_t>(rows_[i].parent)]->addChild(items.back());
+  }
+  tree_->expandAll();
+  for (int i = 0; i < kColumns; ++i) tree_->resizeColumnToContents(i);
+  add_->setEnabled(loaded_case != nullptr);
+  showChosen();
+}
+
+std::optional<sessions::FrameTransform> FramesPanel::removable() const {
+  const QTreeWidgetItem* item = tree_->currentItem();
+  if (!item || !state_.currentCase()) return std::nullopt;
+  const auto& transform =
+      rows_[static_cast<std::size_t>(item->data(kFrame, kRow).toInt())].transform;
+  const auto& own = state_.currentCase()->source.frames;
+  if (!transform || std::find(own.begin(), own.end(), *transform) == own.end()) return std::nullopt;
+  return transform;
+}
+
+void FramesPanel::showChosen() { remove_->setEnabled(removable().has_value()); }
+
+}  // namespace boresight::ui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <QWidget>
+
+#include "sessions/io/cameras/frame_tree.h"
+
+class QPushButton;
+class QTreeWidget;
+
+namespace boresight::ui {
+
+class ViewState;
+
+/// The tree of the case's frames, each below the one that it hangs on, with place, sigmas and
+/// source of the transform between them.
+class FramesPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit FramesPanel(ViewState& state, QWidget* parent = nullptr);
+
+ Q_SIGNALS:
+  void addRequested();
+  void removeRequested(const boresight::sessions::FrameTransform& transform);
+
+ private:
+  void showCase();
+  void showChosen();
+  /// The chosen row's transform where it is the case's own; the camera model's is not.
+  std::optional<sessions::FrameTransform> removable() const;
+
+  ViewState& state_;
+  std::vector<sessions::FrameRow> rows_;
+  QTreeWidget* tree_;
+  QPushButton* add_;
+  QPushButton* remove_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/case/input_sheet_panel.h"
+
+#include <cmath>
+
+#include <QtWidgets>
+
+#include "sessions/session/input_sigmas.h"
+#include "ui/models/text.h"
+#include "ui/widgets/widgets.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kPercent = 100.0;
+constexpr double kMost_mm = 100'000.0;
+constexpr double kLeastRequirement = 1e-6;
+
+void setUpBox(QDoubleSpinBox* box, double least, double most, double value, const QString& unit) {
+  box->setDecimals(3);
+  box->setRange(least, most);
+  box->setSuffix(QLatin1Char(' ') + unit);
+  box->setValue(value);
+}
+
+}  // namespace
+
+InputSigmasDialog::InputSigmasDialog(const sessions::SessionCase& one, QWidget* parent)
+    : QDialog(parent) {
+  ui_.setupUi(this);
+  const sessions::InputSigmas sigmas(one);
+  const auto show = [](QDoubleSpinBox* box, double value, double maximum) {
+    box->setMaximum(maximum);
+    box->setValue(value);
+  };
+  ui_.meshStated->setChecked(sigmas.mesh_scale_stated);
+  ui_.cameraStated->setChecked(sigmas.calibration_stated);
+  by_covariance_ = sigmas.calibration_derived;
+  former_calibration_ = one.calibration_sigma;
+  for (QWidget* field : {static_cast<QWidget*>(ui_.cameraStated), static_cast<QWidget*>(ui_.focal),
+                         static_cast<QWidget*>(ui_.principalPoint)}) {
+    if (!by_covariance_) break;
+    field->setEnabled(false);
+    field->setToolTip(tr("The camera's covariance counts in place of these"));
+  }
+  show(ui_.meshScale, kPercent * sigmas.mesh_scale, kPercent * sessions::kMaxScaleSigma);
+  show(ui_.focal, kPercent * sigmas.calibration.focal_relative,
+       kPercent * sessions::kMaxFocalSigma);
+  show(ui_.principalPoint, sigmas.calibration.principal_point_px,
+       sessions::kMaxPrincipalPointSigma_px);
+  connect(ui_.buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+}
+
+std::optional<double> InputSigmasDialog::meshScaleSigma() const {
+  if (!ui_.meshStated->isChecked()) return std::nullopt;
+  return ui_.meshScale->value() / kPercent;
+}
+
+std::optional<sessions::CalibrationSigma> InputSigmasDialog::calibrationSigma() const {
+  if (by_covariance_) return former_calibration_;
+  if (!ui_.cameraStated->isChecked()) return std::nullopt;
+  return sessions::CalibrationSigma{ui_.focal->value() / kPercent, ui_.principalPoint->value()};
+}
+
+JudgementDialog::JudgementDialog(const sessions::SessionCase& one, QWidget* parent)
+    : QDialog(parent),
+      former_end_effector_(one.camera_from_end_effector.value_or(Pose())),
+      former_requirement_(one.requirement.value_or(sessions::Requirement())) {
+  ui_.setupUi(this);
+  const Eigen::Vector3d place_mm = 1e3 * former_end_effector_.translation_m;
+  ui_.endEffectorStated->setChecked(one.camera_from_end_effector.has_value());
+  setUpBox(ui_.endEffectorX, -kMost_mm, kMost_mm, place_mm.x(), tr("mm"));
+  setUpBox(ui_.endEffectorY, -kMost_mm, kMost_mm, place_mm.y(), tr("mm"));
+  setUpBox(ui_.endEffectorZ, -kMost_mm, kMost_mm, place_mm.z(), tr("mm"));
+  const sessions::Requirement& former = former_requirement_;
+  ui_.requirementStated->setChecked(former.normal_mm || former.lateral_mm || former.rotation_deg);
+  setUpBox(ui_.normal, kLeastRequirement, kMost_mm, former.normal_mm.value_or(0.4), tr("mm"));
+  setUpBox(ui_.lateral, kLeastRequirement, kMost_mm, former.lateral_mm.value_or(0.4), tr("mm"));
+  setUpBox(ui_.rotation, kLeastRequirement, 180.0, former.rotation_deg.value_or(0.25), tr("deg"));
+  connect(ui_.buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(ui_.buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+}
+
+std::optional<Pose> JudgementDialog::cameraFromEndEffector() const {
+  if (!ui_.endEffectorStated->isChecked()) return std::nullopt;
+  Pose stated = former_end_effector_;
+  const QDoubleSpinBox* boxes[] = {ui_.endEffectorX, ui_.endEffectorY, ui_.endEffectorZ};
+  for (int axis = 0; axis < 3; ++axis) {
+    // What is only shown rounded stays as it was.
+    const double value_m = 1e-3 * boxes[axis]->value();
+    if (std::abs(value_m - stated.translation_m[axis]) > 0.5e-6)
+      stated.translation_m[axis] = value_m;
+  }
+  return stated;
+}
+
+std::optional<sessions::Requirement> JudgementDialog::requirement() const {
+  sessions::Requirement stated;
+  stated.projection_px = former_requirement_.projection_px;
+  if (ui_.requirementStated->isChecked()) {
+    stated.normal_mm = ui_.normal->value();
+    stated.lateral_mm = ui_.lateral->value();
+    stated.rotation_deg = ui_.rotation->value();
+  }
+  return stated == sessions::Requirement() ? std::nullopt : std::optional(stated);
+}
+
+InputSheetPanel::InputSheetPanel(QWidget* parent) : QWidget(parent) {
+  ui_.setupUi(this);
+  styleTable(*ui_.sheet);
+  ui_.sheet->setWordWrap(true);
+  ui_.sheet->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  ui_.sheet->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  ui_.sheet->horizontalHeader()->setStretchLastSection(true);
+  auto* copy = new QAction(tr("Copy"), ui_.sheet);
+  copy->setShortcut(QKeySequence::Copy);
+  copy->setShortcutContext(Qt::WidgetShortcut);
+  ui_.sheet->addAction(copy);
+  ui_.sheet->setContextMenuPolicy(Qt::ActionsContextMenu);
+  connect(copy, &QAction::triggered, this, &InputSheetPanel::copyChosen);
+  connect(ui_.inputSigmas, &QPushButton::clicked, this, &InputSheetPanel::sigmasRequested);
+  connect(ui_.judgement, &QPushButton::clicked, this, &InputSheetPanel::judgementRequested);
+  setSheet(std::nullopt);
+}
+
+void InputSheetPanel::showFlags(const std::vector<sessions::RedFlag>& flags) {
+  QStringList sentences;
+  for (const sessions::RedFlag& flag : flags)
+    sentences.append(QStringLiteral("⚠ ") + fromText(flag.text));
+  ui_.flags->setText(flags.empty() ? tr("✓ No warnings about the inputs.")
+                                   : sentences.join(QLatin1Char('\n')));
+  QFont font = this->font();
+  font.setBold(!flags.empty());
+  ui_.flags->setFont(font);
+}
+
+void InputSheetPanel::setSheet(const std::optional<sessions::InputSheet>& sheet) {
+  ui_.inputSigmas->setEnabled(sheet.has_value());
+  ui_.judgement->setEnabled(sheet.has_value());
+  if (!sheet) {
+    ui_.flags->setText(tr("No case is open."));
+    ui_.sheet->setRowCount(0);
+    return;
+  }
+  showFlags(sheet->flags);
+  ui_.sheet->setRowCount(static_cast<int>(sheet->lines.size()));
+  for (int row = 0; row < ui_.sheet->rowCount(); ++row) {
+    const sessions::SheetLine& line = sheet->lines[static_cast<std::size_t>(row)];
+    ui_.sheet->setItem(row, 0, new QTableWidgetItem(fromText(line.label)));
+    auto* value = new QTableWidgetItem(fromText(line.value));
+    value->setToolTip(fromText(line.value));  // it may be longer than the panel is wide
+    ui_.sheet->setItem(row, 1, value);
+  }
+  ui_.sheet->resizeColumnToContents(0);
+}
+
+QString InputSheetPanel::text() const {
+  QString text = ui_.flags->text() + QLatin1Char('\n');
+  for (int row = 0; row < ui_.sheet->rowCount(); ++row)
+    text += ui_.sheet->item(row, 0)->text() + QStringLiteral(": ") +
+            ui_.sheet->item(row, 1)->text() + QLatin1Char('\n');
+  return text;
+}
+
+void InputSheetPanel::copyChosen() const {
+  QString text;
+  const QModelIndexList rows = ui_.sheet->selectionModel()->selectedRows();
+  for (const QModelIndex& row : rows)
+    text += row.data().toString() + QLatin1Char('\t') + row.siblingAtColumn(1).data().toString() +
+            QLatin1Char('\n');
+  QApplication::clipboard()->setText(text);
+}
+
+}  // namespace boresight::ui

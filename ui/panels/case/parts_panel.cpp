@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/case/parts_panel.h"
+
+#include <QtWidgets>
+
+#include "ui/models/text.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
+#include "ui/widgets/column_fitter.h"
+#include "ui/widgets/widgets.h"
+
+namespace boresight::ui {
+namespace {
+
+QTableWidgetItem* textItem(const QString& text, const QString& tip = {}) {
+  auto* item = new QTableWidgetItem(text);
+  item->setToolTip(tip.isEmpty() ? text : tip);
+  return item;
+}
+
+}  // namespace
+
+PartsPanel::PartsPanel(Document& document, ViewState& state, QWidget* parent)
+    : QWidget(parent),
+      document_(document),
+      state_(state),
+      table_(named(new QTableWidget(0, kColumns), "parts")) {
+  styleTable(*table_);
+  table_->setHorizontalHeaderLabels({tr("On"), tr("Part"), tr("Role"), tr("Fixed to"), tr("Mesh")});
+  table_->horizontalHeaderItem(kPresent)->setToolTip(
+      tr("Whether the part is there: which sleeves are filled, a lid closed"));
+  table_->horizontalHeaderItem(kRole)->setToolTip(
+      tr("matched: its edges are looked for; occludes: it hides what is behind it; ignored: as if "
+         "it were not there"));
+  new ColumnFitter(*table_, {kMesh, kFrame});
+  table_->setAccessibleName(tr("Parts of the station"));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(table_);
+  connect(table_, &QTableWidget::itemChanged, this, [this](const QTableWidgetItem* item) {
+    if (filling_ || item->column() != kPresent) return;
+    const sessions::SessionCase* shown = shownCase(document_, state_);
+    const auto row = static_cast<std::size_t>(item->row());
+    if (!shown || row >= shown->parts.size()) return;
+    sessions::PartState changed = shown->parts[row].source.state;
+    changed.present = item->checkState() == Qt::Checked;
+    change(item->row(), changed);
+  });
+  connect(&document_, &Document::opened, this, &PartsPanel::showCase);
+  connect(&document_, &Document::changed, this, &PartsPanel::showCase);
+  state_.onChange(ViewChange::kCase, this, &PartsPanel::showCase);
+  showCase();
+}
+
+void PartsPanel::showCase() {
+  filling_ = true;
+  table_->setRowCount(0);
+  if (const sessions::SessionCase* shown = shownCase(document_, state_)) {
+    table_->setRowCount(static_cast<int>(shown->parts.size()));
+    for (int row = 0; row < table_->rowCount(); ++row)
+      addPart(row, shown->parts[static_cast<std::size_t>(row)].source, document_.isEditable());
+    table_->resizeColumnsToContents();
+  }
+  filling_ = false;
+}
+
+void PartsPanel::addPart(int row, const sessions::PartSource& part, bool editable) {
+  auto* present = new QTableWidgetItem;
+  present->setFlags(Qt::ItemIsSelectable | Qt::ItemIsUserCheckable |
+                    (editable ? Qt::ItemIsEnabled : Qt::NoItemFlags));
+  present->setCheckState(part.state.present ? Qt::Checked : Qt::Unchecked);
+  table_->setItem(row, kPresent, present);
+  table_->setItem(row, kName, textItem(fromText(sessions::partName(part)),
+                                       fromText(sessions::partText(part))));
+  auto* role = new QComboBox;
+  for (const char* name : sessions::kPartRoleNames) role->addItem(QLatin1String(name));
+  role->setCurrentIndex(static_cast<int>(part.state.role));
+  role->setEnabled(editable);
+  connect(role, QOverload<int>::of(&QComboBox::activated), this,
+          [this, row, state = part.state](int index) mutable {
+            state.role = static_cast<sessions::PartRole>(index);
+            change(row, state);
+          });
+  table_->setCellWidget(row, kRole, role);
+  table_->setItem(row, kFrame, textItem(fromText(sessions::frameText(part.frame))));
+  table_->setItem(row, kMesh,
+                  textItem(fromText(part.mesh.filename().string()), fromText(part.mesh.string())));
+}
+
+/// After the signal: the table is filled again by the edit.
+void PartsPanel::change(int row, const sessions::PartState& state) {
+  QMetaObject::invokeMethod(
+      this,
+      [this, row, state] {
+        const sessions::SessionCase* shown = shownCase(document_, state_);
+        if (!shown || row >= static_cast<int>(shown->parts.size())) return;
+        const auto index = static_cast<std::size_t>(row);
+        const QString name = fromText(sessions::partName(shown->parts[index].source));
+        try {
+          document_.edit(
+              sessions::withPartState(document_.session(), shown->id, index, state),
+              tr("%1 of %2: %3")
+                  .arg(name, fromText(shown->id), fromText(sessions::partStateText(state))));
+        } catch (const std::exception& error) {
+          Q_EMIT failed(QString::fromUtf8(error.what()));
+        }
+        showCase();
+      },
+      Qt::QueuedConnection);
+}
+
+}  // namespace boresight::ui

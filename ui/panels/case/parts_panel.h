@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QWidget>
+
+#include "sessions/io/meshes/part_source.h"
+
+class QTableWidget;
+
+namespace boresight::ui {
+
+class Document;
+class ViewState;
+
+/// The state of the shown case's station: which parts are there, and what each is to the
+/// localizer. Every change is an edit.
+class PartsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  PartsPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
+
+ Q_SIGNALS:
+  /// A state that cannot be; one sentence.
+  void failed(const QString& message);
+
+ private:
+  enum Column { kPresent, kName, kRole, kFrame, kMesh, kColumns };
+
+  void showCase();
+  void addPart(int row, const sessions::PartSource& part, bool editable);
+  void change(int row, const sessions::PartState& state);
+
+  Document& document_;
+  ViewState& state_;
+  QTableWidget* table_;
+  bool filling_ = false;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QWidget>
+
+#include "sessions/trace/alternatives.h"
+#include "ui/models/rows_model.h"
+#include "ui/state/view_state.h"
+
+class QTableView;
+
+namespace boresight::ui {
+
+/// The poses that a run compared with those that it went on with, one row each: competing
+/// poses first, then compared poses, then rolled hypotheses by iteration.
+class AlternativesModel : public RowsModel<sessions::Alternative> {
+  Q_OBJECT
+
+ public:
+  enum Column {
+    kPose,
+    kIteration,
+    kEnded,
+    kMargin_nats,
+    kSimilarity,
+    kScore,
+    kProbability,
+    kInliers,
+    kMatches,
+    kApart_mm,
+    kApart_deg,
+  };
+
+  explicit AlternativesModel(QObject* parent = nullptr);
+
+  /// The first row of an iteration (an index into the run's), or -1.
+  int firstRowOf(int iteration) const;
+
+ protected:
+  QVariant look(const sessions::Alternative& row, int column, int role) const override;
+};
+
+/// What else a run compared: poses that compete with its result, compared poses, rolled hypotheses.
+/// The chosen one is drawn on the image with the pose that the run went on with; one that belongs
+/// to an iteration takes the cursor there.
+class HypothesesPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit HypothesesPanel(ViewState& view, QWidget* parent = nullptr);
+
+  const AlternativesModel& model() const { return model_; }
+  /// -1: none.
+  void choose(int row);
+
+ private:
+  void showSnapshot();
+  void showCursor();
+  void showAlternative();
+  void select(int row);
+
+  ViewState& view_;
+  AlternativesModel model_;
+  QTableView* table_ = nullptr;
+  bool showing_ = false;  ///< the table follows the view state, not the operator
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/diagnose/match_inspector_panel.h"
+
+#include <QtWidgets>
+
+#include "sessions/trace/sample_statistics.h"
+#include "ui/models/text.h"
+#include "ui/plots/plots.h"
+#include "ui/widgets/widgets.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kBins = 41;
+
+/// Places and their share of all.
+QString placesText(int count, double share) {
+  return MatchInspectorPanel::tr("%1 (%2 %)").arg(count).arg(numberText(100.0 * share, 0));
+}
+
+QVector<int> asVector(const std::vector<std::int32_t>& counts) {
+  return QVector<int>(counts.begin(), counts.end());
+}
+
+}  // namespace
+
+MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
+    : QWidget(parent), view_(view) {
+  filter_.setSourceModel(&model_);
+  ui_.setupUi(this);
+  ui_.splitter->setStretchFactor(0, 1);
+  ui_.splitter->setStretchFactor(1, 3);
+  ui_.splitter->setSizes({110, 600});
+  setUpTable(*ui_.templates, filter_);
+  ui_.templates->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
+  ui_.show->addItems(TemplatesModel::showNames());
+  styleTable(*ui_.edges);
+  histogram_ = new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"),
+                                 tr("used"), ui_.refinement);
+  histogram_->setToolTip(
+      tr("Distance of the image's edges from the rendered edges after this refinement, in pixels "
+         "of the full image. A good pose has a narrow peak at 0."));
+  ui_.refinementRow->addWidget(histogram_, 1);
+  connect(ui_.show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
+    showing_ = true;
+    filter_.setCondition([this, show = static_cast<TemplatesModel::Show>(index)](int source_row) {
+      return model_.isShown(source_row, show);
+    });
+    showing_ = false;
+    showCount();
+    showTemplate();
+  });
+  connect(ui_.templates->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          &MatchInspectorPanel::chooseRow);
+  view_.onChange(ViewChange::kSnapshot | ViewChange::kCursor, this,
+                 &MatchInspectorPanel::showIteration);
+  view_.onChange(ViewChange::kTemplate, this, &MatchInspectorPanel::showTemplate);
+  showIteration();
+}
+
+void MatchInspectorPanel::showCount() {
+  ui_.count->setText(tr("%1 of %2").arg(filter_.rowCount()).arg(model_.rowCount()));
+}
+
+void MatchInspectorPanel::showIteration() {
+  const auto next = view_.iteration();
+  if (next != iteration_ || !next) {
+    iteration_ = next;
+    showing_ = true;
+    model_.setIteration(iteration_.get());
+    showing_ = false;
+    ui_.templates->resizeColumnsToContents();
+    showCount();
+  }
+  const bool refines = iteration_ && iteration_->kind == IterationKind::kRefine;
+  if (refines && iteration_->reached >= Stage::kRefine) {
+    showRefinement();
+    ui_.pages->setCurrentWidget(ui_.refinement);
+  } else if (model_.rowCount() > 0) {
+    ui_.pages->setCurrentWidget(ui_.matches);
+  } else {
+    ui_.hint->setText(!view_.snapshot() ? tr("No run yet.")
+                      : !iteration_     ? tr("The seed has no matches; select an iteration.")
+                                        : tr("This iteration has no templates yet."));
+    ui_.pages->setCurrentWidget(ui_.nothing);
+  }
+  showTemplate();
+}
+
+/// Shares by kind of edge, and distances of the image's edges.
+void MatchInspectorPanel::showRefinement() {
+  const auto statistics = sessions::sampleStatistics(*iteration_, kBins);
+  const std::pair<QString, const sessions::SampleCounts&> rows[] = {
+      {tr("all"), statistics.all},
+      {tr("outline"), statistics.border},
+      {tr("occluding"), statistics.occluding},
+      {tr("creases"), statistics.creases}};
+  QTableWidget& table = *ui_.edges;
+  table.setRowCount(0);
+  for (const auto& [name, counts] : rows)
+    addRow(table,
+           {name, QString::number(counts.places), placesText(counts.found, counts.foundShare()),
+            placesText(counts.used, counts.usedShare())});
+  table.resizeColumnsToContents();
+  table.setFixedWidth(table.horizontalHeader()->length() + 2 * table.frameWidth());
+  histogram_->setCounts(statistics.radius_px, asVector(statistics.found_in_bin),
+                        asVector(statistics.used_in_bin));
+}
+
+void MatchInspectorPanel::showTemplate() {
+  const int selected = view_.selectedTemplate();
+  showing_ = true;
+  const QModelIndex row = filter_.mapFromSource(model_.index(selected, 0));
+  ui_.templates->setCurrentIndex(row);
+  if (row.isValid()) ui_.templates->scrollTo(row);
+  showing_ = false;
+  const auto* run = view_.snapshot().get();
+  if (selected < 0 || selected >= model_.rowCount() || !run || !run->edges) {
+    ui_.match->showNote(tr("Select a template in the table or in the image."));
+    return;
+  }
+  ui_.match->showMatch(run->edges, iteration_, selected);
+}
+
+void MatchInspectorPanel::chooseRow(const QModelIndex& current) {
+  if (showing_ || !current.isValid()) return;
+  view_.selectTemplate(filter_.mapToSource(current).row());
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include <QWidget>
+
+#include "ui_match_inspector_panel.h"
+
+#include "ui/panels/diagnose/match_view.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+
+class HistogramPlot;
+
+/// The templates of the iteration under the cursor in a table, and the story of the chosen one; of
+/// a refinement, what was found along the edges. Shows and changes the view state's template.
+class MatchInspectorPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit MatchInspectorPanel(ViewState& view, QWidget* parent = nullptr);
+
+  const TemplatesModel& model() const { return model_; }
+  const RowsFilter& filter() const { return filter_; }
+
+ private:
+  void showIteration();
+  void showRefinement();
+  void showTemplate();
+  void chooseRow(const QModelIndex& current);
+  void showCount();
+
+  ViewState& view_;
+  TemplatesModel model_;
+  RowsFilter filter_;
+  std::shared_ptr<const sessions::IterationTrace> iteration_;
+  HistogramPlot* histogram_ = nullptr;  ///< of a refinement
+  bool showing_ = false;                ///< the table follows the view state, not a person
+  Ui::MatchInspectorPanel ui_;
+};
+
+}  // namespace boresight::ui

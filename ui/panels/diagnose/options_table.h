@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <QTableView>
+
+#include "sessions/io/json/option_value.h"
+#include "ui/models/rows_model.h"
+
+namespace boresight::ui {
+
+/// An option, and its default in the chosen profile or preset.
+struct OptionRow {
+  sessions::OptionDescription now;
+  sessions::OptionDescription by_default;
+  bool isChanged() const { return now.value != by_default.value; }
+};
+
+/// Options as a table: a row per option, bold where it differs from its default. An edit is
+/// reported and not made: the owner of the options answers with new rows.
+class OptionsModel : public RowsModel<OptionRow> {
+  Q_OBJECT
+
+ public:
+  enum Column { kName, kValue, kReset, kUnit, kDefault, kRange };
+
+  explicit OptionsModel(QObject* parent = nullptr);
+
+  /// Both lists hold the same options in the same order.
+  void setOptions(const std::vector<sessions::OptionDescription>& current,
+                  const std::vector<sessions::OptionDescription>& by_default);
+  int changedCount() const;
+  /// Asks for the default of a row; nothing where it is the value already.
+  void reset(int row);
+  /// "0 .. 1", "true, false", or the choices.
+  static QString rangeText(const sessions::OptionDescription& option);
+
+  bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+
+ Q_SIGNALS:
+  /// The value that an option should get, as text.
+  void edited(const std::string& name, const std::string& value);
+
+ protected:
+  QVariant look(const OptionRow& row, int column, int role) const override;
+};
+
+/// Options to read and edit: a list for choices, a spin box for integers, a line for other numbers.
+/// The Delete key and a click on "reset" ask for the default.
+class OptionsTable : public QTableView {
+  Q_OBJECT
+
+ public:
+  explicit OptionsTable(QWidget* parent = nullptr);
+
+  OptionsModel& options() { return model_; }
+  void setOptions(const std::vector<sessions::OptionDescription>& current,
+                  const std::vector<sessions::OptionDescription>& by_default);
+  /// Shows the options whose name or help holds every word; all of them, or those that differ from
+  /// their default.
+  void setFilter(const QString& words, bool changed_only);
+
+ Q_SIGNALS:
+  /// What the chosen option does; empty when none is chosen.
+  void helpChanged(const QString& help);
+
+ private:
+  void showHelp();
+
+  OptionsModel model_;
+  RowsFilter filter_;
+};
+
+}  // namespace boresight::ui

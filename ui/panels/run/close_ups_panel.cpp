@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/run/close_ups_panel.h"
+
+#include <QtWidgets>
+
+#include "ui/models/text.h"
+#include "ui/state/view_state.h"
+#include "ui/style/theme.h"
+#include "ui/views/display_image.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
+#include "ui/views/line_painter.h"
+
+namespace boresight::ui {
+namespace {
+
+/// Side of the squares that are searched for corners: about what a close-up shows.
+constexpr double kSide_px = 32.0;
+/// Zoom of the canvas after a click, at least.
+constexpr double kCanvasScale = 8.0;
+constexpr LayerId kShownLayers[] = {LayerId::kSeedEdges, LayerId::kIterationEdges,
+                                    LayerId::kTruthEdges};
+
+}  // namespace
+
+CloseUpView::CloseUpView(ImagePanel& image) : image_(image) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  setCursor(Qt::PointingHandCursor);
+  connect(&image_.view(), &ImageView::layersChanged, this, QOverload<>::of(&QWidget::update));
+  connect(&image_.display(), &DisplayImage::pictureChanged, this,
+          QOverload<>::of(&QWidget::update));
+}
+
+void CloseUpView::setPlace(const std::optional<sessions::CloseUp>& place) {
+  place_ = place;
+  setToolTip(place_ ? tr("%1: the edges of model and image are %2 px apart (median). Click to show "
+                         "the place on the canvas.")
+                          .arg(fromText(place_->name), numberText(place_->distance_px, 2))
+                    : QString());
+  update();
+}
+
+QRectF CloseUpView::pictureArea() const {
+  return QRectF(rect()).adjusted(0.0, 0.0, 0.0, -fontMetrics().height() - 2.0);
+}
+
+void CloseUpView::paintEvent(QPaintEvent* /*event*/) {
+  if (!place_) return;
+  QPainter painter(this);
+  painter.setPen(QColor(theme().text2));
+  const QRectF caption(0.0, pictureArea().bottom() + 2.0, width(), fontMetrics().height());
+  painter.drawText(caption, Qt::AlignLeft | Qt::AlignVCenter, fromText(place_->name));
+  painter.drawText(caption, Qt::AlignRight | Qt::AlignVCenter,
+                   tr("%1 px").arg(numberText(place_->distance_px, 2)));
+  paintPicture(painter);
+}
+
+void CloseUpView::paintPicture(QPainter& painter) const {
+  const QRectF area = pictureArea();
+  painter.setClipRect(area);
+  painter.fillRect(area, QColor(theme().canvas));
+  ViewTransform transform;
+  transform.zoomAt({}, kScale);
+  transform.centreOn(pointOf(place_->center_px), area.size());
+  const QImage& picture = image_.display().picture();
+  painter.drawImage(transform.toWidget(QRectF(-0.5, -0.5, picture.width(), picture.height())),
+                    picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (const LayerId id : kShownLayers) {
+    const Layer& layer = image_.view().layer(id);
+    if (layer.lines && layer.style.visible)
+      paintLines(painter, transform, *layer.lines, layer.shownLine(), area);
+  }
+}
+
+void CloseUpView::mousePressEvent(QMouseEvent* /*event*/) {
+  if (place_) image_.view().centreOn(pointOf(place_->center_px), kCanvasScale);
+}
+
+CloseUpsPanel::CloseUpsPanel(ImagePanel& image, ViewState& state, QWidget* parent)
+    : QWidget(parent),
+      state_(state),
+      pages_(new QStackedLayout(this)),
+      grid_(new QWidget),
+      hint_(new QLabel(tr("Iterations that refine the pose on edges have close-ups here."))) {
+  auto* grid = new QGridLayout(grid_);
+  grid->setContentsMargins(8, 8, 8, 8);
+  grid->setSpacing(8);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    views_[i] = new CloseUpView(image);
+    grid->addWidget(views_[i], static_cast<int>(i / 2), static_cast<int>(i % 2));
+  }
+  hint_->setAlignment(Qt::AlignCenter);
+  hint_->setWordWrap(true);
+  hint_->setMargin(12);
+  pages_->addWidget(hint_);
+  pages_->addWidget(grid_);
+  state_.onChange(ViewChange::kSnapshot | ViewChange::kCursor | ViewChange::kCase, this,
+                  &CloseUpsPanel::showIteration);
+  showIteration();
+}
+
+void CloseUpsPanel::showIteration() {
+  const auto iteration = state_.iteration();
+  const auto& loaded_case = state_.currentCase();
+  std::vector<sessions::CloseUp> close_ups;
+  if (iteration && loaded_case)
+    close_ups = sessions::closeUps(loaded_case->source.camera, iteration->refinement, kSide_px);
+  for (std::size_t i = 0; i < views_.size(); ++i)
+    views_[i]->setPlace(i < close_ups.size() ? std::optional(close_ups[i]) : std::nullopt);
+  pages_->setCurrentWidget(close_ups.empty() ? static_cast<QWidget*>(hint_) : grid_);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <QWidget>
+
+#include "sessions/trace/close_ups.h"
+
+class QLabel;
+class QStackedLayout;
+
+namespace boresight::ui {
+
+class ImagePanel;
+class ViewState;
+
+/// A magnified part of the canvas's image with its lines. A click shows the place on the canvas.
+class CloseUpView : public QWidget {
+  Q_OBJECT
+
+ public:
+  static constexpr double kScale = 4.0;
+
+  explicit CloseUpView(ImagePanel& image);
+
+  /// Nothing: an empty field.
+  void setPlace(const std::optional<sessions::CloseUp>& place);
+  const std::optional<sessions::CloseUp>& place() const { return place_; }
+
+  QSize sizeHint() const override { return {180, 130}; }
+  QSize minimumSizeHint() const override { return {90, 64}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+
+ private:
+  QRectF pictureArea() const;
+  void paintPicture(QPainter& painter) const;
+
+  ImagePanel& image_;
+  std::optional<sessions::CloseUp> place_;
+};
+
+/// Four places where the shown refinement's edges can be compared with the image's.
+class CloseUpsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  CloseUpsPanel(ImagePanel& image, ViewState& state, QWidget* parent = nullptr);
+
+ private:
+  void showIteration();
+
+  ViewState& state_;
+  QStackedLayout* pages_;
+  QWidget* grid_;
+  QLabel* hint_;
+  std::array<CloseUpView*, 4> views_{};
+};
+
+}  // namespace boresight::ui

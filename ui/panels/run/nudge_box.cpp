@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/run/nudge_box.h"
+
+#include <QKeyEvent>
+#include <QtWidgets>
+
+#include "core/base/math.h"
+
+namespace boresight::ui {
+namespace {
+
+Eigen::Vector3d pivotInCamera_m(const Pose& camera_from_station, const NudgeFrame& frame) {
+  if (frame.pivot == NudgePivot::kCameraCentre) return Eigen::Vector3d::Zero();
+  return camera_from_station * frame.centre_in_station_m;
+}
+
+/// Turns both halves of an offset by a rotation: rotation vectors turn as vectors do.
+Vector6d turned(const Eigen::Quaterniond& rotation, const Vector6d& offset) {
+  Vector6d result;
+  result.head<3>() = rotation * offset.head<3>();
+  result.tail<3>() = rotation * offset.tail<3>();
+  return result;
+}
+
+}  // namespace
+
+Pose nudged(const Pose& camera_from_station, const Vector6d& offset, const NudgeFrame& frame) {
+  const bool own = frame.axes == NudgeAxes::kStation;
+  return displacedAboutPivot(camera_from_station,
+                             own ? turned(camera_from_station.rotation, offset) : offset,
+                             pivotInCamera_m(camera_from_station, frame));
+}
+
+Vector6d nudgeBetween(const Pose& camera_from_station_base, const Pose& camera_from_station,
+                      const NudgeFrame& frame) {
+  const Vector6d offset = offsetAboutPivot(camera_from_station_base, camera_from_station,
+                                           pivotInCamera_m(camera_from_station_base, frame));
+  const bool own = frame.axes == NudgeAxes::kStation;
+  return own ? turned(camera_from_station_base.rotation.conjugate(), offset) : offset;
+}
+
+namespace {
+
+/// The axis (0..2) and the sense of a key; sense 0 for keys that nudge nothing.
+struct KeyAxis {
+  int axis = 0;
+  double sense = 0.0;
+};
+
+struct KeyNudge {
+  int key;
+  KeyAxis move;
+  KeyAxis turn;  ///< so that what is near the viewer goes where the arrow points
+};
+constexpr std::array<KeyNudge, 6> kKeyNudges = {{
+    {Qt::Key_Left, {0, -1.0}, {1, 1.0}},
+    {Qt::Key_Right, {0, 1.0}, {1, -1.0}},
+    {Qt::Key_Up, {1, -1.0}, {0, -1.0}},  // the camera's y points down
+    {Qt::Key_Down, {1, 1.0}, {0, 1.0}},
+    {Qt::Key_PageUp, {2, 1.0}, {2, 1.0}},
+    {Qt::Key_PageDown, {2, -1.0}, {2, -1.0}},
+}};
+
+KeyAxis nudgeOf(int key, bool turns) {
+  for (const KeyNudge& each : kKeyNudges)
+    if (each.key == key) return turns ? each.turn : each.move;
+  return {};
+}
+
+}  // namespace
+
+NudgeController::NudgeController(ViewState& state, QObject* parent)
+    : QObject(parent), state_(state) {
+  pause_.setSingleShot(true);
+  pause_.setInterval(kPause_ms);
+  connect(&pause_, &QTimer::timeout, this, &NudgeController::finishGesture);
+  state_.onChange(ViewChange::kCase, this, &NudgeController::caseChanged);
+  state_.onChange(ViewChange::kNudgedPose, this, &NudgeController::stateChanged);
+  state_.onChange(ViewChange::kCursor, this, &NudgeController::changed);
+  caseChanged();
+}
+
+void NudgeController::caseChanged() {
+  before_.reset();
+  pause_.stop();
+  base_.reset();
+  if (state_.currentCase())
+    frame_.centre_in_station_m = matchedBounds(state_.currentCase()->scene.view()).centre();
+  Q_EMIT changed();
+}
+
+/// Undo or a pasted pose may have nudged.
+void NudgeController::stateChanged() {
+  if (!state_.nudgedPose())
+    base_.reset();
+  else if (!base_)
+    base_ = estimate();
+  Q_EMIT changed();
+}
+
+void NudgeController::setAxes(NudgeAxes axes) {
+  finishGesture();
+  frame_.axes = axes;
+  Q_EMIT changed();
+}
+
+void NudgeController::setPivot(NudgePivot pivot) {
+  finishGesture();
+  frame_.pivot = pivot;
+  Q_EMIT changed();
+}
+
+/// What the views would show if nothing was nudged.
+Pose NudgeController::estimate() const {
+  if (const auto estimate = poseOf(state_, PoseRole::kEstimate)) return *estimate;
+  return poseOf(state_, PoseRole::kSeed).value_or(Pose());
+}
+
+Pose NudgeController::base() const { return base_ ? *base_ : estimate(); }
+
+Vector6d NudgeController::offset() const {
+  if (!state_.nudgedPose()) return Vector6d::Zero();
+  return nudgeBetween(base(), *state_.nudgedPose(), frame_);
+}
+
+void NudgeController::move(const Pose& camera_from_station) {
+  if (!state_.currentCase() || !camera_from_station.isFinite()) return;
+  if (!base_) base_ = estimate();
+  if (!before_) before_ = state_.shownPose();
+  pause_.start();
+  state_.setNudgedPose(camera_from_station);
+}
+
+void NudgeController::nudgeBy(const Vector6d& steps) {
+  move(nudged(state_.shownPose(), steps, frame_));
+}
+
+void NudgeController::setOffset(const Vector6d& offset) { move(nudged(base(), offset, frame_)); }
+
+void NudgeController::setOffset(int axis, double value) {
+  Vector6d next = offset();
+  next[axis] = value;
+  setOffset(next);
+}
+
+void NudgeController::setPose(const Pose& camera_from_station) {
+  finishGesture();
+  move(camera_from_station);
+  finishGesture();
+}
+
+void NudgeController::backToEstimate() {
+  if (!state_.nudgedPose()) return;
+  finishGesture();
+  base_ = estimate();
+  setPose(estimate());
+}
+
+void NudgeController::drop() {
+  if (!state_.nudgedPose()) return;
+  finishGesture();
+  const Pose before = *state_.nudgedPose();
+  state_.setNudgedPose(std::nullopt);
+  Q_EMIT gestureFinished(before, state_.shownPose());
+}
+
+void NudgeController::finishGesture() {
+  pause_.stop();
+  if (!before_) return;
+  const Pose before = *before_;
+  before_.reset();
+  const Pose after = state_.shownPose();
+  if (!(before == after)) Q_EMIT gestureFinished(before, after);
+}
+
+bool NudgeController::takes(const QKeyEvent& event) const {
+  return state_.currentCase() && nudgeOf(event.key(), false).sense != 0.0;
+}
+
+bool NudgeController::eventFilter(QObject* watched, QEvent* event) {
+  const QEvent::Type type = event->type();
+  if (type == QEvent::FocusOut) finishGesture();
+  const bool is_key =
+      type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
+  if (!is_key) return QObject::eventFilter(watched, event);
+  const auto& key = static_cast<const QKeyEvent&>(*event);
+  if (!takes(key)) return QObject::eventFilter(watched, event);
+  if (type == QEvent::ShortcutOverride) {
+    event->accept();
+    return false;
+  }
+  if (type == QEvent::KeyRelease) {
+    if (!key.isAutoRepeat()) finishGesture();
+    return true;
+  }
+  const Qt::KeyboardModifiers modifiers = key.modifiers();
+  const bool turns = modifiers.testFlag(Qt::ControlModifier);
+  double factor = 1.0;
+  if (modifiers.testFlag(Qt::ShiftModifier)) factor *= kCoarse;
+  if (modifiers.testFlag(Qt::AltModifier)) factor *= kFine;
+  const KeyAxis chosen = nudgeOf(key.key(), turns);
+  Vector6d steps = Vector6d::Zero();
+  steps[turns ? chosen.axis : 3 + chosen.axis] =
+      chosen.sense * factor * (turns ? step_.rotation_rad : step_.translation_m);
+  nudgeBy(steps);
+  // A key that repeats holds the gesture open until it is let go.
+  pause_.stop();
+  return true;
+}
+
+namespace {
+
+constexpr double kMillimetres = 1e3;
+
+/// From what the controller counts in (rad, m) to what the operator reads (deg, mm).
+double shownUnit(int axis) { return axis < 3 ? 1.0 / kDegree_rad : kMillimetres; }
+
+}  // namespace
+
+NudgeBox::NudgeBox(NudgeController& controller, ViewState& state, QWidget* parent)
+    : QWidget(parent), controller_(controller), state_(state) {
+  ui_.setupUi(this);
+  values_ = {ui_.turnX, ui_.turnY, ui_.turnZ, ui_.moveX, ui_.moveY, ui_.moveZ};
+  connectValues();
+  connectSettings();
+  ui_.nudgePad->installEventFilter(&controller_);
+  ui_.nudgePad->installEventFilter(this);
+  connect(&controller_, &NudgeController::changed, this, &NudgeBox::showOffset);
+  state_.onChange(ViewChange::kCase, this, &NudgeBox::showOffset);
+  showOffset();
+}
+
+void NudgeBox::connectValues() {
+  for (int axis = 0; axis < 6; ++axis) {
+    QDoubleSpinBox* box = values_[static_cast<std::size_t>(axis)];
+    box->installEventFilter(this);
+    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+            [this, axis](double value) { controller_.setOffset(axis, value / shownUnit(axis)); });
+    connect(box, &QDoubleSpinBox::editingFinished, &controller_, &NudgeController::finishGesture);
+  }
+}
+
+void NudgeBox::connectSettings() {
+  connect(ui_.axes, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this](int index) { controller_.setAxes(static_cast<NudgeAxes>(index)); });
+  connect(ui_.pivot, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+          [this](int index) { controller_.setPivot(static_cast<NudgePivot>(index)); });
+  ui_.moveStep->setValue(kMillimetres * controller_.step().translation_m);
+  ui_.turnStep->setValue(controller_.step().rotation_rad / kDegree_rad);
+  for (QDoubleSpinBox* box : {ui_.moveStep, ui_.turnStep})
+    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &NudgeBox::takeStep);
+  connect(ui_.useAsSeed, &QPushButton::clicked, this, [this] {
+    controller_.finishGesture();
+    if (state_.nudgedPose()) Q_EMIT useAsSeedRequested(*state_.nudgedPose());
+  });
+  connect(ui_.backToEstimate, &QPushButton::clicked, &controller_,
+          &NudgeController::backToEstimate);
+  connect(ui_.dropNudged, &QPushButton::clicked, &controller_, &NudgeController::drop);
+}
+
+void NudgeBox::takeStep() {
+  controller_.setStep({ui_.moveStep->value() / kMillimetres, ui_.turnStep->value() * kDegree_rad});
+  for (int axis = 0; axis < 6; ++axis)
+    values_[static_cast<std::size_t>(axis)]->setSingleStep(axis < 3 ? ui_.turnStep->value()
+                                                                    : ui_.moveStep->value());
+}
+
+void NudgeBox::showOffset() {
+  const Vector6d offset = controller_.offset();
+  for (int axis = 0; axis < 6; ++axis) {
+    QDoubleSpinBox* box = values_[static_cast<std::size_t>(axis)];
+    const QSignalBlocker blocker(box);
+    box->setValue(offset[axis] * shownUnit(axis));
+    box->setEnabled(state_.currentCase() != nullptr);
+  }
+  const bool nudged = state_.nudgedPose().has_value();
+  for (QPushButton* button : {ui_.useAsSeed, ui_.backToEstimate, ui_.dropNudged})
+    button->setEnabled(nudged);
+  ui_.nudgePad->setEnabled(state_.currentCase() != nullptr);
+  ui_.nudgePad->setText(
+      ui_.nudgePad->hasFocus()
+          ? tr("<b>Keys nudge.</b> Arrows, Page Up, Page Down: move; with Ctrl: turn. Shift: "
+               "coarse, Alt: fine.")
+          : tr("Click here to nudge with the keys: arrows, Page Up, Page Down; Ctrl, "
+               "Shift, Alt."));
+}
+
+bool NudgeBox::eventFilter(QObject* watched, QEvent* event) {
+  const QEvent::Type type = event->type();
+  if (watched == ui_.nudgePad) {
+    if (type == QEvent::FocusIn || type == QEvent::FocusOut)
+      QMetaObject::invokeMethod(
+          this, [this] { showOffset(); }, Qt::QueuedConnection);
+  } else if (type == QEvent::MouseButtonRelease || type == QEvent::FocusOut) {
+    // After the box itself: its last step still belongs to the gesture.
+    QMetaObject::invokeMethod(
+        this, [this] { controller_.finishGesture(); }, Qt::QueuedConnection);
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+}  // namespace boresight::ui

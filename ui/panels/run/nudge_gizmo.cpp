@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/run/nudge_gizmo.h"
+
+#include <cmath>
+#include <utility>
+
+#include <QAction>
+#include <QKeyEvent>
+#include <QPainter>
+#include <QWheelEvent>
+
+#include "ui/panels/run/nudge_box.h"
+#include "ui/state/view_state.h"
+#include "ui/style/icons.h"
+#include "ui/style/tokens.h"
+#include "ui/views/image_view.h"
+#include "ui/views/line_painter.h"
+#include "ui/views/overlay_painters.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr double kReach = 9.0;
+constexpr double kArrow = 22.0;
+constexpr double kWheelFactor = 1.01;    ///< of the distance, per notch
+constexpr double kHandleFactor = 1.002;  ///< per pixel that the handle is dragged
+constexpr LineToken kGizmoLine = {0xE69F00, 2.4, 0, 0, true, 0x000000, 2.0};
+
+double angleOf(const QPointF& from, const QPointF& to) {
+  return std::atan2(to.y() - from.y(), to.x() - from.x());
+}
+
+double length(const QPointF& way) { return std::hypot(way.x(), way.y()); }
+
+}  // namespace
+
+NudgeGizmo::NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state, QObject* parent)
+    : QObject(parent),
+      view_(view),
+      nudge_(nudge),
+      state_(state),
+      action_(new QAction(overlayIcon(Icon::kMove), tr("Nudge seed"), this)) {
+  action_->setObjectName(QStringLiteral("nudgeSeed"));
+  action_->setCheckable(true);
+  action_->setShortcut(Qt::Key_N);
+  action_->setToolTip(tr("Move and turn the seed on the image (N)"));
+  connect(action_, &QAction::toggled, this, &NudgeGizmo::setActive);
+  view_.installEventFilter(this);
+  view_.setOverlay(this, [this](QPainter& painter) { paint(painter); });
+  connect(&view_, &ImageView::toolClaimed, this, [this](const QObject* owner) {
+    if (owner != this) setActive(false);
+  });
+  connect(&view_, &ImageView::toolPressed, this, &NudgeGizmo::press);
+  connect(&view_, &ImageView::toolMoved, this, &NudgeGizmo::dragTo);
+  connect(&view_, &ImageView::toolReleased, this, &NudgeGizmo::release);
+  state_.onChange(ViewChange::kCase | ViewChange::kNudgedPose, this, [this] { view_.update(); });
+}
+
+void NudgeGizmo::setActive(bool active) {
+  if (active == active_) return;
+  active_ = active;
+  if (active) {
+    view_.claimTool(this);
+    view_.setFocus();  // for the keys
+  } else {
+    nudge_.finishGesture();
+  }
+  dragged_ = Part::kNone;
+  view_.setToolActive(active);
+  action_->setChecked(active);
+}
+
+Pose NudgeGizmo::pose() const {
+  if (state_.nudgedPose()) return *state_.nudgedPose();
+  return state_.currentCase() ? state_.currentCase()->source.camera_from_station_seed : Pose();
+}
+
+std::optional<QPointF> NudgeGizmo::centre() const {
+  const auto& loaded_case = state_.currentCase();
+  Eigen::Vector2d pixel;
+  if (!loaded_case ||
+      !project(loaded_case->source.camera, pose() * nudge_.frame().centre_in_station_m, pixel))
+    return std::nullopt;
+  return view_.transform().toWidget(pointOf(pixel));
+}
+
+NudgeGizmo::Part NudgeGizmo::partAt(const QPointF& place) const {
+  const auto middle = centre();
+  if (!middle) return Part::kNone;
+  if (length(place - (*middle - QPointF(0.0, kRing + kHandle))) <= kReach + 4.0)
+    return Part::kHandle;
+  const double away = length(place - *middle);
+  if (std::abs(away - kRing) <= kReach) return Part::kRing;
+  return away < kRing ? Part::kInside : Part::kNone;
+}
+
+void NudgeGizmo::press(const QPointF& pixel) {
+  if (!active_) return;
+  last_ = view_.transform().toWidget(pixel);
+  dragged_ = partAt(last_);
+}
+
+void NudgeGizmo::dragTo(const QPointF& pixel) {
+  if (!active_) return;
+  const QPointF place = view_.transform().toWidget(pixel);
+  const QPointF before = std::exchange(last_, place);
+  const auto middle = centre();
+  if (!middle) return;
+  switch (dragged_) {
+    case Part::kNone: {  // as without the tool
+      ViewTransform transform = view_.transform();
+      transform.pan(place - before);
+      view_.setTransform(transform);
+      break;
+    }
+    case Part::kInside:
+      movePixels((place - before) / view_.transform().scale());
+      break;
+    case Part::kRing: {
+      Vector6d turn = Vector6d::Zero();
+      turn[2] =
+          std::remainder(angleOf(*middle, place) - angleOf(*middle, before), 2.0 * std::acos(-1.0));
+      apply(turn);
+      break;
+    }
+    case Part::kHandle:
+      scaleDistance(std::pow(kHandleFactor, before.y() - place.y()));
+      break;
+  }
+}
+
+void NudgeGizmo::release() {
+  if (active_ && dragged_ != Part::kNone) nudge_.finishGesture();
+  dragged_ = Part::kNone;
+}
+
+/// In the plane through the station's middle: what is dragged stays under the pointer.
+void NudgeGizmo::movePixels(const QPointF& by_px) {
+  const auto& loaded_case = state_.currentCase();
+  if (!loaded_case) return;
+  const Camera& camera = loaded_case->source.camera;
+  const double depth_m = (pose() * nudge_.frame().centre_in_station_m).z();
+  Vector6d move = Vector6d::Zero();
+  move[3] = by_px.x() * depth_m / camera.fx;
+  move[4] = by_px.y() * depth_m / camera.fy;
+  apply(move);
+}
+
+/// Along the ray to the station's middle, whose place in the image stays.
+void NudgeGizmo::scaleDistance(double factor) {
+  Vector6d move = Vector6d::Zero();
+  move.tail<3>() = (factor - 1.0) * (pose() * nudge_.frame().centre_in_station_m);
+  apply(move);
+}
+
+void NudgeGizmo::apply(const Vector6d& displacement) {
+  NudgeFrame frame = nudge_.frame();
+  frame.axes = NudgeAxes::kCamera;
+  frame.pivot = NudgePivot::kStationCentre;
+  nudge_.moveTo(nudged(pose(), displacement, frame));
+}
+
+bool NudgeGizmo::pressKey(const QKeyEvent& event) {
+  const double step_px = (event.modifiers() & Qt::ShiftModifier) != 0 ? 10.0
+                         : (event.modifiers() & Qt::AltModifier) != 0 ? 0.1
+                                                                      : 1.0;
+  switch (event.key()) {
+    case Qt::Key_Left:
+      movePixels({-step_px, 0.0});
+      return true;
+    case Qt::Key_Right:
+      movePixels({step_px, 0.0});
+      return true;
+    case Qt::Key_Up:
+      movePixels({0.0, -step_px});
+      return true;
+    case Qt::Key_Down:
+      movePixels({0.0, step_px});
+      return true;
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      nudge_.finishGesture();
+      if (state_.nudgedPose()) Q_EMIT useAsSeedRequested(*state_.nudgedPose());
+      setActive(false);
+      return true;
+    case Qt::Key_Escape:
+      state_.nudgedPose() ? nudge_.drop() : setActive(false);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool NudgeGizmo::eventFilter(QObject* watched, QEvent* event) {
+  if (!active_ || !state_.currentCase()) return QObject::eventFilter(watched, event);
+  switch (event->type()) {
+    case QEvent::Wheel: {
+      const auto& wheel = *static_cast<QWheelEvent*>(event);
+      if (partAt(wheel.position()) == Part::kNone) return false;
+      scaleDistance(std::pow(kWheelFactor, -wheel.angleDelta().y() / 120.0));
+      return true;
+    }
+    case QEvent::ShortcutOverride: {
+      const int key = static_cast<QKeyEvent*>(event)->key();
+      const bool own = key == Qt::Key_Left || key == Qt::Key_Right || key == Qt::Key_Up ||
+                       key == Qt::Key_Down || key == Qt::Key_Escape || key == Qt::Key_Return;
+      if (own) event->accept();
+      return own;
+    }
+    case QEvent::KeyPress:
+      return pressKey(*static_cast<QKeyEvent*>(event));
+    default:
+      return false;
+  }
+}
+
+void NudgeGizmo::paint(QPainter& painter) const {
+  const auto middle = active_ ? centre() : std::nullopt;
+  if (!middle) return;
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  painter.setBrush(Qt::NoBrush);
+  const QPointF handle = *middle - QPointF(0.0, kRing + kHandle);
+  for (const QPen& pen : {haloPen(kGizmoLine), linePen(kGizmoLine)}) {
+    painter.setPen(pen);
+    painter.drawEllipse(*middle, kRing, kRing);
+    for (const QPointF& way :
+         {QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)}) {
+      const QPointF across(-way.y(), way.x());
+      const QPointF tip = *middle + kArrow * way;
+      painter.drawLine(*middle + 6.0 * way, tip);
+      painter.drawLine(tip, tip - 6.0 * way + 4.0 * across);
+      painter.drawLine(tip, tip - 6.0 * way - 4.0 * across);
+    }
+    painter.drawLine(*middle - QPointF(0.0, kRing), handle + QPointF(0.0, 7.0));
+    painter.drawPolygon(diamond(handle, 7.0));
+  }
+  const QString text =
+      tr("Drag: move. Ring: roll. Handle or wheel: distance. Enter: use as seed. Esc: drop.");
+  paintNote(painter, {0.5 * (view_.width() - noteSize(painter, text).width()), 8.0}, text);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+}  // namespace boresight::ui

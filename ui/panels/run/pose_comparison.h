@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <QStringList>
+#include <QVector>
+#include <QWidget>
+
+#include "ui_pose_comparison.h"
+
+#include "sessions/evaluation/pose_error.h"
+#include "sessions/io/datasets/dataset_file.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+
+using Poses = std::array<std::optional<Pose>, kPoseRoles>;  ///< by role
+
+/// "seed", "current", "nudged", "truth", "annotated".
+QString poseRoleName(PoseRole role);
+
+/// What poses are judged by.
+struct PoseJudgement {
+  std::optional<sessions::Requirement> requirement;
+  std::optional<Pose> camera_from_end_effector;   ///< where translations are judged
+  std::optional<Matrix6d> truth_covariance = {};  ///< of a truth that annotations gave
+};
+
+/// The covariance of what the state shows: the run's own at its end, else the iteration's. Nothing
+/// where there is none.
+std::optional<Matrix6d> shownCovariance(const ViewState& state);
+
+/// Rows of an HTML table: one sigma of a pose along and across the axis, and of its turn, each
+/// against the requirement where there is one; then along and about each axis.
+QVector<QStringList> sigmaRows(const sessions::PoseSigma& sigma,
+                               const std::optional<sessions::Requirement>& requirement);
+/// A row of three values with their unit.
+QStringList axesRow(const QString& name, const Eigen::Vector3d& values, const QString& unit);
+
+/// How sure the shown pose is, and how far any two poses are apart, each figure against the
+/// requirement where it names one.
+class PoseComparison : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit PoseComparison(QWidget* parent = nullptr);
+
+  void setPoses(const Poses& poses);
+  void setCovariance(const std::optional<Matrix6d>& covariance);
+  void setJudgement(const PoseJudgement& judgement);
+
+ private:
+  void showSigma();
+  void showDifference();
+
+  Poses poses_;
+  std::optional<Matrix6d> covariance_;
+  PoseJudgement judgement_;
+  Ui::PoseComparison ui_;
+};
+
+}  // namespace boresight::ui

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <QDialog>
+#include <QWidget>
+
+#include "ui_paste_pose_dialog.h"
+#include "ui_pose_panel.h"
+
+#include "sessions/io/cameras/pose_text.h"
+#include "ui/panels/run/nudge_box.h"
+#include "ui/panels/run/pose_comparison.h"
+
+class QMenu;
+class QPushButton;
+
+namespace boresight::ui {
+
+/// Takes a pose as text and asks what the text does not say: direction, order, unit. What will be
+/// taken, or why nothing can be, is shown while it is typed.
+class PastePoseDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  explicit PastePoseDialog(const QString& text, QWidget* parent = nullptr);
+
+  const sessions::ParsedPose& parsed() const { return parsed_; }
+
+ private:
+  void guess();
+  void parse();
+  sessions::PoseReading reading() const;
+
+  QPushButton* take_ = nullptr;
+  sessions::ParsedPose parsed_;
+  Ui::PastePoseDialog ui_;
+};
+
+/// The poses of the case side by side, to read, copy and paste; how sure the current one is; how
+/// far any two are apart; and the nudging of one in six degrees of freedom.
+class PosePanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit PosePanel(ViewState& state, QWidget* parent = nullptr);
+  ~PosePanel() override;
+
+  void setJudgement(const PoseJudgement& judgement);
+  /// For other widgets that take the nudging keys: install it on them as an event filter.
+  NudgeController& nudgeController() { return controller_; }
+
+  /// To the clipboard; nothing when there is no such pose.
+  void copyPose(PoseRole role, sessions::PoseForm form);
+  /// Asks what the clipboard's text means and nudges to it.
+  void pastePose();
+
+ Q_SIGNALS:
+  /// One edit for the document: a key held down, a drag, a pasted pose, a pose dropped.
+  void gestureFinished(const boresight::Pose& before, const boresight::Pose& after);
+  void useAsSeedRequested(const boresight::Pose& camera_from_station);
+
+ private:
+  const std::optional<Pose>& pose(PoseRole role) const {
+    return poses_[static_cast<std::size_t>(role)];
+  }
+  void buildTable();
+  void connectAll();
+  void addCopyActions(QMenu& menu, PoseRole role);
+  void showMenu(const QPoint& at);
+  void refresh();
+  void showMatrix();
+  void showNamedPoses(PoseRole role);
+
+  ViewState& state_;
+  NudgeController controller_;
+  Poses poses_;
+  Ui::PosePanel ui_;
+};
+
+}  // namespace boresight::ui

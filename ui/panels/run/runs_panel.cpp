@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/panels/run/runs_panel.h"
+
+#include <algorithm>
+
+#include <QtWidgets>
+
+#include "ui/models/text.h"
+#include "ui/state/document.h"
+#include "ui/state/view_state.h"
+
+namespace boresight::ui {
+namespace {
+
+constexpr int kDigest = Qt::UserRole;
+constexpr const char* kPinnedKey = "pinnedRuns";
+
+enum Column { kPin, kTime, kStatus, kKind, kColumns };
+
+/// What makes the run differ from a plain one.
+QString kindOf(const sessions::RunRecord& run) {
+  if (run.together) return RunsPanel::tr("together with other cameras");
+  if (run.rerun) return RunsPanel::tr("other options");
+  return {};
+}
+
+}  // namespace
+
+RunsPanel::RunsPanel(Document& document, ViewState& state, QWidget* parent)
+    : QWidget(parent), document_(document), state_(state), list_(new QTreeWidget) {
+  pinned_ = QSettings().value(QLatin1String(kPinnedKey)).toStringList();
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(list_);
+  list_->setObjectName(QStringLiteral("runs"));
+  list_->setColumnCount(kColumns);
+  list_->setHeaderLabels({tr("Pin"), tr("Ended, UTC"), tr("Status"), tr("Kind")});
+  list_->setRootIsDecorated(false);
+  list_->setFrameShape(QFrame::NoFrame);
+  list_->setContextMenuPolicy(Qt::CustomContextMenu);
+  list_->setToolTip(tr("Double click opens a run; the context menu compares and pins it"));
+  connect(list_, &QTreeWidget::itemActivated, this, [this] { Q_EMIT openRequested(chosen()); });
+  connect(list_, &QWidget::customContextMenuRequested, this, &RunsPanel::showMenu);
+  connect(&document_, &Document::opened, this, &RunsPanel::fill);
+  connect(&document_, &Document::changed, this, &RunsPanel::fill);
+  state_.onChange(ViewChange::kCase | ViewChange::kSnapshot, this, &RunsPanel::fill);
+  fill();
+}
+
+std::string RunsPanel::chosen() const {
+  const QTreeWidgetItem* item = list_->currentItem();
+  return item ? item->data(kTime, kDigest).toString().toStdString() : std::string();
+}
+
+void RunsPanel::fill() {
+  list_->clear();
+  const std::string shown_case = shownCaseId(document_, state_);
+  std::vector<const sessions::RunRecord*> runs;
+  for (const sessions::RunRecord& run : document_.session().runs)
+    if (run.case_id == shown_case) runs.push_back(&run);
+  std::reverse(runs.begin(), runs.end());
+  const auto is_pinned = [this](const sessions::RunRecord* run) {
+    return pinned_.contains(fromText(run->digest));
+  };
+  std::stable_partition(runs.begin(), runs.end(), is_pinned);
+  for (const sessions::RunRecord* run : runs) {
+    auto* item = new QTreeWidgetItem(list_);
+    item->setText(kPin, is_pinned(run) ? QStringLiteral("\u25C6") : QString());
+    item->setText(kTime, fromText(run->time));
+    item->setText(kStatus, fromText(run->status));
+    item->setText(kKind, kindOf(*run));
+    item->setData(kTime, kDigest, fromText(run->digest));
+    if (!state_.snapshot() || state_.snapshot()->digest != run->digest) continue;
+    QFont bold = font();
+    bold.setBold(true);
+    for (int i = 0; i < kColumns; ++i) item->setFont(i, bold);
+    list_->setCurrentItem(item);
+  }
+  for (int i = 0; i < kColumns; ++i) list_->resizeColumnToContents(i);
+}
+
+void RunsPanel::pin(const std::string& digest) {
+  const QString text = fromText(digest);
+  if (!pinned_.removeOne(text)) pinned_ << text;
+  QSettings().setValue(QLatin1String(kPinnedKey), pinned_);
+  fill();
+}
+
+void RunsPanel::showMenu(const QPoint& at) {
+  if (!list_->itemAt(at)) return;
+  const std::string digest = chosen();
+  QMenu menu(this);
+  menu.addAction(tr("Open"), this, [this, digest] { Q_EMIT openRequested(digest); });
+  menu.addAction(tr("Compare side by side"), this,
+                 [this, digest] { Q_EMIT compareRequested(digest); });
+  menu.addAction(pinned_.contains(fromText(digest)) ? tr("Unpin") : tr("Pin"), this,
+                 [this, digest] { pin(digest); });
+  menu.exec(list_->viewport()->mapToGlobal(at));
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/widgets/column_fitter.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <QtWidgets>
+
+#include "ui/widgets/widgets.h"
+
+namespace boresight::ui {
+
+ColumnFitter::ColumnFitter(QTableView& table, std::vector<int> dispensable)
+    : ColumnFitter(table, *table.horizontalHeader(), std::move(dispensable)) {}
+
+ColumnFitter::ColumnFitter(QTreeView& tree, std::vector<int> dispensable)
+    : ColumnFitter(tree, *tree.header(), std::move(dispensable)) {}
+
+ColumnFitter::ColumnFitter(QAbstractItemView& view, QHeaderView& header,
+                           std::vector<int> dispensable)
+    : QObject(&view), view_(view), header_(header), dispensable_(std::move(dispensable)) {
+  view_.viewport()->installEventFilter(this);
+  const QAbstractItemModel* model = view_.model();
+  connect(model, &QAbstractItemModel::modelReset, this, &ColumnFitter::fit, Qt::QueuedConnection);
+  connect(model, &QAbstractItemModel::rowsInserted, this, &ColumnFitter::fit, Qt::QueuedConnection);
+  connect(model, &QAbstractItemModel::layoutChanged, this, &ColumnFitter::fit,
+          Qt::QueuedConnection);
+}
+
+bool ColumnFitter::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize) fit();
+  return QObject::eventFilter(watched, event);
+}
+
+int ColumnFitter::widthOf(int column) const {
+  const auto hidden = hidden_.find(column);
+  return hidden == hidden_.end() ? header_.sectionSize(column) : hidden->second;
+}
+
+void ColumnFitter::show(int column, bool shown) {
+  if (shown == hidden_.contains(column)) {
+    if (shown)
+      hidden_.erase(column);
+    else
+      hidden_[column] = header_.sectionSize(column);
+    header_.setSectionHidden(column, !shown);
+  }
+}
+
+void ColumnFitter::fit() {
+  if (fitting_ || hasChosenColumns(view_)) return;
+  fitting_ = true;  // a scroll bar that goes makes the viewport larger
+  int room = view_.viewport()->width();
+  for (int column = 0; column < header_.count(); ++column)
+    if (std::find(dispensable_.begin(), dispensable_.end(), column) == dispensable_.end())
+      room -= header_.sectionSize(column);
+  for (auto column = dispensable_.rbegin(); column != dispensable_.rend(); ++column) {
+    const int width = widthOf(*column);
+    const bool fits = width <= room;
+    room = fits ? room - width : 0;  // what is less important does not take its place
+    show(*column, fits);
+  }
+  fitting_ = false;
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/widgets/input_guard.h"
+
+#include <QtWidgets>
+
+namespace boresight::ui {
+namespace {
+
+/// Fields whose value the wheel would change.
+bool isField(const QObject* object) {
+  return qobject_cast<const QAbstractSpinBox*>(object) || qobject_cast<const QComboBox*>(object) ||
+         (qobject_cast<const QSlider*>(object));
+}
+
+bool isUndo(const QKeyEvent& key) {
+  return key.matches(QKeySequence::Undo) || key.matches(QKeySequence::Redo);
+}
+
+}  // namespace
+
+InputGuard::InputGuard(QObject* parent) : QObject(parent) { qApp->installEventFilter(this); }
+
+bool InputGuard::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Wheel && isField(watched) &&
+      !static_cast<QWidget*>(watched)->hasFocus()) {
+    event->ignore();  // what lies below scrolls
+    return true;
+  }
+  if (event->type() == QEvent::ShortcutOverride && isUndo(*static_cast<QKeyEvent*>(event))) {
+    event->ignore();  // so that the shortcut holds
+    return true;
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+}  // namespace boresight::ui

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QAction>
+#include <QFrame>
+#include <QKeySequence>
+#include <QLabel>
+#include <QStringList>
+#include <QToolButton>
+
+#include "sessions/trace/trace.h"
+
+class QAbstractItemModel;
+class QAbstractItemView;
+class QLabel;
+class QTableView;
+class QTableWidget;
+
+namespace boresight::ui {
+
+/// How all tables look: whole rows, one at a time, no row numbers, compact, columns as wide as what
+/// they hold. A menu of the header hides columns and shows them, which is remembered.
+void styleTable(QTableView& table);
+/// Whether the operator has chosen the columns of this view.
+bool hasChosenColumns(const QAbstractItemView& view);
+/// The same for a table of a model, which it is given.
+void setUpTable(QTableView& table, QAbstractItemModel& model);
+
+/// Appends a row of texts: the first to the left, the others, figures, to the right.
+void addRow(QTableWidget& table, const QStringList& texts);
+
+/// The widget, with a name for tests and a tool tip.
+template <class Widget>
+Widget* named(Widget* widget, const char* name, const QString& tip = {}) {
+  widget->setObjectName(QLatin1String(name));
+  if (!tip.isEmpty()) widget->setToolTip(tip);
+  return widget;
+}
+
+/// "Ctrl+R".
+inline QKeySequence keys(const char* text) { return QKeySequence(QLatin1String(text)); }
+
+/// A tip that names the keys of the action, if there are any.
+void setTip(QAction& action, const QString& tip);
+/// Says in an empty list why it is empty and what to do about it. Lies over the view and takes no
+/// clicks.
+class EmptyHint : public QLabel {
+  Q_OBJECT
+
+ public:
+  /// The view must have its model already; a hint shows while that has at most `least_rows` rows.
+  explicit EmptyHint(QAbstractItemView& view, int least_rows = 0);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void showOrHide();
+  void place();
+
+  QAbstractItemView& view_;
+  int least_rows_;
+};
+
+/// A line below a list that shows and hides a part of it, which is remembered by its name.
+class FoldButton : public QToolButton {
+  Q_OBJECT
+
+ public:
+  explicit FoldButton(QWidget* parent = nullptr);
+
+  /// `folded` holds until the operator chooses otherwise.
+  void restore(bool folded);
+  bool isFolded() const { return !isChecked(); }
+  /// What is folded; the button hides where that is nothing.
+  void setContent(const QString& text);
+
+ Q_SIGNALS:
+  void foldedChanged();
+
+ private:
+  QString key() const;
+};
+
+/// A sentence behind a sign of its own shape, and a button where something can be done about it.
+/// The colour is never the only difference.
+class Banner : public QFrame {
+  Q_OBJECT
+
+ public:
+  enum class Tone { kPlain, kGood, kBad };
+
+  explicit Banner(QWidget* parent = nullptr);
+
+  void setMessage(const QString& sign, const QString& text, Tone tone);
+  /// Progress of a run; after its end what was measured, what was needed and what to try. nullptr:
+  /// no run.
+  void showRun(const sessions::LocalizationTrace* run);
+  /// Shows the first sentences, and all of them in the tooltip. Hides the banner when empty.
+  void showWarnings(const QStringList& sentences);
+  /// Adds the button; `tip` says what it does.
+  void setAction(const QString& text, const QString& tip);
+  QString text() const;
+
+ Q_SIGNALS:
+  void actionRequested();
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void applyPalette();
+
+  Tone tone_ = Tone::kPlain;
+  bool tinting_ = false;
+  QLabel* sign_ = nullptr;
+  QLabel* text_ = nullptr;
+  QToolButton* action_ = nullptr;
+};
+
+}  // namespace boresight::ui
