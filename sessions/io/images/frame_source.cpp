@@ -6,6 +6,7 @@
 #include <cctype>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "sessions/io/files/errors.h"
 #include "sessions/io/files/file_bytes.h"
@@ -18,15 +19,13 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxListBytes = 64 * kMegabyte;
 
-bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+constexpr std::string_view kDigits = "0123456789";
 
 /// The digits from `at` on without leading zeros; moves `at` behind them.
 std::string numberAt(const std::string& text, std::size_t& at) {
   const std::size_t begin = std::min(text.find_first_not_of('0', at), text.size());
-  std::size_t end = begin;
-  while (end < text.size() && isDigit(text[end])) ++end;
-  at = end;
-  return text.substr(begin, end - begin);
+  at = std::min(text.find_first_not_of(kDigits, begin), text.size());
+  return text.substr(begin, at - begin);
 }
 
 /// Whether the first name comes before the second one, numbers in them by value.
@@ -34,7 +33,7 @@ bool comesBefore(const std::string& first, const std::string& second) {
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < first.size() && j < second.size()) {
-    if (isDigit(first[i]) && isDigit(second[j])) {
+    if (kDigits.find(first[i]) != kDigits.npos && kDigits.find(second[j]) != kDigits.npos) {
       const std::string one = numberAt(first, i);
       const std::string other = numberAt(second, j);
       if (one.size() != other.size()) return one.size() < other.size();
