@@ -108,7 +108,7 @@ TEST(DesktopProgram, SaysItsVersionAndItsOptionsWithoutADisplay) {
   const std::string program =
       "env -u DISPLAY -u QT_QPA_PLATFORM XDG_RUNTIME_DIR=" + folder.path().string() +
       " " BORESIGHT_DESKTOP_PROGRAM;
-  EXPECT_EQ(runProgram(program, {"--version"}).out.rfind("boresight 0.", 0), 0u);
+  EXPECT_EQ(runProgram(program, {"--version"}).out.rfind("boresight 1.", 0), 0u);
   ASSERT_EQ(runProgram(program, {"--documents", folder.path().string()}).exit_code, 0);
   const std::string page = folder.read("boresight.md");
   for (const char* option : {"--self-test", "--screenshot FILE"})
