@@ -58,9 +58,9 @@ endif()
 # it lies where the program looks for an installed one.
 set(manual ${PROJECT_BINARY_DIR}/share/boresight/manual)
 set(written ${CMAKE_CURRENT_BINARY_DIR}/manual)
-file(GLOB manual_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/resources/manual/*.md
-  ${PROJECT_SOURCE_DIR}/resources/manual/pictures/*.png ${PROJECT_SOURCE_DIR}/sessions/*/*.md
-  ${PROJECT_SOURCE_DIR}/core/*.md ${PROJECT_SOURCE_DIR}/core/record/*.md)
+file(GLOB_RECURSE manual_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/core/*.md
+  ${PROJECT_SOURCE_DIR}/resources/*.md ${PROJECT_SOURCE_DIR}/resources/manual/pictures/*.png
+  ${PROJECT_SOURCE_DIR}/sessions/*.md)
 set(pages ${written}/options.md ${written}/whs.md)
 set(no_leaks ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0)
 add_custom_command(OUTPUT ${written}/options.md ${written}/whs.md

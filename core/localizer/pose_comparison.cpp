@@ -18,7 +18,7 @@ constexpr double kDepth = 0.04;
 constexpr double kRotation_rad = 4.0 * kDegree_rad;
 
 /// A candidate with a smaller share of the search's best total evidence cannot overtake: the best
-/// poses of 177 runs came from candidates with 0.67 and more (resources/evidence/trust.md).
+/// poses of 177 runs came from candidates with 0.67 and more.
 constexpr double kOfBestTotal = 0.5;
 /// Share of its search radius over which a refinement converges reliably.
 constexpr double kOfRadius = 0.67;
