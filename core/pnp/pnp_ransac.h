@@ -40,8 +40,8 @@ struct PnpSolution {
 ///   (LO-RANSAC, Chum, Matas and Kittler 2003).
 /// - Stops when a sample without outliers has been drawn with the required confidence, given the
 ///   best pose's share of inliers, or at max_samples.
-/// - Finally refits to the inliers and selects them again until they stay the same. Both halves
-/// lower the score, so this ends; the result minimizes the squares over the inliers it reports.
+/// - Finally refits to the inliers and selects them again until they stay the same. Both steps
+///   lower the score, so this ends; the result minimizes the squares over the inliers it reports.
 /// - With EPnP it is plain RANSAC (Fischler and Bolles 1981): most inliers win, no sample is
 ///   refitted, and the result minimizes the squares over the best sample's inliers.
 ///

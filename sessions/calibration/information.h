@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a least-squares problem says of some of its parameters.
+// Information of a least-squares problem on some of its parameters.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 
 namespace boresight::sessions {
 
-/// Largest motion between two frames where none is stated: 5 mm and 1 deg about the station.
+/// Default of the largest motion between two frames: 5 mm and 1 deg about the station.
 DeclaredUncertainty assumedMotion();
 
 /// What the frames of a sequence share.

@@ -17,8 +17,8 @@ struct UndistortedImage {
   ImageView view() const { return {pixels.data(), camera.width, camera.height, camera.width}; }
 };
 
-/// The pinhole camera that stands in for it: same centre, size, focal lengths and
-/// principal point, no distortion.
+/// The pinhole camera that replaces it: same centre, size, focal lengths and principal point, no
+/// distortion.
 Camera pinholeOf(const Camera& camera);
 
 /// The image resampled (bilinear) through the core's own camera model, so that what a renderer
