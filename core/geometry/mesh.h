@@ -133,7 +133,7 @@ struct MeshView {
 Status validateMesh(const MeshView& mesh);
 
 /// Index of the first vertex in the camera frame: the lowest one used by parts fixed to the camera;
-/// the number of vertices where there are none.
+/// the number of vertices without such parts.
 std::size_t firstVertexInCamera(const MeshView& mesh);
 
 /// Per face the face on the other side of edge i (vertex i to vertex (i + 1) % 3), or -1 at a

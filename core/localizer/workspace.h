@@ -89,7 +89,7 @@ inline constexpr int kMaxHypotheses = 9;
 struct Iteration {
   std::int32_t index = 0;                      ///< over all attempts, without gaps
   std::int32_t attempt = 0;                    ///< 0 for the first
-  IterationKind kind = IterationKind::kMatch;  ///< what the iteration does
+  IterationKind kind = IterationKind::kMatch;  ///< kind of the iteration
   std::int32_t level = 0;                      ///< pyramid level, 0 full resolution
   double threshold_px = 0.0;  ///< of the full image; the search radius when refining
   /// Pose of the render before the roll of the chosen hypothesis. A refinement may keep the render
