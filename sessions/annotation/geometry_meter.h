@@ -36,7 +36,7 @@ enum class GeometryWeakness {
 struct GeometryWarning {
   GeometryWeakness weakness = GeometryWeakness::kTooFew;
   bool prevents = false;  ///< a pose cannot be solved
-  std::string text;       ///< what is weak and what to add
+  std::string text;       ///< the weakness and a remedy
 };
 
 /// Weaknesses of the enabled annotations, before solving. `guess` (rig_from_station, or nullptr)

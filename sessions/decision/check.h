@@ -49,8 +49,8 @@ struct CheckName {
   const char* title;
 };
 
-/// A figure against its limit. `found` is a sentence that says what was found, `remedy` one that
-/// follows it when the check fails. A figure that is not finite fails and is not stored.
+/// A figure against its limit. `found` is a sentence on the finding, `remedy` one that follows it
+/// when the check fails. A figure that is not finite fails and is not stored.
 Check measuredCheck(const CheckName& name, const std::string& unit, double figure, double limit,
                     LimitSide side, const std::string& found, const std::string& remedy);
 

@@ -124,7 +124,7 @@ struct CheckLimits {
 /// Limits under a name, and the requirement of cases that have none of their own.
 struct CheckPreset {
   std::string name;
-  std::string help;  ///< one sentence: what it is for
+  std::string help;  ///< one sentence: its purpose
   Requirement requirement;
   CheckLimits limits;
 };

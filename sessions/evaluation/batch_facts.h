@@ -25,7 +25,7 @@ struct DatasetFacts {
 struct MethodFacts {
   std::string method;
   std::string profile;
-  std::string options;         ///< JSON: what differs from the profile
+  std::string options;         ///< JSON: differences from the profile
   std::string options_sha256;  ///< optionsDigest over all of them
   double reseed_scale = 1.0;
   std::string mesh_of;  ///< deliberately wrong meshes: another station's,

@@ -19,7 +19,7 @@ namespace boresight::sessions {
 /// Default of the largest motion between two frames: 5 mm and 1 deg about the station.
 DeclaredUncertainty assumedMotion();
 
-/// What the frames of a sequence share.
+/// Inputs that the frames of a sequence share.
 struct SequenceInputs {
   std::string station;  ///< its name in the results
   Camera camera;

@@ -30,7 +30,7 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
 /// The poses of cases to be handed over (handedPoses). InputError when there is none.
 CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids);
 
-/// What was exported.
+/// Result of an export.
 struct ExportReport {
   std::vector<std::string> case_ids;
   std::vector<std::string> notes;  ///< as in CasePoses
@@ -39,7 +39,7 @@ struct ExportReport {
 /// Writes a new folder with a COLMAP text model (colmap_text.h) of the poses: whole or not at all.
 /// Images are numbered by the order of their cases in the session, from 1, and named by their paths
 /// below the folder that holds all of the session's images. A comment in images.txt names who
-/// validated a pose, or says that it is not validated. InputError when the cases are of several
+/// validated a pose, or states that it is not validated. InputError when the cases are of several
 /// stations: a model has one world. OutputError.
 ExportReport exportColmap(const Session& session, const std::filesystem::path& folder,
                           const CasePoses& poses);
@@ -49,7 +49,7 @@ ExportReport exportColmap(const Session& session, const std::filesystem::path& f
 /// them. Images are numbered as their files are (000012.png is 12) when all images of the session
 /// are, each differently; otherwise by the order of their cases in the session, from 1. Objects are
 /// the session's stations in their order, from 1. A `remark` in scene_gt.json names who validated a
-/// pose, or says that it is not validated. InputError when an image cannot be read; OutputError.
+/// pose, or states that it is not validated. InputError when an image cannot be read; OutputError.
 ExportReport exportBop(const Session& session, const std::filesystem::path& folder,
                        const CasePoses& poses);
 
@@ -72,11 +72,11 @@ void exportAnnotations(const Session& session, const std::string& case_id,
 std::vector<std::string> exportLandmarks(const Session& session, const std::string& case_id,
                                          const std::filesystem::path& file);
 
-/// A session with what was imported, not yet saved.
+/// A session with the imported data, not yet saved.
 struct ImportReport {
   Session session;
   std::vector<std::string> case_ids;  ///< that were changed
-  std::vector<std::string> notes;     ///< what was left out, and why
+  std::vector<std::string> notes;     ///< data left out, and why
 };
 
 /// The annotations of a points.json or points.csv become the case's. InputError when the case has

@@ -72,7 +72,7 @@ struct RecordComparison {
   double rotation_mrad = 0.0;
   std::optional<double> pose_sigmas;  ///< nothing when one has no final pose or no covariance
   std::vector<std::string> beyond;    ///< which limits are exceeded, sentences
-  std::vector<std::string> missing;   ///< what either record lacks
+  std::vector<std::string> missing;   ///< data that either record lacks
 };
 
 /// Compares the data that both records have. Runs on the same inputs must be equal bit for bit: any

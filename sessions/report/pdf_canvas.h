@@ -38,7 +38,7 @@ struct PdfTextStyle {
   bool bold = false;
   bool fixed = false;  ///< monospaced, for numbers in columns
   PdfColor color = kInk;
-  int max_lines = 0;  ///< what goes beyond is cut with an ellipsis; 0: no limit
+  int max_lines = 0;  ///< further lines are cut with an ellipsis; 0: no limit
   enum class Align { kLeft, kCentre, kRight } align = Align::kLeft;
 };
 
@@ -130,7 +130,7 @@ void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot);
 double drawSeriesNames(PdfCanvas& canvas, double x, double y, double width,
                        const std::vector<PdfSeries>& series);
 
-/// Counts in equal bins from `low` to `high`; what lies beyond counts in the outermost ones.
+/// Counts in equal bins from `low` to `high`; values beyond count in the outermost ones.
 void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& title,
                    const std::string& x_label, const std::vector<double>& values, double low,
                    double high, int bins);

@@ -106,7 +106,7 @@ inline LocalizationTrace localize(const LocalizationProblem& problem, const RunP
 /// limit (each thread needs memory of its own), else the share of the machine's cores.
 int threadsOf(int asked, std::size_t memory_limit, int jobs = 1);
 
-/// Bytes of what a problem points to: image, ignore mask, mesh.
+/// Bytes of a problem's data: image, ignore mask, mesh.
 std::size_t inputBytes(const LocalizationProblem& problem);
 
 }  // namespace boresight::sessions

@@ -36,7 +36,7 @@ CaseAnnotations caseAnnotations(const Session& session, const std::string& case_
 
 /// Solution of a case's annotations, with all data shown to the annotator.
 struct CaseAnnotationsSolution {
-  CaseAnnotations annotations;            ///< what was solved
+  CaseAnnotations annotations;            ///< the annotations solved
   std::vector<GeometryWarning> warnings;  ///< determined without solving
   AnnotationsResult result;
   std::vector<LeftOut> left_out;  ///< of a solution, by its annotations

@@ -40,7 +40,7 @@ struct RunRecord {
   std::string version;         ///< of the program that ran it
   std::string time;            ///< UTC, when it ended
   std::string inputs_sha256;   ///< inputsDigest of the case that ran
-  std::string options_sha256;  ///< optionsDigest of what ran, as it was at the end
+  std::string options_sha256;  ///< optionsDigest of the options at the end of the run
   std::optional<RerunRecord> rerun =
       std::nullopt;  ///< of a run that changed options on the way
   /// Of a run that was solved for together with other views of the case's rig.
@@ -52,7 +52,7 @@ struct RunRecord {
 /// The cases of a record's views.
 std::vector<std::string> casesOf(const TogetherRecord& record);
 
-/// SHA-256 over what a run of these cases together depends on: the inputs of each, with the seed of
+/// SHA-256 over all inputs of a run of these cases together: the inputs of each, with the seed of
 /// the first alone, and the relative poses of the cameras. Empty when a case no longer exists or
 /// has no rig.
 std::string viewsDigest(const Session& session, const std::vector<std::string>& case_ids);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operator's document: one plain value. What is done with it (files, journal, lock, undo) is in
+// The operator's document: one plain value. Operations on it (files, journal, lock, undo) are in
 // the other headers of this folder.
 #pragma once
 
@@ -144,8 +144,8 @@ struct Session {
   std::string profile = "default";
   OptionList options;  ///< differences from the profile, in alphabetical order
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
-  std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
-  /// Completed annotation rounds by case, in order of completion; none is empty.
+  std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; no element is empty
+  /// Completed annotation rounds by case, in order of completion; no element is empty.
   std::map<std::string, SharedValue<AnnotationRounds>> rounds;
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
@@ -198,7 +198,7 @@ LocalizerOptions sessionOptions(const Session& session, const std::filesystem::p
 LocalizerOptions caseOptions(const Session& session, const SessionCase& session_case,
                              const std::filesystem::path& file);
 
-/// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts in use with their
+/// SHA-256 over all inputs of a run of the case: pixels, mask, camera, parts in use with their
 /// places, seed, uncertainty; not names, truth, tags or requirement.
 std::string inputsDigest(const SessionCase& session_case);
 

@@ -58,7 +58,7 @@ MadeCase makeCase(const CaseFiles& files);
 /// them (a requirement in pixels alone: "photographs"). InputError, also for an id that the dataset
 /// does not have.
 Session makeSession(const Dataset& dataset, const std::vector<std::string>& case_ids = {});
-/// The same of a file, or of a BOP folder with what openDataset chooses of it.
+/// The same for a file, or for a BOP folder with the selection of openDataset.
 Session makeSession(const std::filesystem::path& dataset_file,
                     const std::vector<std::string>& case_ids = {});
 

@@ -44,7 +44,7 @@ CurvePoints timeAgainstError(std::span<const RunResult* const> runs);
 /// `count` numbers from `low` to `high`, each the same multiple of the one before.
 std::vector<double> geometricSteps(double low, double high, int count);
 
-/// What percent of the runs completed with an error of at most x: normal, lateral and rotation side
+/// Percent of the runs that completed with an error of at most x: normal, lateral and rotation side
 /// by side, a row for each station, near and far apart.
 inline constexpr const char* kErrorFigure = "error_distribution";
 /// Success against multiples of the requirement.

@@ -9,9 +9,9 @@
 
 namespace boresight::sessions {
 
-/// `text` with a blank in place of everything that a terminal acts on rather than shows: control
-/// characters (C0 with line feed and tab, DEL, C1), marks of writing direction, line separators,
-/// and bytes that are not UTF-8. Nothing else changes.
+/// `text` with a blank in place of all characters that control a terminal: control characters (C0
+/// with line feed and tab, DEL, C1), marks of writing direction, line separators, and bytes that
+/// are not UTF-8. Nothing else changes.
 std::string plainText(std::string_view text);
 
 /// `plainText`, and a line feed.

@@ -130,8 +130,8 @@ enum class RecordLevel {
   kStages,   ///< everything, and the iteration under way after each of its stages
 };
 
-/// Everything of one iteration up to the stage that it reached: owning copies of what the core's
-/// `Iteration` holds. With RecordLevel::kSummary the vectors stay empty and the counts remain.
+/// One iteration up to the stage that it reached: owning copies of the data of the core's
+/// `Iteration`. With RecordLevel::kSummary the vectors stay empty and the counts remain.
 struct IterationTrace {
   std::int32_t index =
       0;  ///< as the core counts; one that failed before its pose shares the next's

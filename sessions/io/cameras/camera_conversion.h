@@ -41,7 +41,7 @@ struct FittedCamera {
 FittedCamera fitCamera(const Camera& given, CameraModel model,
                        double distance_m = std::numeric_limits<double>::infinity());
 
-/// "worst error 0.83 px at (1023, 0), rms 0.21 px" and what is not seen.
+/// "worst error 0.83 px at (1023, 0), rms 0.21 px", and the counts of points not seen.
 std::string fitText(const FittedCamera& fitted);
 
 /// The fitted camera as camera.json, with its source and its errors in `fitted_from`. OutputError.

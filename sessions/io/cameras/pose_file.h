@@ -29,7 +29,7 @@ struct DeclaredUncertainty {
 /// Format of validated_pose.json, whose pose can be a seed or a truth.
 inline constexpr const char* kValidatedPoseFormat = "boresight-validated-pose";
 
-/// What a pose file (or a pose inside another file) states.
+/// Content of a pose file (or of a pose inside another file).
 struct PoseFile {
   Pose camera_from_station;
   /// |R'R - I| (Frobenius) of the matrix in the file, before it was projected to a rotation.
@@ -41,7 +41,7 @@ struct PoseFile {
   std::optional<FrameName> station_frame = std::nullopt;
 };
 
-/// What a pose in a named frame needs to be converted to the camera frame.
+/// Data to convert a pose in a named frame to the camera frame.
 struct PoseFrames {
   /// Of a camera of the CAHV family.
   std::optional<CameraReference> reference = std::nullopt;

@@ -21,9 +21,9 @@ struct UndistortedImage {
 /// distortion.
 Camera pinholeOf(const Camera& camera);
 
-/// The image resampled (bilinear) through the core's own camera model, so that what a renderer
-/// without distortion draws from the same pose lies on it. A pinhole image comes back as it is.
-/// The image must have the camera's size.
+/// The image resampled (bilinear) through the core's own camera model, so that a render without
+/// distortion from the same pose lies on it. A pinhole image comes back as it is. The image must
+/// have the camera's size.
 UndistortedImage undistort(const Camera& camera, const ImageView& image);
 
 }  // namespace boresight::sessions

@@ -108,7 +108,7 @@ struct Case {
 /// dataset.json (`boresight-dataset`, version 1), checked whole; images and meshes are read later.
 struct Dataset {
   std::filesystem::path file;
-  std::string sha256;  ///< of the file, or of what was chosen of a folder
+  std::string sha256;  ///< of the file, or of the selection of a folder
   std::optional<Requirement> requirement;
   std::map<std::string, Station> stations;
   std::map<std::string, Camera> cameras;

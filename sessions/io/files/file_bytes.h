@@ -12,11 +12,11 @@
 
 namespace boresight::sessions {
 
-/// What a file is read as, or written as. Files of all uses but the first two are kept up to date
-/// by the program itself: each may be replaced by a file of the same use.
+/// Purpose of a file that is read or written. Files of all uses but the first two are kept up to
+/// date by the program itself: each may be replaced by a file of the same use.
 enum class FileUse {
   kInput,
-  kFree,  ///< may be replaced: only looked at to see what it is, or written by this process
+  kFree,  ///< may be replaced: only its type was read, or this process wrote it
   kSession,
   kRun,
   kResults,

@@ -40,7 +40,7 @@ class JsonUse {
 };
 
 /// A value inside a JSON document together with its place, e.g. `cases[3].seed`. Every accessor
-/// throws InputError (file, place, reason) when the value is not what is asked for, so that a
+/// throws InputError (file, place, reason) when the value is not of the requested kind, so that a
 /// reader needs no error handling of its own. Points into the document, which must outlive it.
 class JsonReader {
  public:

@@ -30,7 +30,7 @@ std::string unknownMeshFormat(const std::filesystem::path& file);
 /// glTF is in metres; the other formats state no unit.
 bool carriesUnit(MeshFormat format);
 
-/// What a mesh file declares about its own size.
+/// Size that a mesh file declares.
 struct MeshDeclaration {
   std::optional<std::int64_t> vertex_count;
   std::optional<std::int64_t> polygon_count;

@@ -51,7 +51,8 @@ using PartCheck = std::function<void(std::size_t part, const std::string& sha256
 SceneMesh readScene(std::span<const PartSource> parts, const FrameTree& frames = {},
                     const PartCheck& check = {});
 
-/// Vertices of the faces of matched parts, each once: what projection errors are averaged over.
+/// Vertices of the faces of matched parts, each once: the points over which projection errors are
+/// averaged.
 std::vector<Eigen::Vector3f> matchedVertices(const MeshView& mesh);
 
 /// Why a station of this size is implausible at this pose, or "": it is 20 m or more across and 100

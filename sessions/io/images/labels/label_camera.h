@@ -14,7 +14,7 @@
 
 namespace boresight::sessions {
 
-/// What is known of a mission's labels and of the instrument that took an image.
+/// Known facts on a mission's labels and on the instrument of an image.
 struct LabelDetector {
   /// Labels state the model of the image as it was cut and averaged: the mission's own programs
   /// read it without an offset (planetary.md names the evidence).
