@@ -23,7 +23,7 @@ namespace boresight::ui {
 
 class Document;
 
-/// What a click on the image or the station does.
+/// Effect of a click on the image or the station.
 enum class PlaceMode : std::uint8_t {
   kOff,    ///< annotating is off: the views handle clicks
   kPoint,  ///< one side of a pair of points

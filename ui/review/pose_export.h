@@ -60,7 +60,7 @@ class PoseExport : public QObject {
   QString bopResultsFileName() const;
 
  Q_SIGNALS:
-  /// What happened, for the status bar.
+  /// The result, for the status bar.
   void noted(const QString& message);
 
  private:

@@ -37,7 +37,7 @@ struct SceneAim {
   std::optional<sessions::Landmark> landmark;  ///< the landmark at this point
   bool snapped = false;
   int found = 0;  ///< number of snap candidates
-  QString text;   ///< what it snaps to, for the operator
+  QString text;   ///< name of the snap, for the operator
 };
 
 /// The target at a pixel of the canvas: named points, then visible corners, edges and centres of

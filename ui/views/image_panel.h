@@ -52,7 +52,7 @@ class ImagePanel : public QWidget {
   const LayerStyle& style(LayerId id) const;
   /// Sets the edges of the nudged pose; nullptr removes them.
   void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
-  /// Sets the text shown without an image; empty: what can be dropped here.
+  /// Sets the text shown without an image; empty: a list of files that can be dropped here.
   void setHint(const QString& hint);
   /// Sets the marks of a layer that no run fills.
   void setMarks(LayerId id, std::vector<Mark> marks);

@@ -33,7 +33,7 @@ class ImageView : public QWidget {
   void setImage(const QImage& gray);
   /// Sets the gray levels for the values of the grid, when the picture is stretched.
   void setValues(const QImage& gray) { values_ = gray; }
-  /// Replaces one layer; the others keep what they have drawn before.
+  /// Replaces one layer; the others keep their pixmaps.
   void setLayer(Layer layer);
   const Layer& layer(LayerId id) const { return layers_[static_cast<std::size_t>(id)]; }
   void setStyle(LayerId id, const LayerStyle& style);

@@ -31,7 +31,7 @@ class AnnotationFiles : public QObject {
  Q_SIGNALS:
   /// An action failed; one sentence.
   void failed(const QString& message);
-  /// What happened, for the status bar.
+  /// The result, for the status bar.
   void noted(const QString& message);
 
  private:

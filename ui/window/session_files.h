@@ -89,7 +89,7 @@ class SessionFiles : public QObject {
  Q_SIGNALS:
   /// An action failed; one sentence.
   void failed(const QString& message);
-  /// What happened, for the status bar.
+  /// The result, for the status bar.
   void noted(const QString& message);
   /// Files of a case were added or removed.
   void collectedChanged();
