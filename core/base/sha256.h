@@ -8,8 +8,9 @@
 
 namespace boresight {
 
-/// Compresses `count` blocks of 64 bytes into the state (FIPS 180-4, Sec. 6.2.2).
+/// The eight words of the state.
 using Sha256State = std::array<std::uint32_t, 8>;
+/// Compresses `count` blocks of 64 bytes into the state (FIPS 180-4, Sec. 6.2.2).
 using Sha256Kernel = void (*)(Sha256State& state, const std::uint8_t* blocks, std::size_t count);
 
 /// Portable implementation as written in the standard; the reference for the other kernels.
