@@ -91,7 +91,7 @@ QString foundAndLimit(const sessions::Check& check) {
   return QStringLiteral("%1 (%2)").arg(fromText(sessions::foundText(check)), shortLimit(check));
 }
 
-/// In a side pane the limit stands next to what was found.
+/// In a side pane the limit is shown next to the figure found.
 class FoundCell final : public QStyledItemDelegate {
  public:
   FoundCell(const ChecksModel& model, QTableView& view)
