@@ -114,12 +114,14 @@ std::vector<std::uint8_t> colorOf(const cv::Mat& image, const std::vector<std::u
   const int channels = image.channels();
   std::vector<std::uint8_t> color;
   if (channels < ColorView::kChannels) return color;
-  color.reserve(image.total() * ColorView::kChannels);
+  color.resize(image.total() * ColorView::kChannels);
+  std::uint8_t* to = color.data();
+  const std::size_t last = table.size() - 1;
   for (int y = 0; y < image.rows; ++y) {
     const auto* pixel = image.ptr<std::uint16_t>(y);
     for (int x = 0; x < image.cols; ++x, pixel += channels)
       for (int c = 0; c < ColorView::kChannels; ++c)
-        color.push_back(table[std::min<std::size_t>(pixel[c], table.size() - 1)]);
+        *to++ = table[std::min<std::size_t>(pixel[c], last)];
   }
   return color;
 }
