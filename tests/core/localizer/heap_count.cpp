@@ -3,12 +3,24 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
 namespace {
 
 std::atomic<int> allocations{0};
+std::atomic<std::int64_t> live_blocks{0};  // of `new`
+
+void* counted(void* block) {
+  if (block != nullptr) ++live_blocks;
+  return block;
+}
+
+void giveBack(void* block) {
+  if (block != nullptr) --live_blocks;
+  std::free(block);
+}
 
 }  // namespace
 
@@ -47,16 +59,16 @@ int __wrap_posix_memalign(void** block, std::size_t alignment, std::size_t size)
 void* operator new(std::size_t size) {
   void* block = std::malloc(size > 0 ? size : 1);
   if (block == nullptr) std::abort();
-  return block;
+  return counted(block);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto unit = static_cast<std::size_t>(alignment);
   void* block = std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
   if (block == nullptr) std::abort();
-  return block;
+  return counted(block);
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return std::malloc(size > 0 ? size : 1);
+  return counted(std::malloc(size > 0 ? size : 1));
 }
 void* operator new[](std::size_t size) { return operator new(size); }
 void* operator new[](std::size_t size, const std::nothrow_t& none) noexcept {
@@ -65,17 +77,19 @@ void* operator new[](std::size_t size, const std::nothrow_t& none) noexcept {
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   return operator new(size, alignment);
 }
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
-void operator delete[](void* block) noexcept { std::free(block); }
-void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
-void operator delete[](void* block, std::align_val_t) noexcept { std::free(block); }
-void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block) noexcept { giveBack(block); }
+void operator delete(void* block, std::size_t) noexcept { giveBack(block); }
+void operator delete(void* block, std::align_val_t) noexcept { giveBack(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { giveBack(block); }
+void operator delete[](void* block) noexcept { giveBack(block); }
+void operator delete[](void* block, std::size_t) noexcept { giveBack(block); }
+void operator delete[](void* block, std::align_val_t) noexcept { giveBack(block); }
+void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { giveBack(block); }
 
 namespace boresight::test {
 
 int heapAllocations() { return allocations; }
+
+std::int64_t liveBlocks() { return live_blocks; }
 
 }  // namespace boresight::test
