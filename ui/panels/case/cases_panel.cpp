@@ -169,7 +169,7 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
     ui_.cases->setColumnWidth(error,
                               std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
                                        metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
-                                  8);
+                                  14);
   fitCaseColumn();
   setCurrent(current_);
 }
