@@ -50,6 +50,7 @@ enum class Icon {
   kLayers,
   kSideBySide,
   kAlgorithm,
+  kFloat,
 };
 
 /// Of an icon next to a text: with room between the two.
@@ -57,6 +58,8 @@ inline constexpr QSize kButtonIcon(kIcon + 6, kIcon);
 
 /// In a colour of the theme that is in use when the icon is drawn; disabled: that of hints.
 QIcon iconOf(Icon icon, QRgb Theme::*color = &Theme::text);
+/// A picture of a list; the style would tint it where its row is chosen.
+QIcon pictureIcon(const QImage& picture);
 /// For the overlay on the image, which is dark in every theme.
 QIcon overlayIcon(Icon icon);
 
