@@ -22,6 +22,7 @@
 #include <qwt_scale_engine.h>
 #include <qwt_symbol.h>
 #include <qwt_text.h>
+#include <qwt_text_label.h>
 
 namespace boresight::ui {
 
@@ -88,7 +89,7 @@ void Plot::nameQuantities(const Quantity& first, const Quantity& second) {
   };
   QwtText title(html(first) + QStringLiteral("&nbsp;&nbsp;&nbsp;") + html(second),
                 QwtText::RichText);
-  title.setFont(font());
+  plot_->titleLabel()->setFont(font());  // Qwt's own is large and bold
   plot_->setTitle(title);
 }
 
