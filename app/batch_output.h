@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What commands share that write results run by run.
+// Shared parts of commands that write results run by run.
 #pragma once
 
 #include <stop_token>
@@ -11,7 +11,7 @@
 
 namespace boresight::app {
 
-/// Turns an interrupt into a stop: what has been run is then still written.
+/// Turns an interrupt into a stop, so that completed runs are still written.
 class InterruptWatch {
  public:
   explicit InterruptWatch(const std::stop_source& source);
@@ -21,7 +21,7 @@ class InterruptWatch {
   std::jthread thread_;
 };
 
-/// A line of stderr that rewrites itself on a terminal; nothing elsewhere.
+/// A line of stderr that is rewritten on a terminal; without effect elsewhere.
 class TerminalLine {
  public:
   TerminalLine();
@@ -32,10 +32,10 @@ class TerminalLine {
   bool on_terminal_;
 };
 
-/// The command as it was typed, near enough to be typed again.
+/// The command line, with quotes round words with special characters; a ' is not escaped.
 std::string typedCommand();
 
-/// JSON lines, one a run. OutputError.
+/// Writes JSON lines, one per run. OutputError.
 void writeResultLines(const std::string& file, const std::vector<sessions::RunResult>& results);
 
 }  // namespace boresight::app

@@ -100,7 +100,7 @@ void Arguments::check() {
         "takes one session (whs new makes one from files), or none for an empty window");
 }
 
-/// Whether the command line asks for something that needs no display, so that it runs anywhere.
+/// Whether the command line requests an action that needs no display, so that it runs anywhere.
 bool wantsNoDisplay(int count, char** values) {
   constexpr std::array<std::string_view, 5> kPlain = {"--self-test", "--help", "-h", "--version",
                                                       "-v"};

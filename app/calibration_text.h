@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How `whs calibrate` and `whs hand-eye` print what they estimated.
+// Printed estimates of `whs calibrate` and `whs hand-eye`.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace boresight::app {
 
-/// At most nine decimals; "not determined" for what is not finite.
+/// At most nine decimals; "not determined" for values that are not finite.
 std::string parameterText(double value);
 
 /// A table of the parameters with their sigmas, the noise factor, and a line for each direction
-/// that the observations leave open, with `advice` on what to add.
+/// that the observations do not determine, with `advice` on what to add.
 void printParameters(const std::vector<sessions::CalibrationParameter>& parameters,
                      const std::vector<sessions::Undetermined>& undetermined, double noise_factor,
                      const std::string& advice);

@@ -140,7 +140,7 @@ LocalizerOptions CaseArguments::optionsOf(const sessions::SessionCase& session_c
 }
 
 ReadCase readCase(const CaseArguments& arguments) {
-  (void)arguments.options.read();  // options that do not exist are refused before files are read
+  (void)arguments.options.read();  // unknown options are rejected before files are read
   sessions::MadeCase new_case = sessions::makeCase(arguments.files());
   ReadCase read{sessions::loadCase(new_case.made), std::move(new_case.notes)};
   for (std::string& warning : sessions::labelWarnings(read.loaded->source))

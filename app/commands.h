@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the subcommands of whs share: common arguments, messages.
+// Shared by the subcommands of whs: common arguments, messages.
 #pragma once
 
 #include <memory>
@@ -27,14 +27,15 @@ struct MethodOptions;
 
 namespace boresight::app {
 
-/// Each adds its subcommand; what that returns when it was called goes to `exit_code`.
+/// Each adds its subcommand, which sets `exit_code` when it is called.
 using AddCommand = void(CLI::App& app, int& exit_code);
 AddCommand addLocalize, addEvaluate, addMerge, addTables, addCompare, addCheck, addDecide;
 AddCommand addVerify, addViews, addReport, addQueue, addSolve, addRender, addCamera, addInfo;
 AddCommand addOptions, addNew, addRun, addPack, addExport, addImport, addProblem, addBench;
 AddCommand addDocuments, addTrends, addCalibrate, addHandEye, addFollow;
 
-/// A subcommand and its arguments, which live as long as it; `run` gets them when it is called.
+/// Adds a subcommand and its arguments, which live as long as the subcommand and are passed to
+/// `run`.
 template <class Arguments>
 std::pair<CLI::App*, std::remove_const_t<Arguments>*> addCommand(CLI::App& app, int& exit_code,
                                                                  const std::string& name,
@@ -53,8 +54,7 @@ CLI::Option* addFile(CLI::App& command, const std::string& name, Value& value,
   return command.add_option(name, value, help)->type_name("FILE");
 }
 
-/// A readable line to stderr, and one to stdout. What text from outside has in it does not break
-/// the line.
+/// Print a readable line to stderr and to stdout. Text from outside cannot break the line.
 void note(const std::string& line);
 void print(const std::string& line);
 
@@ -66,7 +66,7 @@ inline constexpr const char* kMeshUnitHelp =
 /// --mesh-unit: a known unit of length.
 CLI::Option* addMeshUnit(CLI::App& command, std::string& unit, const std::string& help);
 
-/// What an option must be: a finite number of this range.
+/// Accepts a finite number in this range.
 CLI::Validator numberIn(double least, double most);
 
 /// --uncertainty: three lengths in m, three angles in deg.
@@ -75,16 +75,16 @@ CLI::Option* addUncertainty(CLI::App& command, std::vector<double>& values,
 /// CLI::ValidationError.
 void setUncertainty(const std::vector<double>& values, sessions::DeclaredUncertainty& uncertainty);
 
-/// --threads: how many a run may use.
+/// --threads: largest number of threads of a run.
 void addThreads(CLI::App& command, int& threads);
 
-/// Those that this machine has.
+/// The kernels that are available on this machine.
 std::vector<Kernels> availableKernels();
 
-/// --kernels, for those who compare them: hidden from the help.
+/// --kernels, for comparisons: hidden from the help.
 void addKernels(CLI::App& command, Kernels& kernels);
 
-/// --profile, --config and --set: where the parameters of a run come from.
+/// --profile, --config and --set: source of the parameters of a run.
 struct OptionArguments {
   std::string profile;
   std::string config;
@@ -93,7 +93,7 @@ struct OptionArguments {
   void addTo(CLI::App& command);
   /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
   LocalizerOptions read() const;
-  /// The same for the other methods, whose options stand in the same places.
+  /// The same for the other methods, whose options are in the same places.
   sessions::MethodOptions readMethodOptions() const;
   /// "paper", "default" or "flight": the one asked for, else the config's.
   std::string profileName() const;
@@ -101,7 +101,7 @@ struct OptionArguments {
   std::size_t memoryLimit() const;
 };
 
-/// --frames: what joins the frame of a pose to that of a camera model.
+/// --frames: transforms that join the frame of a pose to that of a camera model.
 struct FrameArguments {
   std::vector<std::string> files;
 
@@ -110,10 +110,10 @@ struct FrameArguments {
   sessions::PoseFrames of(const sessions::CameraFile& camera) const;
 };
 
-/// What --camera takes, for its help.
+/// Values of --camera, for its help.
 inline constexpr const char* kCameraHelp =
     "camera.json, a .cahvor file, or an image whose label has a camera model";
-/// The same where the image's own label does without it.
+/// The same where the image's own label is the default.
 inline constexpr const char* kOwnCameraHelp =
     "camera.json, a .cahvor file, or an image whose label has a camera model; without it the "
     "label of the image itself";
@@ -123,19 +123,19 @@ struct MethodArguments {
   std::vector<std::string> methods = {sessions::kWhs};
   std::string matcher;
 
-  /// Names that do not exist are refused with those that do.
+  /// Unknown names are rejected with a list of the known ones.
   void addTo(CLI::App& command, bool several);
   bool needsSetup() const;
   /// With the options of the methods among `options`. InputError, CLI::ValidationError.
   sessions::MethodSetup setup(const OptionArguments& options) const;
-  /// What differs from their defaults, of methods that are not WHS.
+  /// Options of methods other than WHS that differ from their defaults.
   sessions::OptionList changedOptions(const sessions::MethodOptions& options) const;
 };
 
-/// What --dataset names: a dataset.json, or a BOP folder with what is chosen of it.
+/// The dataset of --dataset: a dataset.json, or a selection of a BOP folder.
 struct DatasetArguments {
   std::string path;
-  sessions::BopSelection selection;  ///< but for uncertainty and pivot
+  sessions::BopSelection selection;  ///< except uncertainty and pivot
   std::vector<double> uncertainty;
   std::string pivot;
   std::vector<std::string> parts;  ///< NAME=STATE
@@ -143,28 +143,29 @@ struct DatasetArguments {
   /// --part, --split, --scene, --obj, --sensor, --every-instance, --uncertainty and --pivot. The
   /// path's own option is the caller's.
   void addTo(CLI::App& command);
-  /// InputError; CLI::ValidationError when a choice is given for what is no folder.
+  /// InputError; CLI::ValidationError when a selection is given for a path that is not a folder.
   sessions::Dataset open() const;
 };
 
-/// Opens a session that is only read; says on stderr what there is to know. InputError when edits
-/// wait that were never saved.
+/// Opens a session to be read only; prints its notices to stderr. InputError when it has unsaved
+/// edits to be recovered.
 sessions::SessionDocument openToRead(const std::string& file);
 
-/// Opens a session that is changed. InputError as above unless they are to be taken up; OutputError
-/// when another program has it open or it cannot be written.
+/// Opens a session to be changed. InputError as above unless `recover` accepts these edits;
+/// OutputError when another program has it open or it cannot be written.
 sessions::SessionDocument openToEdit(const std::string& file, bool recover = false);
 
 /// InputError when the session has no such case.
 const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,
                                          const std::string& case_id);
 
-/// The recorded run whose digest begins like this; InputError when there is none, or more than one.
+/// The recorded run whose digest begins with `beginning`; InputError when there is none, or more
+/// than one.
 const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
                                        const std::string& beginning);
 
 LocalizerOptions profileOptions(const std::string& name);
-/// The same for the other methods: `paper` as published, else the tuned ones.
+/// The same for the other methods: `paper` as published, otherwise the tuned ones.
 sessions::MethodOptions methodProfile(const std::string& name);
 
 /// "12.3 mm", for display.

@@ -26,7 +26,7 @@ struct CompareArguments {
 
 enum class SideKind { kRecord, kTrace, kSession };
 
-/// By its first bytes. Other files are refused by the reader of records.
+/// By its first bytes. The reader of records rejects other files.
 SideKind kindOf(const std::string& file) {
   const auto begin = sessions::readBeginning(file, 8);
   const std::string_view text = sessions::asText(begin);
@@ -39,7 +39,7 @@ OnboardRecord readSide(const std::string& file) {
                                           : sessions::readRecord(file);
 }
 
-/// A case of the session, and the run of it that is asked for.
+/// A case of the session, and the requested run of it.
 class GroundSide {
  public:
   GroundSide(const std::string& session, const CompareArguments& arguments)

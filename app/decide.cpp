@@ -45,7 +45,7 @@ Session validatedCase(const Session& session, const DecideArguments& arguments) 
       session, sessions::loadCase(*session.findCase(arguments.case_id)), source);
   const auto limits = sessions::checkLimits(session.review.preset, session.review.limits);
   const sessions::CheckWaivers waivers = readWaivers(arguments);
-  // What is refused anyway is refused at once.
+  // A pose that cannot be validated is rejected at once.
   const std::string concern = sessions::validationConcern(session, subject);
   if (!concern.empty()) throw sessions::DecisionError(concern);
   std::optional<sessions::ConvergenceResult> convergence;

@@ -219,7 +219,7 @@ void requireOneMethodOfBop(const EvaluateArguments& arguments, const sessions::D
   (void)sessions::bopResults(dataset, {});
 }
 
-/// Of the method that was asked for: the results may hold others from before.
+/// For the requested method only: the results may hold others from before.
 void writeBopCsv(const EvaluateArguments& arguments, const sessions::Dataset& dataset,
                  std::vector<sessions::RunResult> results) {
   std::erase_if(results, [&](const sessions::RunResult& run) {

@@ -3,7 +3,7 @@
 
 namespace boresight::app {
 
-/// What the programs return to the shell.
+/// Exit codes of the programs.
 enum ExitCode : int {
   kDone = 0,  ///< and, for localize, converged
   kInternalFault = 1,
@@ -14,7 +14,7 @@ enum ExitCode : int {
   kDifferent = 6,     ///< compare
 };
 
-/// Of whs, for its help.
+/// Exit codes of whs, for its help.
 inline constexpr const char* kExitStatusText =
     "0 done (localize: converged), 2 usage, 3 bad input or an output that cannot be written, 4 did "
     "not converge, 1 internal fault.";

@@ -117,7 +117,7 @@ void followAll(sessions::CaseSequence& sequence, const std::string& out,
 
 int follow(FollowArguments& arguments) {
   arguments.requireSeed();
-  (void)arguments.options.read();  // options that do not exist are refused before files are read
+  (void)arguments.options.read();  // unknown options are rejected before files are read
   (void)motionOf(arguments);
   requireImagesWithRule(arguments);
   const sessions::MadeCase sequence_case = sessions::makeCase(arguments.files());

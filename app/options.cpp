@@ -151,7 +151,7 @@ std::string optionsPage() {
   return text + tables(presets, "###");
 }
 
-/// Every command under a heading of its own, as `--help` tells of it.
+/// Every command under a heading of its own, with the text of `--help`.
 std::string commandsPage(const CLI::App& app) {
   std::string text = "# whs, command by command\n\nExit status: " + markdownText(kExitStatusText) +
                      "\n\n" + commandText(app);

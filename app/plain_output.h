@@ -7,8 +7,9 @@
 
 namespace boresight::app {
 
-/// While it exists, a stream shows text only: what a terminal would act on comes out as blanks
-/// (sessions/text/plain_text.h). Line feeds stay, so a line must be made of text without any.
+/// While it exists, a stream prints plain text: control characters are replaced by blanks
+/// (sessions/text/plain_text.h). Line feeds stay, so that lines must be composed of text without
+/// any.
 class PlainOutput : private std::streambuf {
  public:
   explicit PlainOutput(std::ostream& stream);

@@ -22,7 +22,7 @@ struct RunArguments {
   bool views = false;
 };
 
-/// The cases to run: those asked for, or all.
+/// The cases to run: the requested ones, or all.
 std::vector<std::string> selectedCases(const sessions::SessionDocument& document,
                                        const std::vector<std::string>& asked) {
   for (const std::string& id : asked) (void)requireCase(document, id);
@@ -60,7 +60,7 @@ int runTogether(sessions::SessionDocument& document, const std::string& id) {
   return converged ? kDone : kNotConverged;
 }
 
-/// Each rig once, by the first of its cases that was asked for; cases without other views alone.
+/// Each rig once, by the first of its requested cases; cases without other views alone.
 bool rigHasRun(const sessions::Session& session, const std::string& id,
                const std::vector<std::string>& led) {
   const auto rigOf = [&session](const std::string& text) {

@@ -78,7 +78,8 @@ std::vector<std::string> candidates(const CLI::App& app, const std::vector<std::
 }
 
 /// What a shell offers for the last of the words after the program's name: commands, options of the
-/// command, or the choices of the option before. Nothing for files, which shells know themselves.
+/// command, or the choices of the option before. Nothing for files, which shells complete
+/// themselves.
 std::vector<std::string> completions(const CLI::App& app, const std::vector<std::string>& words) {
   std::vector<std::string> found = candidates(app, words);
   const std::string begin = words.empty() ? "" : words.back();
@@ -125,7 +126,7 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
-/// The exit status, whatever happens; a failure is told in one line.
+/// The exit status, whatever happens; a failure is reported in one line.
 int runGuarded(int argc, char** argv) {
   try {
     return run(argc, argv);

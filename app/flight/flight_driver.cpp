@@ -28,7 +28,7 @@ static_assert(kArenaBytes % Arena::kAlignment == 0);
 /// own. The encoded problem is read behind what it decodes to, and overwritten after that.
 alignas(Arena::kAlignment) std::byte arena_block[kArenaBytes];
 
-/// Reason why an input is refused.
+/// Reason why an input is rejected.
 struct Fault {
   const char* reason = nullptr;  ///< nullptr: nothing is
   const char* option = nullptr;  ///< the option that it is about, or nullptr

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of the Python module share. Poses are 4x4 arrays, a_from_b; arrays are copies.
+// Shared by the parts of the Python module. Poses are 4x4 arrays, a_from_b; arrays are copies.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ struct Run {
 Eigen::Matrix4d matrixOf(const Pose& pose);
 /// ValueError unless it is a rigid transform.
 Pose poseOf(const Eigen::Matrix4d& matrix);
-/// The same as dict, list, float, str, ...
+/// Converts JSON to dict, list, float, str, ...
 py::object pythonOf(const nlohmann::ordered_json& json);
 /// An array of a member of each element.
 template <class Value, class Range, class Member>
@@ -46,7 +46,7 @@ py::array_t<Value> column(const Range& range, Member&& member) {
   return array;
 }
 
-/// Salient edge pixels as arrays: "x", "y" (px), "depth_m", normals, "offset_px", "kind", and "edges".
+/// Salient edge pixels as arrays: "x", "y" (px), "depth_m", normals, "offset_px", "kind", "edges".
 py::dict renderDict(const sessions::RenderTrace& render);
 
 void addInputs(py::module_& module);

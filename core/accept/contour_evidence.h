@@ -10,7 +10,7 @@
 
 namespace boresight {
 
-/// A place of a rendered edge in the image whose evidence is measured.
+/// A sample point on a rendered edge, px of the image, at which the evidence is measured.
 struct EvidencePlace {
   std::int16_t x = 0;          ///< px
   std::int16_t y = 0;          ///< px
@@ -21,16 +21,15 @@ struct EvidencePlace {
 /// Evidence of an image's directed edges for a pose, relative to the background of edges around
 /// each place: the mean over places of
 ///     log((0.6 p(d) + 0.4 b(d)) / b(d))
-/// with d the directed distance (distanceToDirection) to the nearest edge, p(d) the shares of
-/// intervals of d at right poses, and b(d) the shares of the same intervals around the place, for
-/// the same direction. Clutter and texture therefore do not support a pose.
+/// with d the directed distance (distanceToDirection) to the nearest edge, p(d) the histogram of d
+/// at correct poses, and b(d) the histogram of d around the place, for the same direction. Clutter
+/// and texture therefore do not support a pose.
 ///
-/// The expectation of the same sum at a right pose, sum over k of m_k log(m_k / b_k) with
-/// m = 0.6 p + 0.4 b, says how much evidence there is to be had: little in dense print, where every
-/// place has edges around it.
+/// The expectation of the same sum at a correct pose is sum over k of m_k log(m_k / b_k) with m =
+/// 0.6 p + 0.4 b. It is small in dense print, where every place has edges around it.
 struct ContourEvidence {
-  double place_length_px = 1.0;                   ///< of rendered edge per place, in the view
-  std::int32_t places = 0;                        ///< rendered edge places looked at
+  double place_length_px = 1.0;                   ///< rendered edge per place, px of the view
+  std::int32_t places = 0;                        ///< rendered edge places measured
   std::int32_t outline_places = 0;                ///< of these, on the outline
   double edges_nats = 0.0;                        ///< mean over all places
   double outline_nats = 0.0;                      ///< mean over the outline
@@ -54,11 +53,11 @@ struct ContourEvidence {
 
 /// Neighbouring edge pixels of a small view that share their errors: their evidence counts once.
 inline constexpr double kAlongEdge_px = 8.0;
-/// The window around a place in which the image's shares are counted, of the object's size.
+/// Side of the window around a place in which b(d) is counted, as a share of the object's size.
 inline constexpr double kEvidenceWindow = 0.2;
 /// The evidence of one place, nats.
 struct PlaceEvidence {
-  double nats = 0.0;           ///< as the image has it
+  double nats = 0.0;           ///< measured in the image
   double expected_nats = 0.0;  ///< its expectation at a right pose
 };
 /// The evidence of one place, given the distances to edges of its direction.
@@ -68,12 +67,12 @@ PlaceEvidence evidenceOfPlace(const EvidencePlace& place, const DirectedEdges& e
 /// Measures the evidence for a pose in small images.
 class ContourEvidenceMeter {
  public:
-  static constexpr int kMaxPlaces = 1500;  ///< at a time
+  static constexpr int kMaxPlaces = 1500;  ///< places per measurement
 
-  /// Takes memory for images of up to `pixels` from `arena`. Of images of up to an eighth as many,
-  /// distances are computed once for all measurements.
+  /// Takes memory for images of up to `pixels` from `arena`. For images of up to an eighth of that,
+  /// the distances are cached for all measurements.
   void create(std::size_t pixels, Arena& arena);
-  /// Begins with the edges of another image, or after the memory was used otherwise.
+  /// Sets the edges to measure against and clears the cached distances.
   void begin(const DirectedEdges& edges);
   /// Removes all places; each of those that follow stands for this length of rendered edge, in
   /// pixels of the image.

@@ -36,7 +36,7 @@ inline double aboveChance(double share, double chance) {
 /// the mask with a rendered edge within one pixel (the rest is texture, shadow, or edges of other
 /// objects). Both also occur by chance, more often the denser the edges; the same counts with the
 /// render displaced in four directions measure chance. The excess over chance counts. A wrong pose
-/// covers a part and explains little; a dark or textured object is strong in one of the two.
+/// has some coverage but explains little; a dark or textured object has one of the two high.
 struct EdgeSupport {
   std::int32_t rendered = 0;  ///< rendered edge pixels tested (an even subset of many), not ignored
   std::int32_t covered = 0;   ///< of those, seen in the image

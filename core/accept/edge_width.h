@@ -13,8 +13,8 @@
 namespace boresight {
 
 /// Width of the image's edges at the edges of a pose. Motion and defocus widen the edges and make
-/// the pose worse than its covariance. The width of an edge is the height of its ramp over the
-/// steepest slope.
+/// the pose error larger than its covariance states. The width of an edge is the height of its ramp
+/// over the steepest slope.
 struct EdgeWidth {
   /// A pose from wider edges is not accepted, px. Sharp images have 2 to 7 px; those blurred by
   /// 16 px have 13 to 17 px, and 7 of 20 rendered stations then missed the requirement.
@@ -25,7 +25,7 @@ struct EdgeWidth {
 
   /// The direction with the widest edges, of those with enough places; -1: too few are seen.
   int widestDirection() const;
-  /// The width there; 0 where too few are seen.
+  /// Width in the widest direction; 0 when too few edges are seen.
   double widest_px() const;
   /// Whether the image is sharp enough for a pose.
   bool isSharp() const { return widest_px() <= kWidest_px; }

@@ -26,12 +26,12 @@ struct PoseEvidence {
   double strongest_nats() const;
   /// Mean over the views of the weakest quadrant.
   double weakest_nats() const;
-  /// Score by which poses of one image are compared: total evidence, which tells one basin from
-  /// another, and means and edge support, which tell minima of one basin apart
+  /// Score by which poses of one image are compared: total evidence, which distinguishes basins,
+  /// and means and edge support, which distinguish minima of one basin
   /// (resources/evidence/trust.md).
   double score() const;
   /// Probability that the pose is right: logistic in the contours' share of their expectation, in
-  /// the regions, and in the edge support over the evidence to be had; fitted to right and wrong
+  /// the regions, and in the edge support over the expected evidence; fitted to correct and wrong
   /// poses (resources/evidence/trust.md).
   double probability() const;
 };

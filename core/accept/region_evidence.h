@@ -13,8 +13,8 @@
 namespace boresight {
 
 /// Evidence of the gray values on both sides of an outline: whether the object's inside and its
-/// surroundings differ, and whether they change at the outline rather than some pixels beside it.
-/// It does not use edges, so that it is a second witness of a pose.
+/// surroundings differ, and whether they change at the outline rather than some pixels next to it.
+/// It does not use edges and is therefore independent of the contour evidence.
 struct RegionEvidence {
   /// Mean over the lines across the outline, nats: log-likelihood of the border at the outline
   /// minus that of a border anywhere on the line; in [-0.8, 1.2].

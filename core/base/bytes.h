@@ -45,7 +45,7 @@ class ByteWriter {
 };
 
 /// Reads big-endian values from the front of a span. Never reads beyond its end: from the first
-/// value that does not fit on, all values are 0 and `failed()`.
+/// value that does not fit on, all values are 0 and failed() is true.
 class ByteReader {
  public:
   /// `bytes` must outlive the reader.

@@ -7,7 +7,7 @@
 namespace boresight {
 
 /// CRC-32 of ISO/IEC 15948 (PNG), zip and many others: detects damage, not tampering. `before` is
-/// that of the bytes before these.
+/// the CRC of the preceding bytes.
 std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
 
 /// Incremental CRC-32.
@@ -24,7 +24,7 @@ class Crc32 {
     updateBigEndian(static_cast<std::uint32_t>(value));
   }
   ///@}
-  /// That of all bytes so far.
+  /// CRC-32 of all bytes so far.
   std::uint32_t value() const { return sum_; }
 
  private:

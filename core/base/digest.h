@@ -13,8 +13,8 @@
 
 namespace boresight {
 
-/// Canonical big-endian serialization into a sum. -0 counts as +0; a NaN is written as one fixed
-/// pattern.
+/// Canonical big-endian serialization into a hash (`Sum`). -0 counts as +0; a NaN is written as one
+/// fixed pattern.
 template <class Sum>
 class ValueWriter {
  public:

@@ -21,7 +21,7 @@ class IndexList {
       list.long_ = arena.allocate<std::uint32_t>(count);
     return list;
   }
-  /// Number of entries; 0 of an arena that only counts.
+  /// Number of entries; 0 with an arena that only counts.
   std::size_t size() const { return short_.size() + long_.size(); }
   /// An entry.
   std::int32_t operator[](std::size_t at) const {
@@ -37,7 +37,7 @@ class IndexList {
   }
 
  private:
-  /// Entries are stored one higher.
+  /// Bounds below this fit 16 bits, as an entry is stored as index + 1.
   static constexpr std::size_t kShortBound = 65536;
 
   std::span<std::uint16_t> short_;

@@ -8,15 +8,16 @@
 
 namespace boresight {
 
-/// Compresses `count` blocks of 64 bytes into the state (FIPS 180-4, Sec. 6.2.2).
+/// The eight words of the state.
 using Sha256State = std::array<std::uint32_t, 8>;
+/// Compresses `count` blocks of 64 bytes into the state (FIPS 180-4, Sec. 6.2.2).
 using Sha256Kernel = void (*)(Sha256State& state, const std::uint8_t* blocks, std::size_t count);
 
-/// The standard's own form: portable, and the reference.
+/// Portable implementation as written in the standard; the reference for the other kernels.
 void sha256Plain(Sha256State& state, const std::uint8_t* blocks, std::size_t count);
 /// With the processor's own SHA instructions; nullptr where this processor has none.
 Sha256Kernel sha256Instructions();
-/// The fastest one that this processor can run.
+/// The fastest kernel that this processor can run.
 Sha256Kernel fastestSha256();
 
 /// Incremental SHA-256.

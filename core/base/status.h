@@ -5,8 +5,8 @@
 
 namespace boresight {
 
-/// Outcome of a stage of the core. An invalid image, mesh or pose never trips an assertion: its
-/// fault is returned as one of these.
+/// Outcome of a stage of the core. An invalid image, mesh or pose never trips an assertion: the
+/// fault is returned as one of these values.
 enum class [[nodiscard]] Status : std::uint8_t{
     kOk = 0,
     kInvalidOption,     ///< an option is outside its declared range
@@ -25,7 +25,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kMemoryChanged,     ///< inputs, or tables derived from them, changed during the run
 };
 
-/// The last one.
+/// The last value.
 inline constexpr Status kLastStatus = Status::kMemoryChanged;
 
 /// A short lower-case word or two, for messages and result files.

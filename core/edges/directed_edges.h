@@ -18,7 +18,7 @@ int directionsApart(int first, int second);
 
 /// A small image of one or several channels, with flags of its known pixels.
 struct SmallImage {
-  std::span<std::uint8_t> value;  ///< capacity; of each channel the first width * height are valid
+  std::span<std::uint8_t> value;  ///< capacity; the first width * height of each channel are valid
   std::span<std::uint8_t> seen;   ///< row by row, capacity; 1: known
   int width = 0;                  ///< px
   int height = 0;                 ///< px
@@ -48,12 +48,12 @@ struct DirectedEdges {
 /// Finds directed edges in small images: Sobel's gradient (5 x 5), suppressed where it is not the
 /// largest along its direction, and kept where it is at least 0.7 times the mean around it
 /// (31 x 31). Dim parts therefore have edges, too, and dense texture has few. Of several channels
-/// the largest gradient counts (Di Zenzo 1986 has the exact one).
+/// the largest gradient counts (an approximation of Di Zenzo 1986).
 class DirectedEdgeDetector {
  public:
   static constexpr int kMaxWidth = 512;  ///< px
 
-  /// Takes memory for images of up to `max_width` columns from `arena`: some rows.
+  /// Takes kHeldRows rows of `max_width` columns from `arena`.
   void create(int max_width, Arena& arena);
   /// Begins with an image of this size and number of channels; `edges.direction` must have room for
   /// it.

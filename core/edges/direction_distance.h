@@ -11,7 +11,7 @@ namespace boresight {
 /// Distances to edges of a direction, in units of kDistanceUnit_px, at most kFarthest.
 inline constexpr double kDistanceUnit_px = 0.1;
 inline constexpr int kFarthest = 60;         ///< 6 px
-inline constexpr int kStepOfDirection = 15;  ///< an edge of the next direction counts as 1.5 px off
+inline constexpr int kStepOfDirection = 15;  ///< per step of direction: 1.5 px farther
 
 /// For each pixel the distance to the nearest edge whose normal has `direction`, edges of other
 /// directions counting as farther by kStepOfDirection per step: a chamfer transform (Borgefors

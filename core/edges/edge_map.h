@@ -18,7 +18,7 @@
 
 namespace boresight {
 
-/// Longest side of an image; with it every count and every offset of this stage fits 32 bits.
+/// Longest side of an image, so that every count and offset of this stage fits 32 bits.
 inline constexpr int kMaxImageSide = 16384;
 
 /// Pixels in one bounded slice of the stage.
@@ -54,7 +54,7 @@ class EdgeDetector {
 
   /// `image` and `ignore` (may be nullptr; set bits are ignored; same size) must outlive the steps.
   /// Output and scratch are taken from `arena`, which must not be used otherwise until the map is
-  /// complete; with a counting arena nothing else happens (the image needs no pixels then).
+  /// complete; with a counting arena only sizes are counted (the image needs no pixels then).
   /// kInvalidOption for an option out of range; kInvalidImage for an empty or too large image,
   /// overlapping rows, or an ignore mask of another size; kArenaTooSmall. All leave the arena as it
   /// was.
@@ -69,8 +69,8 @@ class EdgeDetector {
     /// Whether a level is one of them.
     bool hold(int level) const { return level >= finest && level <= coarsest; }
   };
-  /// The same with other levels than those to keep from `scratch`, where the detector's own scratch
-  /// follows: they are valid until that memory is reused.
+  /// As above, but levels outside `levels` come from `scratch`, before the detector's own scratch:
+  /// they are valid until that memory is reused.
   Status begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                Arena& kept, Arena& scratch, const KeptLevels& levels, EdgeMap& output);
   /// One bounded slice (about a million pixel operations); true when the map is complete.

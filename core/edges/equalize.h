@@ -17,8 +17,8 @@ using GrayHistogram = std::array<std::int32_t, kGrayLevels>;  ///< pixels per gr
 using GrayTable = std::array<std::uint8_t, kGrayLevels>;      ///< gray level in -> gray level out
 
 /// Table of the global equalization: out(v) = round(255 * (N(<= v) - N(v0)) / (N - N(v0))), v0 the
-/// darkest level that occurs; single precision, halves to even, exactly as cv::equalizeHist. One
-/// level alone maps everything to itself; an empty histogram gives the identity.
+/// darkest level that occurs; single precision, halves to even, exactly as cv::equalizeHist. If
+/// only one level occurs, all levels map to it; an empty histogram gives the identity.
 GrayTable equalizeLut(const GrayHistogram& histogram);
 
 /// Table of one tile of the contrast-limited adaptive equalization, exactly as cv::CLAHE: counts
@@ -34,7 +34,8 @@ class Equalizer {
   static constexpr double kClipLimit = 2.0;  ///< of CLAHE; higher values amplify sensor noise
   static constexpr int kTiles = 8;           ///< of CLAHE along each axis, OpenCV's default
 
-  /// Takes the tables from `arena`. `image` (pixels) and `ignore` (or nullptr) must outlive it.
+  /// Takes the tables from `arena`. `image` (pixels) and `ignore` (or nullptr) must outlive the
+  /// equalizer.
   void begin(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
              Arena& arena);
   /// Counts about `pixel_budget` pixels; true when the tables are complete.

@@ -32,8 +32,8 @@ class SmoothedRows {
   void begin(int width, int height, double sigma_px, Arena& arena);
   /// Back to the first row, for another pass.
   void restart() { loaded_ = 0; }
-  /// Row y into `out`, which takes roundUpToBlock(width) bytes, those past `width` without meaning.
-  /// Rows must be requested in ascending order.
+  /// Writes row y to `out`: roundUpToBlock(width) bytes, unspecified from `width` on. Rows must be
+  /// requested in ascending order.
   void row(int y, const Equalizer& source, std::uint8_t* out);
 
  private:

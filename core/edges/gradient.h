@@ -26,7 +26,8 @@ class GradientRows {
   /// Number of rows done by advance().
   int rowsDone() const { return rows_done_; }
 
-  /// Rows rowsDone() - 3 ... rowsDone() - 1, and those outside the image; x in [-1, width].
+  /// Magnitudes of row y: one of the last three rows done, or a row outside the image (zeros); x in
+  /// [-1, width].
   const std::int32_t* magnitude(int y) const;
   /// Derivative to the right, for the same rows.
   const std::int16_t* dx(int y) const { return dx_.data() + columns_ * (y % kRing); }
@@ -35,7 +36,7 @@ class GradientRows {
 
  private:
   static constexpr int kRing = 3;
-  static constexpr int kAperture_px = 3;  ///< the Gaussian before it sets the scale
+  static constexpr int kAperture_px = 3;  ///< of Sobel; the preceding Gaussian sets the scale
   static constexpr std::ptrdiff_t kMargin =
       16;  ///< on both sides, so that blocks may reach over the border
 
@@ -61,9 +62,9 @@ class GradientHistogram {
  public:
   /// Takes the counters from `arena`.
   void begin(Arena& arena);
-  /// `magnitude` as GradientRows gives it; `ignored` is nullptr or a row of the ignore mask.
+  /// Counts a row of GradientRows::magnitude; `ignored` is nullptr or a row of the ignore mask.
   void addRow(const std::int32_t* magnitude, const std::uint64_t* ignored, int width);
-  /// The largest possible magnitude where no pixel counted.
+  /// The quantile of that share; the largest possible magnitude when no pixel was counted.
   std::int32_t quantile(double share) const;
 
  private:

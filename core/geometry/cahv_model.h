@@ -26,11 +26,11 @@ struct CahvModel {
   bool operator==(const CahvModel&) const = default;
 };
 
-/// The camera, in its own frame, and where that frame is: origin C, z = A, x along the part of H
-/// across A, y = z cross x. A V that is not along y is kept (skew), as is one that points the other
-/// way (a mirrored image, fy < 0). A is brought to length 1 together with H and V, which changes no
-/// pixel; O, too. kInvalidCamera when A or O are not within 1e-3 of length 1, an H or V is along A,
-/// or the lens is invalid (see prepareCamera).
+/// The camera in its own frame, and the pose of that frame: origin C, z = A, x along the part of H
+/// across A, y = z cross x. A part of V along x becomes the skew; a V against y gives a mirrored
+/// image (fy < 0). A, H and V are scaled together to |A| = 1, which changes no pixel; O is
+/// normalized. kInvalidCamera when A or O are not within 1e-3 of length 1, an H or V is along A, or
+/// the lens is invalid (see prepareCamera).
 Status cameraFromCahv(const CahvModel& cahv, int width, int height, Camera& camera,
                       Pose& camera_from_reference);
 

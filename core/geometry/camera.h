@@ -65,7 +65,7 @@ struct Camera {
 };
 
 /// Checks the parameters (finite, focal lengths and sizes positive) and computes the valid field.
-/// kInvalidCamera when no camera has them. Call once after filling a Camera;
+/// kInvalidCamera when a check fails or the field is empty. Call once after filling a Camera;
 /// projection outside the valid field then returns false instead of folding back into the image.
 Status prepareCamera(Camera& camera);
 
@@ -104,9 +104,9 @@ struct Ray {
 inline bool pupilMoves(const Camera& camera) {
   return camera.cahv.pupil_high_m - camera.cahv.pupil_low_m > 1e-8;
 }
-/// A point as seen from the pupil that sees it: its direction is that of its pixel's ray, its z its
-/// depth along it. The point itself where the pupil does not move. For points outside the image,
-/// the nearest pupil position of the image's rays is used.
+/// A point relative to the entrance pupil of its ray: its direction is that of the ray, and its z
+/// is the depth along the ray. Returns the point itself where the pupil does not move. For points
+/// outside the image, the nearest pupil position of the image's rays is used.
 Eigen::Vector3d seenFromPupil(const Camera& camera, const Eigen::Vector3d& point_in_camera_m);
 
 /// Whether the image is mirrored (left-handed axes).

@@ -40,7 +40,7 @@ class FaceList {
 
   /// Number of faces.
   std::size_t size() const { return size_; }
-  /// Whether there is none.
+  /// Whether there are no faces.
   bool empty() const { return size_ == 0; }
   /// A face.
   Face operator[](std::size_t at) const {
@@ -48,7 +48,7 @@ class FaceList {
     const ShortFace& face = short_[at];
     return {{face[0], face[1], face[2]}};
   }
-  /// The first faces.
+  /// The first `count` faces.
   FaceList first(std::size_t count) const {
     FaceList some = *this;
     some.size_ = count;
@@ -93,7 +93,7 @@ class FaceList {
   std::size_t size_ = 0;
 };
 
-/// Bytes of a face in the shortest form.
+/// Bytes of a face in the shorter form that fits the number of vertices.
 constexpr std::size_t bytesPerFace(std::size_t vertices) {
   return vertices <= kShortVertices ? sizeof(ShortFace) : sizeof(Face);
 }
@@ -132,8 +132,8 @@ struct MeshView {
 /// allowed and never rendered.
 Status validateMesh(const MeshView& mesh);
 
-/// Index of the first vertex in the camera frame: the least of the parts fixed to the camera; the
-/// number of vertices where there are none.
+/// Index of the first vertex in the camera frame: the lowest one used by parts fixed to the camera;
+/// the number of vertices without such parts.
 std::size_t firstVertexInCamera(const MeshView& mesh);
 
 /// Per face the face on the other side of edge i (vertex i to vertex (i + 1) % 3), or -1 at a
@@ -159,12 +159,12 @@ class MeshAdjacency {
   }
 
  private:
-  IndexList neighbour_;  ///< three a face
+  IndexList neighbour_;  ///< three per face
 };
 
-/// Builds the adjacency; deterministic, O(n log n). The output comes from `kept`, 24 bytes a face
-/// and 4 a vertex from `scratch` (which may be the same arena, and is rewound). kArenaTooSmall when
-/// they do not fit, kInvalidMesh when an index is out of range.
+/// Builds the adjacency; deterministic, O(n log n). The output comes from `kept`, 24 bytes per face
+/// and 4 per vertex from `scratch` (which may be the same arena, and is rewound). kArenaTooSmall
+/// when they do not fit, kInvalidMesh when an index is out of range.
 Status buildAdjacency(const MeshView& mesh, Arena& kept, Arena& scratch, MeshAdjacency& adjacency);
 inline Status buildAdjacency(const MeshView& mesh, Arena& arena, MeshAdjacency& adjacency) {
   return buildAdjacency(mesh, arena, arena, adjacency);

@@ -18,7 +18,7 @@ struct Pose {
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();       ///< of b's origin, in a
 
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;  ///< p_a of a point p_b, metres
-  Pose operator*(const Pose& b_from_c) const;  ///< a_from_c; the inner names must meet
+  Pose operator*(const Pose& b_from_c) const;  ///< a_from_c; the inner frames must be the same
   Pose inverse() const;                        ///< b_from_a
   /// The rotation as a matrix.
   Eigen::Matrix3d matrix() const { return rotation.toRotationMatrix(); }
@@ -38,8 +38,8 @@ Pose perturbed(const Vector6d& xi, const Pose& pose);
 Vector6d perturbationBetween(const Pose& from, const Pose& to);
 
 /// Nearest rotation to a 3x3 matrix (iterative orthogonalization, no SVD). `deviation` is
-/// |R'R - I| (Frobenius) before; kInvalidPose when it exceeds 1e-4 (conventions: such a matrix is
-/// refused), when the determinant is negative, or when anything is not finite.
+/// |R'R - I| (Frobenius) before; kInvalidPose when it exceeds 1e-4, when the determinant is
+/// negative, or when anything is not finite.
 Status poseFromMatrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation_m,
                       Pose& a_from_b, double& deviation);
 

@@ -19,18 +19,18 @@ inline constexpr double kLeastMargin_nats = 3.0;
 /// Poses of less probability are compared with the mesh's mirror image, and with poses within twice
 /// the seed's uncertainty.
 inline constexpr double kUndoubted = 0.9;
-/// A mirror image with more total evidence than this multiple of the pose's says that the mesh is
-/// mirrored: symmetric meshes have about the same.
+/// The mesh counts as mirrored when its mirror image has more total evidence than this multiple of
+/// the pose's: symmetric meshes have about the same.
 inline constexpr double kMirrorExcess = 1.5;
-/// Another pose within twice the seed's uncertainty with more total evidence than this multiple of
-/// the pose's says that the seed is farther off than stated.
+/// The seed counts as farther off than stated when another pose within twice its uncertainty has
+/// more total evidence than this multiple of the pose's.
 inline constexpr double kOtherExcess = 1.2;
 /// Least margin over a competing pose outside the seed's uncertainty, which the seed excludes. With
 /// a correct mesh no such pose has more evidence; with a mirrored mesh the half turn has 12 to 45
 /// nats more.
 inline constexpr double kLeastMarginOutside_nats = -2.0;
 
-/// Least score of the final pose beyond that of the best other pose of the run.
+/// Least difference between the scores of the final pose and of the best other pose of the run.
 inline constexpr double kLeastGap = 0.15;
 
 /// Whether the image supports the pose after its support pass: kConverged, or the reason why not.
@@ -49,8 +49,8 @@ LocalizationStatus judgeCompetingPoses(std::span<const CompetingPose> poses, con
 
 /// The next comparison of a pose that has passed `last`; none after the last one. Every pose is
 /// compared with others that show about the same edges; one below kUndoubted also with the mesh's
-/// mirror image, and then with poses within twice the seed's uncertainty. A pose beyond the stated
-/// uncertainty is compared with the latter, too.
+/// mirror image, and then with poses within twice the seed's uncertainty. A pose outside the stated
+/// uncertainty is also compared with poses within twice the uncertainty.
 std::optional<PassKind> comparisonAfter(PassKind last, double probability, const Seed& seed,
                                         const Pose& camera_from_station);
 

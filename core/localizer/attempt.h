@@ -19,7 +19,7 @@ namespace boresight {
 class Attempt {
  public:
   Attempt() = default;
-  /// `index` counts the attempts of a run, `iteration` the first one to do.
+  /// `index`: number of the attempt, from 0. `iteration`: the first iteration to run.
   Attempt(int index, const Seed& seed, int iteration = 0);
   /// Refines a pose on edges, without templates; within the seed's uncertainty. With `coarse_first`
   /// the first refinement is at the coarse level, where its search reaches farther.
@@ -35,11 +35,11 @@ class Attempt {
 
   /// Starts again from the seed with templates of another size: they may have caused the failure.
   void restart();
-  /// Continues after convergence, as not converged (a view was dropped). kFailed at the iteration
-  /// limit.
+  /// Continues a converged attempt as not converged, after a view was dropped. kFailed at the
+  /// iteration limit.
   Ruling goOn(const RunContext& run);
 
-  /// The attempt as it was before its last iteration, which started from this pose; not as a draft.
+  /// The attempt before its last iteration, which started from this pose; not a draft.
   Attempt beforeLastIteration(int index, const Pose& camera_from_station_before,
                               const LocalizerOptions& options) const;
 
@@ -56,7 +56,7 @@ class Attempt {
   const Pose& camera_from_station() const { return camera_from_station_; }
   /// Covariance of the estimate, as PnP or the refinement gives it.
   const Matrix6d& covariance() const { return covariance_; }
-  /// The record of the latest iteration.
+  /// Index of the record of the latest iteration.
   int record() const { return record_; }
 
  private:

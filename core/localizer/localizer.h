@@ -22,8 +22,8 @@ namespace boresight {
 /// pauses, draws or logs. After construction nothing allocates: all memory is one block
 /// (PassMemory).
 ///
-/// The pass runs the stages; the policies decide which pass comes next: the iterations of an
-/// attempt, and the poses from which attempts start. A run that searches compares several refined
+/// Pass runs the stages. Policies decide which pass comes next: Attempt plans the iterations,
+/// PoseComparison the poses from which attempts start. A run that searches compares several refined
 /// poses and takes the one with the best evidence (PoseComparison); from a near seed it first
 /// refines the seed alone, and ends there when the pose is probable. At the end the final pose is
 /// compared with other poses that show about the same edges.
@@ -35,8 +35,7 @@ namespace boresight {
 ///       finished = step().finished
 ///     }
 ///
-/// Tasks that are left are done by `step()`: the results have the same bits with any number of
-/// workers.
+/// `step()` runs the remaining tasks: the results have the same bits with any number of workers.
 class Localizer {
  public:
   /// Largest number of workers.
@@ -46,9 +45,9 @@ class Localizer {
   /// localizer. `status()` reports
   /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
   /// mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, a quaternion not of unit
-  /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. Otherwise the first
-  /// step ends the run as a fault. `kernels` (those that the memory was measured for) change only
-  /// the run time.
+  /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. If it cannot run, the
+  /// first step ends the run as a fault. `kernels` (those that the memory was measured for) change
+  /// only the run time.
   Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
             std::span<std::byte> memory, int workers = 1, Kernels kernels = Kernels::kPortable);
 
@@ -66,18 +65,18 @@ class Localizer {
 
   /// Restarts with another problem (such as the next image of a sequence) and other options,
   /// without reallocating; what the problem points to must outlive the run. kInvalidPose,
-  /// kInvalidOption, kArenaTooSmall (it needs more memory): then the old run goes on.
+  /// kInvalidOption, kArenaTooSmall (it needs more memory): on each of them the old run continues.
   Status restart(const LocalizationProblem& problem, const LocalizerOptions& options);
 
   /// Whether the next step starts an iteration.
   bool isBetweenIterations() const;
-  /// Takes other options for the iterations that follow. False, and nothing has changed, when not
+  /// Takes other options for the iterations that follow. Returns false and changes nothing when not
   /// between iterations, or when an option is out of range or must hold for a whole run
   /// (firstFixedOption). Options that differ are included in the digest.
   [[nodiscard]] bool changeOptions(const LocalizerOptions& options);
 
-  /// Leaves the matching to the caller, for methods other than WHS in the same loop; before the
-  /// first step. Every match stage then waits for supplyMatches(), and the renders also fill
+  /// Leaves the matching to the caller, for methods other than WHS in the same loop; call before
+  /// the first step. Every match stage then waits for supplyMatches(), and the renders also fill
   /// `surfaces` (of the level's size, or larger), which must outlive the run. Included in the
   /// digest.
   void matchOutside(const SurfaceRender& surfaces) { pass_.matchOutside(surfaces); }

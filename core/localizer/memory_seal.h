@@ -20,9 +20,9 @@ class MemorySeal {
  public:
   /// `inputs` is the inputDigest().
   void sealInputs(const std::array<std::uint8_t, 32>& inputs) { inputs_ = inputs; }
-  /// Tables laid out at construction; the edges when they are detected.
+  /// Seals the tables laid out at construction.
   void sealTables(std::span<const std::byte> tables) { tables_ = checksumOf(tables); }
-  /// Edges of the matched levels.
+  /// Seals the edges of the matched levels.
   void sealEdges(const EdgeMap& edges, RunLevels levels) { edges_ = checksumOf(edges, levels); }
 
   /// Whether options and problem (withoutUnusedInputs) are those that were sealed.

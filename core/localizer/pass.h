@@ -39,15 +39,15 @@ struct JointPose {
 /// render -> templates -> match -> pose, or render -> refine, or one of the measurements of a pose.
 /// It fills the plan's record and the digest. It contains no policy.
 ///
-/// A caller with threads may share out the tasks of a stage between two steps; tasks that are left
-/// are done by step(). The results have the same bits with any number of workers.
+/// A caller with threads may share out the tasks of a stage between two steps; step() runs the
+/// remaining tasks. The results have the same bits with any number of workers.
 class Pass {
  public:
   Pass() = default;
   Pass(const Pass&) = delete;
   Pass& operator=(const Pass&) = delete;
 
-  /// Checks the problem and lays out the memory: as Localizer::status().
+  /// Checks the problem and lays out the memory. Errors as of Localizer::status().
   Status create(const LocalizationProblem& problem, const LocalizerOptions& options,
                 std::span<std::byte> block, int workers, Kernels kernels);
 
@@ -78,9 +78,9 @@ class Pass {
   Status supplyMatches(std::span<const SuppliedMatch> supplied);
 
   /// Leaves poses and refinement rounds to the caller, who solves several views as one. A pass that
-  /// fails before its pose then goes on without matches: other views may have more.
+  /// fails before its pose then continues without matches: other views may have enough.
   void solveOutside() { solve_outside_ = true; }
-  /// Why the view has no share in the pass; kRunning: it has.
+  /// Why the view does not take part in the pass; kRunning when it does.
   LocalizationStatus failed() const { return failed_; }
   /// Ends a match pass with the pose of all views. Inliers and residuals of this view's
   /// correspondences are filled in before, in record().pnp.
@@ -96,7 +96,7 @@ class Pass {
   void show(const Ruling& ruling);
   /// Takes other options from the next pass on; see firstFixedOption.
   void changeOptions(const LocalizerOptions& options);
-  /// Whether the memory that must not change during a run holds the bits that it held before.
+  /// Whether the memory that must not change during a run is unchanged.
   bool memoryHolds() const;
   /// Sets how the run ended and writes it to the digest.
   void finish(LocalizationStatus status, const Pose& camera_from_station,

@@ -39,7 +39,7 @@ struct MemoryUse {
   std::size_t of(Stage at) const {
     return at < Stage::kFinished ? kept + stage[static_cast<std::size_t>(at)] : kept;
   }
-  /// High-water mark of the whole run: what the block must hold.
+  /// High-water mark of the whole run: the size of the block.
   std::size_t total() const;
 };
 
@@ -70,7 +70,7 @@ class PassMemory {
   Status create(const LocalizationProblem& problem, const LocalizerOptions& options, int workers,
                 Kernels kernels, std::span<std::byte> block, EdgeMap& edges);
 
-  /// Bytes, by what they are for.
+  /// Bytes by purpose.
   const MemoryUse& use() const { return use_; }
   /// The front of the block: adjacency and ray grids, which do not change after construction.
   std::span<const std::byte> tables() const { return tables_; }
@@ -92,7 +92,7 @@ class PassMemory {
   std::array<RayGrid, kPyramidLevels> rays;  ///< of the levels that are rendered
   std::array<Iteration, 2> records;          ///< the current hypothesis and the best one so far
   std::array<EdgeRender, 2> coarse_render;   ///< of the first iteration, one per record
-  EdgeRender fine_render;  ///< of later iterations, in the same memory unless the level is the same
+  EdgeRender fine_render;  ///< of later iterations; shares the memory of coarse_render
 
  private:
   struct Layout;
@@ -110,8 +110,8 @@ inline Status requiredMemory(const ProblemSize& size, const LocalizerOptions& op
                              MemoryUse& use, Kernels kernels = Kernels::kPortable) {
   return PassMemory::measure(size, options, workers, kernels, use);
 }
-/// The sum of it: bytes of a block aligned to Arena::kAlignment (a block aligned to less loses its
-/// first bytes).
+/// MemoryUse::total(): bytes of a block aligned to Arena::kAlignment (a block aligned to less loses
+/// its first bytes).
 inline Status requiredBytes(const ProblemSize& size, const LocalizerOptions& options, int workers,
                             std::size_t& bytes, Kernels kernels = Kernels::kPortable) {
   MemoryUse use;

@@ -33,7 +33,7 @@ enum class PassKind : std::uint8_t {
 
 /// Input of a pass.
 struct PassPlan {
-  PassKind kind = PassKind::kEdges;  ///< what the pass does
+  PassKind kind = PassKind::kEdges;  ///< kind of the pass
   int record = 0;                ///< 0 or 1: the record, and the render memory, that the pass fills
   std::int32_t attempt = 0;      ///< index of the attempt, from 0
   int level = 0;                 ///< pyramid level, 0 full resolution

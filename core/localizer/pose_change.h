@@ -24,8 +24,8 @@ double displacementBetween_px(const Pose& before, const Pose& after, const Bound
 /// when none of them is seen.
 double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
                      const Camera& camera);
-/// Whether the poses are so far apart in the image that they are different answers: more than 3 %
-/// of the object's longer side, and than 2 px.
+/// Whether the poses are distinct solutions: farther apart in the image than 3 % of the object's
+/// longer side and than 2 px.
 bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene,
                  const Camera& camera);
 

@@ -15,8 +15,8 @@
 
 namespace boresight {
 
-/// Search policy. Of a near seed it takes the seed's own refinement when that convinces. Otherwise
-/// it refines several poses of a run, measures the evidence of each, and takes the one
+/// Search policy. For a near seed it takes the refinement of the seed if convinces() holds.
+/// Otherwise it refines several poses of a run, measures the evidence of each, and takes the one
 /// with the best score. Hypotheses come from the candidates of the whole-object search, refined on
 /// edges; from templates matched around the first of them, where the object is too large for the
 /// search to resolve it; from the seed, where no pose is probable; and from restarts of the best
@@ -77,7 +77,7 @@ class PoseComparison {
   int bestIndex() const { return best_index_; }
   /// Index of the best hypothesis that is another pose than the best one; -1: there is none.
   int competitorIndex(const RunContext& run) const;
-  /// Score of the best hypothesis minus that of the competitor, 0 at least.
+  /// Score of the best hypothesis minus that of the competitor, which counts as 0 when negative.
   double gap(const RunContext& run) const;
 
  private:

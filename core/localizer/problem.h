@@ -12,7 +12,7 @@ namespace boresight {
 struct LocalizationProblem {
   ImageView image;                   ///< 8-bit gray, of the camera's size
   ColorView color;                   ///< of the same pixels; may be without data
-  const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
+  const BitImage* ignore = nullptr;  ///< set bits are ignored; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
   MeshView mesh;                     ///< the scene
   Pose camera_from_station_seed;     ///< where the search begins

@@ -11,13 +11,13 @@ namespace boresight {
 
 /// Roll between two renders, 4.4 deg: templates still match an image turned by half of it.
 inline constexpr double kRollSpacing_rad = 0.0767944870878;
-/// Standard deviation of a right match, in pixels of its level: matching counts whole pixels.
+/// Standard deviation of a correct match, in pixels of its level: matching counts whole pixels.
 inline constexpr double kMatchSigma_px = 1.0;
 /// Search radius of the first refinement, in pixels of its level: covers the error after matching.
 inline constexpr double kFirstRadius_px = 3.0;
 /// Search radius of later refinements: covers the error after the first one, and few other edges.
 inline constexpr double kLastRadius_px = 0.7;
-/// Least number of refinements of a run: the wide search of the first one meets other edges, too.
+/// Least number of refinements of a run: the wide search of the first one may find wrong edges.
 inline constexpr int kMinRefinements = 2;
 
 /// Pyramid levels of a run.

@@ -35,7 +35,7 @@ struct Match {
 /// Matches of the templates of an iteration.
 struct MatchSet {
   std::span<Match> matches;   ///< one per template
-  std::int32_t count = 0;     ///< templates looked for
+  std::int32_t count = 0;     ///< templates to be searched
   std::int32_t searched = 0;  ///< templates whose window could be searched
 };
 
@@ -89,7 +89,7 @@ inline constexpr int kMaxHypotheses = 9;
 struct Iteration {
   std::int32_t index = 0;                      ///< over all attempts, without gaps
   std::int32_t attempt = 0;                    ///< 0 for the first
-  IterationKind kind = IterationKind::kMatch;  ///< what the iteration does
+  IterationKind kind = IterationKind::kMatch;  ///< kind of the iteration
   std::int32_t level = 0;                      ///< pyramid level, 0 full resolution
   double threshold_px = 0.0;  ///< of the full image; the search radius when refining
   /// Pose of the render before the roll of the chosen hypothesis. A refinement may keep the render
@@ -126,11 +126,11 @@ struct Workspace {
   EdgeSupport support;                        ///< of the latest pose that was measured
   PoseEvidence evidence;     ///< of the latest pose that was measured; empty without a search
   double probability = 0.0;  ///< that this pose is right; 0 without a search
-  /// Poses that were compared; those of the search. Valid until the run restarts.
+  /// Poses compared by the search. Valid until the run restarts.
   std::span<const PoseHypothesis> hypotheses;
   std::int32_t best_hypothesis = -1;  ///< index of the one with the best score
-  std::int32_t competitor = -1;       ///< index of the best one that is another pose
-  /// Score of the best hypothesis minus that of the competitor, which counts at least 0.
+  std::int32_t competitor = -1;       ///< index of the best hypothesis that is a distinct pose
+  /// Score of the best hypothesis minus that of the competitor, which counts as 0 when negative.
   double gap = 0.0;
   EdgeWidth edge_width;  ///< along the edges of the final pose; empty without a search
   FocalFit focal;        ///< estimated at the final pose; not determined without a search

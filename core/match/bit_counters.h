@@ -66,7 +66,7 @@ struct BitKernels {
   /// (byte ordered, see byteOrdered), for x < 64 * words - 7, or all x where the shift is 0. Reads
   /// and writes whole registers: up to kWordPadding words more than these, whose content is
   /// unspecified. This is the inner loop of the search: full adders take 64 rows at a time (Harley
-  /// and Seal), all else is overhead.
+  /// and Seal).
   void (*addPixels)(const std::uint8_t* base, const PixelList& pixels, int words,
                     CounterRow& total);
   /// counters[x] = sum over k of pixel k displaced by x, for x < 64 * words (too large by the

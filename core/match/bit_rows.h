@@ -21,7 +21,7 @@ inline std::uint64_t pixelsAt(const BitImage& image, int x, int y) {
   return (row[word] >> shift) | (next << (64 - shift));
 }
 
-/// Number of ones. Without an instruction for it, std::popcount is a call and a table.
+/// Number of ones. On a target without a popcount instruction, std::popcount is a call and a table.
 inline int countOnes(std::uint64_t word) {
   word -= (word >> 1) & 0x5555555555555555u;
   word = (word & 0x3333333333333333u) + ((word >> 2) & 0x3333333333333333u);

@@ -18,7 +18,7 @@ namespace boresight {
 /// The second best depends on the position of the best, which is known last. Consider two offsets
 /// seen so far whose blocks are so far apart that no exclusion square touches both: for any
 /// position of the best, one of the two stays eligible as second best, so an offset below both can
-/// be neither. This is the bound below which offsets are skipped.
+/// be neither the best nor the second best. This is the bound below which offsets are skipped.
 class PeakTable {
  public:
   /// Offsets along a side of a block.
@@ -31,7 +31,7 @@ class PeakTable {
              int exclusion_px);
 
   /// An offset with fewer hits than this, and at least `least_covered` test edges under the mask,
-  /// cannot matter.
+  /// can be neither the best nor the second best.
   std::int32_t leastHits(std::int32_t least_covered) const;
   /// Offset (x, y) relative to the window's corner, with S+ = `hits` and C = `covered`.
   void offer(int x, int y, std::int32_t hits, std::int32_t covered);

@@ -23,7 +23,7 @@ class RotationBounds {
                  const Eigen::Vector3d& d);
 
   /// An upper bound of n.(R d), and in `point` a place in R^3 with n.point + `excess` = the bound:
-  /// where the corner that gave it puts d.
+  /// the image of d at the corner that attains the maximum.
   double upper(const Eigen::Vector3d& n, Eigen::Vector3d& point, double& excess) const;
   /// The `excess` of upper() changes by at most this much per unit of n_z.
   double excessPerUnitOfZ() const { return b_max_ * (quarter_[0] + quarter_[1]) * abs_d_z_; }

@@ -23,7 +23,7 @@ struct SearchWindow {
 /// 2025, Sec. III-A): a rectangle that contains the projection of Exp(r)(p - c) + c + t for every
 /// |r_i| <= rotation_rad[i], |t_i| <= translation_m[i]. Conservative by construction (bounds of the
 /// rotation's Taylor terms), clipped to centres whose template of side `template_side_px` lies
-/// inside the image; empty when none does, or when the point may come to lie behind the camera.
+/// inside the image; empty when none does, or when the point may lie behind the camera.
 SearchWindow searchWindow(const Camera& camera, const Eigen::Vector3d& point_in_camera_m,
                           const SeedUncertainty& uncertainty, int template_side_px);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int kCacheBytes = 64 * 1024;  ///< largest size of all copies
 constexpr int kMostWords = 24;          ///< of a row: a search needs 19
 
-// One word more than is asked for is read when rows are shifted by less than a byte.
+// One word more than requested is read when rows are shifted by less than a byte.
 int wordsFor(int side, int words) { return (side + 63) / 64 + words + 1; }
 
 // Loading a band costs the rows of template and offsets together, so more rows of offsets are

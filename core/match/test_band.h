@@ -40,7 +40,7 @@ class TestBand {
   int offsetOf(int u, int v) const {
     return (u % 8) / shifts() * copy_bytes_ + v * stride_ + u / 8;
   }
-  /// The same for zeros to pad lists of pixels with.
+  /// Offset of zeros that pad the lists of pixels.
   int zeroOffset() const { return copies_ * copy_bytes_; }
 
  private:

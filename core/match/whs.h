@@ -46,8 +46,8 @@ class WhsSearch {
   Status create(int max_side_px, int max_window_px, Kernels kernels, Arena& arena);
   /// The window must be clipped so that the whole template lies inside `test_edges`. The images
   /// must outlive the steps. kInvalidOption for a template or window that does not fit its image,
-  /// an odd side or a negative exclusion, kCapacityExceeded beyond what create() was given; then
-  /// step() has nothing to do.
+  /// an odd side or a negative exclusion, kCapacityExceeded for sizes above those given to
+  /// create(); then step() does nothing.
   Status begin(const TemplateView& view, const BitImage& test_edges, const SearchWindow& window,
                int predicted_x, int predicted_y, int exclusion_px);
   /// One bounded slice (some rows of offsets); true when `peak()` is complete.

@@ -27,7 +27,7 @@ bool isUsable(const Correspondence& correspondence);
 /// Whether a pose is valid as a start: finite, with a quaternion of unit length (to 1e-6).
 bool isUsable(const Pose& pose);
 
-/// Whether a prior is valid: its pose is, and its sigmas are finite and not negative. Sigmas
+/// Whether a prior is valid: its pose is usable, and its sigmas are finite and not negative. Sigmas
 /// below 1e-9 (m or rad) count as 1e-9.
 bool isUsable(const PosePrior& prior);
 

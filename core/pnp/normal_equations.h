@@ -18,8 +18,8 @@ struct NormalEquations {
   Vector6d gradient = Vector6d::Zero();     ///< g = J' W (observed - predicted)
   double squares = 0.0;                     ///< sum of ((pixel - projection) / sigma)^2
   double prior_squares = 0.0;               ///< the prior's part of the squares
-  std::int32_t projected = 0;               ///< correspondences that entered
-  std::int32_t missing = 0;                 ///< used ones that do not project at this pose
+  std::int32_t projected = 0;               ///< correspondences included
+  std::int32_t missing = 0;                 ///< correspondences used that do not project here
 
   /// Cost that a step must lower: a correspondence that stops projecting costs more than any
   /// residual, so that no step gains by moving points behind the camera.
@@ -32,8 +32,8 @@ NormalEquations reprojectionEquations(std::span<const Correspondence> correspond
                                       std::span<const std::uint8_t> use, const Camera& camera,
                                       const Pose& camera_from_station);
 
-/// The same over several views, in the perturbation of the first one's pose: the sum of each view's
-/// own, brought there by `inFirst`.
+/// The same over several views, in the perturbation of the first one's pose: the sum of the views'
+/// equations, transformed by `inFirst`.
 NormalEquations reprojectionEquations(std::span<const Correspondence> correspondences,
                                       std::span<const std::uint8_t> use,
                                       std::span<const PnpView> views,
@@ -49,7 +49,7 @@ NormalEquations inFirst(const NormalEquations& equations, const Pose& camera_fro
 /// Adds a measurement of one dimension: `row` is the derivative of its prediction with respect to
 /// xi, `residual` is measured minus predicted.
 void addRow(const Vector6d& row, double weight, double residual, NormalEquations& sum);
-/// Row of a place on a line of the image: d (normal . pixel) / d xi for p -> p + r x p + t, with
+/// Row of a point on a line in the image: d (normal . pixel) / d xi for p -> p + r x p + t, with
 /// the Jacobian of the camera at p (px/m).
 Vector6d lineRow(const Eigen::Vector3d& point_in_camera_m, const Eigen::Vector2d& normal,
                  const Eigen::Matrix<double, 2, 3>& jacobian);

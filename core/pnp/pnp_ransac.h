@@ -35,23 +35,23 @@ struct PnpSolution {
 ///   is scored first), or five by EPnP (with a moving entrance pupil, the bearings assume the
 ///   depths of the hypothesis).
 /// - Score: sum of min(residual^2, threshold^2) / sigma^2 over the usable correspondences (MSAC,
-///   Torr and Zisserman 2000), the lowest wins, the earlier of equals.
+///   Torr and Zisserman 2000), the lowest wins; of equal scores the earlier one.
 /// - Every new best is refitted to its inliers, without that prior, while this lowers the score
 ///   (LO-RANSAC, Chum, Matas and Kittler 2003).
-/// - Stops when a sample of inliers alone has been drawn with the required confidence, given the
+/// - Stops when a sample without outliers has been drawn with the required confidence, given the
 ///   best pose's share of inliers, or at max_samples.
-/// - Finally refits to the inliers and selects them again until they stay the same. Both halves
-/// lower the score, so this ends; the result minimizes the squares over the inliers it reports.
+/// - Finally refits to the inliers and selects them again until they stay the same. Both steps
+///   lower the score, so this ends; the result minimizes the squares over the inliers it reports.
 /// - With EPnP it is plain RANSAC (Fischler and Bolles 1981): most inliers win, no sample is
 ///   refitted, and the result minimizes the squares over the best sample's inliers.
 ///
-/// Statuses (of `begin` or `step`): kInvalidOption (options, or a threshold that is not positive
-/// below 1e6), kInvalidCamera (not prepared), kInvalidPose (hypothesis),
-/// kCapacityExceeded (more correspondences than `create` or the solution's spans allow for),
-/// kTooFewPoints (fewer usable correspondences than min_inliers), kDegenerate (no sample gives a
-/// pose, or the inliers do not determine one), kNoConsensus (fewer than min_inliers inliers). On
-/// any of them the solution holds the hypothesis (identity when that is not usable) and no inliers;
-/// `residual_px` always is that of the pose in the solution.
+/// Statuses (of `begin` or `step`): kInvalidOption (options, or a threshold outside (0, 1e6)),
+/// kInvalidCamera (not prepared), kInvalidPose (hypothesis), kCapacityExceeded (more
+/// correspondences than `create` or the solution's spans allow for), kTooFewPoints (fewer usable
+/// correspondences than min_inliers), kDegenerate (no sample gives a pose, or the inliers do not
+/// determine one), kNoConsensus (fewer than min_inliers inliers). On any of them the solution holds
+/// the hypothesis (identity when that is not usable) and no inliers; `residual_px` always is that
+/// of the pose in the solution.
 class PnpRansac {
  public:
   /// Allocates for this number of correspondences. kArenaTooSmall.
@@ -101,7 +101,7 @@ class PnpRansac {
   std::span<std::int32_t> usable_;       ///< indices; the first usable_count_ are valid
   std::span<Eigen::Vector2d> place_px_;  ///< of the usable ones, for the sampler
   std::span<double> weight_;             ///< 1 / sigma_px^2, by correspondence
-  std::span<std::uint8_t> selected_;     ///< inliers of the pose last selected for
+  std::span<std::uint8_t> selected_;     ///< inliers of the pose of the last selectInliers()
 
   std::span<const Correspondence> correspondences_;
   Camera camera_;  ///< of a single view

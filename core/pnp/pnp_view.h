@@ -20,7 +20,7 @@ struct PnpView {
   std::int32_t end = 0;  ///< end of its correspondences, which begin at the previous view's end
 };
 
-/// The pose of one of the views when the first has this one; the first keeps its bits.
+/// The pose of one of the views, given the first view's pose; that of the first keeps its bits.
 inline Pose poseOfView(std::span<const PnpView> views, std::size_t view,
                        const Pose& first_from_station) {
   return view == 0 ? first_from_station : views[view].camera_from_first * first_from_station;

@@ -18,7 +18,7 @@ namespace boresight {
 inline constexpr std::uint32_t kParameterVersion = 1;
 inline constexpr std::size_t kParameterMagicBytes = 8;
 
-/// Whether bytes begin as a table does.
+/// Whether the bytes begin with the magic of a table.
 bool isParameterTable(std::span<const std::uint8_t> bytes);
 
 /// Writes the table to `out` and returns the number of bytes needed. `out` may be empty; when it is

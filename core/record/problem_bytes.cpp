@@ -217,7 +217,8 @@ ProblemFault readVertices(ByteReader& reader, Arena& arena, MeshView& mesh) {
   return ProblemFault::kNone;
 }
 
-/// Faces of one form. Indices that the form cannot hold are refused here, others by validateMesh().
+/// Faces of one form. Indices that the form cannot hold are rejected here, others by
+/// validateMesh().
 template <class Stored, class Index>
 ProblemFault readFacesAs(ByteReader& reader, Arena& arena, MeshView& mesh) {
   std::span<Stored> faces;

@@ -24,8 +24,8 @@ constexpr OptionKind optionKindOf() {
   return OptionKind::kInteger;
 }
 
-/// u32 count, then each option in the order of visitFields: u8 length, name, u8 kind, u64 value (a
-/// real's bits; a signed integer else).
+/// u32 count, then each option in the order of visitFields: u8 length, name, u8 kind, u64 value
+/// (the bits of a real; otherwise a signed integer).
 void writeOptions(const LocalizerOptions& options, ByteWriter& writer);
 
 /// A localization without its pixels as bytes, for a program that reads neither JSON nor meshes.
@@ -54,7 +54,7 @@ enum class ProblemFault : std::uint8_t {
   kSize,           ///< the length differs from the stored size
   kChecksum,       ///< the checksum does not match
   kOption,         ///< an option is unknown, missing, of another kind or out of range
-  kCamera,         ///< cannot be a camera's
+  kCamera,         ///< invalid camera parameters
   kPose,           ///< seed or uncertainty that cannot be used
   kMesh,           ///< see validateMesh
   kIgnore,         ///< mask bits beyond the image
@@ -64,7 +64,7 @@ enum class ProblemFault : std::uint8_t {
 /// A fault as text for the operator: "the checksum does not match", ...
 const char* problemFaultText(ProblemFault fault);
 
-/// Reason why bytes were refused. With kOption, `option` names the expected option.
+/// Reason why bytes were rejected. With kOption, `option` names the expected option.
 struct ProblemCheck {
   ProblemFault fault = ProblemFault::kNone;  ///< kNone when they were read
   const char* option = nullptr;              ///< name, or nullptr
@@ -80,7 +80,7 @@ ProblemCheck readOptions(ByteReader& reader, LocalizerOptions& options);
 std::size_t encodeProblem(const LocalizationProblem& problem, const LocalizerOptions& options,
                           std::span<std::uint8_t> out);
 
-/// Reads the output of encodeProblem. Any bytes are allowed; they are refused unless a Localizer
+/// Reads the output of encodeProblem. Any bytes are allowed; they are rejected unless a Localizer
 /// accepts every value. Mesh and mask come from the arena, nothing points into `bytes`;
 /// `problem.image` remains empty for the caller to set. After a fault `problem` and `options` are
 /// not to be used.

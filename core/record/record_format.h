@@ -13,7 +13,7 @@ inline constexpr std::array<std::uint8_t, 8> kRecordMagic = {'B', 'O', 'R', 'S',
 inline constexpr std::uint32_t kRecordVersion = 2;
 inline constexpr std::size_t kRecordHeaderBytes = kRecordMagic.size() + 4;
 
-/// Four letters, in the order of the file.
+/// Block types as four ASCII letters, in the order of the file.
 enum class RecordBlock : std::uint32_t {
   kInputs = 0x494e5054,     ///< "INPT"
   kOptions = 0x4f505453,    ///< "OPTS"

@@ -12,7 +12,7 @@
 
 namespace boresight {
 
-/// SHA-256 of a run's inputs. The caller knows the original bytes.
+/// SHA-256 of a run's inputs, computed by the caller.
 struct RecordInputs {
   using Hash = std::array<std::uint8_t, 32>;  ///< SHA-256
   Hash pixels{};  ///< the decoded 8-bit pixels that the core saw, row by row
@@ -21,7 +21,7 @@ struct RecordInputs {
   Hash camera{};  ///< of its canonical bytes
 };
 
-/// Writes the onboard record of a run into memory of the caller's, without allocation:
+/// Writes the onboard record of a run into the caller's memory, without allocation:
 ///
 ///     RecordWriter record(bytes);
 ///     record.begin(inputs, problem, options);
@@ -29,11 +29,11 @@ struct RecordInputs {
 ///     record.end(localizer);
 ///     downlink(record.bytes());
 ///
-/// A block that does not fit is left out, and a reader detects the gap; room for the end
-/// is kept from the start. A default run of the shipped example takes 8 kB.
+/// A block that does not fit is left out, and a reader detects the gap; room for the end block is
+/// reserved. A default run of the shipped example takes 8 kB.
 class RecordWriter {
  public:
-  /// `out` must outlive the writer. Fewer than kMinimumBytes hold nothing: bytes() stays empty.
+  /// `out` must outlive the writer. With fewer than kMinimumBytes, bytes() stays empty.
   explicit RecordWriter(std::span<std::uint8_t> out);
   /// Bytes of an empty record.
   static constexpr std::size_t kMinimumBytes = kRecordHeaderBytes + kBlockBytes + kEndBytes;
@@ -41,7 +41,7 @@ class RecordWriter {
   /// Writes the inputs of the run, before the first step.
   void begin(const RecordInputs& inputs, const LocalizationProblem& problem,
              const LocalizerOptions& options);
-  /// Options that hold from the next iteration on (Localizer::changeOptions).
+  /// Writes the options that hold from the next iteration on (Localizer::changeOptions).
   void changeOptions(const LocalizerOptions& options, std::int32_t first_iteration);
   /// Writes the results of a step; call after every step.
   void note(const Localizer& localizer, const StepReport& report);

@@ -48,7 +48,7 @@ struct PoseEstimate {
 struct EdgeSample {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();  ///< on the model's edge
   double residual_px = 0.0;  ///< along the normal, found minus predicted
-  double gradient = 0.0;     ///< signed, gray/px along the normal; 0 where nothing was found
+  double gradient = 0.0;     ///< signed, gray/px along the normal; 0 where no edge was found
   double weight = 0.0;       ///< robust, of the last round
   std::int8_t normal_x = 0;  ///< as of the edge pixel: times 127
   std::int8_t normal_y = 0;  ///< likewise
@@ -84,7 +84,7 @@ struct RefinementResult {
 /// the pose returned is at most that far from the pose of the last search.
 class EdgeRefinement {
  public:
-  /// With fewer places than this the spacing is reduced: a small object needs all its places.
+  /// With fewer samples than this the spacing is reduced: a small object needs all its edge pixels.
   static constexpr int kMinSamples = 4000;
   static constexpr double kSampleSpacing_px = 2.0;  ///< nearer places share their errors
   static constexpr int kMinFound = 60;              ///< ten per unknown; fewer edges give no pose
@@ -94,8 +94,8 @@ class EdgeRefinement {
   static constexpr double kSearchAgain_px = 0.1;
   static constexpr double kDerivativeSigma_px = 1.0;  ///< the blur of a sharp image
   static constexpr double kMinGradient = 2.0;         ///< gray/px; weaker ones are noise
-  /// Weight of edges whose far side is brighter than the nearer surface (other edges: 1): a lit
-  /// ground or face behind a shaded one, whose edges lie 0.1 to 0.3 px inside.
+  /// Weight of edges whose far side is brighter than the nearer surface (other edges: 1): these
+  /// come from a lit background behind a shaded face, and lie 0.1 to 0.3 px inside.
   static constexpr double kRisingWeight = 0.4;
 
   /// Weight of an edge by its side, multiplied with the robust weight.
@@ -105,7 +105,7 @@ class EdgeRefinement {
 
   /// Takes the memory of a localization from `arena`. kArenaTooSmall, kInvalidOption.
   Status create(const RefinementOptions& options, Arena& arena);
-  /// Other options from the next begin() on, except the one that sizes the memory (max_samples).
+  /// Sets the options from the next begin() on, except max_samples, which sizes the memory.
   void setOptions(const RefinementOptions& options) { options_ = options; }
   /// Takes the samples from a render of the same pose; `image` is raw, at full resolution, `camera`
   /// its camera; `ignore` may be nullptr. `anchor` and `matched` (each may be nullptr) are prior
@@ -115,7 +115,7 @@ class EdgeRefinement {
                const MeshView& mesh, const EdgeRender& render, double radius_px,
                const PosePrior* anchor, const PoseEstimate* matched, RefinementResult& result,
                std::int32_t most_samples = 0);
-  /// Another pose than the render's to start from, after begin().
+  /// Sets a start pose other than the render's; call after begin().
   void startFrom(const Pose& camera_from_station) {
     result_->camera_from_station = camera_from_station;
   }
@@ -130,7 +130,7 @@ class EdgeRefinement {
   /// Ends the round when all chunks have been searched; kTooFewEdges when too few edges are found,
   /// kDegenerate when edges and prior knowledge do not determine the pose.
   Status finishRound(bool& done);
-  /// A whole round.
+  /// Runs a whole round.
   Status step(bool& done);
 
   // The parts of finishRound(), for a joint refinement of several views (core/views). A round is

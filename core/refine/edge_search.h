@@ -31,7 +31,7 @@ class EdgeSearch {
 
   /// Nearer peaks are preferred: a strength is weighted by 1 - (offset / (radius + 1 px))^2. Peaks
   /// weaker than `min_gradient`, on ignored pixels (`ignore` may be nullptr) or whose profile
-  /// leaves the image are none.
+  /// leaves the image are excluded.
   EdgePeak find(const ImageView& image, const BitImage* ignore, const Eigen::Vector2d& predicted_px,
                 const Eigen::Vector2d& normal, double radius_px, double min_gradient) const;
 

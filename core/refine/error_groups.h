@@ -16,7 +16,7 @@ namespace boresight {
 struct GroupedError {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();   ///< in the box of all places, 0 ... 1
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< of the edge, in the image
-  bool brighter = false;                             ///< along the normal, as the image has it
+  bool brighter = false;                             ///< the image is brighter along the normal
   std::uint8_t kind = 0;                             ///< EdgeKind bits
 };
 

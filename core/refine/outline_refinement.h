@@ -27,9 +27,8 @@ class OutlineRefinement {
   Status create(Arena& arena);
   /// Takes the edge places of a render.
   void takePlaces(const MeshView& mesh, const EdgeRender& render);
-  /// The rounds of one radius. `view_from_station` is the pose rendered, or where it has moved
-  /// since; the prior is in the view's frame. False, with the pose unchanged, when too few edges
-  /// are found.
+  /// The rounds of one radius. `view_from_station` is the pose rendered, or a refinement of it; the
+  /// prior is in the view's frame. False, with the pose unchanged, when too few edges are found.
   [[nodiscard]] bool refine(const DirectedEdges& edges, const PosePrior& prior, double radius_px,
                             Pose& view_from_station) const;
 

@@ -10,17 +10,17 @@
 
 namespace boresight {
 
-/// The two motions of a pose that change the image's edges least along their normals, for as much
-/// motion in the image: along a handle, about the axis of a tube. A refinement may have stopped on
-/// them at neighbouring edges.
+/// The two motions of a pose that move the edges least along their normals for the same motion in
+/// the image, such as along a handle or about the axis of a tube. Along them a refinement may have
+/// stopped at neighbouring edges.
 struct WeakDirections {
   /// Offsets (rotation rad, translation m) about the pivot, camera axes; each moves the edge places
   /// by 1 px, root mean square.
   std::array<Vector6d, 2> offset_per_px{Vector6d::Zero(), Vector6d::Zero()};
-  /// Share of that motion which is along the edges' normals, root mean square.
+  /// Share of that motion along the edges' normals, root mean square.
   std::array<double, 2> seen{};
   Eigen::Vector3d pivot_in_camera_m = Eigen::Vector3d::Zero();  ///< centre of the scene
-  bool known = false;  ///< false when the places determine no directions at all
+  bool known = false;  ///< false when the samples determine no directions at all
 
   /// A smaller share leaves a direction undetermined: the facets of a coarse tube show up to 0.1 of
   /// a turn about its axis, and agree with each other in a wrong turn.
@@ -30,7 +30,7 @@ struct WeakDirections {
     return known && seen[direction] < kUndetermined;
   }
 
-  /// The pose moved along a direction by that many pixels, root mean square.
+  /// The pose moved along a direction by `motion_px`, root mean square over the edge places.
   Pose moved(const Pose& camera_from_station, int direction, double motion_px) const {
     return displacedAboutPivot(camera_from_station,
                                motion_px * offset_per_px[static_cast<std::size_t>(direction)],

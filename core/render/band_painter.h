@@ -47,7 +47,7 @@ class BandPainter {
   void begin(const BandSource& source, int first_band, int end_band, EdgeRender& output);
   /// One slice: a band, or a part of one that holds very many faces; `done` when all bands are.
   /// Complete rows are appended to the output. kCapacityExceeded when its pixels are not enough:
-  /// the rows before are valid, `done` set. kTooManyLayers likewise.
+  /// the rows before are valid, `done` set. kTooManyLayers behaves the same.
   Status step(const BandSource& source, EdgeRender& output, bool& done);
 
   /// The first row that a painter of bands from `first_band` on completes.

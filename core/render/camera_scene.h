@@ -44,9 +44,9 @@ struct FixedScale {
 /// The corners of a face.
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// The mesh seen from one pose: the pixels and depths of its vertices in few bits, for bounds and
-/// for clear decisions. Vertices in the camera frame (where the entrance pupil moves: as seen from
-/// the pupil of their own rays) are computed again wherever they are needed: they would be the
+/// The mesh seen from one pose: the pixels and depths of its vertices in 16 bits, for bounds and
+/// for decisions beyond rounding. Vertices in the camera frame (where the entrance pupil moves: as
+/// seen from the pupil of their own rays) are recomputed on demand: stored, they would be the
 /// largest part of a render's memory. Refilled for every pose.
 struct CameraScene {
   /// Surfaces nearer than this are not rendered: no camera is in focus there.
@@ -58,7 +58,7 @@ struct CameraScene {
   BoundingBox station_box;                        ///< of the vertices before, station frame
   BoundingBox camera_box;                         ///< of the others, camera frame
   std::span<FixedPixel> vertex_px;                ///< one per vertex of the mesh
-  std::span<std::uint16_t> vertex_depth;          ///< of each: floor((z - low_m) per_m)
+  std::span<std::uint16_t> vertex_depth;          ///< one per vertex: floor((z - low_m) per_m)
   FixedScale scale;                               ///< of pixels and depths
   std::span<double> cos_normal_threshold;               ///< per part
   /// Per face: bit i when the surface continues smoothly over edge i to a face of the same
@@ -122,13 +122,13 @@ struct CameraScene {
   }
   /// The part that a face belongs to.
   const ScenePart& part(std::int32_t face) const { return mesh.parts[partIndex(face)]; }
-  /// Its index in the mesh's parts.
+  /// Index of a face's part in the mesh's parts.
   std::size_t partIndex(std::int32_t face) const {
     return mesh.part_of_face[static_cast<std::size_t>(face)];
   }
 
  private:
-  /// A pose as it moves points.
+  /// A pose as rotation matrix and translation.
   struct Placement {
     Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
     Eigen::Vector3d t_m = Eigen::Vector3d::Zero();

@@ -11,9 +11,9 @@ namespace boresight {
 struct DrawnFace {
   double a[3], b[3], c[3];  ///< edge i: a x/z + (b y/z + c)
   double limit[3];          ///< inside when the edge's value reaches this
-  double slack[3];          ///< how far an edge's value may be from linear within a chunk's row
+  double slack[3];          ///< largest deviation of an edge's value from linear in a chunk's row
   double plane_x, plane_y, plane_1;  ///< 1/z = plane_x x/z + plane_y y/z + plane_1
-  bool clamped;       ///< 1/z has to be kept within the next two, and beyond the near plane
+  bool clamped;       ///< 1/z must be clamped to [low, high] and cut at the near plane
   double low, high;   ///< range of 1/z over the face
   double nearest;     ///< 1/z of the near plane
   std::int32_t face;  ///< index in the mesh
@@ -29,9 +29,9 @@ struct DrawnFace {
 
 /// Sets up the edges, but for their `slack`. False when the face has no area seen from the camera.
 [[nodiscard]] bool prepareEdges(const Corners& corners, DrawnFace& drawn);
-/// Sets up all other members. False when the face is invisible, as one without area is.
+/// Sets up all other members. False when the face is invisible or has no area.
 [[nodiscard]] bool preparePlane(const Corners& corners, std::int32_t face, DrawnFace& drawn);
-/// Both. False when the face is invisible.
+/// prepareEdges() and preparePlane(). False when the face is invisible.
 [[nodiscard]] bool prepareFace(const CameraScene& scene, std::int32_t face, DrawnFace& drawn);
 
 /// Whether a ray passes inside all three edges. Rows of the rasterizer compute the same terms in

@@ -17,7 +17,7 @@ struct EdgePixel {
   std::int16_t x = 0;  ///< px
   std::int16_t y = 0;  ///< px
   /// z of the nearer surface's plane at the pixel's centre, extended by at most one pixel. For a
-  /// face seen at less than 9 deg, whose extended plane is uncertain, z at the line itself.
+  /// face seen at less than 9 deg, whose extended plane is uncertain, z at the line.
   float depth_m = 0.0F;
   /// The nearer surface's face (its part and normal follow): the one seen at the pixel, or, where
   /// the pixel lies beyond the surface, the one that ends at the line.
@@ -29,13 +29,13 @@ struct EdgePixel {
   std::uint8_t kind = 0;  ///< EdgeKind bits
 };
 
-/// An edge pixel as a render holds it: the row follows from its place among the others.
+/// An edge pixel as stored in a render, without its row, which follows from EdgeRender::row_begin.
 class PackedEdgePixel {
  public:
   static constexpr std::size_t kMostFaces = std::size_t{1} << 21;  ///< of a mesh
 
   PackedEdgePixel() = default;
-  /// Everything but the row.
+  /// Packs everything but the row.
   explicit PackedEdgePixel(const EdgePixel& pixel)
       : depth_m_(pixel.depth_m),
         face_kind_offset_(static_cast<std::uint32_t>(pixel.face) << 11 |
@@ -86,7 +86,7 @@ struct EdgeRender {
   std::int32_t pixel_count = 0;       ///< salient edge pixels
   /// Words for the largest image; `edges` and `mask` use the words that the current camera needs.
   std::span<std::uint64_t> edge_words;
-  std::span<std::uint64_t> mask_words;  ///< of the mask, likewise
+  std::span<std::uint64_t> mask_words;  ///< the same for the mask
   Camera camera;                        ///< the camera at this level
   Pose camera_from_station;             ///< the pose rendered
 
@@ -99,7 +99,7 @@ struct EdgeRender {
 /// Every n-th edge pixel of a render, in raster order.
 class EdgePixelRange {
  public:
-  /// Gives each pixel with its row.
+  /// Yields each pixel with its row.
   class Iterator {
    public:
     /// At a pixel of a render.
@@ -133,7 +133,7 @@ class EdgePixelRange {
     int y_ = 0;
   };
 
-  /// Of a render that lasts as long.
+  /// `render` must outlive the range.
   EdgePixelRange(const EdgeRender& render, std::int32_t stride)
       : render_(render), stride_(stride) {}
   Iterator begin() const { return {render_, 0, stride_}; }                    ///< The first one

@@ -50,7 +50,7 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
 [[nodiscard]] bool edgePointInStation(const EdgeRender& render, const EdgePixel& pixel,
                                       Eigen::Vector3d& point_in_station_m);
 
-/// The line's own place nearest to the pixel's centre: sub-pixel position (centre + offset *
+/// The point of the line nearest to the pixel's centre: sub-pixel position (centre + offset *
 /// normal), and the 3D point of the nearer surface there, given that surface's face.
 [[nodiscard]] bool edgeLinePoint(const EdgeRender& render, const MeshView& mesh,
                                  const EdgePixel& pixel, Eigen::Vector2d& position_px,
@@ -69,8 +69,8 @@ std::int32_t findEdgePixel(const EdgeRender& render, int x, int y);
 class EdgeRenderer {
  public:
   static constexpr int kBandRows = 16;  ///< rows drawn at a time
-  /// The same for images of this width: wide bands are lower and take no more memory, with the row
-  /// that is carried from one to the next.
+  /// Rows of a band for images of this width: wider bands are lower, so that their memory (with the
+  /// row carried over) does not grow.
   static constexpr int bandRowsOf(int width) {
     if (width <= kFullBand_px) return kBandRows;
     return std::max(1, (kBandRows + 1) * kFullBand_px / width - 1);

@@ -22,7 +22,7 @@ class FaceBins {
   struct Columns {
     std::int16_t first = 32767;  ///< leftmost
     std::int16_t last = -1;      ///< rightmost; none while it is less than the first
-    /// Widens the range to these, too.
+    /// Extends the range to include these columns.
     void include(int other_first, int other_last) {
       if (other_first < first) first = static_cast<std::int16_t>(other_first);
       if (other_last > last) last = static_cast<std::int16_t>(other_last);
@@ -36,22 +36,23 @@ class FaceBins {
   void begin(const CameraScene& scene, const RayGrid& rays, int band_rows, bool plain, int shares);
   /// Adds faces first .. last - 1 and sets their kFrontFacing.
   void add(CameraScene& scene, const RayGrid& rays, std::size_t first, std::size_t last, int share);
-  /// After the last face, before the first band.
+  /// Call after the last face, before the first band.
   void finish();
 
   /// Columns that the faces of a band may cover.
   const Columns& columns(int band) const { return columns_[static_cast<std::size_t>(band)]; }
 
   /// The faces of a band, in an order in which hidden ones mostly come last: lists 0 .. lists() -
-  /// 1, those from firstSmallList() on of small faces. Some faces lie in other bands only.
+  /// 1, those from firstSmallList() on of small faces. Some of the listed faces lie in other bands
+  /// only.
   int lists() const { return firstSmallList() + 6 * shares_; }
   /// Number of the first list of small faces.
   int firstSmallList() const { return 3 * levels_ * shares_; }
   std::int32_t firstFace(int band, int list) const;  ///< First face of a list; -1: none
-  /// The face after it in its list; -1: none.
+  /// The face after `face` in its list; -1: none.
   std::int32_t nextFace(std::int32_t face) const { return next_[static_cast<std::size_t>(face)]; }
 
-  /// Draws the small ones.
+  /// The object that draws the small faces.
   const SmallFaces& smallFaces() const { return small_; }
 
  private:

@@ -57,7 +57,7 @@ struct RasterBand {
 /// Draws one face into the band's new rows, within `bounds`. A pixel belongs to a face when its ray
 /// passes inside all three edges; a ray exactly through an edge belongs to one of the two faces
 /// there. The nearest surface wins, then the lower face index, so the order of drawing does not
-/// matter. Both orientations are drawn. Only where all depths are known.
+/// matter. Both orientations are drawn. All depths must be known.
 void drawFace(const CameraScene& scene, const RayGrid& rays, std::int32_t face,
               const PixelBounds& bounds, RasterBand& band);
 

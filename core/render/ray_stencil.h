@@ -50,7 +50,8 @@ std::array<double, kNodes> lagrangeWeights(int i) {
   return weights;
 }
 
-/// Values at the stencil's nodes become value and differences between pixels at the cell's first.
+/// Converts values at the stencil's nodes to the value and pixel differences at the cell's first
+/// pixel.
 template <int kNodes>
 std::array<double, kNodes> pixelSteps(std::array<double, kNodes> v) {
   for (std::size_t order = 1; order < kNodes; ++order)

@@ -16,13 +16,14 @@
 
 namespace boresight {
 
-/// Finds the salient edges of rendered rows (Pham 2025, Sec. III-B), thin and unbiased: every pair
-/// of neighbouring pixels whose surfaces differ gives the exact place between their centres where
-/// the nearer surface ends, and marks the pixel that is nearer to it.
+/// Finds the salient edges of rendered rows (Pham 2025, Sec. III-B), thin and unbiased: for every
+/// pair of neighbouring pixels whose surfaces differ, it finds the exact point between their
+/// centres where the nearer surface ends, and marks the pixel nearer to that point.
 ///
-/// A pair differs when the normals do by more than the threshold of the nearer surface's part,
-/// when the depths do, or when one side is background. Depths are compared at both pixels, each
-/// surface's plane extended to the other: grazing and curved surfaces are no depth edges.
+/// A pair differs when the normals differ by more than the threshold of the nearer surface's part,
+/// when the depths differ by more than its threshold, or when one side is background. Depths are
+/// compared at both pixels, each surface's plane extended to the other: grazing and curved surfaces
+/// are no depth edges.
 class SalientEdges {
  public:
   /// Takes the memory of one row from `arena`.
@@ -62,12 +63,12 @@ class SalientEdges {
   };
   /// The crossing between two pixels.
   struct Crossing {
-    double s = 0.0;  ///< place on the way from p to q
+    double s = 0.0;  ///< position on the way from p (0) to q (1)
     bool nearer_is_p = true;
     std::int32_t face = -1;  ///< of the nearer surface, where it ends
     bool has_line = false;
     Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the nearer side
-    std::int32_t edge_of = -1;  ///< the face whose edge the line is; -1: none's
+    std::int32_t edge_of = -1;  ///< the face whose edge the line is; -1: none
     std::int8_t edge = -1;
     std::uint8_t kind = 0;
   };

@@ -32,7 +32,7 @@ struct FixedFace {
   int lineBc(int x, int y) const { return (c_x - b_x) * (y - b_y) - (c_y - b_y) * (x - b_x); }
 
   /// Whether a point with these values lies inside (> 0), outside (< 0), or too near to a line (0).
-  /// Whichever side is seen: inside, all three have its sign.
+  /// Inside, all three values have the same sign, which depends on the side that is seen.
   static int locate(int ab, int bc, int ca, int tolerance) {
     const int least = lower(lower(ab, bc), ca);
     const int most = higher(higher(ab, bc), ca);
@@ -64,9 +64,9 @@ class SmallFaces {
 
   /// Steps by which a small face may reach beyond its vertices' pixels.
   int slack() const { return slack_; }
-  /// Whether faces may be drawn this way: where pixels without a ray may lie, none is.
+  /// Whether faces may be drawn this way; false when some pixels may have no ray.
   bool possible() const { return possible_; }
-  /// The same, for one face that has pixels.
+  /// Whether a face whose vertices have pixels is drawn this way.
   bool isSmall(const FixedFace& face) const {
     return possible_ && face.high_x - face.low_x <= largest_ &&
            face.high_y - face.low_y <= largest_;
@@ -77,7 +77,7 @@ class SmallFaces {
     return {(face.low_x + up) >> scale_.shift, (face.high_x + slack_) >> scale_.shift,
             (face.low_y + up) >> scale_.shift, (face.high_y + slack_) >> scale_.shift};
   }
-  /// Values of lines, and areas, beyond this have the right sign.
+  /// Values of lines and areas larger than this have the correct sign.
   int tolerance(const FixedFace& face) const {
     const int extent = (face.high_x - face.low_x) + (face.high_y - face.low_y);
     return extent + ((extent * bend_) >> 3) + 4;

@@ -16,10 +16,10 @@ namespace boresight {
 /// by the flight loop. Each span is empty (not requested) or has width * height entries, row by
 /// row, of the camera rendered with.
 struct SurfaceRender {
-  std::span<float> depth_m;           ///< z at the pixel's centre; 0 where nothing is
-  std::span<std::int32_t> face;       ///< -1 where nothing is
+  std::span<float> depth_m;           ///< z at the pixel's centre; 0 for background
+  std::span<std::int32_t> face;       ///< -1 for background
   std::span<std::uint8_t> intensity;  ///< Lambert, lit from the camera: 30 + 225 |n . ray|
-  std::span<Eigen::Vector3f> normal_in_camera;  ///< unit, towards the camera; 0 where nothing is
+  std::span<Eigen::Vector3f> normal_in_camera;  ///< unit, towards the camera; 0 for background
 
   /// Whether any output is requested.
   bool wanted() const {

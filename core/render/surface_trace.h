@@ -11,7 +11,8 @@
 
 namespace boresight {
 
-/// Cache of the planes of the latest faces (see facePlane): neighbouring pixels need the same few.
+/// Cache of the planes of the latest faces (see facePlane): neighbouring pixels need the same few
+/// planes.
 class PlaneCache {
  public:
   /// A face and its plane.

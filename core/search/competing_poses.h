@@ -17,7 +17,7 @@ namespace boresight {
 
 /// A pose other than the one found that shows about the same edges, refined on the image.
 struct CompetingPose {
-  Pose camera_from_station;  ///< refined; of the mirror image the pose found
+  Pose camera_from_station;  ///< refined; for the mirror image, the pose found
   double similarity = 0.0;   ///< share of the rendered edges that both poses have in common
   /// Evidence of the pose found minus that of this pose, over the edges that only one of them
   /// predicts.

@@ -40,12 +40,12 @@ class PoseSearch {
   /// The data of the problem and the renderer (for images of kLongestView_px) must
   /// outlive the steps. False when the scene is outside the image at the seed.
   [[nodiscard]] bool begin(const SearchProblem& problem, EdgeRenderer& renderer);
-  /// The same for the seed alone, which is refined as a candidate is: for a seed near the truth.
+  /// Refines the seed alone as the only candidate; for a seed near the true pose.
   [[nodiscard]] bool beginAtSeed(const SearchProblem& problem, EdgeRenderer& renderer);
   /// One bounded slice; true when candidates() is complete.
   [[nodiscard]] bool step();
 
-  /// The most evidence first.
+  /// The candidates by descending evidence; empty until complete.
   std::span<const PoseCandidate> candidates() const {
     if (phase_ != Phase::kDone) return {};
     return std::span(kept_).first(static_cast<std::size_t>(kept_count_));

@@ -11,12 +11,12 @@
 
 namespace boresight {
 
-/// Rotations about a seed's that its stated uncertainty reaches, as view directions and turns in
-/// the image: each sample is Rz(turn) * T in the view's frame, where T is the shortest rotation
-/// that brings the view direction to the view's z axis. View directions lie on rings around the
-/// seed's, a spacing apart along and across the rings; turns are a spacing apart. The spacing is
-/// 15 deg, and half of that where the box is small: from the nearest of 15 deg not every descent
-/// reaches the truth. The whole sphere has 188 directions.
+/// Rotations within the seed's stated uncertainty, as view directions and turns in the image: each
+/// sample is Rz(turn) * T in the view's frame, where T is the shortest rotation that brings the
+/// view direction to the view's z axis. View directions lie on rings around that of the seed, a
+/// spacing apart along and across the rings; turns are a spacing apart. The spacing is 15 deg, and
+/// half of that where the box is small: from a 15 deg grid not every descent reaches the true pose.
+/// The whole sphere has 188 directions.
 class RotationGrid {
  public:
   static constexpr double kSpacing_rad = 15.0 * kDegree_rad;   ///< of large boxes
@@ -62,8 +62,8 @@ class RotationGrid {
 
 /// Whether a rotation vector is in the box, or in it after a further rotation by at most
 /// `slack_rad` about each axis (to first order; the axes of both are those of the rotation vector).
-/// A rotation vector beyond a half turn and the shorter one of the same rotation are both in the
-/// box or both are not, as the box is symmetric and smaller than a full turn.
+/// For a rotation vector beyond a half turn and the shorter one of the same rotation, the result is
+/// the same, as the box is symmetric and smaller than a full turn.
 bool isNearBox(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& box_rad,
                const Eigen::Vector3d& slack_rad);
 

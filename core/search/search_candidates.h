@@ -21,7 +21,7 @@ struct SearchCandidate {
   double slide_y_px = 0.0;   ///< in the search's image
 };
 
-/// The best candidates so far that are apart from each other, the best first.
+/// The best candidates so far that are mutually distinct, best first.
 class CandidateList {
  public:
   static constexpr int kCapacity = 32;  ///< candidates that are kept

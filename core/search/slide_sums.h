@@ -34,7 +34,7 @@ class SlideSums {
   /// Begins with maps of this size, each at most kMaxView_px, and slides to either side of at most
   /// half the size.
   void begin(int width, int height, int slide_x_px, int slide_y_px);
-  /// Takes the map of a direction from its edges. Outside of it the map's mean counts.
+  /// Takes the map of a direction from its edges. Outside of the map its mean counts.
   void takeMap(const DirectedEdges& edges, int direction);
   /// Sums over at most kMaxPlaces places.
   void add(std::span<const Place> places);
@@ -48,7 +48,7 @@ class SlideSums {
   std::uint16_t sum(int column, int row) const { return rowOf(row)[column]; }
   /// Whether no neighbouring slide has a smaller sum.
   bool isPeak(int column, int row) const;
-  /// The least of all slides.
+  /// The smallest sum of all slides.
   std::uint16_t least() const;
 
  private:

@@ -12,7 +12,7 @@ namespace boresight {
 class ViewEdges {
  public:
   /// Takes memory from `arena` for images of up to `longest_px` along each side, and of up to
-  /// `channels` channels. Returns the mark from which on it is used only until the edges are
+  /// `channels` channels. Returns the arena mark of the part that is used only until the edges are
   /// complete.
   [[nodiscard]] std::size_t create(int longest_px, int channels, Arena& arena);
   /// Turns the view to the scene at a pose; `problem` must outlive the steps. False: see faceScene.
@@ -23,15 +23,15 @@ class ViewEdges {
 
   /// The view.
   const FacingView& view() const { return view_; }
-  /// Its rays, for renders.
+  /// The view's rays, for renders.
   const RayGrid& rays() const { return rays_; }
   /// The edges of its image.
   const DirectedEdges& edges() const { return edges_; }
-  /// A station pose of the real camera, in the view.
+  /// Converts a station pose from the real camera to the view.
   Pose inView(const Pose& camera_from_station) const {
     return view_.view_from_camera * camera_from_station;
   }
-  /// The reverse.
+  /// Converts a station pose from the view to the real camera.
   Pose inCamera(const Pose& view_from_station) const;
 
  private:

@@ -6,7 +6,7 @@
 namespace boresight {
 
 /// The same search over twice the seed's uncertainty: a seed may be farther off than stated, and a
-/// wrong pose within the stated range then explains less of the image than the right one outside.
+/// wrong pose within the stated range then explains less of the image than the correct one outside.
 SearchProblem widerSearch(const SearchProblem& problem);
 
 }  // namespace boresight

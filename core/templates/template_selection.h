@@ -71,7 +71,7 @@ class TemplateSelector {
   static constexpr int kMinCount = 6;      ///< the default number of inliers that a pose needs
   /// Least number of edge pixels in a template: fewer match anywhere.
   static constexpr int kMinEdgePixels = 12;
-  /// Share of a template's predicted area: the rest must hold enough of the image to match.
+  /// Largest ignored share of a template's predicted area: the rest must suffice to match.
   static constexpr double kMaxIgnoredShare = 0.3;
 
   /// Takes the memory for renders of up to this size. kArenaTooSmall, kInvalidOption.
@@ -114,7 +114,7 @@ class TemplateSelector {
 
   TemplateOptions options_;
   std::span<Scatter> sums_;  ///< summed-area table over blocks, modulo 2^32: the rows held
-  std::span<std::uint16_t> cells_;  ///< per cell its place in best_, or kUnoccupied
+  std::span<std::uint16_t> cells_;  ///< per cell its index in best_, or kUnoccupied
   std::span<Best> best_;            ///< one for each occupied cell
   int summed_rows_ = 0;             ///< of the table, so far
   int block_px_ = 0;

@@ -26,7 +26,7 @@ namespace boresight {
 ///   first view's frame by the adjoint and summed: one step for all.
 ///
 /// The attempt runs in the first view's frame and counts the matches of all views; each view rolls
-/// its render by the same angle about its own ray. So one view alone gives the bits of the plain
+/// its render by the same angle about its own ray. A single view therefore gives the same bits as
 /// Localizer without a search.
 ///
 /// A view without enough matches, or whose matches disagree with the others', is left out (until
@@ -37,11 +37,11 @@ namespace boresight {
 /// A run that searches does so in every view; attempts start from the candidates of all views, and
 /// from the best pose moved along the directions that all views together determine least. The
 /// result is ambiguous when another pose, or the mesh's mirror image, competes with it in every
-/// view (jointCompetingPoses). Not offered: matches from outside.
+/// view (jointCompetingPoses). Matches from outside are not supported.
 class ViewsLocalizer {
  public:
   /// Bytes of arena, in a block aligned to Arena::kAlignment: the sum of each view's, and some ten
-  /// kB a view.
+  /// kB per view.
   static Status requiredBytes(const ViewsProblem& problem, const LocalizerOptions& options,
                               std::size_t& bytes) {
     return requiredBytes(problem, options, 1, Kernels::kPortable, bytes);
@@ -72,7 +72,8 @@ class ViewsLocalizer {
   /// The pass of a view, for inspection; there is none when status() is not kOk.
   const Pass& view(int index) const { return views_[static_cast<std::size_t>(index)].pass; }
   /// A view's record of the iteration that the first view's workspace shows: of rolled hypotheses
-  /// the same one. nullptr before the first iteration, and for a view without part in it.
+  /// the same one. nullptr before the first iteration, and for a view that does not take part in
+  /// it.
   const Iteration* iterationOf(int index) const;
   /// SHA-256 over how the views are linked, each view's own digest and the result.
   std::array<std::uint8_t, 32> digest() const;

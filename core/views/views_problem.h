@@ -18,19 +18,19 @@ namespace boresight {
 
 inline constexpr int kMaxViews = kMaxPnpViews;
 
-/// One image of the station: by a camera of a rigid rig, or by one camera at a known place of its
-/// arm (the rig is then any frame that the station does not move in).
+/// One image of the station: by a camera of a rigid rig, or by one camera at a known pose of its
+/// arm (the rig is then any frame fixed to the station).
 struct View {
   ImageView image;                   ///< 8-bit gray, of the camera's size
-  const BitImage* ignore = nullptr;  ///< set bits are not trusted; the image's size; may be nullptr
+  const BitImage* ignore = nullptr;  ///< set bits are ignored; the image's size; may be nullptr
   Camera camera;                     ///< after prepareCamera
   /// The scene: the same in all views, but for the poses of parts that are fixed to the camera.
   MeshView mesh;
   Pose camera_from_rig;  ///< mounting of the camera
 };
 
-/// Several views of one station, solved for the one pose that they share. Everything is the
-/// caller's and must outlive the run.
+/// Several views of one station, solved for the one pose that they share. The caller owns
+/// everything, which must outlive the run.
 struct ViewsProblem {
   std::span<const View> views;  ///< 1 ... kMaxViews; the first one leads
   Pose rig_from_station_seed;   ///< where the search begins
@@ -42,7 +42,7 @@ struct ViewsProblem {
 
 /// Result of a view.
 struct ViewReport {
-  /// kConverged: it took part in the pose. Else why not: kTooFewEdges, kTooFewTemplates or
+  /// kConverged: it took part in the pose. Otherwise the reason: kTooFewEdges, kTooFewTemplates or
   /// kTooFewMatches (its own stages), kPnpFailed (too few of its matches, or edges, agree with the
   /// pose of all), kNotSupported (dropped at the end). kRunning before the end.
   LocalizationStatus status = LocalizationStatus::kRunning;
@@ -50,7 +50,7 @@ struct ViewReport {
   std::int32_t inliers = 0;          ///< of those
   std::int32_t edges_used = 0;       ///< of the latest refinement
   double edges_rms_px = 0.0;         ///< weighted residual, of the latest refinement
-  EdgeSupport support;               ///< of the final pose; empty when it was not asked for
+  EdgeSupport support;               ///< of the final pose; empty when it was not measured
   double probability = 0.0;  ///< that the pose is right, by this view; 0 where none was searched
   Pose camera_from_station;  ///< of this view
 

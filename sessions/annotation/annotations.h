@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person annotated in one image: places in the image paired with places of the station.
-// Edits of annotations as values: what an annotator's gestures do to them.
+// Annotations of one image: image positions paired with points or edges of the station. Edits of
+// annotations return changed copies.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@
 
 namespace boresight::sessions {
 
-/// The largest coordinate that a place on the station may have.
+/// Largest coordinate that a point of the station may have.
 inline constexpr double kMaxCoordinate_m = 1e6;
 
-/// A point of the station and where it was seen. One side may be missing: a pair half made.
+/// A point of the station and its image position. One side is missing while the pair is incomplete.
 struct PointPair {
   std::string id;  ///< unique among the annotations of its image
   std::optional<Eigen::Vector3d> point_in_station_m;
   std::optional<Eigen::Vector2d> pixel;
   double sigma_px = 1.0;  ///< standard deviation per axis
   bool enabled = true;    ///< takes part in solving
-  bool locked = false;    ///< may not be moved by accident
+  bool locked = false;    ///< protected from being moved
   std::string comment;
 
   bool complete() const { return point_in_station_m && pixel; }
@@ -41,7 +41,7 @@ struct ModelEdge {
   bool operator==(const ModelEdge&) const = default;
 };
 
-/// Two places in the image on one edge; they need not be its ends.
+/// Two image positions on one edge; they need not be its ends.
 struct ImageLine {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< px
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    ///< px
@@ -49,8 +49,8 @@ struct ImageLine {
   bool operator==(const ImageLine&) const = default;
 };
 
-/// A straight edge of the station and where a piece of it was seen. Only distances across the edge
-/// count. One side may be missing.
+/// A straight edge of the station and the image position of a part of it. Only distances across the
+/// edge count. One side may be missing.
 struct LinePair {
   std::string id;  ///< unique among the annotations of its image, points included
   std::optional<ModelEdge> edge;
@@ -65,7 +65,7 @@ struct LinePair {
   bool operator==(const LinePair&) const = default;
 };
 
-/// The annotations of one image, those that are off included.
+/// The annotations of one image, including disabled ones.
 struct Annotations {
   std::vector<PointPair> points;
   std::vector<LinePair> lines;
@@ -76,26 +76,26 @@ struct Annotations {
 
 /// Whether a point or line has this id.
 bool hasAnnotation(const Annotations& annotations, const std::string& id);
-/// "p1", "p2", ... (or with another letter): the first that no annotation has.
+/// The first of "p1", "p2", ... (with this letter) that no annotation has as its id.
 std::string unusedId(const Annotations& annotations, char letter);
 
-/// nullptr when there is none of this id.
+/// nullptr when no annotation has this id.
 const PointPair* findPoint(const Annotations& annotations, const std::string& id);
 const LinePair* findLine(const Annotations& annotations, const std::string& id);
 
-/// The same annotations with this one in place of that of id `replaced`, or at the end.
+/// A copy in which this annotation replaces the one with id `replaced`, or is appended.
 Annotations withPoint(Annotations annotations, const std::string& replaced, const PointPair& point);
 Annotations withLine(Annotations annotations, const std::string& replaced, const LinePair& line);
-/// The same annotations without one.
+/// A copy without the annotation of this id.
 Annotations withoutAnnotation(Annotations annotations, const std::string& id);
 
-/// An annotation moved in the image as a whole, or by one end of its line (0 or 1). What has no
-/// place in the image stays as it is.
+/// A copy with a point, or one end (0 or 1) of a line, moved in the image. An annotation without an
+/// image position stays unchanged.
 Annotations withMoved(Annotations annotations, const std::string& id, int end,
                       const Eigen::Vector2d& to_px);
 
-/// The annotations of one camera of a rig. A camera alone is a rig of its own, and so is a rig that
-/// did not move between several images.
+/// The annotations of one view of a rig. A single camera is a rig with one view. Several images of
+/// a rig that did not move are views of it as well.
 struct AnnotatedView {
   std::string name;  ///< for display
   Camera camera;     ///< after prepareCamera
@@ -103,7 +103,7 @@ struct AnnotatedView {
   Annotations annotations;
 };
 
-/// Which of the two kinds an annotation is.
+/// Kind of an annotation.
 enum class AnnotationKind { kPoint, kLine };
 
 /// An annotation of one of the views.

@@ -21,25 +21,25 @@ namespace boresight::sessions {
 ///      "lines": [{"id": "l1", "edge_in_station_m": [[x, y, z], [x, y, z]],
 ///                 "line_px": [[u, v], [u, v]], "sigma_px": 0.3, "enabled": true, ...}]}
 ///
-/// The centre of the top-left pixel is (0, 0). Only `id` must be there: sigma_px is 1, enabled
-/// true, locked false without them; of a half-made pair the station's or the image's side is
-/// missing. Members that the format does not know are refused. InputError.
+/// The centre of the top-left pixel is (0, 0). Only `id` is required; the defaults are sigma_px 1,
+/// enabled true, locked false. In an incomplete pair the station's or the image's side is missing.
+/// Unknown members are rejected. InputError.
 Annotations readAnnotations(const std::filesystem::path& file);
 
 /// Writes points.json, or a table where the name ends in .csv; reading it back gives the same
 /// values. OutputError.
 void writeAnnotations(const std::filesystem::path& file, const Annotations& annotations);
 
-/// Annotations as a table for spreadsheets, RFC 4180, a header and one row an annotation:
+/// Annotations as a table for spreadsheets, RFC 4180, a header and one row per annotation:
 ///
 ///     kind,id,x1_px,y1_px,x2_px,y2_px,x1_m,y1_m,z1_m,x2_m,y2_m,z2_m,sigma_px,enabled,locked,comment
 ///
-/// A point has the first place of each side, a line both; the side of a half-made pair is empty.
-/// Metres in the station's frame, the centre of the top-left pixel is (0, 0). Numbers are written
-/// so that reading gives the same bits.
+/// A point uses the first position of each side, a line both; a missing side is empty. Metres in
+/// the station's frame, the centre of the top-left pixel is (0, 0). Numbers are written so that
+/// reading gives the same bits.
 std::string annotationsCsv(const Annotations& annotations);
 
-/// InputError (`file` names the text) with line and column for anything else.
+/// Parses such a table. InputError with line and column; `file` is the name used in messages.
 Annotations parseAnnotationsCsv(const std::filesystem::path& file, std::string_view text);
 
 /// Annotations inside another file: an object with `points` and `lines`, of which either may be

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a pose puts annotations on the image, and least squares over annotations.
+// Projection of annotations into the image, and least squares over annotations.
 #pragma once
 
 #include <span>
@@ -16,9 +16,9 @@
 
 namespace boresight::sessions {
 
-/// Where a pose puts a point of the station in the image, and how that changes with the pose.
+/// Projection of a station point under a pose, with its derivatives.
 struct PredictedPlace {
-  bool valid = false;  ///< false where the camera does not project it: the rest says nothing
+  bool valid = false;  ///< false: not projected; the other members are unset
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double depth_m = 0.0;  ///< z in the camera frame
   /// px per m of the camera frame.
@@ -29,32 +29,32 @@ struct PredictedPlace {
 PredictedPlace predictPlace(const Camera& camera, const Pose& camera_from_station,
                             const Eigen::Vector3d& point_in_station_m);
 
-/// Whether a place lies on the image: pixel centres at whole numbers, each pixel one wide.
+/// Whether a position lies in the image; pixel centres have integer coordinates.
 bool isInImage(const Camera& camera, const Eigen::Vector2d& pixel);
 
-/// A surface hides a point when it is nearer by more than this share of the point's depth: what
-/// lies on the surface itself, and the rim of a hole about its centre, is seen.
+/// A surface hides a point when it is nearer by more than this share of the point's depth: points
+/// on the surface itself, and the centre of a hole behind its rim, count as visible.
 inline constexpr double kHidingShare = 0.005;
 
-/// Nothing of the mesh is clearly nearer on the same ray. Some milliseconds for a hundred thousand
-/// faces.
+/// Whether the point projects and no face hides it (kHidingShare). Takes some milliseconds for
+/// 100,000 faces.
 bool isSeen(const Camera& camera, const MeshView& mesh, const Pose& camera_from_station,
             const Eigen::Vector3d& point_in_station_m);
 
-/// An edge as the camera bends it: places along it, in order, from start to end; those that do not
-/// project are left out. `pieces` >= 1.
+/// Projection of an edge, including distortion: image positions in order from start to end; points
+/// that do not project are left out. `pieces` >= 1.
 std::vector<Eigen::Vector2d> edgeOnImage(const Camera& camera, const Pose& camera_from_station,
                                          const ModelEdge& edge, int pieces = 16);
 
-/// What an annotation says about a pose: two residuals (pixels, seen minus predicted) and how they
-/// change. Of a point these are x and y; of a line the distances of its two ends from the projected
-/// edge, with the whole camera model.
+/// Two residuals of an annotation (px, observed minus predicted) and their derivatives. For a point
+/// these are x and y; for a line, the distances of its two ends from the projected edge, with the
+/// full camera model.
 struct AnnotationResidual {
   bool valid = false;  ///< false where the pose does not project it
   Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
   /// d predicted / d xi, xi = (rotation rad, translation m), left perturbation, camera frame.
   Eigen::Matrix<double, 2, 6> predicted_by_xi = Eigen::Matrix<double, 2, 6>::Zero();
-  /// Of a line at either end: across the edge, unit length, to where a residual is positive.
+  /// For each end of a line: unit vector across the edge, in the direction of positive residuals.
   Eigen::Vector2d across[2] = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   double depth_m = 0.0;  ///< of the point, or of the edge's middle
 };
@@ -75,17 +75,17 @@ NormalEquations annotationEquations(std::span<const AnnotatedView> views,
                                      std::span<const double> weight, Pose& rig_from_station,
                                      NormalEquations& equations);
 
-/// What a pose leaves of an annotation, as a vector on the image.
+/// Residual of an annotation as a vector in the image.
 struct AnnotationVector {
   std::string id;
   Eigen::Vector2d predicted =
-      Eigen::Vector2d::Zero();  ///< where the pose puts the point; of a
-                                ///< line's end the nearest place of the edge
+      Eigen::Vector2d::Zero();  ///< projection of the point; for a line's end, the nearest point of
+                                ///< the projected edge
   Eigen::Vector2d seen = Eigen::Vector2d::Zero();
 };
 
-/// Of every complete annotation that projects, also those that are off; a line has one for each
-/// end.
+/// One vector for each complete annotation that projects, including disabled ones; for a line, one
+/// for each end.
 std::vector<AnnotationVector> annotationVectors(const AnnotatedView& view,
                                                 const Pose& camera_from_station);
 

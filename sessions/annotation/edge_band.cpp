@@ -68,7 +68,7 @@ struct PosedEdge {
     return place.valid && isInImage(camera, place.pixel);
   }
 
-  /// Length of what of it projects, to within its sections; 0 where none of it is in the image.
+  /// Length of the part that projects, to within its sections; 0 when no part is in the image.
   double length_px() const {
     double length_px = 0.0;
     bool in_image = false;

@@ -11,22 +11,22 @@
 
 namespace boresight::sessions {
 
-/// A place on a seen salient edge of the model and how far across it the edge may lie.
+/// A point on a visible salient edge of the model, and the half width of its band.
 struct BandPlace {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< across the edge, unit length
   double half_width_px = 0.0;                         ///< 1.96 sigma: 95 % of poses are within
 };
 
-/// One seen piece of an edge: places in order along it.
+/// One visible part of an edge: points in order along it.
 struct BandPiece {
   std::vector<BandPlace> places;
 };
 
-/// The 95 % band of the model's seen edges on the image under a pose's covariance (camera frame,
-/// left perturbation, rotation rad and translation m): each place's image moves by J xi, and what
-/// counts is its part across the edge. Places are about `step_px` apart. The scene is rendered once
-/// to tell what is seen; nothing comes out where it cannot be.
+/// The 95 % band of the model's visible edges in the image under a pose's covariance (camera frame,
+/// left perturbation, rotation rad and translation m): each point moves by J xi in the image, of
+/// which the component across the edge counts. Points are about `step_px` apart. The scene is
+/// rendered once to find the visible edges; empty when it cannot be rendered.
 std::vector<BandPiece> edgeBand(const MeshSnapper& mesh, const Camera& camera,
                                 const Pose& camera_from_station, const Matrix6d& covariance,
                                 double step_px = 12.0);

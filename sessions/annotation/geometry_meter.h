@@ -11,7 +11,7 @@
 
 namespace boresight::sessions {
 
-/// How the annotated places of the station (points, and both ends of edges) lie.
+/// Spread of the annotated points of the station (points, and both ends of edges).
 struct AnnotatedSpread {
   int places = 0;
   Eigen::Vector3d middle_in_station_m = Eigen::Vector3d::Zero();
@@ -25,28 +25,28 @@ AnnotatedSpread annotatedSpread(std::span<const AnnotatedView> views);
 
 enum class GeometryWeakness {
   kTooFew,     ///< fewer than six measurements, or four points without a guess
-  kFew,        ///< no measurement left over to check the pose
-  kCollinear,  ///< all places on a line
-  kCoplanar,   ///< all places in a plane: two poses may explain them
+  kFew,        ///< no redundant measurement to check the pose
+  kCollinear,  ///< all points on a line
+  kCoplanar,   ///< all points in a plane: two poses may explain them
   kClustered,  ///< the annotations cover little of the station's image
-  kOneDepth,   ///< all at one distance from the camera
+  kOneDepth,   ///< all points at one distance from the camera
   kImprecise,  ///< one sigma of the solved pose exceeds the requirement
 };
 
 struct GeometryWarning {
   GeometryWeakness weakness = GeometryWeakness::kTooFew;
-  bool prevents = false;  ///< no pose can come out
-  std::string text;       ///< what is weak and what to add
+  bool prevents = false;  ///< a pose cannot be solved
+  std::string text;       ///< the weakness and a remedy
 };
 
-/// What is weak in the annotations that are on, before anything is solved. `guess` (rig from
-/// station, or nullptr) tells distances and how much of the station's image is covered. `station`
-/// are places that span the station (its mesh's box corners), or empty.
+/// Weaknesses of the enabled annotations, before solving. `guess` (rig_from_station, or nullptr)
+/// gives distances and the covered share of the station's image. `station_m`: points that span the
+/// station (the corners of its mesh's box), or empty.
 std::vector<GeometryWarning> geometryWarnings(std::span<const AnnotatedView> views,
                                               const Pose* guess,
                                               std::span<const Eigen::Vector3d> station_m);
 
-/// Of a solved pose whose one sigma exceeds the requirement; `excess` is `sigmaExcessText`.
+/// Warning of a solved pose whose one sigma exceeds the requirement; `excess` is `sigmaExcessText`.
 GeometryWarning imprecisionWarning(const std::string& excess);
 
 }  // namespace boresight::sessions

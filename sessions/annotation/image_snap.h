@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places in an image that an annotation may snap to, to a fraction of a pixel. All of them work on
-// the 8-bit image as the core sees it and leave the choice to the caller. Which of several places
-// near a pointer a person most likely means.
+// Image features that an annotation may snap to, with sub-pixel accuracy. All functions work on the
+// 8-bit image that the core uses. Several features are ordered by likelihood; the caller chooses.
 #pragma once
 
 #include <optional>
@@ -21,13 +20,14 @@ struct EdgeSnap {
   double contrast = 0.0;         ///< gray levels per pixel
 };
 /// The nearest step between dark and bright: where the gradient of the smoothed image (sigma 1 px)
-/// has a maximum across it. Nothing within the radius is steeper than 3 gray levels per pixel:
-/// nothing.
+/// has a maximum across it. Empty when no gradient within the radius exceeds 3 gray levels per
+/// pixel.
 std::optional<EdgeSnap> snapToEdge(const ImageView& image, const Eigen::Vector2d& near,
                                    double radius_px);
 
-/// The corner nearby where edges in two directions meet, refined until every gradient around it
-/// points past it (Foerstner; cv::cornerSubPix). An edge that only bends, or a noisy one, is none.
+/// The corner nearby where edges in two directions meet, refined until the gradients around it are
+/// perpendicular to their offsets from it (Foerstner; cv::cornerSubPix). A bent or noisy edge is
+/// not a corner.
 std::optional<Eigen::Vector2d> snapToCorner(const ImageView& image, const Eigen::Vector2d& near,
                                             double radius_px);
 
@@ -38,31 +38,31 @@ struct EllipseSnap {
   double support = 0.0;  ///< share of directions in which an edge lies on the ellipse
   double rms_px = 0.0;   ///< of these edges' distances from it
 };
-/// The ellipse around a place, as screws and holes have one: edges in all directions from there,
+/// The ellipse around a position, such as that of a screw or hole: edges in all directions from it,
 /// at most `radius_px` away. The centre of an ellipse is not quite that of the circle that it
-/// shows: at a distance of 20 radii and 45 deg by some hundredth of its size. Nothing when fewer
-/// than 60 % of the directions agree.
+/// shows: at a distance of 20 radii and 45 deg by some hundredth of its size. Empty when fewer than
+/// 60 % of the directions agree.
 std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Vector2d& inside,
                                          double radius_px);
 
 enum class ImageSnapKind { kCorner, kEllipse, kEdge };
 
-/// A place of the image that an annotation may snap to.
+/// An image feature that an annotation may snap to.
 struct ImageSnap {
   ImageSnapKind kind = ImageSnapKind::kCorner;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double distance_px = 0.0;  ///< from the place that was asked about
+  double distance_px = 0.0;  ///< from the queried position
   EdgeSnap edge;             ///< of a kEdge
   EllipseSnap ellipse;       ///< of a kEllipse
 };
 
-/// What there is within the radius of a place, the likeliest first: distance decides, but an edge,
-/// which is always nearer than the corner at its end, counts as half a radius farther. Of an
-/// ellipse the centre must lie within the radius, its rim within `rim_px` of the place.
+/// Features within the radius of a position, the likeliest first. They are ordered by distance; an
+/// edge, which is always nearer than the corner at its end, counts as half a radius farther. The
+/// centre of an ellipse must lie within the radius, its rim within `rim_px` of the position.
 std::vector<ImageSnap> imageSnaps(const ImageView& image, const Eigen::Vector2d& near,
                                   double radius_px, double rim_px);
 
-/// What `MeshSnapper::near` gives, in the same order of likelihood.
+/// Orders the result of MeshSnapper::near() by the same likelihood.
 std::vector<MeshSnap> likeliestFirst(std::vector<MeshSnap> snaps, double radius_px);
 
 }  // namespace boresight::sessions

@@ -18,7 +18,7 @@ namespace boresight::sessions {
 
 /// A named point of a station that is annotated in image after image.
 struct Landmark {
-  std::string name;  ///< unique; the id of annotations of it
+  std::string name;  ///< unique; also the id of its annotations
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   std::string comment;
 
@@ -36,14 +36,14 @@ std::vector<Landmark> readLandmarks(const std::filesystem::path& file);
 void writeLandmarks(const std::filesystem::path& file, const std::vector<Landmark>& landmarks);
 
 /// The landmarks with every point pair's station side added or replaced under the pair's id; its
-/// comment goes along.
+/// comment is copied as well.
 std::vector<Landmark> withAnnotations(std::vector<Landmark> landmarks,
                                       const Annotations& annotations);
 
-/// "2 lines are left out: landmarks are points."; "" when nothing is.
+/// "2 lines are left out: landmarks are points."; "" when none is.
 std::string leftOutOfLandmarks(const Annotations& annotations);
 
-/// A landmark that has no annotation in an image yet, and where it should be.
+/// A landmark without an annotation in an image, and its predicted position.
 struct Proposal {
   Landmark landmark;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -59,9 +59,9 @@ std::vector<Proposal> proposeAnnotations(const std::vector<Landmark>& landmarks,
                                          const Camera& camera, const Pose& camera_from_station,
                                          const Matrix6d* covariance);
 
-/// The corner or the centre of an ellipse that the image shows where a landmark should be: the
-/// likeliest within three sigma of the prediction, at least 2 and at most 8 px. Nothing where there
-/// is none: the prediction itself is no measurement.
+/// The likeliest corner or ellipse centre of the image near a landmark's predicted position: within
+/// three sigma, at least 2 and at most 8 px. Empty when there is none, as a prediction is not a
+/// measurement.
 std::optional<Eigen::Vector2d> featureOf(const Proposal& proposal, const ImageView& image);
 
 }  // namespace boresight::sessions

@@ -16,7 +16,7 @@
 
 namespace boresight::sessions {
 
-/// A circle of the mesh: a closed loop of salient edges whose corners lie on one.
+/// A circle of the mesh: a closed loop of salient edges whose corners lie on a circle.
 struct MeshCircle {
   Eigen::Vector3d centre_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_in_station = Eigen::Vector3d::UnitZ();
@@ -26,42 +26,42 @@ struct MeshCircle {
 
 enum class MeshSnapKind { kVertex, kEdge, kCircle };
 
-/// A place of the mesh that an annotation may snap to.
+/// A feature of the mesh that an annotation may snap to.
 struct MeshSnap {
   MeshSnapKind kind = MeshSnapKind::kVertex;
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< where the pose projects it
-  double distance_px = 0.0;                         ///< from the place that was asked about
-  std::optional<ModelEdge> edge;                    ///< that it lies on, of a kEdge
+  double distance_px = 0.0;                         ///< from the queried position
+  std::optional<ModelEdge> edge;                    ///< the edge, of a kEdge
   double radius_m = 0.0;                            ///< of a kCircle
 };
 
-/// What of a mesh a person would point at: corners where salient edges meet, salient edges
+/// Features of a mesh that an annotator may pick: corners where salient edges meet, salient edges
 /// (borders, and folds beyond the part's normal threshold), and the centres of circles. Works on
 /// the geometry alone: no window, no pixels, exact at any magnification.
 class MeshSnapper {
  public:
-  /// `mesh` must outlive it. InputError for a mesh that core refuses.
+  /// `mesh` must outlive it. InputError for a mesh that the core rejects.
   explicit MeshSnapper(const MeshView& mesh);
 
   const MeshView& mesh() const { return mesh_; }
   const std::vector<ModelEdge>& edges() const { return edges_; }
   const std::vector<MeshCircle>& circles() const { return circles_; }
 
-  /// The nearest one of each kind that is seen within the radius of a pixel, vertex, edge, circle.
+  /// The nearest visible feature of each kind within the radius of a pixel: vertex, edge, circle.
   std::vector<MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
                              const Eigen::Vector2d& pixel, double radius_px) const;
 
-  /// What a place of the station is, to 10 micrometres: a corner of salient edges, a circle's
-  /// centre, or on an edge; nothing on a bare surface.
+  /// Kind of feature at a point of the station, within 10 micrometres: a corner of salient edges, a
+  /// circle's centre, or on an edge; empty on a plain surface.
   std::optional<MeshSnapKind> kindAt(const Eigen::Vector3d& point_in_station_m) const;
 
-  /// The surface that a pixel shows; nothing outside the station.
+  /// The surface point seen at a pixel; empty outside the station.
   std::optional<Eigen::Vector3d> surfaceAt(const Camera& camera, const Pose& camera_from_station,
                                            const Eigen::Vector2d& pixel) const;
 
-  /// Whether no face hides a place from an eye, both in the station frame. A place may lie a ten
-  /// thousandth of the mesh's diagonal below a face: parts are not modelled to touch exactly.
+  /// Whether no face hides a point from an eye, both in the station frame. A point up to 1e-4 of
+  /// the mesh's diagonal below a face is not hidden: parts are not modelled to touch exactly.
   bool seenFrom(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& place_m) const;
 
  private:

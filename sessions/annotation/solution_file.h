@@ -10,10 +10,11 @@
 
 namespace boresight::sessions {
 
-/// What solving came to, for other programs: a JSON file, `format` "boresight-solution", version 1.
+/// Writes the result of solving annotations for other programs: a JSON file, `format`
+/// "boresight-solution", version 1.
 ///
 ///     {"format": "boresight-solution", "version": 1,
-///      "solved": true, "robust": false,          (of no pose: "reason" instead of what follows)
+///      "solved": true, "robust": false, (without a pose: "reason" instead of the rest)
 ///      "rms_px": 0.2, "noise_factor": 0.9, "degrees_of_freedom": 14,
 ///      "rig_from_station": [[4x4]], "covariance": [[6x6]],
 ///      "views": [{"name": "left", "camera_from_rig": [[4x4]], "camera_from_station": [[4x4]],
@@ -26,17 +27,17 @@ namespace boresight::sessions {
 ///
 /// Poses map metres, row by row. Covariances are of xi = (rotation rad, translation m), the left
 /// perturbation in the frame of the rig or of the camera; sigmas are the roots of their diagonals.
-/// Residuals are seen minus predicted, of a line both ends across the edge. `ambiguous` only where
-/// there is one. Kinds of warnings: too_few, few, collinear, coplanar, clustered, one_depth,
-/// imprecise. Numbers read back as the same bits. OutputError.
+/// Residuals are observed minus predicted; for a line, of both ends across the edge. `ambiguous` is
+/// present only for an ambiguous plane. Kinds of warnings: too_few, few, collinear, coplanar,
+/// clustered, one_depth, imprecise. Numbers read back as the same bits. OutputError.
 void writeSolution(const std::filesystem::path& file, std::span<const AnnotatedView> views,
                    const AnnotationsResult& result, std::span<const LeftOut> left_out,
                    std::span<const GeometryWarning> warnings, bool robust);
 
 /// A solution as text: one line per annotation (residuals in px and mm, how far the pose moves
-/// without it), what is weak, the pose with one sigma (of several views the rig's and each
-/// camera's), and the other pose of an ambiguous plane. `left_out` by annotation, as `leaveOneOut`
-/// gives them.
+/// without it), the warnings, the pose with one sigma (of several views the rig's and each
+/// camera's), and the other pose of an ambiguous plane. `left_out`: one per annotation, from
+/// leaveOneOut().
 std::string solutionText(std::span<const AnnotatedView> views, const AnnotationsSolution& solution,
                          std::span<const LeftOut> left_out,
                          std::span<const GeometryWarning> warnings);

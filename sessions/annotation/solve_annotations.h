@@ -12,25 +12,25 @@
 namespace boresight::sessions {
 
 struct SolveAnnotationsOptions {
-  /// Tukey's weights instead of equal ones: annotations far out count little or nothing.
+  /// Tukey's weights instead of equal ones: outliers count little or nothing.
   bool robust = false;
-  /// Where to begin when the points alone do not say (fewer than four in every view).
+  /// Start pose; needed when every view has fewer than four points.
   std::optional<Pose> rig_from_station_guess;
 };
 
-/// Standard deviations from which a residual stands out.
+/// Number of standard deviations above which a residual is an outlier.
 inline constexpr double kOutlierSigmas = 3.0;
 
-/// How well the pose explains an annotation.
+/// Residuals of an annotation under the solved pose.
 struct SolvedAnnotation {
   AnnotationAddress address;
-  bool projected = false;  ///< false: the pose does not project it, the rest says nothing
-  /// Seen minus predicted: x and y of a point, the distances of a line's ends across the edge.
+  bool projected = false;  ///< false: not projected; the other members are unset
+  /// Observed minus predicted: x and y of a point, the distances of a line's ends across the edge.
   Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d residual_mm = Eigen::Vector2d::Zero();  ///< the same at the annotation's distance
   double weight = 1.0;                                    ///< 0 ... 1; 1 unless robust
   /// Norm of the residual in units of its own standard deviation, sigma_px times the noise factor
-  /// reduced by what the annotation itself pulls.
+  /// reduced by the annotation's own influence on the pose (leverage).
   double normalized = 0.0;
 
   /// The residual is so large that the annotator should check it.
@@ -41,7 +41,7 @@ struct SolvedAnnotation {
 struct LeftOut {
   AnnotationAddress address;
   bool determined = false;      ///< false: without it there is no pose
-  double translation_mm = 0.0;  ///< of the middle of the annotated places
+  double translation_mm = 0.0;  ///< of the middle of the annotated points
   double rotation_mrad = 0.0;
 };
 
@@ -57,8 +57,8 @@ struct AnnotationsSolution {
   /// Over xi = (rotation rad, translation m), left perturbation, rig frame: noise_factor^2
   /// (J' W J)^-1 with W = 1 / sigma_px^2.
   Matrix6d covariance = Matrix6d::Zero();
-  /// Root of the weighted squares by degrees of freedom: 1 when the annotations are as good as
-  /// their sigmas say. 1 where nothing is left over to tell.
+  /// Root of the weighted squares over the degrees of freedom: 1 when the annotations are as
+  /// accurate as their sigmas state, and without redundancy.
   double noise_factor = 1.0;
   int degrees_of_freedom = 0;
   double rms_px = 0.0;                        ///< over both residuals of all annotations, weighted
@@ -66,21 +66,21 @@ struct AnnotationsSolution {
   std::optional<AmbiguousPose> ambiguous;
 };
 
-/// A pose, or in one sentence why there is none and what to do.
+/// A solution, or one sentence that states why there is none and what to do.
 struct AnnotationsResult {
   std::optional<AnnotationsSolution> solution;
   std::string reason;
 };
 
-/// The pose of the rig that explains all annotations that are on, best in the sense of least
-/// squares over sigma (or robust ones), with the whole camera models. It starts from P3P with
-/// RANSAC where a view has four, and from the guess. Deterministic: the same annotations give the
-/// same digits. Robust: iteratively reweighted least squares with Tukey's biweight, c = 4.685
-/// (Huber and Ronchetti 2009), its scale the median of the residuals' norms.
+/// The pose of the rig by least squares over all enabled annotations, weighted by sigma (optionally
+/// robust), with the full camera models. It starts from P3P with RANSAC where a view has four
+/// points, and from the guess. Deterministic: the same annotations give the same digits. Robust:
+/// iteratively reweighted least squares with Tukey's biweight, c = 4.685 (Huber and Ronchetti
+/// 2009), its scale the median of the residuals' norms.
 AnnotationsResult solveAnnotations(std::span<const AnnotatedView> views,
                                    const SolveAnnotationsOptions& options);
 
-/// Solves again without one annotation after the other; equal or robust weights stay what they are.
+/// Solves again without one annotation after the other; equal or robust weights are kept.
 std::vector<LeftOut> leaveOneOut(std::span<const AnnotatedView> views,
                                  const AnnotationsSolution& solution);
 

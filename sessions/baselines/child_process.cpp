@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kKeptErrors = 2000;
 
-/// A pipe that closes what nobody took over.
+/// A pipe that closes its ends unless they were taken over.
 struct Pipe {
   std::array<int, 2> end{-1, -1};
 
@@ -113,7 +113,7 @@ ChildProcess::~ChildProcess() {
   }
 }
 
-/// Until something can be written or read; what the child complains of is taken up meanwhile.
+/// Waits until data can be written or read; reads the child's standard error meanwhile.
 void ChildProcess::wait(bool to_write, Clock::time_point deadline, const std::stop_token& stop) {
   for (;;) {
     if (stop.stop_requested()) throw ChildError("was stopped");

@@ -13,20 +13,20 @@
 
 namespace boresight::sessions {
 
-/// What went wrong with a child process, as the rest of a sentence that names it.
+/// Failure of a child process; what() is the rest of a sentence that begins with its name.
 class ChildError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A command of the shell with its standard input and output on pipes; what it writes to standard
-/// error is read and its last line kept. No call waits longer than its deadline, whatever the child
-/// does, and a stop is noticed within 50 ms. It is killed with all its children at the end.
+/// A command of the shell with its standard input and output on pipes; its standard error is read
+/// and the last line kept. No call waits longer than its deadline, and a stop takes effect within
+/// 50 ms. The destructor kills the process and all its children.
 class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// ChildError when no process can be made.
+  /// ChildError when the process cannot be started.
   explicit ChildProcess(const std::string& command);
   ~ChildProcess();
 
@@ -37,7 +37,8 @@ class ChildProcess {
   /// time", "was stopped".
   void write(std::span<const std::uint8_t> bytes, Clock::time_point deadline,
              const std::stop_token& stop);
-  /// A line without its end; also "wrote a line of more than N bytes".
+  /// Reads a line, returned without its line break; also throws "wrote a line of more than N
+  /// bytes".
   std::string readLine(std::size_t most, Clock::time_point deadline, const std::stop_token& stop);
   std::vector<std::uint8_t> read(std::size_t count, Clock::time_point deadline,
                                  const std::stop_token& stop);
@@ -50,7 +51,7 @@ class ChildProcess {
 
   pid_t pid_ = -1;
   int input_ = -1, output_ = -1, errors_ = -1;
-  std::vector<std::uint8_t> received_;  ///< not yet asked for
+  std::vector<std::uint8_t> received_;  ///< not yet returned to the caller
   std::string last_errors_;             ///< end of standard error
 };
 

@@ -12,25 +12,25 @@
 
 namespace boresight::sessions {
 
-/// A place of the first image and the same thing in the second, px; score in [0, 1].
+/// Corresponding positions in two images, px; score in [0, 1].
 struct PixelPair {
   double first_x = 0.0, first_y = 0.0;
   double second_x = 0.0, second_y = 0.0;
   double score = 0.0;
 };
 
-/// A matcher in a child process, over the protocol of resources/matchers/README.md. Everything it
-/// may do wrong (not start, die, hang, answer nonsense) is a MethodError of one sentence; after one
-/// the client is of no more use.
+/// A matcher in a child process, over the protocol of resources/matchers/README.md. Every failure
+/// of it (no start, crash, timeout, invalid answer) is a MethodError of one sentence; the client
+/// cannot be used afterwards.
 class MatcherClient {
  public:
   /// Starts the command and waits for its greeting.
   MatcherClient(const std::string& command, double start_timeout_s, const std::stop_token& stop);
 
-  /// Size that it works at, px; 0 where it has none.
+  /// Working size that it announced, px; 0 when it has none.
   int width() const { return width_; }
   int height() const { return height_; }
-  /// What it calls itself.
+  /// Name that it announced.
   const std::string& name() const { return name_; }
 
   /// At most `most` pairs, all of them inside the images.

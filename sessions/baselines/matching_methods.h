@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods by themselves. For .cpp files of this folder.
+// Factories of the methods, for the .cpp files of this folder.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace boresight::sessions {
 
-/// The image's own pixels; must not be written through.
+/// A read-only cv::Mat on the image's pixels, without a copy.
 inline cv::Mat matOf(const ImageView& image) {
   return {image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data),
           static_cast<std::size_t>(image.stride)};
@@ -20,7 +20,7 @@ inline cv::Mat matOf(const ImageView& image) {
 
 /// SSD and NCC (Pham 2025, Sec. V): every template's shaded intensities against the image's, at
 /// all offsets of its search window, by OpenCV's matchTemplate. Templates without any contrast are
-/// not found. Places are refined by a parabola per axis where loop.subpixel_matches asks for it.
+/// not found. Positions are refined by a parabola per axis when loop.subpixel_matches is set.
 std::unique_ptr<MatchingMethod> makeSsd(const SsdOptions& options);
 std::unique_ptr<MatchingMethod> makeNcc(const NccOptions& options);
 
@@ -28,16 +28,16 @@ std::unique_ptr<MatchingMethod> makeNcc(const NccOptions& options);
 /// that lie in their search windows, by the distance of their descriptors.
 std::unique_ptr<MatchingMethod> makeOrb(const OrbOptions& options);
 
-/// What an external matcher is shown.
+/// Images that an external matcher gets.
 enum class ExternalFrames {
   kWhole,      ///< image and render as a whole (LoFTR-R of Pham 2025, Sec. V)
   kSubframes,  ///< from an attempt's second iteration on, in frames of the matcher's size (LoFTR-S)
 };
 
 /// Any matcher in a child process (MatcherClient): the render is the first image, the test image
-/// the second. Of its pairs, those are taken that begin on the object and end in the search window
-/// of their point, the best templates.count of them. The child is started by the first run and
-/// serves all later ones.
+/// the second. Pairs that begin on the object and end in the search window of their point are used:
+/// the best templates.count of them. The child is started by the first run and serves all later
+/// ones.
 std::unique_ptr<MatchingMethod> makeExternal(const std::string& command,
                                              const ExternalOptions& options, ExternalFrames frames);
 

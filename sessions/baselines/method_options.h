@@ -75,7 +75,7 @@ struct OrbOptions {
   }
 };
 
-/// A matcher in a process of its own.
+/// Options of an external matcher process.
 struct ExternalOptions {
   std::int32_t matches = 400;
   double start_timeout_s = 60.0;
@@ -94,7 +94,7 @@ struct ExternalOptions {
   }
 };
 
-/// Parameters of the methods beside WHS; those of the loop are LocalizerOptions.
+/// Parameters of the methods other than WHS; those of the loop are LocalizerOptions.
 struct MethodOptions {
   SsdOptions ssd;
   NccOptions ncc;
@@ -111,7 +111,7 @@ struct MethodOptions {
 };
 
 /// The methods as published (Pham 2025, Sec. V-A), for profile `paper`: ORB with up to 400 features
-/// and 8 levels, all else as OpenCV has it; whole templates, gray values as they are.
+/// and 8 levels, otherwise OpenCV's defaults; whole templates, unchanged gray values.
 inline MethodOptions publishedMethods() {
   MethodOptions options;
   options.ssd = {.masked = false, .equalized = false};

@@ -16,7 +16,7 @@ std::unique_ptr<MatchingMethod> makeExternalWith(const MethodSetup& setup) {
 
 using Make = std::unique_ptr<MatchingMethod> (*)(const MethodSetup&);
 
-/// The methods beside WHS.
+/// The methods other than WHS.
 struct NamedMethod {
   const char* name;
   Make make;

@@ -17,26 +17,26 @@ namespace boresight::sessions {
 inline constexpr const char* kWhs = "whs";
 
 bool isMethod(const std::string& name);
-/// Whether it is an external matcher, whose command must be given.
+/// Whether the method is an external matcher, whose command must be given.
 bool needsMatcher(const std::string& name);
 /// "whs, ncc, ...", for messages.
 std::string methodNames();
 
-/// What the methods beside WHS need to know.
+/// Setup of the methods other than WHS.
 struct MethodSetup {
   MethodOptions options;
   std::string matcher;  ///< command of the external matcher; it serves `external` and `loftr-*`
 };
 
-/// Localizes by the name of a method. What a method holds on to (a child process) serves one run
-/// after the other; several threads may run at the same time.
+/// Localizes with a method chosen by name. Resources of a method (a child process) are reused by
+/// later runs; several threads may run at the same time.
 class Methods {
  public:
   explicit Methods(const MethodSetup& setup) : setup_(setup) {}
 
-  /// `localize` with the matches of the method; with WHS the very same. A method with a capacity of
-  /// its own raises templates.count to it. MethodError when it could not go on (the run is lost,
-  /// the next one may go well), std::invalid_argument for a name that does not exist.
+  /// As localize(), with the matches of the method; identical for WHS. A method with a capacity of
+  /// its own raises templates.count to it. MethodError when the method failed (this run is lost,
+  /// the next one may succeed), std::invalid_argument for an unknown name.
   LocalizationTrace localize(const std::string& method, const LocalizationProblem& problem,
                              const LocalizerOptions& options, const RunSettings& settings,
                              const std::stop_token& stop = {});
@@ -46,7 +46,7 @@ class Methods {
   void giveBack(const std::string& method, std::unique_ptr<MatchingMethod> used);
 
   MethodSetup setup_;
-  std::mutex mutex_;  ///< over what follows
+  std::mutex mutex_;  ///< guards the members below
   std::map<std::string, std::vector<std::unique_ptr<MatchingMethod>>> idle_;
 };
 

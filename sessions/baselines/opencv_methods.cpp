@@ -24,7 +24,7 @@ cv::Mat maskOf(const MatchQuery& query) {
   return mask;
 }
 
-/// Histogram equalization over the pixels of a mask alone; those beside it become 0.
+/// Histogram equalization over the pixels of a mask alone; those outside it become 0.
 cv::Mat equalizedWithin(const cv::Mat& gray, const cv::Mat& mask) {
   std::array<int, 256> below{};  // pixels of the mask at most this bright
   for (int y = 0; y < gray.rows; ++y)
@@ -218,7 +218,7 @@ class OrbMethod final : public MatchingMethod {
                                      cv::ORB::HARRIS_SCORE, kPatch_px, options_.fast_threshold);
     Features features;
     orb->detectAndCompute(image, mask, features.points, features.descriptors);
-    // It may give a few more than it was asked for.
+    // It may return a few more than requested.
     if (static_cast<int>(features.points.size()) > most) {
       features.points.resize(static_cast<std::size_t>(most));
       features.descriptors = features.descriptors.rowRange(0, most);

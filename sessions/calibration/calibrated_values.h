@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a calibration changes, for people.
+// Changes made by a calibration, for display.
 #pragma once
 
 #include <span>
@@ -24,7 +24,7 @@ struct CalibratedValue {
   double changeInSigmas() const;
 };
 
-/// The calibration's parameters in their order. `before`: the camera that it began with.
+/// The calibration's parameters in their order. `before`: the start camera.
 std::vector<CalibratedValue> calibratedValues(const Camera& before,
                                               const CameraCalibration& calibration);
 
@@ -32,7 +32,7 @@ std::vector<CalibratedValue> calibratedValues(const Camera& before,
 /// sigma."; empty when nothing is determined.
 std::string changeText(std::span<const CalibratedValue> values);
 
-/// A combination that is not determined, with the parameters' names for people.
+/// A combination that is not determined, with the displayed names of the parameters.
 std::string directionText(const Undetermined& direction);
 
 }  // namespace boresight::sessions

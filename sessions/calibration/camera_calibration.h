@@ -15,8 +15,8 @@
 
 namespace boresight::sessions {
 
-/// What is adjusted; the rest of the camera stays. Of the CAHV family and of pinhole cameras the
-/// distortion always stays.
+/// Parameters to be adjusted; the others are kept. The distortion of CAHV-family and pinhole
+/// cameras is always kept.
 struct FreeParameters {
   bool focal = true;
   bool centre = true;
@@ -28,17 +28,17 @@ struct FreeParameters {
 struct CameraCalibration {
   Camera camera;
   std::vector<CalibrationParameter> parameters;
-  /// Of the parameters in their order; in directions that are not determined only what is.
+  /// Of the parameters in their order, without the directions that are not determined.
   Eigen::MatrixXd covariance;
   std::vector<Undetermined> undetermined;
   std::vector<Pose> camera_from_station;  ///< by view
   double rms_px = 0.0;
-  /// Root of the weighted squares by degrees of freedom: 1 when the observations are as good as
-  /// their sigmas say; multiplies all sigmas where above 1.
+  /// Root of the weighted squares over the degrees of freedom: 1 when the observations are as
+  /// accurate as their sigmas state; multiplies all sigmas where above 1.
   double noise_factor = 1.0;
   int degrees_of_freedom = 0;
 
-  /// As camera.json states it, where focal length and centre are determined.
+  /// For camera.json; empty unless focal length and centre are determined.
   std::optional<CalibrationSigma> sigma() const;
 };
 
@@ -49,7 +49,7 @@ CameraCalibration calibrateCamera(const Camera& camera, std::span<const Calibrat
                                   const FreeParameters& free);
 
 /// Calibrates the camera of a case from all cases of the session that have the same camera.
-/// InputError for a case that does not exist; else as above.
+/// InputError for a case that does not exist; otherwise as above.
 CameraCalibration calibrateCameraOf(const Session& session, const std::string& case_id,
                                     ObservationSource source, const FreeParameters& free);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the camera is on the arm, from poses of both: base_from_end_effector by telemetry,
+// Pose of the camera on the arm, from poses of both: base_from_end_effector by telemetry,
 // camera_from_station by images (AX = ZB; Tsai and Lenz 1989, Strobl and Hirzinger 2006).
 #pragma once
 
@@ -23,7 +23,7 @@ struct HandEye {
   Pose camera_from_end_effector;
   Pose base_from_station;
   /// Over (rotation rad, translation m) of camera_from_end_effector, left perturbation, camera
-  /// frame; in directions that are not determined only what is.
+  /// frame, without the directions that are not determined.
   Matrix6d covariance = Matrix6d::Zero();
   std::vector<CalibrationParameter> parameters;  ///< changes from the start, with sigmas
   std::vector<Undetermined> undetermined;
@@ -31,8 +31,8 @@ struct HandEye {
 };
 
 /// Adjusts both transforms from `camera_from_end_effector_start`. Postures that turn about one axis
-/// only leave a direction open, which `undetermined` says. std::invalid_argument for fewer than
-/// three postures, std::runtime_error when the adjustment does not converge.
+/// only leave a direction undetermined, as listed in `undetermined`. std::invalid_argument for
+/// fewer than three postures, std::runtime_error when the adjustment does not converge.
 HandEye calibrateHandEye(std::span<const ArmPosture> postures,
                          const Pose& camera_from_end_effector_start);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a least-squares problem says of some of its parameters.
+// Information of a least-squares problem on some of its parameters.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ struct Undetermined {
 /// complement). `jacobian`: rows of residuals over their sigmas.
 Eigen::MatrixXd reducedInformation(const Eigen::MatrixXd& jacobian, Eigen::Index count);
 
-/// Covariance and sigmas of the parameters, and what is not determined: eigenvectors of the
+/// Covariance and sigmas of the parameters, and undetermined directions: eigenvectors of the
 /// information in units of the scales whose sigma exceeds 1. Those directions are left out of the
 /// covariance, and parameters with a share of more than a tenth in one have no finite sigma.
 Eigen::MatrixXd judgeInformation(const Eigen::MatrixXd& information,

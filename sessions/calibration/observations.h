@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What images of a station say of its points: annotations, or matches of runs.
+// Observations of station points in images: from annotations or from runs.
 #pragma once
 
 #include <string>
@@ -23,11 +23,11 @@ struct PointObservation {
 /// The observations of an image.
 struct CalibrationView {
   std::string case_id;
-  Pose camera_from_station;  ///< where the adjustment begins
+  Pose camera_from_station;  ///< start of the adjustment
   std::vector<PointObservation> points;
 };
 
-/// Where the observations of a case come from.
+/// Source of a case's observations.
 enum class ObservationSource { kAnnotations, kRuns };
 
 /// One view for each case with at least `kFewestPoints` observations: enabled point annotations, or

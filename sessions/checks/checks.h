@@ -28,31 +28,31 @@ struct PredictedEdges;
 /// Number of further seeds that detects a competing pose within a few seconds.
 inline constexpr int kConvergenceSeeds = 8;
 
-/// Another answer to the same image.
+/// A competing pose for the same image.
 struct ConvergedPose {
   Pose camera_from_station;
   bool mirrored = false;  ///< of the station's mirror image about a plane through its box's middle
   double coverage = 0.0;  ///< share of the edges that it predicts which the image shows, 0 to 1
 };
 
-/// Where further seeds around the case's lead, and what speaks for it.
+/// Poses reached from further seeds around the case's seed, with their edge coverage.
 struct ConvergenceResult {
   int seeds = 0;
   int converged = 0;
   int returned = 0;       ///< converged to the pose in question, within the requirement
   double coverage = 0.0;  ///< of the pose in question
-  std::vector<ConvergedPose> competing;  ///< other poses, and the mirror images' wherever they lie
+  std::vector<ConvergedPose> competing;  ///< other poses; of mirror images all poses
 };
 
-/// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty, and
-/// of the station's three mirror images from the pose in question. Deterministic. A stop leaves
-/// what was done by then; as many seeds as it counts give the same result again. `after_each` is
-/// told what was found so far.
+/// Runs the case's localization from `seeds` further seeds, drawn evenly in its uncertainty, and of
+/// the station's three mirror images from the pose in question. Deterministic. A stop returns the
+/// result so far; a repetition with its number of seeds gives the same result. `after_each`
+/// receives the result so far.
 ConvergenceResult convergenceTest(
     const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
     const std::function<void(const ConvergenceResult&)>& after_each = {});
 
-/// What became of other seeds: enough lead back, and none to another pose.
+/// Checks of the convergence test: enough seeds return to the pose, and none converges to another.
 bool isConvergenceCheck(const std::string& check_id);
 void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
                           const CheckLimits& limits, std::vector<Check>& checks);
@@ -60,18 +60,18 @@ void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
 /// The same case with its station mirrored in the plane through the middle of its matched box.
 std::unique_ptr<const LoadedCase> mirrorImageOf(const LoadedCase& loaded, int axis);
 
-/// All checks of a pose, always the same ones in the same order; what cannot be asked is not
-/// applicable. `convergence` is what was measured of it, if it was.
+/// All checks of a pose, always the same ones in the same order; checks without the data they need
+/// are not applicable. `convergence`: result of the convergence test, if it was run.
 std::vector<Check> checkPose(const ReviewSubject& subject, const CheckLimits& limits,
                              const std::optional<ConvergenceResult>& convergence = {});
 
-/// What a run says of itself: that it converged, that its corrections shrink, and its last
-/// matching iteration's inliers, their spread, window borders and margins. Always the same checks
-/// in the same order; not applicable to a pose from annotations.
+/// Checks of the run itself: convergence, shrinking corrections, and the last matching iteration's
+/// inliers, their spread, window borders and margins. Always the same checks in the same order; not
+/// applicable to a pose from annotations.
 void addRunChecks(const ReviewSubject& subject, const CheckLimits& limits,
                   std::vector<Check>& checks);
 
-/// Whether the run on the ground is the one that ran onboard, where the case has its record.
+/// Whether the run on the ground equals the onboard run, if the case has its onboard record.
 void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks);
 
 /// Inliers of the last matching iteration; 0 when there was none.
@@ -81,57 +81,56 @@ std::int32_t lastInliers(const LocalizationTrace& run);
 /// else the last one; -1 when there is none.
 int iterationToOpen(const LocalizationTrace& run);
 
-/// How widely points spread compared with others, in the direction in which they do least: the
-/// smallest ratio of both standard deviations over all directions (a generalized eigenvalue). 1
-/// when both spread alike, near 0 when the points lie on a line across which the others spread.
-/// Both deviations are increased by `floor_px` (squares add), so that others on a line ask for no
-/// spread across it. Nothing when there are fewer than two points of either.
+/// Spread of points relative to that of others, in the direction where it is smallest: the smallest
+/// ratio of both standard deviations over all directions (a generalized eigenvalue). 1 when both
+/// spread alike, near 0 when the points lie on a line across which the others spread. Both
+/// deviations are increased by `floor_px` (squares add), so that others on a line require no spread
+/// across it. Nothing when there are fewer than two points of either.
 std::optional<double> leastSpread(std::span<const Eigen::Vector2d> points_px,
                                   std::span<const Eigen::Vector2d> others_px, double floor_px);
 
 /// Standard deviation; 0 for fewer than two values.
 double deviationOf(std::span<const double> values);
 
-/// The value in the middle, the lower of two; values must not be empty.
+/// The median, the lower of the two middle values; values must not be empty.
 double medianOf(std::span<const double> values);
 
-/// Whether the image can carry a pose where the station is: saturation and range of gray levels
+/// Whether the image is usable where the station is: saturation and range of gray levels
 /// (ImageQuality).
 void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
                     std::vector<Check>& checks);
 
-/// What the image's edges say of the final pose, measured again, independent of the run's
-/// acceptance test: coverage, clutter and fall-off kept apart, and whether they ask for another
-/// camera.
+/// Edge checks of the final pose, measured independently of the run's acceptance test: coverage,
+/// clutter, edge-coverage sensitivity, and whether the edges contradict the camera.
 void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
                    const PredictedEdges& edges, std::vector<Check>& checks);
 
-/// What the edges say of the camera when its focal length and principal point are left free
-/// together with the pose.
+/// Changes of focal length and principal point when they are fitted to the edges together with the
+/// pose.
 struct CameraFit {
-  double focal_px = 0.0;   ///< change of the focal length that the edges ask for
+  double focal_px = 0.0;   ///< change of the focal length
   double centre_px = 0.0;  ///< length of the principal point's change
   double focal_sigma_px = 0.0;
   double centre_sigma_px = 0.0;  ///< along the change
 };
 
 /// Least squares over the distances along the normals with Tukey's weights, linear about the pose.
-/// The sigmas allow for edges that are off together (a bevel, a shadow): square tiles of the image
+/// The sigmas account for common errors of edges (a bevel, a shadow): square tiles of the image
 /// count as one observation each (cluster-robust covariance, Liang and Zeger 1986). Nothing with
-/// fewer than 60 edges found or when these do not determine all nine.
+/// fewer than 60 edges found or when these do not determine all nine unknowns.
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
                                    const Pose& camera_from_station);
 
-/// How far the pose is from what else is known: the case's annotations, its truth, the other
-/// cameras of its rig (the one that is farthest off).
+/// Distance of the pose from other references: the case's annotations, its truth, and the other
+/// cameras of its rig (the farthest one).
 void addAgreementChecks(const ReviewSubject& subject, const CheckLimits& limits,
                         std::vector<Check>& checks);
 
-/// Whether a pose lies within everything that a requirement names of another one.
+/// Whether a pose agrees with the subject's pose within all limits of the requirement.
 bool withinRequirement(const ReviewSubject& subject, const Pose& camera_from_station);
 
-/// The pose's covariance, mesh scale and calibration included, against each thing that the
-/// requirement names: translations at the end effector, or at the camera where that is not known.
+/// The pose's covariance, mesh scale and calibration included, against each limit of the
+/// requirement: translations at the end effector, or at the camera where that is not known.
 void addPrecisionChecks(const ReviewSubject& subject, const CheckLimits& limits,
                         std::vector<Check>& checks);
 

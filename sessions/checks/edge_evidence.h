@@ -19,23 +19,23 @@
 
 namespace boresight::sessions {
 
-/// What the raw image shows across a predicted line.
+/// Edge of the raw image found across a predicted line.
 struct FoundEdge {
   double offset_px = 0.0;  ///< along the normal, from the predicted place
   double slope = 0.0;      ///< size of the derivative there, gray/px
 };
 
-/// The raw image's gradient, at a scale of its own (OpenCV's Gaussian and Scharr; the localization
-/// has its own filters), and what can be asked of it: whether an edge of a given direction runs
-/// through a place, and all edges of a region.
+/// Gradient of the raw image at a scale of its own (OpenCV's Gaussian and Scharr, independent of
+/// the localization's filters), with two queries: the edge of a given direction at a position, and
+/// all edges of a region.
 class ImageEdges {
  public:
   /// Gradients of a region, which is cut to the image; ignored pixels (`ignore` may be nullptr)
-  /// show no edge. The image must outlive nothing: all that is needed is copied.
+  /// show no edge. All data is copied: the image need not outlive the object.
   ImageEdges(const ImageView& image, const BitImage* ignore, const cv::Rect& region);
 
   const cv::Rect& region() const { return region_; }
-  /// Of a pixel of the region.
+  /// Whether a pixel of the region is ignored.
   bool isIgnored(const cv::Point& pixel) const { return ignored_(pixel - region_.tl()) != 0; }
   /// Gray per px; the pixel must lie in the region.
   Eigen::Vector2d gradient(const cv::Point& pixel) const {
@@ -44,15 +44,15 @@ class ImageEdges {
   }
 
   /// The steepest place along a line's normal within the radius whose gradient points along the
-  /// normal, either way, to 25 deg; to a fraction of a pixel by a parabola. Nothing when there is
-  /// none of `least_slope` (gray/px), or the profile leaves the region or meets ignored pixels.
+  /// normal, either way, to 25 deg; to a fraction of a pixel by a parabola. Empty when no slope
+  /// reaches `least_slope` (gray/px), or the profile leaves the region or meets ignored pixels.
   std::optional<FoundEdge> across(const Eigen::Vector2d& predicted_px,
                                   const Eigen::Vector2d& normal, double radius_px,
                                   double least_slope) const;
-  /// Whether `across` can look there at all.
+  /// Whether across() can search there: inside the region, not on an ignored pixel.
   bool canLook(const Eigen::Vector2d& predicted_px, double radius_px) const;
 
-  /// Thin edges of the region (Canny 1986 with hysteresis down to half the slope): not zero on an
+  /// Thin edges of the region (Canny 1986 with hysteresis down to half the slope): nonzero on an
   /// edge.
   cv::Mat1b thinEdges(double least_slope) const;
 
@@ -84,7 +84,7 @@ struct PredictedEdges {
 PredictedEdges predictEdges(const Camera& camera, const MeshView& mesh,
                             const Pose& camera_from_station);
 
-/// What moves a predicted place in the image.
+/// Derivatives of a predicted edge point in the image.
 struct PlaceDerivative {
   Eigen::Matrix<double, 2, 6> by_pose;    ///< px per left perturbation (rad, m), camera frame
   Eigen::Matrix<double, 2, 3> by_camera;  ///< px per px of focal length (fy with fx), cx, cy
@@ -94,7 +94,7 @@ struct PlaceDerivative {
                                    const Eigen::Vector3d& point_in_station_m,
                                    PlaceDerivative& derivative);
 
-/// At most `most` places, evenly along the order in which they are.
+/// At most `most` places, evenly spaced in their order.
 std::vector<EdgePlace> thinned(const std::vector<EdgePlace>& places, std::size_t most);
 
 /// How the image's edges are searched.
@@ -102,11 +102,11 @@ std::vector<EdgePlace> thinned(const std::vector<EdgePlace>& places, std::size_t
 inline constexpr double kEdgeRadius_px = 4.0;     ///< search radius along the normal
 inline constexpr double kNearEdge_px = 1.5;       ///< largest distance from the predicted edge
 inline constexpr double kLeastSlope = 1.5;        ///< gray/px
-inline constexpr double kDisplaced_px = 4.0;      ///< of the fall-off, rms in the image
+inline constexpr double kDisplaced_px = 4.0;      ///< displacement for FallOff, rms in the image
 inline constexpr std::size_t kEdgePlaces = 6000;  ///< at most: enough for a share to a percent
 ///@}
 
-/// Shares of what was asked, each with how much was asked.
+/// A share as numerator and denominator.
 struct Share {
   double part = 0.0;
   double whole = 0.0;
@@ -114,45 +114,47 @@ struct Share {
   double value() const { return whole > 0.0 ? part / whole : 0.0; }
 };
 
-/// A way in which the pose could be off, and how much less of the station is then seen.
+/// Edge-coverage sensitivity: coverage after a displacement of the pose in one direction.
 struct FallOff {
   std::string direction;  ///< for display: "turned about the view axis"
   double coverage = 0.0;  ///< with the pose displaced this way, the mean of both senses
 };
 
-/// What the image's edges say of a pose, measured again: with filters of their own, on the raw
-/// image, from a render of the final pose.
+/// Edge evidence of a pose, measured on the raw image with filters of its own, from a render of the
+/// final pose.
 struct EdgeEvidence {
-  Share coverage;  ///< predicted length with the image's edge near, of what could be seen
+  Share coverage;  ///< predicted length with an image edge nearby, of the length searched
   Share clutter;   ///< image edges on the station that no predicted edge explains
-  Share evidence;  ///< nats beyond chance, of those expected at a right pose
-  std::vector<FallOff> fall_off;  ///< the six axes at the station, and the least determined way
+  Share evidence;  ///< nats beyond chance, of those expected at a correct pose
+  std::vector<FallOff> fall_off;  ///< the six axes at the station, and the least determined
+                                  ///< direction
 };
 
-/// One place and what was found there.
+/// A predicted edge point and the edge found there.
 struct LookedPlace {
   EdgePlace place;
   std::optional<FoundEdge> found;
 };
 
-/// Places that can be looked at, in their order, with what the image shows across them.
+/// Searches the image at all places that can be searched, in their order.
 std::vector<LookedPlace> lookAt(const ImageEdges& image, const std::vector<EdgePlace>& places);
 Share coverageOf(const std::vector<LookedPlace>& looked);
 
-/// That of the station at a pose, rendered again. Nothing where no edge can be looked at.
+/// Coverage of the station at a pose, rendered again; an empty share when no edge can be searched.
 Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station);
 
-/// Edges of the image inside the silhouette that are at least half as steep as the predicted ones
-/// that were seen, and of these the ones with no predicted edge of their direction within 2 px.
+/// Share of image edges without a predicted edge of their direction within 2 px, among those inside
+/// the silhouette that are at least half as steep as the predicted edges found.
 Share clutterOf(const ImageEdges& image, const PredictedEdges& edges,
                 const std::vector<LookedPlace>& looked);
 
-/// Evidence beyond chance: log of the odds that an edge is seen at a right pose and where the same
-/// outline is displaced by a twentieth and a tenth of its size (16 ways), summed over at most 1500
-/// places; and the same sum as a right pose would have it. Negative: less is seen than by chance.
+/// Evidence beyond chance: log of the odds that an edge is seen at a correct pose and where the
+/// same outline is displaced by a twentieth and a tenth of its size (16 ways), summed over at most
+/// 1500 places, of the sum expected at a correct pose. Negative: fewer edges are seen than by
+/// chance.
 Share evidenceOf(const ImageEdges& image, const std::vector<LookedPlace>& looked);
 
-/// The region in which a pose's edges are looked for, displaced ones as well.
+/// The region in which a pose's edges are searched, including displaced ones.
 cv::Rect regionOf(const PredictedEdges& edges);
 
 std::vector<FallOff> fallOffOf(const ImageEdges& image, const std::vector<EdgePlace>& places,

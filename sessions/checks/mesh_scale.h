@@ -18,7 +18,7 @@ struct MeshScale {
 /// With a mesh too large by a factor s each camera sees the station s times as far from its own
 /// centre; so the positions of a point by two cameras differ by (s - 1) times the baseline
 /// between them. Weighted least squares over the other cameras, with the covariances of images and
-/// calibrations. Nothing without another camera, or without a baseline.
+/// calibrations. Empty without another camera or without a baseline.
 std::optional<MeshScale> meshScaleByRig(const ReviewSubject& subject,
                                         const Eigen::Vector3d& point_in_station_m);
 

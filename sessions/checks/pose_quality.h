@@ -14,9 +14,9 @@ namespace boresight::sessions {
 /// "0.37 of 0.40 mm": two digits of the limit, more where the two numbers would read alike.
 std::string ofLimitText(double found, double limit, const std::string& unit);
 
-/// How well a pose is known in one of the terms of a requirement.
+/// Standard deviation of a pose in one of the terms of a requirement.
 struct PrecisionFigure {
-  CheckName check;                 ///< that judges it
+  CheckName check;                 ///< the check that judges it
   const char* where = "";          ///< "across the view axis"
   const char* unit = "";           ///< of the next three
   std::optional<double> required;  ///< nothing: the requirement does not limit it
@@ -26,7 +26,7 @@ struct PrecisionFigure {
 
   bool judged() const { return required && found; }
   bool holds() const { return judged() && *found <= *required; }
-  /// `ofLimitText` of a judged one.
+  /// ofLimitText(); only when judged().
   std::string text() const { return ofLimitText(*found, *required, unit); }
 };
 
@@ -37,20 +37,20 @@ struct PoseQuality {
   double sigmas = 3.0;                   ///< number of standard deviations that each figure is
   std::vector<PrecisionFigure> figures;  ///< always the same four, in the order of the checks
 
-  /// The judged one that takes the largest part of its limit; nullptr: none is judged.
+  /// The judged figure that takes the largest share of its limit; nullptr: none is judged.
   const PrecisionFigure* worst() const;
-  /// All that the requirement limits are known and within it, and it limits one at least.
+  /// Whether all limited figures are known and within their limits, and at least one is limited.
   bool holds() const;
   /// "3 sigma"
   std::string sigmasText() const;
-  /// "0.37 of 0.40 mm (3 sigma across the view axis at the end effector)"; why there is no figure
-  /// otherwise.
+  /// "0.37 of 0.40 mm (3 sigma across the view axis at the end effector)"; otherwise the reason why
+  /// there is no figure.
   std::string text() const;
 };
 
 PoseQuality poseQuality(const ReviewSubject& subject, double sigmas);
 
-/// Of a run's pose with the session's limits; `loaded` is the case that ran.
+/// Quality of a run's pose with the session's limits; `loaded` is the case that ran.
 PoseQuality runQuality(const Session& session, const std::shared_ptr<const LoadedCase>& loaded,
                        const LocalizationTrace& run);
 

@@ -17,37 +17,37 @@ namespace boresight::sessions {
 
 struct EdgePlace;
 
-/// How a pose that is fitted to edges follows an error of the camera: d xi / d (focal length, cx,
-/// cy in px) of the least squares over the places' distances along their normals,
-/// -(J' J)^-1 J' K. Nothing when the places do not determine the pose.
+/// Derivative of a pose fitted to edges by an error of the camera: d xi / d (focal length, cx, cy
+/// in px) of the least squares over the places' distances along their normals, -(J' J)^-1 J' K.
+/// Nothing when the places do not determine the pose.
 std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlace> places,
                                                         const Camera& camera,
                                                         const Pose& camera_from_station);
 
-/// How it follows an error of the vectors of a CAHV camera: d xi / d (C, A, H, V ...), 6 x 12,
-/// 18 or 21. The camera's frame stays where it is in the frame of the vectors, so that an error of
-/// C or A moves the pose as well. Nothing also outside the CAHV family.
+/// Derivative of the pose by an error of the vectors of a CAHV camera: d xi / d (C, A, H, V ...), 6
+/// x 12, 18 or 21. The camera's frame stays where it is in the frame of the vectors, so that an
+/// error of C or A moves the pose as well. Empty also outside the CAHV family.
 std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
                                              const Camera& camera, const Pose& camera_from_station);
 
-/// The covariance of a case's pose with all of its causes: the one function behind checks,
-/// decisions and exports. `picture` is what the run or the annotations say.
+/// The covariance of a case's pose with all of its causes, for checks, decisions and exports.
+/// `picture`: covariance from the run or the annotations.
 /// - A mesh that is larger by s about the middle of its box looks the same from 1 + s times the
 ///   distance: xi is s times that point in the camera frame, as a translation.
 /// - With a covariance S of the camera's vectors the calibration's term is J S J', with J of
 ///   `poseByVectors`.
-/// - Otherwise errors of focal length and principal point are independent; the pose follows them as
-///   `poseByCamera` says at the edges that it shows, or where these do not determine it as a shift
-///   of the same point that undoes the error.
+/// - Otherwise errors of focal length and principal point are independent; their effect on the
+///   pose is that of `poseByCamera` at the visible edges or, where these do not determine it, a
+///   shift of the same point that compensates the error.
 PoseCovariance poseCovariance(const SessionCase& session_case, const MeshView& mesh,
                               const Pose& camera_from_station, const Matrix6d& picture);
 
-/// Where the end effector is, and what a move commanded from the seed has to be corrected by.
+/// Pose of the end effector, and the correction of a move commanded from the seed.
 struct EndEffectorPose {
   Pose station_from_end_effector;
-  /// Where the end effector is in the frame in which it was thought to be: the identity when the
-  /// seed was right. A target planned from the seed as end_effector_seed_from_target is
-  /// inverse(this) * end_effector_seed_from_target from where the end effector is.
+  /// The estimated end-effector frame in that assumed from the seed; the identity when the seed was
+  /// correct. A target planned from the seed as end_effector_seed_from_target is inverse(this) *
+  /// end_effector_seed_from_target in the estimated frame.
   Pose end_effector_seed_from_end_effector_estimated;
   /// Of both, over xi = (rotation rad, translation m), right perturbation, in the end effector's
   /// frame: a_from_end_effector * Exp(xi). Zero when the camera's is.
@@ -64,9 +64,9 @@ EndEffectorPose endEffectorPose(
 EndEffectorPose endEffectorPose(const SessionCase& session_case, const Pose& camera_from_station,
                                 const Matrix6d& covariance);
 
-/// The move of the end effector that undoes the seed's error: a target that was planned from the
-/// seed is reached after it. At the end effector's origin, along and about the axes of `frame`.
-/// The arm's own error over so short a move is not included.
+/// The move of the end effector that compensates the seed's error: after it, a target planned from
+/// the seed is reached. At the end effector's origin, along and about the axes of `frame`. The
+/// arm's own error in this move is not included.
 struct Correction {
   FrameName frame;
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();

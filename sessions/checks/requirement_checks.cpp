@@ -176,7 +176,7 @@ constexpr const char* kInputsRemedy =
     "The image alone would pass: state mesh_scale_sigma and calibration_sigma after measurement, "
     "or take a nearer image.";
 
-/// Names the motion that the image leaves undetermined, where one stands out.
+/// Names the motion that the image leaves undetermined, if one is clearly the least certain.
 std::string imageRemedy(const ReviewSubject& subject) {
   const std::string least_known =
       leastKnownText(subject.covariance.picture, subject.camera_from_station);

@@ -77,7 +77,7 @@ void takeRun(LocalizationTrace run, ReviewSubject& subject) {
   subject.covariance.picture = subject.run->covariance;
 }
 
-/// InputError when the record cannot be read, or is no longer the one that the session knows.
+/// InputError when the record cannot be read, or differs from the hash in the session.
 std::optional<RecordComparison> againstOnboard(const LoadedCase& loaded,
                                                const LocalizationTrace& run) {
   const auto& known = loaded.source.onboard_record;

@@ -26,29 +26,29 @@ struct OtherPose {
   Eigen::Vector3d centre_in_camera_m = Eigen::Vector3d::Zero();
 };
 
-/// A pose of a case, and all that it can be checked by. A value: it may be checked on any thread.
+/// A pose of a case with all data to check it. A value: it may be checked on any thread.
 struct ReviewSubject {
   std::shared_ptr<const LoadedCase> loaded;
   Requirement requirement;  ///< the case's own, else the preset's
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
   PoseCovariance covariance;
-  std::optional<LocalizationTrace> run;  ///< that the pose came from; nothing of annotated ones
+  std::optional<LocalizationTrace> run;  ///< source of the pose; empty for annotated poses
   std::optional<OtherPose> annotated;    ///< by the case's annotations, unless these are the source
   std::vector<OtherPose> other_cameras;  ///< as the other cameras of the rig see the station
   std::optional<RecordComparison>
-      onboard;  ///< the case's onboard record with the run, if it has one
+      onboard;  ///< comparison of the case's onboard record, if any, with the run
 };
 
-/// How far a pose is from the truth of its case; nothing where that is not known.
+/// How far a pose is from the truth of its case; empty when the truth is not known.
 std::optional<PoseError> truthError(const LoadedCase& loaded, const Pose& camera_from_station);
 
-/// Where a recorded run comes from: its trace, or a second run of the same inputs.
+/// Reads a recorded run: its trace, or a second run of the same inputs.
 using RunReader = std::function<LocalizationTrace(const RunRecord&)>;
 
-/// What there is to check of a case: its last run (or this one), or the pose of its annotations.
-/// `read_run` is asked for the case's run and for those of the rig's other cameras. InputError when
-/// there is no pose of this source, or something cannot be read.
+/// The pose of a case to be checked: that of its last run (or of the run with `digest`), or of its
+/// annotations. `read_run` reads the case's run and those of the rig's other cameras. InputError
+/// when there is no pose of this source, or something cannot be read.
 ReviewSubject reviewSubject(const Session& session, std::shared_ptr<const LoadedCase> loaded,
                             PoseSource source, const std::string& digest = {},
                             const RunReader& read_run = loadSnapshot);

@@ -26,7 +26,7 @@ constexpr CheckName kMargin{"peak_margin", "Best against second-best position"};
 
 constexpr const char* kFromAnnotations = "The pose comes from annotations, not from a run.";
 constexpr const char* kNoMatching = "The run has no matching iteration.";
-/// Half the width of a pixel tells a line of edges from a plane of them.
+/// Half the width of a pixel distinguishes a line of edges from a plane of them.
 constexpr double kSpreadFloor_px = 1.0;
 /// A station whose edges lie within so small a part of their distance has no depth to speak of.
 constexpr double kLeastDepthShare = 0.01;

@@ -11,12 +11,12 @@ namespace boresight::sessions {
 enum class CheckState {
   kPassed,
   kFailed,
-  kNotApplicable,  ///< there is nothing to check it by (no truth, no annotation, not measured)
+  kNotApplicable,  ///< no data to check it (no truth, no annotation, not measured)
 };
 /// "passed", "failed", "not applicable".
 const char* checkStateText(CheckState state);
 
-/// On which side of its limit a figure is good.
+/// Side of the limit on which a figure passes.
 enum class LimitSide { kAtMost, kAtLeast };
 
 struct Check {
@@ -27,7 +27,7 @@ struct Check {
   std::optional<double> limit;   ///< in `unit`
   LimitSide side = LimitSide::kAtMost;
   std::string unit;      ///< "mm", "mrad", "px", "%", or empty
-  std::string sentence;  ///< what was found and what that means; of a failed one, what to do
+  std::string sentence;  ///< finding and meaning; for a failed check, also what to do
 
   bool operator==(const Check&) const = default;
 };
@@ -36,11 +36,11 @@ struct Check {
 std::string foundText(const Check& check);
 /// "at most 0.40 mm"; "" where there is no limit.
 std::string limitText(const Check& check);
-/// "0.12 mm (at most 0.40 mm)", "12 of 12" where the sentence alone tells: "".
+/// "0.12 mm (at most 0.40 mm)"; foundText() when figure or limit is missing.
 std::string figureText(const Check& check);
 
 int countOf(std::span<const Check> checks, CheckState state);
-/// None has failed, and one at least has passed.
+/// Whether no check has failed and at least one has passed.
 bool allPassed(std::span<const Check> checks);
 
 /// Id and displayed name of a check.
@@ -49,8 +49,8 @@ struct CheckName {
   const char* title;
 };
 
-/// A figure against its limit. `found` is a sentence that says what was found, `remedy` one that
-/// follows it when the check fails. A figure that is not finite fails and is not given.
+/// A figure against its limit. `found` is a sentence on the finding, `remedy` one that follows it
+/// when the check fails. A figure that is not finite fails and is not stored.
 Check measuredCheck(const CheckName& name, const std::string& unit, double figure, double limit,
                     LimitSide side, const std::string& found, const std::string& remedy);
 
@@ -58,7 +58,7 @@ Check measuredCheck(const CheckName& name, const std::string& unit, double figur
 Check statedCheck(const CheckName& name, bool passed, const std::string& found,
                   const std::string& remedy);
 
-/// A check that cannot be asked; `why` is a sentence.
+/// A check that is not applicable; `why` is a sentence.
 Check notAskedCheck(const CheckName& name, const std::string& why);
 
 /// A share (0 to 1) for a sentence: "46 %".
@@ -67,8 +67,8 @@ std::string percentText(double share);
 /// A number for a sentence: three significant digits, no exponent where it can be avoided.
 std::string sentenceNumber(double value);
 
-/// A readable table: state, check and figure, below them why one failed or is not applicable, and
-/// how many there are of each state. With `all_sentences` every check's sentence follows it.
+/// A readable table: state, check and figure, below each check that failed or is not applicable its
+/// sentence, and the counts of the states. With `all_sentences` every check's sentence follows it.
 std::string checksText(std::span<const Check> checks, bool all_sentences = false);
 
 /// "22 passed, 1 failed, 5 not applicable".

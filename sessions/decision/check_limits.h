@@ -12,8 +12,8 @@
 
 namespace boresight::sessions {
 
-/// Limits of the checks, declared once for the panel, the session's file and the command line. What
-/// each is for, and where its value comes from: checks.md.
+/// Limits of the checks, declared once for the panel, the session's file and the command line.
+/// Purpose of each limit and source of its value: checks.md.
 struct CheckLimits {
   double last_correction_percent = 25.0;
   double inlier_count = 12.0;
@@ -124,31 +124,32 @@ struct CheckLimits {
 /// Limits under a name, and the requirement of cases that have none of their own.
 struct CheckPreset {
   std::string name;
-  std::string help;  ///< one sentence: what it is for
+  std::string help;  ///< one sentence: its purpose
   Requirement requirement;
   CheckLimits limits;
 };
 
 inline constexpr const char* kDefaultCheckPreset = "sample_transfer";
 
-/// All of them; the default comes first.
+/// All presets; the default comes first.
 const std::vector<CheckPreset>& checkPresets();
-/// nullptr when there is none of this name.
+/// nullptr when no preset has this name.
 const CheckPreset* findCheckPreset(const std::string& name);
 
-/// The first one whose requirement names the same figures (a photograph's names pixels), whatever
+/// The first preset whose requirement limits the same figures (pixels for photographs), whatever
 /// their values; the default when there is none.
 const CheckPreset& presetFor(const Requirement& requirement);
 
-/// A preset's limits with those of a session in their place. OptionError when one does not exist or
-/// is out of range; std::invalid_argument when there is no such preset.
+/// A preset's limits with the changes of a session. OptionError when a changed limit does not exist
+/// or is out of range; std::invalid_argument when there is no such preset.
 CheckLimits checkLimits(const std::string& preset, const OptionList& changed);
 
-/// The limits of another preset; what was changed of the former ones is dropped.
-/// std::invalid_argument when there is no such preset.
+/// The limits of another preset; changes to the former limits are dropped. std::invalid_argument
+/// when there is no such preset.
 ReviewSettings withPreset(const ReviewSettings& settings, const std::string& preset);
 
-/// These limits, kept as what differs from the preset. std::invalid_argument when there is none.
+/// These limits, stored as differences from the preset. std::invalid_argument when the preset does
+/// not exist.
 ReviewSettings withLimits(const ReviewSettings& settings, const CheckLimits& limits);
 
 }  // namespace boresight::sessions

@@ -15,21 +15,21 @@
 
 namespace boresight::sessions {
 
-/// kReopened takes an earlier decision back.
+/// Outcome of a review; kReopened withdraws an earlier decision.
 enum class Verdict { kValidated, kRejected, kReopened };
 
-/// Where a pose comes from that is checked, decided on or exported.
+/// Source of a pose that is checked, decided on or exported.
 enum class PoseSource { kRun, kAnnotation };
 
 /// A check at the time of the decision.
 struct JudgedCheck {
   Check check;
-  std::string waiver_reason;  ///< why a failed one does not stand in the way, or empty
+  std::string waiver_reason;  ///< reason to waive a failed check, or empty
 
   bool operator==(const JudgedCheck&) const = default;
 };
 
-/// A second person's yes.
+/// Approval by a second person.
 struct Approval {
   std::string by;
   std::string comment;
@@ -42,7 +42,7 @@ struct Approval {
 /// left perturbation, camera frame.
 struct PoseCovariance {
   Matrix6d picture =
-      Matrix6d::Zero();  ///< of the picture or the annotations alone; zero: not known
+      Matrix6d::Zero();  ///< of the image or the annotations alone; zero: not known
   Matrix6d mesh_scale = Matrix6d::Zero();   ///< of the mesh's scale, which no single image shows
   Matrix6d calibration = Matrix6d::Zero();  ///< of focal length and principal point
 
@@ -64,40 +64,39 @@ struct JudgedPose {
   bool operator==(const JudgedPose&) const = default;
 };
 
-/// What an operator decided about a case's result; the last one of a case holds.
+/// An operator's decision on a case's result; the last decision of a case is in force.
 struct Decision {
   std::string case_id;
   Verdict verdict = Verdict::kRejected;
-  std::string by;  ///< who, not empty
+  std::string by;  ///< name of the operator, not empty
   std::string comment;
   std::string time;                               ///< UTC, "2026-01-31T23:59:59Z"
   std::string digest;                             ///< of the run that was judged, or empty
-  std::optional<JudgedPose> pose = std::nullopt;  ///< always there of a validation that can hold
-  /// SHA-256 of each thing that the judgement rests on, by its name
-  /// (sessions/review/review_status.h).
+  std::optional<JudgedPose> pose = std::nullopt;  ///< required for a validation to be valid
+  /// SHA-256 of each input of the judgement, by its name (sessions/review/review_status.h).
   std::map<std::string, std::string> input_fingerprint = {};
   std::vector<JudgedCheck> checks = {};
   std::optional<Approval> approval = std::nullopt;
   int convergence_seeds =
-      0;  ///< further seeds that the checks rest on, to measure them again; 0: none
+      0;  ///< further seeds of the convergence test, to repeat it; 0: none
 
   bool operator==(const Decision&) const = default;
 };
 
-/// By what the poses of a session are judged.
+/// Settings by which the poses of a session are judged.
 struct ReviewSettings {
   std::string preset = "sample_transfer";  ///< of limits (sessions/decision/check_limits.h)
-  OptionList limits;  ///< what differs from the preset, by name in the order of the alphabet
+  OptionList limits;  ///< differences from the preset, in alphabetical order
   bool second_person = false;  ///< a second person must approve a validation
 
   bool operator==(const ReviewSettings&) const = default;
 };
 
 nlohmann::ordered_json toJson(const Decision& decision);
-/// The reverse; whether there is such a case is for the caller to ask. InputError.
+/// The reverse; the caller must check that the case exists. InputError.
 Decision readDecision(const JsonReader& json);
 
-/// A check with its state, figure, limit and sentence; the reason of its override if there is one.
+/// A check with its state, figure, limit and sentence; the reason of its waiver, if any.
 nlohmann::ordered_json toJson(const JudgedCheck& judged);
 JudgedCheck readJudgedCheck(const JsonReader& json);
 

@@ -26,7 +26,7 @@
 namespace boresight::sessions {
 namespace {
 
-/// A value that the first thread to ask for it loads; a failure is the same for all.
+/// A value that the first thread to request it loads; a failure is the same for all.
 template <class T>
 using Shared = std::shared_future<T>;
 
@@ -113,8 +113,8 @@ std::optional<PoseError> errorOf(const Case& dataset_case, const Camera& camera,
                     {scene.matched_vertices, &scene.symmetries});
 }
 
-/// What of the requirement the error takes up. Without the costly errors of BOP, unless the station
-/// has symmetries.
+/// The share of the requirement that the error takes up. Without the costly errors of BOP, unless
+/// the station has symmetries.
 std::optional<double> shareOf(const Case& dataset_case, const Camera& camera, const Pose& estimate,
                               const StationScene& scene) {
   if (!dataset_case.truth_camera_from_station || !dataset_case.requirement) return std::nullopt;

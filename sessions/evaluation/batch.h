@@ -15,12 +15,11 @@
 
 namespace boresight::sessions {
 
-/// The plane in which a mesh is mirrored: the one across this axis through the middle of its
-/// matched parts.
+/// Normal of the plane in which a mesh is mirrored, through the middle of its matched parts.
 enum class MirrorAxis { kX = 0, kY = 1, kZ = 2 };
 
 struct BatchOptions {
-  /// What is run: cases that meet each filter that is not empty (any of its values).
+  /// Filters: a case is run if it matches every filter that is not empty, by any of its values.
   std::vector<std::string> cases;
   std::vector<std::string> tags;
   std::vector<std::string> stations;
@@ -31,14 +30,15 @@ struct BatchOptions {
 
   LocalizerOptions localizer;  ///< a feature size of 0 is replaced by the station's, if it has one
   std::string method = "whs";
-  MethodSetup method_setup;  ///< of those that are not WHS
+  MethodSetup method_setup;  ///< of methods other than WHS
   Kernels kernels = bestKernels();
   int jobs = 1;
   int threads = 0;               ///< of each run; 0: its share of the cores
   std::size_t memory_limit = 0;  ///< of each run, see RunSettings
   int reseeds = 0;               ///< further seeds per case; needs truth
-  double reseed_scale = 1.0;     ///< how far they are drawn, while the declared uncertainty stays
-  bool keep_matches = false;     ///< each step of a result says what became of every template
+  double reseed_scale = 1.0;     ///< factor on the drawn offsets; the declared uncertainty is
+                                 ///< unchanged
+  bool keep_matches = false;     ///< steps of a result hold the match details of every template
   /// Deliberately wrong meshes: another station's, or mirrored.
   std::string mesh_of;
   std::optional<MirrorAxis> mirror;
@@ -46,7 +46,7 @@ struct BatchOptions {
   bool wrongMesh() const { return !mesh_of.empty() || mirror.has_value(); }
 };
 
-/// One run that is to be done.
+/// A run to be done.
 struct PlannedRun {
   const Case* input = nullptr;     ///< of the dataset
   std::int64_t dataset_index = 0;  ///< of the case in the dataset
@@ -54,17 +54,17 @@ struct PlannedRun {
 };
 
 /// The runs that the options ask for, in the order of the dataset, then of seeds. InputError when a
-/// filter or `mesh_of` names what the dataset does not have, or no case meets all filters. A shard
-/// may be empty.
+/// filter or `mesh_of` names something that is not in the dataset, or no case meets all filters. A
+/// shard may be empty.
 std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& options);
 
-/// Told of each finished run, by one thread at a time and in the order of finishing.
+/// Called for each finished run, by one thread at a time, in the order of finishing.
 using BatchProgress = std::function<void(std::size_t done, std::size_t total, const RunResult&)>;
 
-/// Carries out a plan on `jobs` threads and keeps nothing: what `progress` throws ends it. An image
-/// is read when the first run of its case begins, and dropped after the last: as many are held as
-/// there are jobs. A case whose files are wrong is a result with status "input_error", and the
-/// others go on. After a stop nothing is told of runs that were not finished.
+/// Runs a plan on `jobs` threads and keeps no results; an exception of `progress` ends it. An image
+/// is read when the first run of its case begins, and dropped after the last: at most `jobs` images
+/// are held. A case with invalid files gives a result with status "input_error", and the others
+/// continue. After a stop, unfinished runs are not reported.
 void runPlanned(const Dataset& dataset, const BatchOptions& options,
                 const std::vector<PlannedRun>& plan, const BatchProgress& progress,
                 const std::stop_token& stop = {});
@@ -74,7 +74,7 @@ void runPlanned(const Dataset& dataset, const BatchOptions& options,
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
                                 const BatchProgress& progress, const std::stop_token& stop = {});
 
-/// "12 s", "4 min", "2 h 05 min", "3 days 4 h"; "?" for what is not known.
+/// "12 s", "4 min", "2 h 05 min", "3 days 4 h"; "?" when unknown.
 std::string durationText(double seconds);
 
 /// Progress of a batch: "12 of 40 runs, 11 completed, 720 an hour, 2 min left". Rate and time left

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a results file's runs were made of, with and on.
+// Dataset, methods and processes of the runs in a results file.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace boresight::sessions {
 
-/// The dataset that all runs of a results file are of, and the program that made them.
+/// The dataset and the program version that all runs of a results file share.
 struct DatasetFacts {
   std::string dataset;         ///< dataset.json, or the folder of a BOP dataset; absolute
-  std::string dataset_sha256;  ///< as Dataset has it
+  std::string dataset_sha256;  ///< Dataset::sha256
   std::int64_t cases = 0;
   std::string version;  ///< of the program
 };
 
-/// What all runs of one method in a results file share.
+/// Settings that all runs of one method in a results file share.
 struct MethodFacts {
   std::string method;
   std::string profile;
-  std::string options;         ///< JSON: what differs from the profile
+  std::string options;         ///< JSON: differences from the profile
   std::string options_sha256;  ///< optionsDigest over all of them
   double reseed_scale = 1.0;
   std::string mesh_of;  ///< deliberately wrong meshes: another station's,
@@ -53,21 +53,21 @@ struct BatchRun {
   double seconds = 0.0;   ///< of wall time, up to its last run
 };
 
-/// Everything of `options`, `profile` and the deliberate wrongs.
+/// Facts of `method`, `profile` and `options`; deliberately wrong meshes and note stay unset.
 MethodFacts methodFacts(const std::string& method, const std::string& profile,
                         const LocalizerOptions& options);
 
-/// Takes up options of the method itself, as far as they are not its defaults.
+/// Adds options of the method itself that differ from its defaults.
 void addMethodOptions(const OptionList& changed, MethodFacts& facts);
 
 DatasetFacts datasetFacts(const Dataset& dataset);
 
-/// In what the second cannot go on with the first: one readable clause ("its runs are of another
-/// dataset, ..."); nothing when it can.
+/// Why runs with `given` cannot be added to those with `held`: one readable clause ("its runs are
+/// of another dataset, ..."); empty when they can.
 std::optional<std::string> contradiction(const DatasetFacts& held, const DatasetFacts& given);
 std::optional<std::string> contradiction(const MethodFacts& held, const MethodFacts& given);
 
-/// Name, processor and system of this machine, as far as it tells; the rest is the caller's.
+/// Name, processor and system of this machine, as far as known; the caller sets the rest.
 BatchRun thisBatchRun();
 
 }  // namespace boresight::sessions

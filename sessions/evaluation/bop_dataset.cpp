@@ -87,8 +87,8 @@ std::map<int, fs::path> bopScenes(const fs::path& split, const std::string& sens
   return scenes;
 }
 
-/// The folder of the split that is asked for, or of "test", or of the only one. InputError, listing
-/// what there is.
+/// The folder of the requested split, or of "test", or of the only one. InputError, listing the
+/// existing splits.
 fs::path bopSplitFolder(const fs::path& root, const std::string& split, const std::string& sensor) {
   if (!split.empty()) {
     if (fs::is_directory(root / split)) return root / split;
@@ -134,7 +134,7 @@ fs::path bopModels(const fs::path& root) {
   throw InputError(root, "", "has no folder models with a models_info.json");
 }
 
-/// (scene, image, object) -> how many instances are asked for; nothing when there is no list.
+/// (scene, image, object) -> number of target instances; empty without a list.
 using BopTargets = std::map<std::tuple<int, int, int>, int>;
 
 std::optional<BopTargets> bopTargets(const fs::path& root) {
@@ -152,7 +152,7 @@ std::optional<BopTargets> bopTargets(const fs::path& root) {
   return targets;
 }
 
-constexpr double kLeastVisible = 0.1;  ///< share of an object that the challenge asks for
+constexpr double kLeastVisible = 0.1;  ///< visible share of the challenge's objects
 
 /// An entry of models_info.json.
 struct Model {
@@ -311,7 +311,7 @@ std::vector<Reader::Instance> Reader::chosen(int scene_id, int image_id,
                   [](const Instance& instance) { return instance.visible < kLeastVisible; });
     return instances;
   }
-  // Of several instances the challenge asks for the ones that are seen best.
+  // Of several instances the challenge requires the most visible ones.
   std::stable_sort(instances.begin(), instances.end(),
                    [](const Instance& a, const Instance& b) { return a.visible > b.visible; });
   std::map<int, int> taken;

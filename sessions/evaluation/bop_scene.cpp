@@ -44,7 +44,7 @@ ordered_json objectEntry(const PosedImage& image, int object_id) {
   json["cam_R_m2c"] = rotation;
   json["cam_t_m2c"] = translation;
   json["obj_id"] = object_id;
-  if (!image.remark.empty()) json["remark"] = image.remark;  // readers take what they know
+  if (!image.remark.empty()) json["remark"] = image.remark;  // readers ignore unknown members
   return json;
 }
 

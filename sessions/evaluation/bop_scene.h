@@ -18,19 +18,19 @@ struct BopObject {
 };
 
 /// Writes scene_gt.json and scene_camera.json of a BOP scene (bop_toolkit, bop_datasets_format.md)
-/// into a folder, one object an image: rotations row by row, millimetres, pixels as OpenCV counts
-/// them; a remark is a further member of its object. BOP knows no Brown-Conrady distortion:
-/// OutputError for a camera that has some (undistort the image, the pose stays), for an id that is
-/// given twice or negative, and for what cannot be written.
+/// into a folder, one object per image: rotations row by row, millimetres, OpenCV pixel
+/// coordinates; a remark is a further member of its object. BOP has no Brown-Conrady distortion:
+/// OutputError for a camera with distortion (undistort the image, the pose stays), for a duplicate
+/// or negative id, and for files that cannot be written.
 void writeBopScene(const std::filesystem::path& folder, std::span<const BopObject> objects);
 
-/// Reads them back, several objects an image allowed; poses come back to 1e-12. InputError.
+/// Reads them back, several objects per image allowed; poses are equal within 1e-12. InputError.
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder);
-/// The same from two files, whatever they are called.
+/// The same from two files of any name.
 std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,
                                     const std::filesystem::path& truth_file);
 
-/// The number that a key of such a file is. InputError.
+/// The image id in a key of such a file. InputError.
 int bopImageId(const std::string& key, const JsonReader& entry);
 
 /// One line of a BOP19 results file.
@@ -38,15 +38,15 @@ struct BopResult {
   int scene_id = 0;
   int image_id = 0;
   int object_id = 0;
-  double score = 0.0;  ///< the higher, the surer; only the order within an object counts
+  double score = 0.0;  ///< higher is more certain; only the order within an object counts
   Pose camera_from_station;
   double seconds = -1.0;  ///< for the image as a whole, the same in all its lines; -1: not measured
 };
 
-/// Writes a results file as the BOP challenges take it (bop_toolkit, inout.save_bop_results with
-/// version "bop19"): a header and lines `scene_id,im_id,obj_id,score,R,t,time`, R nine numbers row
-/// by row and t three in millimetres, with blanks between. OutputError; also for a negative id, a
-/// pose that is not finite, and lines of one image that differ in their time by 1 ms or more.
+/// Writes a results file of the BOP challenges (bop_toolkit, inout.save_bop_results with version
+/// "bop19"): a header and lines `scene_id,im_id,obj_id,score,R,t,time`, R nine numbers row by row
+/// and t three in millimetres, with blanks between. OutputError; also for a negative id, a pose
+/// that is not finite, and lines of one image that differ in their time by 1 ms or more.
 void writeBopResults(const std::filesystem::path& file, std::span<const BopResult> results);
 
 }  // namespace boresight::sessions

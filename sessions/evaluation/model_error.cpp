@@ -18,7 +18,7 @@ namespace {
 constexpr int kTurnSteps = 315;  ///< bop_toolkit: ceil(pi / 0.01)
 constexpr int kRefinements = 48;
 
-/// From one point, as Eigen's tree asks for it.
+/// From one point, in the form that Eigen's tree requires.
 struct SquaredDistance {
   using Scalar = double;
   const Eigen::Vector3d& from;

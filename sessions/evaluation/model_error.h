@@ -16,15 +16,15 @@
 
 namespace boresight::sessions {
 
-/// A station as its errors see it: vertices in the station frame, metres, and what it looks like.
+/// Model of a station for pose errors: vertices in the station frame, metres, and symmetries.
 struct ModelView {
   std::span<const Eigen::Vector3f> vertices_in_station_m;
-  const Symmetries* symmetries = nullptr;  ///< none: only the pose itself
+  const Symmetries* symmetries = nullptr;  ///< nullptr: no symmetries
 };
 
 /// The errors of the BOP challenges (Hodan 2020 for MSSD and MSPD; Hinterstoisser 2012 for ADD and
-/// ADI). Each is the least over the poses that look the same; turns about an axis are sampled every
-/// 2 pi / 315, as the challenge does, and then refined.
+/// ADI). Each is the minimum over the symmetric poses; turns about an axis are sampled every 2 pi /
+/// 315, as the challenge does, and then refined.
 ///
 /// MSSD, m: the largest distance between a vertex under the estimate and under the truth.
 double surfaceDistance_m(const Pose& camera_from_station_true,
@@ -39,13 +39,13 @@ std::optional<double> projectionDistance_px(const Camera& camera,
 /// ADD, m: the mean distance between a vertex under the estimate and under the truth.
 double meanDistance_m(const Pose& camera_from_station_true,
                       const Pose& camera_from_station_estimated, const ModelView& model);
-/// ADI, m: the mean distance from a vertex under the truth to the nearest under the estimate. Blind
-/// to symmetries by itself.
+/// ADI, m: the mean distance from a vertex under the truth to the nearest under the estimate.
+/// Insensitive to symmetries by itself.
 double meanNearestDistance_m(const Pose& camera_from_station_true,
                              const Pose& camera_from_station_estimated, const ModelView& model);
 
-/// All that is reported of an estimate: poseError and projectionError against the
-/// pose that looks like the truth with the smallest surface distance, and the four above.
+/// All reported errors of an estimate: poseError and projectionError against the true pose's
+/// symmetric equivalent with the smallest surface distance, and the four above.
 PoseError wholeError(const Camera& camera, const Pose& camera_from_station_true,
                      const Pose& camera_from_station_estimated,
                      const std::optional<Pose>& camera_from_end_effector, const ModelView& model);

@@ -23,8 +23,8 @@ struct PoseError {
   double rotation_mrad = 0.0;  ///< between the axes (out of plane)
   double in_plane_mrad = 0.0;  ///< twist about the axis, signed, in (-pi, pi] rad; not judged
   double geodesic_mrad = 0.0;  ///< whole rotation angle; not judged
-  std::optional<double> projection_px;  ///< nothing when it was not asked for or cannot be had
-  /// The errors of the BOP challenges (model_error.h); nothing when they were not asked for.
+  std::optional<double> projection_px;  ///< empty when not requested or not available
+  /// The errors of the BOP challenges (model_error.h); empty when not requested.
   std::optional<double> mssd_mm = {};
   std::optional<double> mspd_px = {};
   std::optional<double> add_mm = {};
@@ -47,21 +47,22 @@ std::optional<double> projectionError(const Camera& camera, const Pose& camera_f
 
 inline constexpr double kMradPerDegree = 1e3 * kDegree_rad;
 
-/// A figure that a requirement may name, with what an error has of it, in the requirement's unit.
+/// A figure that a requirement may limit, with the corresponding error, in the requirement's unit.
 struct JudgedFigure {
   std::optional<double> Requirement::*limit;
   std::optional<double> (*error)(const PoseError&);
 };
 /// Normal, lateral, rotation, projection.
 extern const std::array<JudgedFigure, 4> kJudgedFigures;
-/// Of the requirement's rotation, in the unit of PoseError.
+/// The requirement's rotation limit in the unit of PoseError.
 std::optional<double> rotationLimit_mrad(const Requirement& requirement);
 
-/// Within `factor` times everything that the requirement names. A named projection error that is
-/// not known does not meet it.
+/// Whether the error is within `factor` times all limits of the requirement. An unknown projection
+/// error does not meet a limit on it.
 bool meetsRequirement(const PoseError& error, const Requirement& requirement, double factor = 1.0);
 
-/// Beyond 3 times the requirement: what makes a completed run a gross false positive.
+/// Whether the error exceeds 3 times the requirement: a completed run is then a gross false
+/// positive.
 bool isGross(const PoseError& error, const Requirement& requirement);
 
 /// Over completed runs.
@@ -79,7 +80,7 @@ struct PoseSigma {
   Eigen::Vector3d rotation_mrad = Eigen::Vector3d::Zero();   ///< about the camera's axes
   double normal_mm = 0.0;                                    ///< along the camera's axis
   double lateral_mm = 0.0;         ///< across it: root of the sum of both variances
-  double out_of_plane_mrad = 0.0;  ///< between the axes: the same of the turns about x and y
+  double out_of_plane_mrad = 0.0;  ///< between the axes: root of the sum of both variances
 };
 
 /// Where translations are judged: "end effector", or "camera" where that is not known.
@@ -92,7 +93,7 @@ const char* judgedPlace(const std::optional<Pose>& camera_from_end_effector);
 std::optional<PoseSigma> poseSigma(const Matrix6d& covariance,
                                    const std::optional<Pose>& camera_from_end_effector);
 
-/// One sigma of where points are seen: root of the mean over the points of the variance of both
+/// One sigma of projected points: root of the mean over the points of the variance of both
 /// coordinates together, px. Nothing when none of them projects.
 std::optional<double> projectionSigma(const Camera& camera, const Pose& camera_from_station,
                                       std::span<const Eigen::Vector3f> points_in_station_m,
@@ -101,9 +102,9 @@ std::optional<double> projectionSigma(const Camera& camera, const Pose& camera_f
 /// The largest part of the requirement that the error takes up; above 1: beyond it.
 double requirementShare(const PoseError& error, const Requirement& requirement);
 
-/// What exceeds the requirement most of a pose's one sigma, as a clause: "10.4 mm across the view
-/// axis at the end effector, 26 times the 0.4 mm required". "" when nothing does, or the covariance
-/// is zero. A requirement in pixels is not asked.
+/// The one-sigma figure of a pose that exceeds the requirement most, as a clause: "10.4 mm across
+/// the view axis at the end effector, 26 times the 0.4 mm required". "" when none does, or the
+/// covariance is zero. A requirement in pixels is not evaluated.
 std::string sigmaExcessText(const Matrix6d& covariance,
                             const std::optional<Pose>& camera_from_end_effector,
                             const Requirement& requirement);

@@ -9,13 +9,13 @@
 
 namespace boresight::sessions {
 
-/// A point of the station and where an image shows it.
+/// A point of the station and its image position.
 struct SeenPoint {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-/// What other programs' formats know of a solved image.
+/// A solved image as other programs' formats describe it.
 struct PosedImage {
   int id = 0;        ///< of the image, not negative
   std::string name;  ///< its file; where the format has one

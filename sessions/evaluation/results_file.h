@@ -18,11 +18,11 @@
 
 namespace boresight::sessions {
 
-/// Annotations an SQLite file as ours ("BSRT"), and of which form.
+/// SQLite application id ("BSRT") and version of results files.
 inline constexpr std::int64_t kResultsApplication = 0x42535254;
 inline constexpr std::int64_t kResultsVersion = 5;
 
-/// A results file but its runs.
+/// Contents of a results file except the runs.
 struct ResultsFacts {
   std::filesystem::path file;
   DatasetFacts dataset;
@@ -33,8 +33,8 @@ struct ResultsFacts {
 /// InputError unless the file is a results file of this version.
 ResultsFacts readResultsFacts(const std::filesystem::path& file);
 
-/// One run after the other, with tags and without steps, in the order of the dataset, then of
-/// seeds, then of methods: whatever order they were run in. InputError.
+/// Calls `take` for each run, with tags and without steps, ordered by dataset, then seed, then
+/// method, whatever order they were run in. InputError.
 void forEachRun(const std::filesystem::path& file, const std::function<void(RunResult&&)>& take);
 
 /// The iterations of a file's runs, one run at a time.
@@ -60,34 +60,34 @@ struct Results {
 };
 Results readResults(const std::filesystem::path& file);
 
-/// Makes the tables of a new file, in a transaction.
+/// Creates the tables of a new file, in a transaction.
 void makeResultsTables(SqlDatabase& database, const DatasetFacts& dataset);
 void addMethodFacts(SqlDatabase& database, const MethodFacts& method);
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names, const std::string& prefix = "");
 
 /// A results file that grows: each run is a transaction that is on the disk when `add` returns, so
-/// that a process may be killed at any time and another one goes on. A run is known by its case,
-/// the number of its seed, and its method, whose options a file holds once: nothing is there twice.
-/// Not for several threads at a time.
+/// that a process may be killed at any time and another one may continue. A run is identified by
+/// its case, the number of its seed, and its method, whose options a file holds once: there are no
+/// duplicates. Not thread-safe.
 class ResultsWriter {
  public:
-  /// Makes the file, or goes on with one that is there. OutputError when it cannot be written, is
-  /// not a results file, another process is writing it, or its runs are of another dataset or
-  /// version.
+  /// Creates the file, or continues an existing one. OutputError when it cannot be written, is not
+  /// a results file, another process is writing it, or its runs are of another dataset or version.
   ResultsWriter(const std::filesystem::path& file, const DatasetFacts& dataset);
   ~ResultsWriter();
 
-  /// Runs of this method are to be added. OutputError when the file's runs of it have other
+  /// Announces runs of this method. OutputError when the file's runs of the method have other
   /// options.
   void admit(const MethodFacts& method);
-  /// What is added from now on is of this batch_run.
+  /// Runs added from now on belong to this batch run.
   void begin(BatchRun batch_run);
-  /// Whether a run is there. One whose input was refused is not: it is to be tried again.
+  /// Whether the file has a run. A run whose input was rejected does not count, so that it is
+  /// repeated.
   bool has(const std::string& method, const std::string& case_id, std::int32_t reseed) const;
-  /// Adds a run, in@dataset_index of one of the same whose input was refused. OutputError.
+  /// Adds a run; replaces the same run if its input was rejected before. OutputError.
   void add(const RunResult& run);
-  /// Notes that the batch_run ended by itself.
+  /// Records that the batch run ended normally.
   void end();
 
  private:
@@ -106,17 +106,16 @@ class ResultsWriter {
 
 struct MergeCounts {
   std::int64_t runs = 0;   ///< in the merged file
-  std::int64_t equal = 0;  ///< that were left out: the same run, with the same result, was there
+  std::int64_t equal = 0;  ///< duplicates with the same result, left out
 };
 
-/// Makes `out` of the runs of results files, e.g. of shards; an `out` that is there already counts
-/// as one of them, so that nothing of it is lost. Runs that are in several files are taken once
-/// when they ended alike: in status, success and digest (where a method has none, in the pose);
-/// times may differ. A run whose input was refused gives way to one that was done. The file is
-/// whole or as it was before.
+/// Merges the runs of results files, e.g. of shards, into `out`; an existing `out` is merged as
+/// well, so that its runs are kept. Runs in several files are taken once when status, success and
+/// digest (pose, for a method without digest) are equal; times may differ. A completed run replaces
+/// one whose input was rejected. The file is written whole or not at all.
 ///
 /// InputError, naming both files, when they are of different datasets, versions or options, or a
-/// run ended otherwise in them; OutputError when `out` cannot be written.
+/// run has different results in them; OutputError when `out` cannot be written.
 MergeCounts mergeResults(const std::filesystem::path& out,
                          const std::vector<std::filesystem::path>& inputs);
 

@@ -103,7 +103,7 @@ class Merge {
                          "); only equal runs can be merged");
   }
 
-  /// Runs whose input was refused, where the other file has the run done.
+  /// Runs whose input was rejected, while the other file has the completed run.
   void removeRefused() {
     const std::string ids = std::string("(SELECT h.id") + kCommon +
                             "WHERE h.status = 'input_error' AND o.status <> 'input_error')";

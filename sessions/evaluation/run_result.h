@@ -21,8 +21,8 @@ namespace boresight::sessions {
 /// A case with this tag is far.
 inline constexpr const char* kFarTag = "far";
 
-/// The parts of a time and of an error, by their names in files. The model's are unknown (nothing)
-/// where they were not asked for.
+/// The parts of a time and of an error, by their names in files. Model errors are empty when not
+/// requested.
 inline constexpr std::pair<const char*, double StageSeconds::*> kStages[] = {
     {"initialization", &StageSeconds::initialization},
     {"rendering", &StageSeconds::rendering},
@@ -42,13 +42,13 @@ inline constexpr std::pair<const char*, std::optional<double> PoseError::*> kMod
     {"add_mm", &PoseError::add_mm},
     {"adi_mm", &PoseError::adi_mm}};
 
-/// What is kept of one iteration of a run.
+/// Stored data of one iteration of a run.
 struct RunStep {
   std::int32_t index = 0;    ///< over all attempts, from 0
-  std::int32_t attempt = 0;  ///< as in IterationTrace, from which the rest is taken, too
+  std::int32_t attempt = 0;  ///< as in IterationTrace, like the members below
   std::string kind;          ///< "match" or "refine"
   std::int32_t level = 0;
-  std::string status;  ///< as localizationStatusText says
+  std::string status;  ///< localizationStatusText()
   double threshold_px = 0.0;
   std::int32_t templates = 0;
   std::int32_t matches = 0;  ///< templates that were searched for
@@ -61,15 +61,15 @@ struct RunStep {
   double correction_px = 0.0;
   StageSeconds seconds;
   Pose camera_from_station;           ///< after
-  std::optional<PoseError> error;     ///< of that pose, without the projection's
+  std::optional<PoseError> error;     ///< of that pose, without the projection error
   std::vector<MatchDetails> details;  ///< one per template, where the trace has them
 };
 
-/// One per iteration of the trace; errors where the case's truth is known. Matches come along when
-/// the trace was recorded in full.
+/// One per iteration of the trace; errors where the case's truth is known. Match details are
+/// included when the trace was recorded in full.
 std::vector<RunStep> runSteps(const LocalizationTrace& trace, const Case& dataset_case);
 
-/// What is kept of one run of a batch.
+/// Stored data of one run of a batch.
 struct RunResult {
   std::string case_id;
   std::int64_t dataset_index = 0;  ///< of the case in its dataset, from 0
@@ -78,8 +78,8 @@ struct RunResult {
   std::string method;
   std::vector<std::string> tags;
 
-  /// LocalizationStatus as text, or "input_error", "method_error" (the method could not go on), or
-  /// "bad_seed" (nothing to see from it).
+  /// LocalizationStatus as text, or "input_error", "method_error" (the method failed), or
+  /// "bad_seed" (the station is not visible from it).
   std::string status;
   std::string message;  ///< why it did not converge; empty otherwise
   bool completed = false;
@@ -93,7 +93,7 @@ struct RunResult {
   std::int32_t matches = 0;  ///< of the last iteration that matched
   std::int32_t inliers = 0;
   double edge_support = 0.0;
-  /// Of runs that search and came to a pose: that it is right, and the evidence for it.
+  /// Of runs with a search that found a pose: probability that it is right, and its evidence.
   std::optional<double> probability;
   std::optional<double> evidence_nats;          ///< ContourEvidence::strongest_nats()
   std::optional<double> weakest_quadrant_nats;  ///< ContourEvidence::weakest_nats()
@@ -103,15 +103,15 @@ struct RunResult {
   std::int32_t compared_poses = 0;              ///< refined and measured
   std::string compared;              ///< these poses as a JSON list, comparedText(); may be empty
   std::optional<double> score_gap;   ///< to the best other pose that was compared
-  std::int32_t competing_poses = 0;  ///< that the image supports, too
-  std::optional<double> least_margin_nats;    ///< of the pose's evidence beyond theirs
+  std::int32_t competing_poses = 0;  ///< that the image also supports
+  std::optional<double> least_margin_nats;    ///< of the pose's evidence over theirs
   std::optional<ImageQuality> image_quality;  ///< at the seed's projection of the station
   std::optional<PoseError> error;
   std::optional<PoseError> seed_error;
   std::optional<Requirement> requirement;
   StageSeconds seconds;
   std::string digest;
-  std::vector<RunStep> steps;  ///< as it ran; a results file's are read by StepReader
+  std::vector<RunStep> steps;  ///< of a run in this process; from a results file: StepReader
 
   bool inputFailed() const { return status == "input_error"; }
   bool hasTag(const std::string& tag) const;
@@ -123,7 +123,7 @@ struct RunResult {
 std::string comparedText(const LocalizationTrace& trace,
                          const std::function<std::optional<double>(const Pose&)>& share_of);
 
-/// Takes over how a run ended.
+/// Fills in the outcome of a run.
 void noteTrace(const LocalizationTrace& trace, RunResult& result);
 
 /// Decides success and false positives from the error and the requirement; with a mesh that is not

@@ -14,13 +14,13 @@
 
 namespace boresight::sessions {
 
-/// A column: how it is declared, written, and read back (empty: it is not).
+/// A column with its declaration, writer and reader (empty: not read back).
 template <class Row>
 struct Column {
   std::string name;
   const char* type;
   std::function<SqlValue(const Row&)> write;
-  /// InputError (the file) where a pose or a requirement is not what it should be.
+  /// InputError (for the file) when a pose or a requirement is invalid.
   std::function<void(Row&, const SqlValue&, const std::filesystem::path&)> read = {};
 };
 
@@ -29,7 +29,7 @@ template <class Row>
 struct RowTable {
   std::vector<Column<Row>> columns;
 
-  /// As CREATE TABLE takes them.
+  /// The column declarations of CREATE TABLE.
   std::string sql() const {
     std::string text;
     for (const Column<Row>& column : columns)
@@ -49,8 +49,8 @@ struct RowTable {
   }
 };
 
-/// Reads rows of a statement that selects columns of these names; names that are not the table's
-/// are passed over.
+/// Reads rows of a statement that selects columns of these names; names that are not in the table
+/// are ignored.
 template <class Row>
 class RowReader {
  public:

@@ -16,10 +16,10 @@
 
 namespace boresight::sessions {
 
-/// Largest motion between two frames where none is stated: 5 mm and 1 deg about the station.
+/// Default of the largest motion between two frames: 5 mm and 1 deg about the station.
 DeclaredUncertainty assumedMotion();
 
-/// What the frames of a sequence share.
+/// Inputs that the frames of a sequence share.
 struct SequenceInputs {
   std::string station;  ///< its name in the results
   Camera camera;

@@ -131,7 +131,7 @@ void SqlStatement::Finalize::operator()(sqlite3_stmt* statement) const {
 }
 
 void SqlStatement::bind(std::span<const SqlValue> values) {
-  sqlite3_reset(statement_.get());  // repeats the error of the last step, which was told then
+  sqlite3_reset(statement_.get());  // repeats the error of the last step, which was reported then
   int index = 0;
   for (const SqlValue& value : values) {
     ++index;

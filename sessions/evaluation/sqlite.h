@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The little of SQLite that results files need, with errors that name the file.
+// Minimal SQLite access for results files; errors name the file.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>
 SqlValue sqlFlag(bool value);
 SqlValue sqlFlag(const std::optional<bool>& value);
 SqlValue sqlReal(const std::optional<double>& value);
-/// NULL reads as nothing, or as 0 or "" where a plain value is asked for.
+/// NULL is read as an empty optional, as 0, or as "".
 std::optional<double> realOf(const SqlValue& value);
 std::int64_t integerOf(const SqlValue& value);
 std::string textOf(const SqlValue& value);
 
 enum class SqlAccess {
-  kRead,   ///< must be there; what goes wrong is an InputError
-  kWrite,  ///< made when it is not there; what goes wrong is an OutputError
+  kRead,   ///< the file must exist; failures are InputError
+  kWrite,  ///< created when missing; failures are OutputError
 };
 
-/// An open SQLite file, read as data: its triggers and views are disabled. A file that another
-/// process has locked is waited for, up to 10 s. Not for several threads at a time.
+/// An open SQLite file, read as data: its triggers and views are disabled. Waits up to 10 s for a
+/// file that another process has locked. Not thread-safe.
 class SqlDatabase {
  public:
   SqlDatabase(const std::filesystem::path& file, SqlAccess access);
@@ -51,9 +51,9 @@ class SqlDatabase {
   std::vector<std::string> columns(const std::string& table);
   std::int64_t lastId() const;
 
-  /// Throws what the access calls for, unless `code` is a success.
+  /// Throws InputError or OutputError, according to access(), unless `code` is a success.
   void require(int code) const;
-  /// Throws what the access calls for.
+  /// Throws InputError or OutputError, according to access().
   [[noreturn]] void fail(const std::string& reason) const;
   sqlite3* handle() const { return handle_.get(); }
 
@@ -66,15 +66,15 @@ class SqlDatabase {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// A statement to be carried out any number of times. Its database must outlive it.
+/// A statement that can be executed any number of times. Its database must outlive it.
 class SqlStatement {
  public:
   SqlStatement(SqlDatabase& database, const std::string& sql);
-  /// The values of ?1, ?2, ...; restarts.
+  /// Binds the values of ?1, ?2, ... and restarts.
   void bind(std::span<const SqlValue> values);
   /// Whether there is a (further) row.
   bool step();
-  /// Binds and runs what yields no rows.
+  /// Binds and runs a statement without result rows.
   void run(std::span<const SqlValue> values);
   int columnCount() const;
   SqlValue cell(int column) const;
@@ -88,7 +88,7 @@ class SqlStatement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// BEGIN ... COMMIT; what was not committed when it ends is rolled back.
+/// BEGIN ... COMMIT; the destructor rolls back uncommitted changes.
 class SqlTransaction {
  public:
   explicit SqlTransaction(SqlDatabase& database);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Annotations and poses of a session for other programs, and from them: for the desktop program,
-// `whs export` and `whs import`.
+// Export and import of a session's annotations and poses, for the desktop program, `whs export` and
+// `whs import`.
 #pragma once
 
 #include <filesystem>
@@ -22,24 +22,24 @@ struct CasePoses {
   std::vector<std::string> notes;  ///< cases without a pose, and why
 };
 
-/// The poses that cases' annotations give, solved as `solveCaseAnnotations` does, each together
-/// with its rig. Of these cases, or of all that have annotations (or whose rig has). InputError for
-/// an id that does not exist, and when there is no pose.
+/// Poses solved from annotations as by `solveCaseAnnotations`, each together with its rig: of the
+/// given cases, or of all cases with annotations (their own or their rig's). InputError for an id
+/// that does not exist, and when there is no pose.
 CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
                          bool robust);
-/// The poses that cases are handed over with (handedPoses). InputError when there is none.
+/// The poses of cases to be handed over (handedPoses). InputError when there is none.
 CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids);
 
-/// What was exported.
+/// Result of an export.
 struct ExportReport {
   std::vector<std::string> case_ids;
   std::vector<std::string> notes;  ///< as in CasePoses
 };
 
 /// Writes a new folder with a COLMAP text model (colmap_text.h) of the poses: whole or not at all.
-/// Images are numbered by their cases' places in the session, from 1, and named by their paths
+/// Images are numbered by the order of their cases in the session, from 1, and named by their paths
 /// below the folder that holds all of the session's images. A comment in images.txt names who
-/// validated a pose, or says that it is not validated. InputError when the cases are of several
+/// validated a pose, or states that it is not validated. InputError when the cases are of several
 /// stations: a model has one world. OutputError.
 ExportReport exportColmap(const Session& session, const std::filesystem::path& folder,
                           const CasePoses& poses);
@@ -47,16 +47,16 @@ ExportReport exportColmap(const Session& session, const std::filesystem::path& f
 /// Writes a new folder with a BOP scene (bop_scene.h) of the poses: scene_gt.json,
 /// scene_camera.json, and in gray/ the 8-bit images as cameras without distortion would have taken
 /// them. Images are numbered as their files are (000012.png is 12) when all images of the session
-/// are, each differently; else by their cases' places in the session, from 1. Objects are the
-/// session's stations in their order, from 1. A `remark` in scene_gt.json names who validated a
-/// pose, or says that it is not validated. InputError when an image cannot be read; OutputError.
+/// are, each differently; otherwise by the order of their cases in the session, from 1. Objects are
+/// the session's stations in their order, from 1. A `remark` in scene_gt.json names who validated a
+/// pose, or states that it is not validated. InputError when an image cannot be read; OutputError.
 ExportReport exportBop(const Session& session, const std::filesystem::path& folder,
                        const CasePoses& poses);
 
-/// Writes the poses that cases are handed over with as a BOP19 results file: images and objects are
-/// numbered as `exportBop` does, in this scene; the score is 1 for a validated pose or one from
-/// annotations, else the edge support of its run. The format has no room for a remark: when a pose
-/// is not validated, the file's name must contain kNotValidatedName. InputError; OutputError.
+/// Writes the handed-over poses of cases as a BOP19 results file: images and objects are numbered
+/// as `exportBop` does, in this scene; the score is 1 for a validated pose or one from annotations,
+/// else the edge support of its run. The format has no room for a remark: when a pose is not
+/// validated, the file's name must contain kNotValidatedName. InputError; OutputError.
 ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
                               const std::vector<std::string>& case_ids, int scene_id);
 inline constexpr const char* kNotValidatedName = "NOT-VALIDATED";
@@ -66,17 +66,17 @@ inline constexpr const char* kNotValidatedName = "NOT-VALIDATED";
 void exportAnnotations(const Session& session, const std::string& case_id,
                        const std::filesystem::path& file);
 
-/// Writes the points of a case as landmarks.json, added to those that the file has; one of the same
-/// name is replaced. Returns what was left out, a sentence each. InputError also for a file that is
-/// there and is none; OutputError.
+/// Writes the points of a case as landmarks.json, added to those in the file; a landmark of the
+/// same name is replaced. Returns a sentence for each kind left out. InputError also for an
+/// existing file that is not a landmarks file; OutputError.
 std::vector<std::string> exportLandmarks(const Session& session, const std::string& case_id,
                                          const std::filesystem::path& file);
 
-/// A session with what was imported, not yet saved.
+/// A session with the imported data, not yet saved.
 struct ImportReport {
   Session session;
   std::vector<std::string> case_ids;  ///< that were changed
-  std::vector<std::string> notes;     ///< what was left out, and why
+  std::vector<std::string> notes;     ///< data left out, and why
 };
 
 /// The annotations of a points.json or points.csv become the case's. InputError when the case has
@@ -91,8 +91,8 @@ ImportReport importAnnotations(const Session& session, const std::string& case_i
 ImportReport importColmap(const Session& session, const std::filesystem::path& folder,
                           bool replace);
 
-/// The same of a BOP scene, whose images are numbered as `exportBop` does. Of several objects in an
-/// image the one of the case's station counts. Cameras are compared without their distortion.
+/// The same for a BOP scene, whose images are numbered as `exportBop` does. Of several objects in
+/// an image, that of the case's station is used. Cameras are compared without their distortion.
 ImportReport importBop(const Session& session, const std::filesystem::path& folder, bool replace);
 
 }  // namespace boresight::sessions

@@ -54,7 +54,7 @@ const std::vector<ColmapModel>& colmapModels() {
 constexpr const char* kWhatToDo =
     "; undistort the images with COLMAP's image_undistorter and read its model";
 
-/// Of a camera with a lens; those of the CAHV family are refused before.
+/// For a camera with a lens; those of the CAHV family are rejected before.
 const ColmapModel& modelFor(const Camera& camera) {
   if (camera.model == CameraModel::kPinhole) return colmapModels()[0];
   if (camera.model == CameraModel::kKannalaBrandt) return colmapModels()[3];

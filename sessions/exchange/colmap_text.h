@@ -22,7 +22,7 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
 /// SIMPLE_PINHOLE, SIMPLE_RADIAL, RADIAL, SIMPLE_FISHEYE, FISHEYE, SIMPLE_RADIAL_FISHEYE,
 /// RADIAL_FISHEYE, or a THIN_PRISM_FISHEYE whose tangential and prism terms are 0. Poses and
 /// distortion come back bit by bit, cx and cy to the last bit but one. InputError; for COLMAP's
-/// other models it says what to do.
+/// other models its message names a remedy.
 std::vector<PosedImage> readColmapText(const std::filesystem::path& folder);
 
 }  // namespace boresight::sessions

@@ -10,7 +10,7 @@
 
 namespace boresight::sessions {
 
-/// What of a run, in the order in which a run comes upon it.
+/// Parts of a run, in the order in which a run produces them.
 enum class RunPart {
   kPixels,
   kMask,
@@ -31,15 +31,15 @@ enum class RunPart {
 /// "pixels", "mask", ... for display.
 const char* runPartText(RunPart part);
 
-/// The first thing that is not the same, to the bit.
+/// The first bitwise difference between two runs.
 struct FirstDifference {
   RunPart part = RunPart::kPixels;
   int iteration = -1;       ///< index over all attempts, or -1
   int template_index = -1;  ///< of the iteration, or -1
-  std::string text;         ///< one sentence: what the one has and what the other
+  std::string text;         ///< one sentence with the values of both
 };
 
-/// How far two runs on different pixels (a compressed downlink) may differ and still tell the same.
+/// Limits within which two runs on different pixels (a compressed downlink) count as equivalent.
 struct ComparisonLimits {
   double found_px = 1.0;  ///< a template found within this counts as found alike, px at its level
   double found_share = 0.8;   ///< of the templates that both searched at one place
@@ -59,8 +59,8 @@ struct IterationComparison {
 };
 
 enum class RunVerdict {
-  kEqual,         ///< every bit that the records have, and they are whole or have one digest
-  kWithinLimits,  ///< other pixels or a cut record, and nothing beyond the limits
+  kEqual,         ///< all recorded bits are equal; both records are whole or have the same digest
+  kWithinLimits,  ///< other pixels or a truncated record, within the limits
   kDifferent,
 };
 
@@ -72,11 +72,11 @@ struct RecordComparison {
   double rotation_mrad = 0.0;
   std::optional<double> pose_sigmas;  ///< nothing when one has no final pose or no covariance
   std::vector<std::string> beyond;    ///< which limits are exceeded, sentences
-  std::vector<std::string> missing;   ///< what either record lacks
+  std::vector<std::string> missing;   ///< data that either record lacks
 };
 
-/// Compares what both records have. Runs given the same must be the same to the bit: then any
-/// difference makes them different. Runs on other pixels are held to the limits.
+/// Compares the data that both records have. Runs on the same inputs must be equal bit for bit: any
+/// difference makes them different. Runs on other pixels are compared by the limits.
 RecordComparison compareRecords(const OnboardRecord& record, const OnboardRecord& other,
                                 const ComparisonLimits& limits = {});
 

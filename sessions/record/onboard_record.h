@@ -19,18 +19,18 @@
 
 namespace boresight::sessions {
 
-/// An option as the record has it, whether this program knows it or not.
+/// An option as stored in the record, also if this program does not know it.
 struct RecordedOption {
   std::string name;
   OptionKind kind = OptionKind::kReal;
-  std::uint64_t bits = 0;  ///< a real's bits; a signed integer else
+  std::uint64_t bits = 0;  ///< bits of a real; otherwise a signed integer
 
   double value() const;
   bool operator==(const RecordedOption&) const = default;
 };
 
 struct RecordedOptions {
-  std::int32_t first_iteration = 0;  ///< they hold from here on
+  std::int32_t first_iteration = 0;  ///< they apply from this iteration on
   std::vector<RecordedOption> options;
 
   bool operator==(const RecordedOptions&) const = default;
@@ -66,8 +66,8 @@ struct RecordedEdges {
 };
 
 struct RecordedIteration {
-  /// The figures of the iteration. Read from a record its lists are empty, and of hypotheses that
-  /// were not chosen only the roll is known.
+  /// The figures of the iteration. When read from a record, its lists are empty, and of hypotheses
+  /// that were not chosen only the roll is known.
   IterationTrace trace;
   std::optional<RecordHash> render_sha256;                 ///< zeros: it failed; nothing: not known
   std::optional<std::vector<RecordedTemplate>> templates;  ///< nothing: none, or not in the record
@@ -84,7 +84,7 @@ struct RecordedEnd {
   std::string digest;  ///< 64 hexadecimal digits
 };
 
-/// Everything of a record before its first damage.
+/// The content of a record before its first damage.
 struct OnboardRecord {
   std::optional<RecordedInputs> inputs;
   std::vector<RecordedOptions> options;  ///< those that it started with, then changes
@@ -96,7 +96,7 @@ struct OnboardRecord {
   bool whole() const { return missing.empty(); }
 };
 
-/// Reads a record, whatever the bytes are. InputError (`file` names them) when they do not begin as
+/// Reads a record; any bytes are allowed. InputError (`file` names them) when they do not begin as
 /// a record of this version does.
 OnboardRecord parseRecord(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 /// The same of a file; InputError.
@@ -108,16 +108,17 @@ OnboardRecord readRecord(const std::filesystem::path& file);
 /// summary does not have, and the end of a run that was halted.
 OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given);
 
-/// An onboard run as every view shows a run that was made here. Poses, counts, templates, where
-/// they were found, inliers, support and end are the record's. What a record leaves out is made by
-/// the core from what the ground has, with the record's options and at the record's poses: the
-/// image's edges, renders, the templates' points, search windows; residuals are those of the
-/// recorded poses. Edge places of refinements, covariances but the last, and what matching scores
-/// are made of are not known and stay empty (`recorded_scores` has the scores).
+/// An onboard run in the form of a local run, for all views. Poses, counts, templates, where they
+/// were found, inliers, support and end are the record's. Data that is not in the record is
+/// computed by the core from the ground's inputs, with the record's options and at the record's
+/// poses: the image's edges, renders, the templates' points, search windows; residuals are those of
+/// the recorded poses. Edge places of refinements, covariances but the last, and the counts behind
+/// matching scores are not known and stay empty (`recorded_scores` has the scores).
 ///
-/// `ground` is what a run on the ground would be given. Where that is not what the run was given on
-/// board, or the record is cut or of another program, `remarks` says so. With the same inputs the
-/// replay is the ground's run in all that both have. A stop leaves the iterations done so far.
+/// `ground` is the input of a run on the ground. `remarks` states whether it differs from the
+/// onboard input, and whether the record is truncated or of another program. With the same inputs
+/// the replay equals the ground's run in all data that both have. A stop leaves the iterations done
+/// so far.
 LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
                                const std::stop_token& stop = {});
 
@@ -125,7 +126,7 @@ LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationPr
 struct RecordedPlan {
   RunPlan plan;
   /// Differences from the onboard options, sentences: options that this program does not know or
-  /// whose value it refuses, and options that the record lacks. All of these have their default.
+  /// whose value it rejects, and options that the record lacks. All of these have their default.
   std::vector<std::string> remarks;
   bool has_options = false;  ///< false: the record has none, and all have their default
 };

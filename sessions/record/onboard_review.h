@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the reviewer of an onboard record of a case is shown.
+// Data for the review of a case's onboard record.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace boresight::sessions {
 
-/// A record that was read, and the run that it shows. Immutable; shared with those who show it.
+/// An onboard record and its replay. Immutable; shared by the views.
 struct OnboardReview {
   OnboardRecord record;
   RecordedPlan plan;
@@ -30,12 +30,12 @@ std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& f
                                                   const LocalizationProblem& ground,
                                                   const std::stop_token& stop = {});
 
-/// The onboard run first, then one of the ground that was given `ground`.
+/// Compares the onboard run with a ground run on the input `ground`.
 RecordComparison compareWithGround(const OnboardReview& review, const LocalizationTrace& run,
                                    const LocalizationProblem& ground,
                                    const ComparisonLimits& limits = {});
 
-/// What the record says, as pairs of label and value: how the run ended, iterations, pose, one
+/// Content of the record as pairs of label and value: how the run ended, iterations, pose, one
 /// sigma, digest, and whether it is whole.
 std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord& record);
 

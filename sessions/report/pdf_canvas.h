@@ -36,13 +36,13 @@ inline constexpr PdfColor kPdfOrange = {0.84, 0.37, 0.00};
 struct PdfTextStyle {
   double size = 8.5;  ///< pt
   bool bold = false;
-  bool fixed = false;  ///< all letters of one width, for numbers in columns
+  bool fixed = false;  ///< monospaced, for numbers in columns
   PdfColor color = kInk;
-  int max_lines = 0;  ///< what goes beyond is cut with an ellipsis; 0: no limit
+  int max_lines = 0;  ///< further lines are cut with an ellipsis; 0: no limit
   enum class Align { kLeft, kCentre, kRight } align = Align::kLeft;
 };
 
-/// What a canvas becomes. A PNG has 2.5 pixels a point, on white.
+/// Output format of a canvas. A PNG has 2.5 pixels per point, on white.
 enum class CanvasFormat { kPdf, kSvg, kPng };
 
 /// A4, upright, unless another size is asked for. Not for several threads.
@@ -51,8 +51,7 @@ class PdfCanvas {
   static constexpr double kWidth = 595.0;
   static constexpr double kHeight = 842.0;
 
-  /// `title` goes into the file's properties. OutputError is not its business: pages are kept in
-  /// memory until `finish`.
+  /// `title` is stored in the file's properties. Pages are kept in memory until finish().
   explicit PdfCanvas(const std::string& title, CanvasFormat format = CanvasFormat::kPdf,
                      double width = kWidth, double height = kHeight);
   ~PdfCanvas();
@@ -63,7 +62,7 @@ class PdfCanvas {
   void nextPage();
   int page() const { return page_; }  ///< from 1
 
-  /// Text (UTF-8; what is not is replaced) broken at the box's width; the height that it takes, pt.
+  /// Draws text (UTF-8; invalid bytes are replaced) wrapped at `width`. Returns its height, pt.
   double text(double x, double y, double width, const std::string& text,
               const PdfTextStyle& style = {});
 
@@ -75,10 +74,10 @@ class PdfCanvas {
   void cross(double x, double y, double radius, const PdfColor& color);
   void fill(const PdfBox& box, const PdfColor& color);
   void frame(const PdfBox& box, const PdfColor& color, double width = 0.6);
-  /// Fitted into the box with its own proportions, at its top left; the box that it takes.
+  /// Draws an image fitted into the box at its top left, keeping its aspect ratio. Returns its box.
   PdfBox picture(const PdfBox& box, const ColorImage& image);
 
-  /// What lies outside of the box is not drawn until `unclip`.
+  /// Restricts drawing to the box until unclip().
   void clip(const PdfBox& box);
   void unclip();
 
@@ -116,9 +115,9 @@ struct PdfPlot {
   std::vector<PdfSeries> series;
   bool log_y = false;          ///< values that are not positive are left out
   bool whole_x = false;        ///< ticks at whole numbers only
-  bool names_at_foot = false;  ///< of the series, where the upper right corner is taken
+  bool names_at_foot = false;  ///< series names at the bottom, when the upper right is occupied
   bool log_x = false;          ///< values that are not positive are left out
-  std::optional<std::array<double, 2>> x_range = {};  ///< as far as it is not what the points span
+  std::optional<std::array<double, 2>> x_range = {};  ///< instead of the range of the points
   std::optional<std::array<double, 2>> y_range = {};
   std::vector<PdfGuide> guides = {};
   bool with_names = true;  ///< of the series; several plots side by side may share one list
@@ -127,11 +126,11 @@ struct PdfPlot {
 /// Draws axes with round ticks, grid, series and their names.
 void drawPlot(PdfCanvas& canvas, const PdfBox& box, const PdfPlot& plot);
 
-/// The names of series with their lines and marks, one below the other; the height taken.
+/// Draws the names of series with their lines and marks, one below the other. Returns the height.
 double drawSeriesNames(PdfCanvas& canvas, double x, double y, double width,
                        const std::vector<PdfSeries>& series);
 
-/// Counts in equal bins from `low` to `high`; what lies beyond counts in the outermost ones.
+/// Counts in equal bins from `low` to `high`; values beyond count in the outermost ones.
 void drawHistogram(PdfCanvas& canvas, const PdfBox& box, const std::string& title,
                    const std::string& x_label, const std::vector<double>& values, double low,
                    double high, int bins);

@@ -169,7 +169,7 @@ double drawPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) 
   return rows.below();
 }
 
-/// Where the pose was asked for in a frame with a name: in that one, the last that there is.
+/// Draws the pose in the last named frame, if there is one.
 double drawNamedPose(PdfCanvas& canvas, const PdfBox& box, const PoseReport& report) {
   const SessionCase& session_case = caseOf(report);
   const auto named = namedPoses(session_case, report.pose.camera_from_station);
@@ -448,7 +448,7 @@ std::vector<std::uint8_t> poseReportPdf(const PoseReport& report) {
   PdfCanvas canvas(title);
   drawPages(canvas, report, pages);
   if (canvas.page() == pages) return canvas.finish();
-  pages = canvas.page();  // which its feet did not know
+  pages = canvas.page();  // not known when the footers were drawn
   PdfCanvas longer(title);
   drawPages(longer, report, pages);
   return longer.finish();

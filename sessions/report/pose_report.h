@@ -25,18 +25,19 @@ struct PoseReport {
   std::optional<LocalizationTrace> trace;  ///< of the pose's run; none of a pose from annotations
 };
 
-/// What there is to report of a case: its pose, measured again (checkedPose), its image and its
-/// run. InputError.
+/// The data to report of a case: its pose, measured again (checkedPose), its image and its run.
+/// InputError.
 PoseReport poseReport(const Session& session, const std::string& case_id);
 
 /// The PDF: overlay, pose, end effector, inputs and decision on the first page, checks, residuals
-/// and the run's course on the second. Every page says who validated the pose, or that it is not.
+/// and the run's course on the second. Every page states who validated the pose, or that it is not
+/// validated.
 std::vector<std::uint8_t> poseReportPdf(const PoseReport& report);
 
 /// The same into a file, atomically; OutputError.
 void writePoseReport(const std::filesystem::path& file, const PoseReport& report);
 
-/// A part of the image, and where it lies in it.
+/// A part of the image, with its position in the image.
 struct ReportPicture {
   ColorImage image;
   int left_px = 0;  ///< of the image's pixels
@@ -45,14 +46,14 @@ struct ReportPicture {
 
 /// The station's surroundings, with the edges of the seed in orange and of the pose in blue.
 ReportPicture overlayPicture(const PoseReport& report);
-/// The same place in pale gray, to draw residuals on.
+/// The same region in pale gray, to draw residuals on.
 ReportPicture palePicture(const PoseReport& report);
 
-/// Where the pose predicts something, and how far from there it was seen.
+/// A predicted image position and its residual.
 struct ReportResidual {
   Eigen::Vector2d predicted_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();  ///< seen minus predicted
-  bool used = false;  ///< the pose rests on it; else it was set aside
+  Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();  ///< observed minus predicted
+  bool used = false;  ///< used for the pose; otherwise rejected
 };
 
 struct ReportResiduals {
@@ -62,7 +63,8 @@ struct ReportResiduals {
   double rms_px() const;  ///< over those that are used, root of the mean squared norm
 };
 
-/// Of what the pose rests on last: edges of the refinement, else templates, else annotations.
+/// Residuals of the last data used for the pose: edges of the refinement, else templates, else
+/// annotations.
 ReportResiduals reportResiduals(const PoseReport& report);
 
 }  // namespace boresight::sessions

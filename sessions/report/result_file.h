@@ -15,11 +15,11 @@
 
 namespace boresight::sessions {
 
-/// Where a result comes from. Empty file names are inputs that were not given.
+/// Provenance of a result. Empty file names are inputs that were not given.
 struct RunProvenance {
   std::string method = "whs";
   std::string profile;
-  OptionList changed_options;  ///< what differs from the profile
+  OptionList changed_options;  ///< differences from the profile
   const LoadedCase* loaded = nullptr;
   std::filesystem::path camera_file, seed_file, truth_file, config_file;
   std::vector<std::string> warnings;  ///< printed before the run

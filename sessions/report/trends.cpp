@@ -89,7 +89,7 @@ std::string flagsText(const TrendPoint& point) {
   return text;
 }
 
-/// The points of a figure, and those among them that stand out.
+/// The points of a figure, and the outliers among them.
 void addSeries(std::span<const TrendPoint> points, const std::vector<std::size_t>& members,
                std::size_t figure, PdfPlot& plot) {
   static const std::array<PdfColor, 3> kColors = {kPdfBlue, kPdfOrange, kInk};

@@ -52,7 +52,7 @@ void flagOutliers(std::vector<TrendPoint>& points);
 
 std::string trendTable(std::span<const TrendPoint> points);
 std::string trendCsv(std::span<const TrendPoint> points);
-/// A page a station: corrections and residuals over the sessions, outliers as crosses.
+/// One page per station: corrections and residuals over the sessions, outliers as crosses.
 std::vector<std::uint8_t> trendPdf(std::span<const TrendPoint> points);
 
 }  // namespace boresight::sessions

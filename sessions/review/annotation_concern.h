@@ -11,7 +11,7 @@
 
 namespace boresight::sessions {
 
-/// Quality of the pose of annotations, by the measure that a run's pose has. Without a pose: no
+/// Quality of the pose of annotations, by the same measure as for a run's pose. Without a pose no
 /// figure is known.
 PoseQuality annotationQuality(const std::shared_ptr<const LoadedCase>& loaded,
                               const CaseAnnotationsSolution& solution, double sigmas);
@@ -21,8 +21,8 @@ struct AnnotationConcern {
   /// Sentences: residuals of more than three times the stated sigmas, a figure beyond the
   /// requirement. "" when it is good enough.
   std::string text;
-  /// Annotations of the case that a robust solution gives less than half the weight, by id. Looked
-  /// for where the residuals are too large, or the solution is robust.
+  /// Annotations of the case that a robust solution gives less than half the weight, by id.
+  /// Determined when the residuals are too large or the solution is robust.
   std::vector<std::string> suspects;
   bool robust = false;  ///< the solution itself weighs annotations
 };

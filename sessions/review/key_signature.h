@@ -14,9 +14,9 @@ inline constexpr const char* kSignatureNamespace = "boresight";
 /// The signatures of a file: FILE.sig and FILE.*.sig next to it, by name.
 std::vector<std::filesystem::path> signatureFiles(const std::filesystem::path& file);
 
-/// Whether `name` signed the file, as ssh-keygen(1) says: a signature of it verifies with a key that
-/// `signers` (its ALLOWED SIGNERS format) lists for this name. InputError when there is no such
-/// file, or no ssh-keygen.
+/// Whether `name` signed the file according to ssh-keygen(1): a signature of it verifies with a key
+/// that `signers` (its ALLOWED SIGNERS format) lists for this name. InputError when there is no
+/// such file, or no ssh-keygen.
 bool isSignedBy(const std::string& name, const std::filesystem::path& file,
                 const std::filesystem::path& signers);
 

@@ -73,7 +73,7 @@ void checkRun(const Session& session, std::shared_ptr<const LoadedCase> loaded, 
   row.checks = checkPose(subject, limits);
   row.passed = countOf(row.checks, CheckState::kPassed);
   row.failed = countOf(row.checks, CheckState::kFailed);
-  if (subject.run->converged()) takeMargin(row);  // else the seed stands in for the pose
+  if (subject.run->converged()) takeMargin(row);  // else the seed replaces the pose
   row.subject = withoutData(subject);
   row.trouble = subject.run->converged() ? validationConcern(session, subject)
                                          : "the run failed: " + explanation(*subject.run);

@@ -177,7 +177,7 @@ void requireAnswered(const std::vector<JudgedCheck>& checks) {
   if (!open.empty()) throw DecisionError("failed checks are not waived: " + open);
 }
 
-/// A check without waivers may be given for what is not there any more: it is told.
+/// DecisionError for a waiver of a check that does not exist or has not failed.
 void requireKnownWaivers(const std::vector<Check>& checks, const CheckWaivers& waivers) {
   for (const auto& [id, reason] : waivers) {
     const auto found = std::find_if(checks.begin(), checks.end(),

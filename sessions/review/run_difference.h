@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changed between two runs of a case, and whether it is for the better.
+// Differences between two runs of a case, and whether the later one is better.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +16,31 @@
 
 namespace boresight::sessions {
 
-/// What there is to say of one of the two runs.
+/// Figures of one of the two runs.
 struct RunSide {
   std::string digest;
   std::string time;    ///< UTC, when it ended
-  std::string status;  ///< as localizationStatusText says
+  std::string status;  ///< localizationStatusText()
   bool converged = false;
   int iterations = 0;
   std::int32_t inliers = 0;  ///< of the last matching iteration
   int checks_passed = 0;
   int checks_failed = 0;
-  /// Against the truth; nothing where that is not known or the run did not converge.
+  /// Against the truth; empty when that is not known or the run did not converge.
   std::optional<PoseError> error;
-  /// The largest part of the requirement that the error takes up; above 1: beyond it. Nothing, too,
-  /// where the truth's own sigma exceeds the requirement: such a truth does not judge.
+  /// The largest part of the requirement that the error takes up; above 1: beyond it. Also empty
+  /// when the truth's own sigma exceeds the requirement: such a truth is not used.
   std::optional<double> error_share;
 };
 
-/// A check of which both runs have another state; nothing where only one of them has it.
+/// A check with different states in the runs; checks of only one run are not listed.
 struct CheckChange {
   std::string title;
   CheckState before = CheckState::kNotApplicable;
   CheckState after = CheckState::kNotApplicable;
 };
 
-/// An option that both runs started with another value of.
+/// An option with which the runs started at different values.
 struct OptionChangeText {
   std::string name;
   std::string before;  ///< with its unit
@@ -58,9 +58,9 @@ struct RunDifference {
   bool inputs_differ = false;  ///< the runs were given other inputs
   std::vector<OptionChangeText> options;
   std::vector<CheckChange> checks;
-  RecordComparison comparison;  ///< where they differ first, and how far the final poses are apart
+  RecordComparison comparison;  ///< first difference, and distance of the final poses
   RunChange change = RunChange::kSame;
-  std::string why;  ///< a clause: by what it is better, worse or the same
+  std::string why;  ///< a clause: the reason for `change`
 };
 
 /// The two last runs of a case, the earlier one first; nothing when there are fewer.
@@ -71,11 +71,11 @@ struct RunPair {
 std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& case_id);
 
 /// Compares two runs of one case. The checks of both are made with the inputs and limits as they
-/// are now. Where the truth is known it judges: a right pose (within the requirement) is better
-/// than a run that failed, and that is better than a wrong pose; of two wrong ones the nearer by a
-/// tenth of the requirement. Else the checks judge: all passed, then fewer failed ones, then a run
-/// that failed. InputError when a trace cannot be read; std::invalid_argument when the runs are not
-/// of one case of the session.
+/// are now. With a known truth, a correct pose (within the requirement) is better than a failed
+/// run, which is better than a wrong pose; of two wrong poses the nearer one is better, if by a
+/// tenth of the requirement. Otherwise the checks decide, from best to worst: all passed, fewer
+/// failed, a failed run. InputError when a trace cannot be read; std::invalid_argument when the
+/// runs are not of one case of the session.
 RunDifference compareRuns(const Session& session, const std::string& before_digest,
                           const std::string& after_digest,
                           std::shared_ptr<const LoadedCase> loaded);
@@ -83,14 +83,14 @@ RunDifference compareRuns(const Session& session, const std::string& before_dige
 /// Better, worse or same, and why, by the rules above.
 void judgeChange(RunDifference& difference);
 
-/// One line of a table: what it is of, before, after.
+/// One line of a table: label and both values.
 struct DifferenceLine {
   std::string label;
   std::string before;
   std::string after;
 };
-/// How the runs ended, inliers, error, checks and options that changed: what is the same in both is
-/// left out but for the first three.
+/// How the runs ended, inliers, error, checks and options that changed: equal values are left out
+/// except for the first three.
 std::vector<DifferenceLine> differenceLines(const RunDifference& difference);
 /// "better: 2 checks failed before, none now", and the first difference: one or two sentences.
 std::string changeText(const RunDifference& difference);

@@ -13,8 +13,8 @@ namespace {
 constexpr double kStationMargin = 1.15;  // of the station's size in the image
 constexpr double kLeastPart = 0.125;     // of the image's width, that is shown
 
-/// Where the corners of the station's box fall in the image from any of the poses; empty when none
-/// is in sight.
+/// Bounding box in the image of the station box's corners from all poses; empty when none is
+/// visible.
 cv::Rect2d stationBox(const Camera& camera, const MeshView& mesh, std::span<const Pose> poses) {
   const cv::Rect2d image(0.0, 0.0, camera.width, camera.height);
   cv::Rect2d all;

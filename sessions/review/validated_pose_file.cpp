@@ -253,7 +253,7 @@ ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
   json["station"] = session_case.station;
   json["conventions"] = conventionsJson();
   json["pose"] = poseJson(pose, session_case);
-  // Frames are never converted silently: those that the case knows by name are named.
+  // Frames are never converted silently: the named frames of the case are written with their names.
   std::optional<Matrix6d> covariance;
   if (pose.covariance.known()) covariance = pose.covariance.total();
   const auto named = namedPoses(session_case, pose.camera_from_station, covariance);

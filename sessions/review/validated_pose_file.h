@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// validated_pose.json: a pose to hand over, with everything that a reviewer will ask for.
+// validated_pose.json: a pose to hand over, with all data for a later review.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +18,13 @@ namespace boresight::sessions {
 
 inline constexpr int kValidatedPoseVersion = 1;
 
-/// The pose with which a case is handed over, and what is to be said of it everywhere.
+/// The pose that is handed over for a case, and its review status.
 struct HandedPose {
   std::string case_id;
   PoseSource source = PoseSource::kRun;
   Pose camera_from_station;
   PoseCovariance covariance;
-  std::string run_digest;  ///< empty: the pose is the annotations'
+  std::string run_digest;  ///< empty: the pose is from annotations
   bool validated = false;
   std::string review_status;  ///< reviewStatusText: who validated it, or NOT VALIDATED and why
   double score = 1.0;         ///< 1 of a decided or annotated one, else the edge support of its run
@@ -38,8 +38,8 @@ struct HandedPose {
 /// annotations).
 HandedPose handedPose(const Session& session, const std::string& case_id);
 
-/// The same for several cases (all of them when none is named), in the order of the session; those
-/// without a pose are told in `notes`.
+/// The same for several cases (all of them when none is named), in the order of the session; cases
+/// without a pose are listed in `notes`.
 struct HandedPoses {
   std::vector<HandedPose> poses;
   std::vector<std::string> notes;
@@ -52,34 +52,34 @@ struct MeasuredPose {
 };
 
 /// Reads the inputs of the pose's case, runs the localization again (or solves the annotations
-/// again), repeats the runs of the rig's other cameras that the checks ask, and makes the checks;
-/// the convergence test with `convergence_seeds` seeds, 0: without. Of `pose` only the case, the
-/// source and the run's digest are used, and no trace is read. InputError when something cannot be
-/// read or repeated, or a run gives another digest than the session states; `session_file` is for
-/// messages.
+/// again), repeats the runs of the rig's other cameras that the checks need, and evaluates the
+/// checks; the convergence test with `convergence_seeds` seeds, 0: no test. Of `pose` only the
+/// case, the source and the run's digest are used, and no trace is read. InputError when something
+/// cannot be read or repeated, or a run gives another digest than the session states;
+/// `session_file` is for messages.
 MeasuredPose measurePose(const Session& session, const HandedPose& pose, int convergence_seeds,
                          const std::filesystem::path& session_file);
 
-/// A pose to hand over, of which everything that can be measured was measured.
+/// A pose to hand over, with all measurable data measured again.
 struct CheckedPose {
   HandedPose pose;        ///< with its checks: as they were judged, else as they are now
   Session session;        ///< that was measured: sessionOfCase
   ReviewSubject subject;  ///< as measured
 };
 
-/// handedPose, measured again with all that its decision rests on. InputError, also when the
-/// decision or the run's trace states something else than is measured: a sentence says what.
+/// handedPose(), measured again with all inputs of its decision. InputError, also when the decision
+/// or the run's trace differs from the measurement; its sentence names the difference.
 CheckedPose checkedPose(const Session& session, const std::string& case_id);
 
 /// The session with this case and those of its rig alone: the run of this digest if any, the runs
-/// of the other cameras that the checks ask, and the last decision on the case, whose checks are
+/// of the other cameras that the checks need, and the last decision on the case, whose checks are
 /// left out unless it holds (they could not be measured).
 Session sessionOfCase(const Session& session, const std::string& case_id,
                       const std::string& run_digest);
 
-/// What of a stated pose is not as measured, as a sentence; "" when nothing. A run's pose and
-/// covariance agree to the last bits; those of annotations, and figures of checks, to 1e-6 of their
-/// size.
+/// Difference between the stated and the measured pose, as a sentence; "" when there is none. A
+/// run's pose and covariance agree to the last bits; those of annotations, and figures of checks,
+/// to 1e-6 of their size.
 std::string poseDifference(const HandedPose& stated, const Pose& measured);
 std::string covarianceDifference(const HandedPose& stated, const PoseCovariance& measured);
 /// `with_convergence` false leaves the checks of the convergence test out.
@@ -90,8 +90,8 @@ void requireAsMeasured(const std::string& case_id, const std::string& difference
 
 /// The file as JSON (README.md lists its members). It holds a session of this one
 /// case and its rig, so that the run can be repeated with the inputs; paths are relative
-/// to `file`. `run` is the pose's, for its matches; without it they are left out.
-/// A pose that is not validated says so in `state` and `review_status`.
+/// to `file`. `run` is the pose's, for its matches; without it they are left out. `state` and
+/// `review_status` state when the pose is not validated.
 nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPose& pose,
                                          const std::optional<LocalizationTrace>& run,
                                          const std::filesystem::path& file);
@@ -101,11 +101,11 @@ nlohmann::ordered_json validatedPoseJson(const Session& session, const HandedPos
 HandedPose writeValidatedPose(const std::filesystem::path& file, const Session& session,
                               const std::string& case_id);
 
-/// The member `signature`: SHA-256 over the JSON without it, as compact text. `json` as it was
-/// parsed: text may have lost what numbers were made of (1.0 is written 1).
+/// The member `signature`: SHA-256 over the JSON without it, as compact text. `json` must be as
+/// parsed: rewriting it may change numbers (1.0 becomes 1).
 nlohmann::ordered_json signatureOf(const nlohmann::ordered_json& json);
 
-/// One thing that was asked of a validated_pose.json.
+/// Result of one check of a validated_pose.json.
 struct VerifyFinding {
   bool good = false;
   std::string what;  ///< "signature", "image", "run", "pose", ...
@@ -114,23 +114,23 @@ struct VerifyFinding {
 
 struct VerifyReport {
   std::string
-      review_status;  ///< who vouches for the pose, or NOT VALIDATED and why, as it is stated
+      review_status;  ///< who validated the pose, or NOT VALIDATED and why, as stated in the file
   std::vector<VerifyFinding> findings;
-  /// What is stated and was not, or cannot be, measured: who decided, when, and why a failed check
-  /// was passed over. One sentence each.
+  /// Statements that were not or cannot be verified: who decided, when, and why a failed check was
+  /// waived. One sentence each.
   std::vector<std::string> not_proved;
 
-  /// Everything that was measured is as stated; whether the pose is validated is another question.
+  /// Whether everything that was measured is as stated; the pose may still be NOT VALIDATED.
   bool good() const;
 };
 
 /// Checks a validated_pose.json: its signature, the files that it names by their hashes, whether
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
-/// the run is run again (the annotations are solved again), and its digest, pose, covariance,
+/// the run is repeated (the annotations are solved again), and its digest, pose, covariance,
 /// matches and every check are compared with what is stated; with `convergence_again` the
 /// convergence test, too. Files that are not where the document names them are looked for below
 /// `places.folder`, by their hashes; with `places.signers` those who decided must have signed the
-/// file with their keys (key_signature.h). InputError when it is no such file.
+/// file with their keys (key_signature.h). InputError when the file is not a validated_pose.json.
 struct VerifyPlaces {
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<std::filesystem::path> signers = std::nullopt;

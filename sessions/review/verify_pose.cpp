@@ -204,7 +204,7 @@ void takeReviewStatus(Document& document, const ReviewStatus& status) {
     pose.run_digest = run->digest;
 }
 
-/// No measurement tells a person, a time or a reason.
+/// A measurement cannot prove a person, a time or a reason.
 void listNotProved(const Decision* decision, bool measured, bool with_convergence, bool with_keys,
                    std::vector<std::string>& list) {
   if (!measured) list.emplace_back("run, pose, covariance and checks: not measured");

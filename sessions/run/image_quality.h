@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well an image can carry a pose, measured before a run and without one.
+// Quality of an image for localization, measured without a run.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace boresight::sessions {
 
-/// Of the pixels of an image's region that are not ignored.
+/// Quality of the pixels of a region that are not ignored.
 struct ImageQuality {
   /// One sigma, gray levels: median absolute response of the Laplacian difference kernel of
   /// Immerkaer (1996) at pixels that are neither black nor saturated.
@@ -49,11 +49,11 @@ struct PixelRegion {
 PixelRegion stationRegion(const Camera& camera, const MeshView& mesh,
                           const Pose& camera_from_station);
 
-/// Nothing when no pixel of the region counts. `ignore` may be nullptr.
+/// Empty when the region has no pixel that is not ignored. `ignore` may be nullptr.
 std::optional<ImageQuality> measureImageQuality(const ImageView& image, const BitImage* ignore,
                                                 const PixelRegion& region);
 
-/// Of the region where the problem's seed shows the station.
+/// Quality of the region where the station appears at the problem's seed.
 std::optional<ImageQuality> imageQualityOf(const LocalizationProblem& problem);
 
 /// "noise 1.2 gray, contrast 41 gray (range 180), 0.3 % saturated, 0.0 % black, edges 3.1 px wide".

@@ -10,8 +10,8 @@ namespace boresight::sessions {
 
 /// Seeds for the frames of a sequence. Each starts from the last accepted pose with the stated
 /// motion between two frames as its uncertainty. While frames are lost, the uncertainty doubles
-/// with each; once it would exceed the first seed's, that one is taken. Until a first pose is
-/// accepted, every frame starts from the first seed.
+/// with each; once it would exceed the first seed's, the first seed's is used. Until a first pose
+/// is accepted, every frame starts from the first seed.
 class PoseFollower {
  public:
   /// `motion` is the largest motion between two frames.
@@ -23,14 +23,14 @@ class PoseFollower {
   const Pose& camera_from_station() const { return camera_from_station_; }
   /// Uncertainty of that seed.
   DeclaredUncertainty uncertainty() const;
-  /// How the next frame ended: with an accepted pose, or lost.
+  /// Takes the result of the next frame: its accepted pose, or empty when lost.
   void take(const std::optional<Pose>& camera_from_station);
 
  private:
   Pose camera_from_station_;
   DeclaredUncertainty first_;
   DeclaredUncertainty motion_;
-  bool found_ = false;  ///< any frame
+  bool found_ = false;  ///< a frame was accepted
   int lost_ = 0;        ///< frames since the last accepted one
 };
 

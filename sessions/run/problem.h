@@ -21,22 +21,22 @@ LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, co
                               const DeclaredUncertainty& uncertainty,
                               const std::optional<Pose>& camera_from_end_effector);
 
-/// The hashes by which an onboard record knows the inputs of a run (core/record/FORMAT.md);
+/// The hashes by which an onboard record identifies the inputs of a run (core/record/FORMAT.md);
 /// `problem` without inputs that the run does not use (withoutUnusedInputs).
 RecordInputs recordInputs(const LocalizationProblem& problem);
 
-/// Why a run from this seed makes no sense, or "": the matched parts lie behind the camera, or
-/// nothing of them is inside the image. Whether what is seen suffices is for the run to find out.
+/// Why a run from this seed is pointless, or "": the matched parts lie behind the camera, or
+/// nothing of them is inside the image. Whether the visible part suffices is decided by the run.
 std::string seedConcern(const Camera& camera, const MeshView& mesh,
                         const Pose& camera_from_station_seed);
 
-/// InputError of the mesh when its size cannot be right at this seed, and of `file` and `place`
+/// InputError for the mesh when its size is implausible at this seed, and for `file` and `place`
 /// when there is a seedConcern.
 void requireSensibleSeed(const Camera& camera, const SceneMesh& scene,
                          const Pose& camera_from_station_seed, const std::filesystem::path& file,
                          const std::string& place);
 
-/// Where the inputs of a run come from: a file, and a place in it.
+/// Sources of the inputs of a run: a file, and a place in it.
 struct InputPlaces {
   struct Place {
     std::filesystem::path file;
@@ -45,7 +45,7 @@ struct InputPlaces {
   Place image, camera, mesh, seed;
 };
 
-/// InputError of the input that the core refused although the readers let it pass.
+/// InputError for the input that the core rejected although the readers accepted it.
 void requireAccepted(const LocalizationTrace& trace, const InputPlaces& places);
 
 }  // namespace boresight::sessions

@@ -21,24 +21,24 @@ class WorkerPool;      // sessions/run/worker_pool.h
 /// All memory of the flight profile, in bytes: image, ignore mask, mesh and the localizer's block.
 inline constexpr std::size_t kFlightMemoryBytes = 10'000'000;
 
-/// How a run is carried out; what is computed does not depend on it.
+/// Settings for the execution of a run. Except for `method` they do not change the result.
 struct RunSettings {
   RecordLevel level = RecordLevel::kFull;
   std::size_t memory_limit = 0;  ///< bytes, inputs and the localizer's block; 0: no limit
   /// 1 ... Localizer::kMaxWorkers; 0: one per core, and one where there is a memory limit.
   int threads = 0;
-  /// What the inner loops use of the processor. Within a limit always the portable ones: wide
+  /// Instructions that the inner loops use. With a memory limit always the portable ones: wide
   /// registers need more memory, and the limit is that of a machine without them.
   Kernels kernels = bestKernels();
-  /// Notes the run as the flight side would, if given: from its first block to its last.
+  /// If given, receives the onboard record of the run, from its first block to its last.
   RecordWriter* onboard_record = nullptr;
-  /// Matches in place of WHS, if given; then the result is the method's.
+  /// If given, replaces WHS and thereby changes the result.
   MatchingMethod* method = nullptr;
   /// Reflectance of each part in the render that `method` gets; empty: all alike.
   std::span<const double> albedo_of_part = {};
 };
 
-/// What several views gave together.
+/// Joint result of several views.
 struct JointResult {
   ViewsResult result;
   std::string digest;  ///< of all views
@@ -48,30 +48,30 @@ struct JointResult {
 enum class StepUntil { kStage, kIteration, kEnd };
 
 /// The one loop around Localizer::step() and ViewsLocalizer::step() on the ground: takes memory for
-/// the whole run, steps with all threads, times, and keeps a trace. It halts where its caller wants
-/// to look (after a stage, after an iteration, at the end, or between two slices when it is
-/// stopped), and can go on from there. Neither halting nor recording changes a bit of the result.
-/// One calling thread at a time.
+/// the whole run, steps with all threads, times, and keeps a trace. It halts as requested (after a
+/// stage, after an iteration, at the end, or between two slices when it is stopped), and can
+/// continue from there. Neither halting nor recording changes a bit of the result. One calling
+/// thread at a time.
 class Runner {
  public:
   /// What `problem` points to must outlive the object. A problem or plan that cannot run, or not
-  /// within the limit (kArenaTooSmall), is a finished trace with kFault and without iterations.
-  /// With a limit the localizer gets all that the inputs leave of it. Throws std::bad_alloc, and
-  /// MethodError when the method, if any, cannot begin.
+  /// within the limit (kArenaTooSmall), results in a finished trace with kFault and without
+  /// iterations. With a limit the localizer gets all that the inputs leave of it. Throws
+  /// std::bad_alloc, and MethodError when the method, if any, cannot begin.
   Runner(const LocalizationProblem& problem, const RunPlan& plan, const RunSettings& settings = {});
   /// Several views that are solved as one (core/views). `case_ids` name them in their order. Of the
-  /// settings, threads and kernels count.
+  /// settings, only threads and kernels are used.
   Runner(const ViewsProblem& problem, const LocalizerOptions& options,
          const std::vector<std::string>& case_ids, const RunSettings& settings = {});
   ~Runner();
 
-  /// Begins again with another problem, such as the next image of a sequence, in the same memory
-  /// where it suffices, with the same plan and settings: gives the digest of a new object. Not for
+  /// Restarts with another problem, such as the next image of a sequence, with the same plan and
+  /// settings, and in the same memory if it suffices. The digest is that of a new object. Not for
   /// several views.
   void restart(const LocalizationProblem& problem);
 
-  /// Works on; nothing when it has finished. Several views halt after iterations, not after stages.
-  /// MethodError when the method, if any, cannot go on.
+  /// Continues the run; does nothing after its end. Several views halt after iterations, not after
+  /// stages. MethodError when the method, if any, fails.
   void advance(StepUntil until, const std::stop_token& stop = {});
 
   bool finished() const { return trace().finished; }
@@ -106,7 +106,7 @@ inline LocalizationTrace localize(const LocalizationProblem& problem, const RunP
 /// limit (each thread needs memory of its own), else the share of the machine's cores.
 int threadsOf(int asked, std::size_t memory_limit, int jobs = 1);
 
-/// Bytes of what a problem points to: image, ignore mask, mesh.
+/// Bytes of a problem's data: image, ignore mask, mesh.
 std::size_t inputBytes(const LocalizationProblem& problem);
 
 }  // namespace boresight::sessions

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Runner steps: one localizer, or several views. For runner.cpp alone.
+// The run that Runner steps: one localizer, or several views. For runner.cpp only.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class SteppedRun {
 
   /// See Runner::restart. std::logic_error for several views.
   virtual void restart(const LocalizationProblem& problem);
-  /// One slice of the localizer, and what has to be done around it.
+  /// One slice of the localizer, and the work around it.
   virtual StepReport step(const std::stop_token& stop) = 0;
   virtual int tasks() const = 0;
   virtual void runTask(int task, int worker) = 0;

@@ -14,7 +14,7 @@ namespace boresight::sessions {
 /// Threads that share independent tasks and sleep in between. The calling thread is worker 0.
 class WorkerPool {
  public:
-  /// Throws std::system_error when the system has no thread left.
+  /// Throws std::system_error when no thread can be created.
   explicit WorkerPool(int workers);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -39,7 +39,7 @@ class WorkerPool {
   int next_ = 0;
   int tasks_ = 0;
   int busy_ = 0;                       ///< calls that have not returned
-  std::vector<std::jthread> threads_;  ///< last: they use the others
+  std::vector<std::jthread> threads_;  ///< declared last: the threads use the other members
 };
 
 }  // namespace boresight::sessions

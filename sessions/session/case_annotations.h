@@ -34,44 +34,44 @@ struct CaseAnnotations {
 CaseAnnotations caseAnnotations(const Session& session, const std::string& case_id,
                                 bool together = true);
 
-/// Everything that an annotator is told of a case's annotations.
+/// Solution of a case's annotations, with all data shown to the annotator.
 struct CaseAnnotationsSolution {
-  CaseAnnotations annotations;            ///< what was solved
-  std::vector<GeometryWarning> warnings;  ///< said before and without solving
+  CaseAnnotations annotations;            ///< the annotations solved
+  std::vector<GeometryWarning> warnings;  ///< determined without solving
   AnnotationsResult result;
   std::vector<LeftOut> left_out;  ///< of a solution, by its annotations
 
   /// The pose of the case itself (of view 0), or nothing.
   std::optional<Pose> camera_from_station() const;
-  /// Its covariance as the annotations alone say: left perturbation, camera frame.
+  /// Its covariance from the annotations alone: left perturbation, camera frame.
   std::optional<Matrix6d> covariance() const;
-  /// What of its one sigma exceeds the requirement: `sigmaExcessText`; "" when nothing does.
+  /// sigmaExcessText() of its one sigma; "" when it meets the requirement.
   std::string sigmaExcess() const;
-  /// The other one that explains coplanar annotations, or nothing.
+  /// The other pose that explains coplanar annotations, or nothing.
   std::optional<Pose> ambiguous_camera_from_station() const;
-  /// Normalized residuals (in standard deviations) of those annotations of the case itself that
-  /// stand out, by id; none without a solution.
+  /// Normalized residuals (in standard deviations) of the outliers among the case's own
+  /// annotations, by id; none without a solution.
   std::map<std::string, double> outlierAnnotations() const;
 };
 
-/// Solves what `caseAnnotations` gives: the one function behind the desktop program and `whs
-/// solve`, so that both show the same digits. `camera_from_station_guess` is the case's seed or
+/// Solves the result of caseAnnotations(). The desktop program and `whs solve` both use this
+/// function, so that they show the same digits. `camera_from_station_guess` is the case's seed or
 /// working pose; `station_m` spans the station (corners of its box), or is empty.
 CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
                                              const Pose& camera_from_station_guess,
                                              std::span<const Eigen::Vector3d> station_m,
                                              bool robust);
 
-/// The same with what the session says of the case: the guess, and the box of the station's matched
-/// parts, which are read. InputError also for a part that cannot be read.
+/// The same with the guess and the box of the station's matched parts taken from the session; the
+/// parts are read. InputError also for a part that cannot be read.
 CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::string& case_id,
                                              bool together, bool robust);
 
-/// Where solving a case's annotations begins: its working pose, else its seed. The last bits of a
-/// solution depend on it, so everybody begins here.
+/// Start of solving a case's annotations: its working pose, else its seed. The last bits of a
+/// solution depend on it, so all callers use this start.
 const Pose& annotationsGuess(const SessionCase& session_case);
 
-/// The eight corners of a station's box, as `solveCaseAnnotations` asks for them.
+/// The eight corners of a station's box, for solveCaseAnnotations().
 std::vector<Eigen::Vector3d> boxCorners(const BoundingBox& box);
 
 }  // namespace boresight::sessions

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that a case is made of: judged as they come, and one put in place of another.
+// The input files of a case: validation, and replacement of one by another.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace boresight::sessions {
 enum class InputKind { kImage, kCamera, kMesh, kSeed };
 inline constexpr int kInputKinds = 4;
 
-/// An input that a run would refuse.
+/// An input that a run would reject.
 struct InputConcern {
   InputKind kind = InputKind::kImage;  ///< the one that is most likely wrong
   std::string text;                    ///< one sentence
@@ -25,25 +25,24 @@ struct InputConcern {
 /// Whether the mesh's format fixes its unit: metres, of glTF and GLB.
 bool statesUnit(const std::filesystem::path& mesh);
 
-/// Why `requireRunnable` refuses a case, or nothing. A case without a seed is not asked: it is to
-/// be annotated.
+/// Why requireRunnable() rejects a case, or nothing. Nothing also for a case without a seed, which
+/// is to be annotated.
 std::optional<InputConcern> inputConcern(const LoadedCase& loaded);
 
-/// One file of a case in the making.
+/// Validation of one file of a new case.
 struct JudgedFile {
-  std::string text;     ///< what it is: "1024 x 1024 px, 8 bit"; empty: not given
+  std::string text;     ///< description: "1024 x 1024 px, 8 bit"; empty: not given
   std::string problem;  ///< why it cannot be used, or does not fit the others; empty: it can
 };
 /// By `InputKind`.
 using JudgedFiles = std::array<JudgedFile, kInputKinds>;
 
-/// Reads the files that there are, each alone, and compares them with each other: sizes of image
-/// and camera; the station at the seed, once the mesh's unit is known.
+/// Reads the given files, each by itself, and compares them with each other: sizes of image and
+/// camera; the station at the seed, once the mesh's unit is known.
 JudgedFiles judgeFiles(const CaseFiles& files);
 
-/// The case with another file in place of one of its inputs, which is read. A mesh takes the place
-/// of the first part and has this unit. A camera brings its calibration, a seed its uncertainty.
-/// InputError.
+/// The case with one input replaced by another file, which is read. A mesh replaces the first part
+/// and has this unit. A camera includes its calibration, a seed its uncertainty. InputError.
 SessionCase withInputFile(SessionCase session_case, InputKind kind,
                           const std::filesystem::path& file, const std::string& mesh_unit = "");
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one run of a sequence behind `whs follow` and the window.
+// Localization of a sequence, for `whs follow` and the window.
 #pragma once
 
 #include <chrono>
@@ -30,9 +30,9 @@ struct SequenceOrder {
   std::string command;            ///< that asked for it, for the results
 };
 
-/// Reads mesh and mask. Strokes of the mask are drawn for `image`, the case's own: what they hide
-/// by its gray values is hidden in all frames. InputError, also of a camera whose distortion folds
-/// back and of a seed that does not see the station; `places` names both.
+/// Reads mesh and mask. Strokes of the mask are drawn for `image`, the case's own: pixels that they
+/// ignore by its gray values are ignored in all frames. InputError, also of a camera whose
+/// distortion folds back and of a seed from which the station is not visible; `places` names both.
 SequenceInputs sequenceInputs(const SequenceOrder& order, const InputPlaces& places,
                               const GrayImage* image = nullptr);
 

@@ -21,10 +21,10 @@ enum class StrokeKind {
   kSaturation,  ///< pixels of at least `level`
 };
 
-/// One edit of an ignore mask, as a person made it.
+/// One edit of an ignore mask, as the operator made it.
 struct MaskStroke {
   StrokeKind kind = StrokeKind::kBrush;
-  bool erase = false;                   ///< the pixels are trusted again
+  bool erase = false;                   ///< the pixels are no longer ignored
   double radius_px = 8.0;               ///< of a brush
   int level = 255;                      ///< of a saturation, 0 .. 255
   std::vector<Eigen::Vector2d> points;  ///< px; none for a saturation
@@ -47,11 +47,11 @@ Session withStrokes(const Session& session, const std::string& case_id, MaskStro
 /// One more stroke, after the others.
 Session withStroke(const Session& session, const std::string& case_id, MaskStroke stroke);
 
-/// Strokes that leave no pixel ignored: none, or where the case has a mask image one that trusts
-/// every pixel of it again.
+/// Strokes that leave no pixel ignored: none or, where the case has a mask image, one stroke that
+/// erases all of it.
 MaskStrokes clearedStrokes(const SessionCase& session_case);
 
-/// Other cases whose pixels mean the same: of an equal camera and image size.
+/// Other cases with an equal camera and image size.
 std::vector<std::string> casesOfSameCamera(const Session& session, const std::string& case_id);
 /// A stroke of one case added to all others of its camera that do not have it yet.
 Session copyingStroke(const Session& session, const std::string& case_id, std::size_t stroke);

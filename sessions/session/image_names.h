@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How other programs' formats call the images and stations of a session.
+// Names and numbers of a session's images and stations in the formats of other programs.
 #pragma once
 
 #include <string>

@@ -77,7 +77,7 @@ FileState stateOf(const fs::path& file) {
   return state;
 }
 
-/// Nothing when it is the file that the session knows.
+/// Empty when the file has the hash in the session.
 std::optional<Finding> findingOf(const std::string& case_id, const Dependency& dependency,
                                  const FileState& state) {
   const bool changed = state.sha256 != dependency.sha256;

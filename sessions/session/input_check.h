@@ -12,7 +12,7 @@ namespace boresight::sessions {
 
 enum class FindingKind { kMissing, kChanged, kUnreadable };
 
-/// Something that a session names and that is not as the session knows it.
+/// A file of a session that is missing, changed or unreadable.
 struct Finding {
   FindingKind kind = FindingKind::kMissing;
   std::string case_id;
@@ -23,11 +23,11 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
-/// Reads every file that the session names, each once, and compares its hash. What is found is
-/// reported and nothing is changed; a run of a case refuses changed inputs by itself.
+/// Reads every file that the session names, each once, and compares its hash. Findings are reported
+/// and nothing is changed; a run of a case rejects changed inputs as well.
 std::vector<Finding> checkInputs(const Session& session);
 
-/// SHA-256 of a file as sessions know it: of its bytes; of a glTF mesh with its buffers, of an
+/// SHA-256 of a file as stored in sessions: of its bytes; of a glTF mesh with its buffers, of an
 /// image with its label where the label is another file. InputError.
 std::string inputSha256(const std::filesystem::path& file);
 
@@ -39,9 +39,9 @@ struct Relink {
   bool operator==(const Relink&) const = default;
 };
 
-/// Looks for missing files below the folder of the session: first where the ends of their paths
-/// lead, then everywhere by name (at most 100000 entries), then by extension. Only a file with the
-/// right hash counts.
+/// Looks for missing files below the folder of the session: first at the ends of their paths, then
+/// everywhere by name (at most 100000 entries), then by extension. Only a file with the right hash
+/// counts.
 std::vector<Relink> findMissing(const Session& session, const std::filesystem::path& session_file);
 
 /// The same session with each missing path replaced by the found one; hashes stay.
@@ -51,12 +51,12 @@ Session relinked(const Session& session, const std::vector<Relink>& relinks);
 /// them. Runs of the case become stale. InputError when a file cannot be read.
 Session acceptingInputs(const Session& session, const std::string& case_id);
 
-/// Reads the image by another rule than the session's, or by that. InputError when it cannot be
-/// read, or its files are not those that the session knows.
+/// Reads the image by this rule, which may differ from the session's. InputError when it cannot be
+/// read, or its files differ from those of the session.
 GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit);
 
-/// Reads the meshes of a case that are in use. InputError, also of one whose files are not those
-/// that the session knows: such files are not parsed.
+/// Reads the meshes of a case that are in use. InputError, also for files that differ from those of
+/// the session: they are not parsed.
 SceneMesh readKnownScene(const SessionCase& session_case);
 
 /// InputError naming `what` of the file, unless the hashes are the same.
@@ -67,20 +67,20 @@ void requireKnown(const std::filesystem::path& file, const std::string& what,
 /// image of one file, and for one that cannot be read.
 std::string otherFileText(const std::filesystem::path& image);
 
-/// One sentence where the session knows a label and neither the file nor a companion has it any
-/// more; else "".
+/// One sentence when the session has a label of the image, but neither the file nor a companion
+/// still has it; else "".
 std::string lostLabelText(const ImageInput& image);
 
-/// The same image, become 8 bit by another rule. Reads the file; InputError when it is no longer
-/// the one that the session knows, or the rule does not fit it.
+/// The same image, converted to 8 bit by another rule. Reads the file; InputError when it differs
+/// from that of the session, or the rule does not fit it.
 ImageInput converted(const ImageInput& image, const ImageReadOptions& eight_bit);
 
-/// Images of cases after a conversion.
+/// The image of a case after a conversion.
 struct Conversion {
   std::string case_id;
   ImageInput image;
 };
-/// The session with those of the images in place that are still of the same file.
+/// The session with these images, except for cases that have another file by now.
 Session withConversions(const Session& session, const std::vector<Conversion>& conversions);
 
 }  // namespace boresight::sessions

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the inputs are, in figures with units, and what of them is probably wrong: the same for
-// `whs info` and for the desktop program.
+// Summary of the inputs in figures with units, and probable faults in them, for `whs info` and the
+// desktop program.
 #pragma once
 
 #include <string>
@@ -54,8 +54,8 @@ ImageSheet imageSheet(const GrayImage& image);
 /// down-sampling, pixel origin, bits.
 std::vector<SheetLine> labelLines(const ImageLabel& label);
 
-/// Whether neighbouring pixels differ more than those two apart, along rows and columns both: a
-/// Bayer mosaic that was not turned into gray. A mosaic of a gray scene shows nothing of the kind.
+/// Whether neighbouring pixels differ more than pixels two apart, along both rows and columns: a
+/// Bayer mosaic that was not converted to gray. A mosaic of a gray scene is not detected.
 bool looksLikeMosaic(const ImageView& image);
 
 /// A case's inputs. Lengths of a station are those of its matched parts.
@@ -66,20 +66,21 @@ struct InputSheet {
   std::vector<RedFlag> flags;
 };
 
-/// Also of inputs that could not be run: sizes that do not fit are a flag, not an error.
+/// Works also for inputs that cannot be run: sizes that do not fit are a flag, not an error.
 InputSheet inputSheet(const LoadedCase& loaded);
 
-/// Whether the point is inside the surface, by its winding number: holes do not matter much.
+/// Whether the point is inside the surface, by its winding number: holes have little effect.
 bool isInside(const MeshView& mesh, const Eigen::Vector3d& point_in_station_m);
 
-/// Adds `camera_label` where the case's camera is another one than the label's or stands elsewhere
-/// in the same frame, and `transform_label` where a transform that was given places a frame of the
-/// label elsewhere than the label does; takes `camera_off_centre` away where the camera is that of
-/// the sub-frame which the label states. It changes nothing: the given values count.
+/// Adds `camera_label` when the case's camera differs from the label's or has another pose in the
+/// same frame, and `transform_label` when a given transform contradicts the label's pose of a
+/// frame. Removes `camera_off_centre` when the camera is that of the sub-frame stated in the label.
+/// The given values remain in use.
 void flagLabel(const SessionCase& session_case, const ImageLabel& label,
                std::vector<RedFlag>& flags);
 
-/// The same of the label of the case's image, as sentences; none where it has no label. InputError.
+/// The same for the label of the case's image, as sentences; empty when it has no label.
+/// InputError.
 std::vector<std::string> labelWarnings(const SessionCase& session_case);
 
 }  // namespace boresight::sessions

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well a case's mesh scale and calibration are known.
+// Uncertainty of a case's mesh scale and calibration.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace boresight::sessions {
 
-/// One sigma of each as it counts: of the camera's covariance, stated, or else assumed.
+/// One sigma of each as used: from the camera's covariance, stated, or else assumed.
 struct InputSigmas {
   double mesh_scale = kAssumedMeshScaleSigma;  ///< relative
   CalibrationSigma calibration;
   bool mesh_scale_stated = false;
   bool calibration_stated = false;   ///< also by the camera's covariance
-  bool calibration_derived = false;  ///< from the camera's covariance, which counts in its place
+  bool calibration_derived = false;  ///< from the camera's covariance, which is used instead
 
   explicit InputSigmas(const SessionCase& session_case);
 };

@@ -11,10 +11,9 @@
 
 namespace boresight::sessions {
 
-/// A list of which the last element of a key, `KeyOf()(element)`, is found without a search:
-/// sessions hold tens of thousands of cases and runs, and each is asked for by its case. Otherwise
-/// like std::vector. After access to elements that may change them `find` searches, until the list
-/// is copied.
+/// A list that finds the last element of a key, `KeyOf()(element)`, by an index: sessions hold tens
+/// of thousands of cases and runs, which are looked up by case. Otherwise like std::vector. After
+/// mutable access to elements find() searches the list, until the list is copied.
 template <class T, class KeyOf>
 class KeyedList {
  public:

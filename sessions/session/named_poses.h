@@ -28,7 +28,7 @@ std::vector<NamedPose> namedPoses(const SessionCase& session_case, const Pose& c
 /// By the frame's text: {"reference_from_station", "covariance", "joined_by"}.
 nlohmann::ordered_json toJson(const std::vector<NamedPose>& poses);
 
-/// "reference_from_station in SITE_FRAME (194)": what heads the pose's matrix.
+/// "reference_from_station in SITE_FRAME (194)": title of the pose's matrix.
 std::string namedPoseTitle(const NamedPose& pose);
 
 /// In which frames the camera model, the seed and the truth were given, and how these are joined;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cases of a session are images of cameras that are rigidly linked.
+// Cases of a session whose cameras are rigidly linked.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@ namespace boresight::sessions {
 /// Ids of the other cases of a case's rig, in the order of the session.
 std::vector<std::string> casesOfRig(const Session& session, const std::string& case_id);
 
-/// The last run of another case in which this one had no part: poses that were solved for together
+/// The last run of `other` that was not solved together with `case_id`: poses solved together
 /// always agree. nullptr when there is none.
 const RunRecord* ownRunOf(const Session& session, const std::string& other,
                           const std::string& case_id);
 
-/// How one case's camera lies from another's by their rig: `other_from_case`, as below. Nothing
-/// where they are not in one rig.
+/// The transform other_from_case between two cases' cameras by their rig. Empty when they are not
+/// in one rig.
 std::optional<Pose> linkOfRig(const SessionCase& session_case, const SessionCase& other);
 
-/// The same as the true poses of both say; nothing where one of them has none.
+/// The same from the true poses of both; empty when one of them has none.
 std::optional<Pose> linkOfTruths(const SessionCase& session_case, const SessionCase& other);
 
 /// A link, and the frame that both cases join with their cameras.
@@ -32,8 +32,8 @@ struct FrameLinkOfCases {
 };
 
 /// The same by the named frame, farthest from the camera, that image labels, telemetry of an arm or
-/// calibrations join with both cameras, by ways that do not pass the station. Nothing where there
-/// is none.
+/// calibrations join with both cameras, on paths that do not pass the station. Empty when there is
+/// none.
 std::optional<FrameLinkOfCases> linkOfFrames(const SessionCase& session_case,
                                              const SessionCase& other);
 

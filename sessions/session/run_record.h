@@ -11,9 +11,9 @@
 
 namespace boresight::sessions {
 
-/// The plan of a run that went on from an iteration of another run with other options, or had other
-/// options than the session from its start (those of an onboard record): enough to run it again,
-/// even without the other run.
+/// The plan of a run that continued another run with other options, or that started with options
+/// other than the session's (those of an onboard record). It suffices to repeat the run, even
+/// without the other run.
 struct RerunRecord : RunPlan {
   std::string from;  ///< digest of the run whose first iterations it has; empty: a halted run
 
@@ -22,8 +22,8 @@ struct RerunRecord : RunPlan {
 
 struct Session;
 
-/// What a session notes of a run that was solved for together with other views of the case's rig:
-/// enough to run all of them again.
+/// Record of a run that was solved together with other views of the case's rig; it suffices to
+/// repeat all of them.
 struct TogetherRecord {
   std::vector<ViewOutcome> views;  ///< in their order, this case's among them; the first one led
   std::string inputs_sha256;       ///< viewsDigest of them when they ran
@@ -36,13 +36,13 @@ struct RunRecord {
   std::string case_id;
   std::string digest;  ///< of the trace, which names its file
   std::filesystem::path file;
-  std::string status;          ///< as localizationStatusText says
+  std::string status;          ///< localizationStatusText()
   std::string version;         ///< of the program that ran it
   std::string time;            ///< UTC, when it ended
   std::string inputs_sha256;   ///< inputsDigest of the case that ran
-  std::string options_sha256;  ///< optionsDigest of what ran, as it was at the end
+  std::string options_sha256;  ///< optionsDigest of the options at the end of the run
   std::optional<RerunRecord> rerun =
-      std::nullopt;  ///< of a run that took up other options on its way
+      std::nullopt;  ///< of a run that changed options on the way
   /// Of a run that was solved for together with other views of the case's rig.
   std::optional<TogetherRecord> together = std::nullopt;
 
@@ -52,9 +52,9 @@ struct RunRecord {
 /// The cases of a record's views.
 std::vector<std::string> casesOf(const TogetherRecord& record);
 
-/// SHA-256 over what a run of these cases together depends on: the inputs of each but for the seeds
-/// of those that follow the first, and how the cameras lie to each other. Empty when a case is not
-/// there any more, or is of no rig.
+/// SHA-256 over all inputs of a run of these cases together: the inputs of each, with the seed of
+/// the first alone, and the relative poses of the cameras. Empty when a case no longer exists or
+/// has no rig.
 std::string viewsDigest(const Session& session, const std::vector<std::string>& case_ids);
 
 }  // namespace boresight::sessions

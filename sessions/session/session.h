@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operator's document: one plain value. What is done with it (files, journal, lock, undo) is in
+// The operator's document: one plain value. Operations on it (files, journal, lock, undo) are in
 // the other headers of this folder.
 #pragma once
 
@@ -43,7 +43,7 @@ struct ImageInput {
   int height = 0;
   ImageReadOptions eight_bit;  ///< how its samples become 8 bit
   std::string pixels_sha256;   ///< of the 8-bit pixels that the core sees
-  /// What the label of a planetary image says it is, for provenance; else empty.
+  /// Identifiers from the label of a planetary image, for provenance; else empty.
   std::vector<LabelItem> label = {};
 
   bool operator==(const ImageInput&) const = default;
@@ -57,22 +57,22 @@ struct MeshInput {
   bool operator==(const MeshInput&) const = default;
 };
 
-/// Everything that a run of one image is given, and what its result is judged by.
+/// All inputs of a run of one image, and the data by which its result is judged.
 struct SessionCase {
   std::string id;       ///< unique in the session, not empty
   std::string station;  ///< display name, may be empty
   ImageInput image;
   Camera camera;
-  /// Of the CAHV family: where the camera model's frame is. No input of a run.
+  /// Of the CAHV family: pose of the camera model's frame. No input of a run.
   std::optional<CameraReference> camera_reference;
   /// At least one is matched; each has a place in the scene by the case's frames.
   std::vector<MeshInput> parts;
   std::optional<double> feature_size_m;
   /// Relative, one sigma; nothing: kAssumedMeshScaleSigma. No input of a run.
   std::optional<double> mesh_scale_sigma;
-  /// Nothing: that of a CalibrationSigma by default. No input of a run.
+  /// Nothing: the defaults of CalibrationSigma. No input of a run.
   std::optional<CalibrationSigma> calibration_sigma;
-  /// Of the camera's vectors, in its own frame: counts in place of calibration_sigma. No input of a
+  /// Of the camera's vectors, in its own frame: used instead of calibration_sigma. No input of a
   /// run.
   std::optional<CameraCovariance> camera_covariance;
   /// False: the case can be annotated, but not run, and its seed is the identity.
@@ -84,8 +84,8 @@ struct SessionCase {
   std::optional<Pose> camera_from_station_truth;
   /// Of a truth that was given in a named frame. No input of a run.
   std::optional<FrameName> truth_frame;
-  /// Of a truth that was measured (by annotations): left perturbation, camera frame, as the
-  /// annotations alone say. Nothing: it is exact. No input of a run.
+  /// Of a truth that was measured (by annotations): left perturbation, camera frame, of the
+  /// annotations alone. Nothing: it is exact. No input of a run.
   std::optional<Matrix6d> truth_covariance;
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
   std::optional<InputFile> ignore;                  ///< mask image
@@ -99,7 +99,7 @@ struct SessionCase {
   /// only where they place a part.
   std::vector<FrameTransform> frames;
   /// landmarks.json with the station's named points, absolute; may not be there yet. No input of a
-  /// run, and annotators add to it: its bytes are not known to the session.
+  /// run, and annotators add to it: the session does not store its hash.
   std::optional<std::filesystem::path> landmarks;
 
   bool operator==(const SessionCase&) const = default;
@@ -115,14 +115,14 @@ bool sameScene(const SessionCase& a, const SessionCase& b);
 /// Whether two cases have the same meshes in the same places, whatever their states.
 bool sameMeshes(const SessionCase& a, const SessionCase& b);
 
-/// Gives a case this truth in place of a former one, with all that was said of that.
+/// Sets the truth of a case and drops all data about a former truth.
 void setTruth(SessionCase& session_case, const Pose& camera_from_station,
               const std::optional<Matrix6d>& covariance = std::nullopt);
 
-/// What a person annotated in one case.
+/// The annotations of one case.
 using Annotation = Annotations;
 
-/// What of the view belongs to the document; windows and layout do not.
+/// View state that belongs to the document; windows and layout do not.
 struct DocumentView {
   std::string case_id;          ///< chosen case, or empty
   std::string digest;           ///< chosen run, or empty
@@ -131,7 +131,7 @@ struct DocumentView {
   bool operator==(const DocumentView&) const = default;
 };
 
-/// The case that something of a session is or belongs to.
+/// Id of the case that an element of a session is or belongs to.
 struct CaseIdOf {
   const std::string& operator()(const SharedValue<SessionCase>& shared_value) const {
     return shared_value->id;
@@ -142,19 +142,19 @@ struct CaseIdOf {
 
 struct Session {
   std::string profile = "default";
-  OptionList options;  ///< what differs from the profile, by name in the order of the alphabet
+  OptionList options;  ///< differences from the profile, in alphabetical order
   KeyedList<SharedValue<SessionCase>, CaseIdOf> cases;
-  std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; none is empty
-  /// Completed annotation rounds by case, in order of completion; none is empty.
+  std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; no element is empty
+  /// Completed annotation rounds by case, in order of completion; no element is empty.
   std::map<std::string, SharedValue<AnnotationRounds>> rounds;
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
   KeyedList<RunRecord, CaseIdOf> runs;      ///< in the order in which they were made
   DocumentView view;
 
-  /// nullptr when there is none of this id.
+  /// nullptr when no case has this id.
   const SessionCase* findCase(const std::string& id) const;
-  /// The decision that holds for a case, or nullptr.
+  /// The last decision on a case, or nullptr.
   const Decision* decisionOn(const std::string& case_id) const;
   /// The latest run of a case, or nullptr.
   const RunRecord* lastRunOf(const std::string& case_id) const;
@@ -177,10 +177,9 @@ Session withCase(const Session& session, SessionCase changed);
 std::string freeCaseId(const Session& session, const std::string& id);
 /// The same session without a case and all that refers to it.
 Session withoutCase(const Session& session, const std::string& case_id);
-/// The same session with a case's annotation; an empty one is taken away.
+/// The same session with a case's annotation; an empty one is removed.
 Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation);
-/// The same session with the completed annotation rounds of a case; no rounds are taken
-/// away.
+/// The same session with the completed annotation rounds of a case; an empty list is removed.
 Session withRounds(const Session& session, const std::string& case_id, AnnotationRounds rounds);
 
 /// The same session with a part of a case in this state. InputError for an unknown case or part, a
@@ -188,7 +187,7 @@ Session withRounds(const Session& session, const std::string& case_id, Annotatio
 Session withPartState(const Session& session, const std::string& case_id, std::size_t part_index,
                       const PartState& state);
 
-/// The same session with these options, kept as what differs from a profile that exists.
+/// The same session with these options, stored as differences from an existing profile.
 Session withOptions(const Session& session, const std::string& profile,
                     const LocalizerOptions& options);
 
@@ -199,31 +198,31 @@ LocalizerOptions sessionOptions(const Session& session, const std::filesystem::p
 LocalizerOptions caseOptions(const Session& session, const SessionCase& session_case,
                              const std::filesystem::path& file);
 
-/// SHA-256 over what a run of the case depends on: pixels, mask, camera, parts in use with their
+/// SHA-256 over all inputs of a run of the case: pixels, mask, camera, parts in use with their
 /// places, seed, uncertainty; not names, truth, tags or requirement.
 std::string inputsDigest(const SessionCase& session_case);
 
-/// In what a run differs from what would be run now.
+/// Differences of a run from a run with the present inputs and options.
 struct Staleness {
   bool inputs_changed = false;
   bool options_changed = false;
 
   bool stale() const { return inputs_changed || options_changed; }
 };
-/// A run of a case that is no longer there has changed inputs.
+/// A run of a case that no longer exists has changed inputs.
 Staleness stalenessOf(const RunRecord& run, const Session& session,
                       const std::filesystem::path& file);
 
-/// Ids of the later session's cases of which a person has changed something since the earlier one
-/// (the case itself, its annotations or rounds, decisions on it); new ones too, in their order.
-/// Runs and the view do not count.
+/// Ids of the later session's cases that were edited since the earlier one (the case itself, its
+/// annotations or rounds, decisions on it); new ones too, in their order. Runs and the view do not
+/// count.
 std::vector<std::string> changedCases(const Session& before, const Session& after);
 
-/// `stalenessOf` for all cases of a session again and again as it is edited: what is known of cases
-/// and options that are still the same is kept.
+/// Caches stalenessOf() for a session that is being edited: results for unchanged cases and options
+/// are kept.
 class StaleRuns {
  public:
-  /// As `stalenessOf(run, session, file).stale()`; `one` is the run's case in the session.
+  /// As `stalenessOf(run, session, file).stale()`; `shared_value` is the run's case in the session.
   /// InputError of options that cannot be read.
   bool isStale(const RunRecord& run, const SharedValue<SessionCase>& shared_value,
                const Session& session, const std::filesystem::path& file);

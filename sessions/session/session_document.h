@@ -25,8 +25,8 @@ struct Recovery : Journal {
   Session session;  ///< with all edits
 };
 
-/// Writes a journal in place of any other, whole or not at all; on the disk when this returns.
-/// `session_text` is the `sessionText` after the last edit:
+/// Replaces the journal, whole or not at all; it is on the disk when this returns. `session_text`
+/// is the `sessionText` after the last edit:
 ///
 ///     {"format": "boresight-journal", "version": 1, "base_sha256": "...", "time": "...",
 ///      "edits": ["...", ...], "session": {"format": "boresight-session", ...}}
@@ -40,13 +40,13 @@ Recovery readJournal(const std::filesystem::path& file);
 
 enum class Access { kEdit, kReadOnly };
 
-/// An open session: its value, its file, and its journal and lock. An edit is on the disk
-/// before `apply` returns; what is shown is what `session()` says. Not for several threads at once.
+/// An open session: its value, its file, and its journal and lock. An edit is on the disk before
+/// `apply` returns; views show session(). Not thread-safe.
 class SessionDocument {
  public:
-  /// Opens a session file. With kEdit the lock is taken; where that cannot be (another program has
-  /// it, the folder is read-only) the document opens read-only and says why. InputError when the
-  /// file is not a session.
+  /// Opens a session file. With kEdit the lock is taken; when that fails (another program has it,
+  /// the folder is read-only) the document opens read-only with a reason. InputError when the file
+  /// is not a session.
   static SessionDocument open(const std::filesystem::path& file, Access access = Access::kEdit);
   /// Writes a new session file and opens it. OutputError when there is a file of this name already,
   /// or nothing can be written.
@@ -61,28 +61,28 @@ class SessionDocument {
   /// was set aside.
   const std::vector<std::string>& notices() const { return notices_; }
 
-  /// Unsaved edits of a program that was killed; they wait to be accepted or declined, and until
-  /// then nothing can be edited or saved.
+  /// Unsaved edits of a program that was killed; they must be accepted or declined before anything
+  /// can be edited or saved.
   const std::optional<Recovery>& recovery() const { return recovery_; }
   /// The recovered session becomes the document's, not yet saved. OutputError.
   void acceptRecovery();
   /// The journal is set aside under another name. OutputError.
   void declineRecovery();
 
-  /// Makes `next` the session, once the journal has it; `text` says what was done. OutputError when
-  /// it cannot be written, the document is read-only, or a recovery waits; InputError when `next`
-  /// is not a session that a file could hold (two cases of one id, an option out of range). Then
-  /// nothing has changed. A `next` like the present value is no edit.
+  /// Makes `next` the session after it is written to the journal; `text` describes the edit.
+  /// OutputError when it cannot be written, the document is read-only, or a recovery waits;
+  /// InputError when `next` is not a session that a file could hold (two cases of one id, an option
+  /// out of range). Then nothing has changed. A `next` equal to the present value is no edit.
   void apply(const Session& next, const std::string& text);
 
   /// Writes the file and drops the journal. OutputError, also when another program has changed the
   /// file meanwhile; then file and journal are as they were.
   void save();
-  /// The session is again what the file holds, and nothing is left to recover. OutputError when the
-  /// document is read-only.
+  /// Resets the session to the content of the file, with nothing left to recover. OutputError when
+  /// the document is read-only.
   void discardChanges();
-  /// Goes on under another name, whatever lay there before; traces of runs are copied along. The
-  /// former file stays as it was last saved. OutputError leaves the document as it was.
+  /// Saves under another name, replacing an existing file, and continues there; traces of runs are
+  /// copied. The former file stays as it was last saved. OutputError leaves the document as it was.
   void saveAs(const std::filesystem::path& file);
 
  private:
@@ -111,25 +111,25 @@ struct SessionCommand {
   Session after;
 };
 
-/// What undo or redo makes of `target` now: runs and what is looked at are not edits and stay as
-/// they are at present, except those of cases that only `target` has (its own) or has not (none).
+/// The session after an undo or redo to `target`. Runs and view state are not edits: they are kept
+/// from `current`, except for cases that only `target` has (its runs are used) or lacks (no runs).
 Session keepingRuns(const Session& target, const Session& current);
 
 /// The undo stack of a document, of any length. Every step goes through SessionDocument::apply and
-/// so into the journal before it is shown; a step that throws has not happened.
+/// thus into the journal before it is shown; a step that throws has no effect.
 class SessionHistory {
  public:
   /// The document must outlive the history.
   explicit SessionHistory(SessionDocument& document) : document_(&document) {}
 
-  /// An edit; what was undone before it can no longer be redone. One that changes nothing is none.
+  /// Performs an edit; undone edits can no longer be redone. An edit without changes is ignored.
   void perform(const Session& after, const std::string& text);
   void undo();  ///< nothing when there is nothing to undo
   void redo();
 
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < commands_.size(); }
-  /// What undo() or redo() would do, "" when nothing.
+  /// Description of the edit that undo() or redo() would affect; "" when there is none.
   std::string undoText() const { return canUndo() ? commands_[done_ - 1].text : ""; }
   std::string redoText() const { return canRedo() ? commands_[done_].text : ""; }
   const std::vector<SessionCommand>& commands() const { return commands_; }

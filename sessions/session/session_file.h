@@ -14,12 +14,12 @@
 
 namespace boresight::sessions {
 
-/// Files beside `name.json`: `name.journal`, `name.lock`, `name.runs/`. Another extension than
+/// Files next to `name.json`: `name.journal`, `name.lock`, `name.runs/`. Another extension than
 /// .json is kept as part of the name.
 std::filesystem::path journalFileOf(const std::filesystem::path& session_file);
 std::filesystem::path lockFileOf(const std::filesystem::path& session_file);
 std::filesystem::path runsFolderOf(const std::filesystem::path& session_file);
-/// Where a run's trace lies: named by its digest.
+/// Path of a run's trace, named by its digest.
 std::filesystem::path runFileOf(const std::filesystem::path& session_file,
                                 const std::string& digest);
 
@@ -30,7 +30,7 @@ struct SavedSession {
 };
 
 /// InputError (file, field, reason) when it is missing or wrong in any way. The inputs that it
-/// names are not looked at (input_check.h).
+/// names are not read (input_check.h).
 SavedSession readSessionFile(const std::filesystem::path& file);
 
 /// Writes atomically and returns the hash of what was written. OutputError; then the old file is
@@ -40,7 +40,7 @@ std::string writeSessionFile(const std::filesystem::path& file, const Session& s
 class PathWriter;
 
 nlohmann::ordered_json toJson(const SessionCase& session_case, const PathWriter& path);
-/// The reverse, without whether its id is given twice. InputError.
+/// The reverse; does not detect duplicate ids. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 
 /// The parts of a case as its fingerprint (inputsDigest) has them.
@@ -56,11 +56,11 @@ nlohmann::ordered_json toJson(const std::vector<LabelItem>& label);
 inline constexpr const char* kSessionFormat = "boresight-session";
 inline constexpr int kSessionVersion = 1;
 
-/// What the session file holds (README.md); paths relative to the folder of
-/// `file`. Numbers read back as the same bits. OutputError when a text is not UTF-8.
+/// Content of the session file (README.md); paths are relative to the folder of `file`. Numbers
+/// read back as the same bits. OutputError when a text is not UTF-8.
 nlohmann::ordered_json toJson(const Session& session, const std::filesystem::path& file);
 
-/// The same as text: a session has exactly one, so that its SHA-256 tells one from another.
+/// The same as text: a session has exactly one text, so that its SHA-256 identifies it.
 std::string sessionText(const Session& session, const std::filesystem::path& file);
 
 /// The reverse. InputError (file, field, reason): another format, a newer version, a member that

@@ -134,7 +134,7 @@ SessionCase caseOf(const Dataset& dataset, const Case& dataset_case, const Image
   return session_case;
 }
 
-/// By what all of its cases ask for; the default when they ask for different things or nothing.
+/// The preset that all cases need; the default when they need different ones or none.
 std::string presetOfAll(const Session& session) {
   std::string preset;
   for (const auto& session_case : session.cases) {

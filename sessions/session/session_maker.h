@@ -30,7 +30,7 @@ struct CaseFiles {
   std::optional<std::filesystem::path> ignore;
   std::optional<double> feature_size_m;
   std::optional<double> mesh_scale_sigma;
-  /// Instead of what the transforms say of CAMERA and END_EFFECTOR.
+  /// Used instead of the transforms between CAMERA and END_EFFECTOR.
   std::optional<Pose> camera_from_end_effector;
   std::optional<Requirement> requirement;
 };
@@ -42,23 +42,23 @@ struct MadeCase {
   std::vector<std::string> notes;
 };
 
-/// An image as a case keeps it. InputError.
+/// An image as stored in a case. InputError.
 ImageInput imageInput(const std::filesystem::path& file, const ImageReadOptions& eight_bit);
 
-/// Meshes as a case keeps them. Parts that are switched off are read, too: they can be switched on
+/// Meshes as stored in a case. Parts that are switched off are read, too: they can be switched on
 /// later. InputError.
 std::vector<MeshInput> meshInputs(const std::vector<PartSource>& parts);
 
-/// Reads all files once. InputError when one is missing or wrong. An image of another size than its
-/// camera makes a case all the same, which the input sheet flags and a run refuses.
+/// Reads all files once. InputError when one is missing or wrong. An image whose size differs from
+/// its camera's is accepted; the input sheet flags it and a run rejects it.
 MadeCase makeCase(const CaseFiles& files);
 
 /// A session of the cases of a dataset.json with these ids, or of all. Requirement, truth, rig,
-/// tags and uncertainty come along, and the checks' preset is the one for what they all require
-/// (a requirement in pixels alone: "photographs"). InputError, also for an id that the dataset does
-/// not have.
+/// tags and uncertainty are copied, and the checks' preset is the one for the requirement of all of
+/// them (a requirement in pixels alone: "photographs"). InputError, also for an id that the dataset
+/// does not have.
 Session makeSession(const Dataset& dataset, const std::vector<std::string>& case_ids = {});
-/// The same of a file, or of a BOP folder with what openDataset chooses of it.
+/// The same for a file, or for a BOP folder with the selection of openDataset.
 Session makeSession(const std::filesystem::path& dataset_file,
                     const std::vector<std::string>& case_ids = {});
 

@@ -46,7 +46,7 @@ void requireSameDataset(const ResultsFacts& facts) {
                                      " has changed since: evaluate again into a new file");
 }
 
-/// The runs that began, the most troubled first.
+/// The runs that began, the worst first.
 std::vector<RunResult> troubledFirst(const std::filesystem::path& file) {
   std::vector<RunResult> runs;
   forEachRun(file, [&](const RunResult& run) {

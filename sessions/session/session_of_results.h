@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A results file as a session: its runs become cases to look at and to run again.
+// A results file as a session: its runs become cases to review and to run again.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,11 @@
 
 namespace boresight::sessions {
 
-/// How a case's run ended in the results that its session was made of.
+/// Outcome of a case's run in the results from which its session was made.
 struct ListedResult {
-  std::string status;  ///< as RunResult has it
+  std::string status;  ///< RunResult::status
   bool completed = false;
-  /// The part of the requirement that its error took up, see requirementShare; nothing without
-  /// truth or requirement.
+  /// requirementShare() of its error; nothing without truth or requirement.
   std::optional<double> error_share;
 };
 ListedResult listedResult(const RunResult& run);
@@ -30,11 +29,10 @@ std::optional<ListedResult> listedResult(const SessionCase& session_case);
 std::string resultCaseId(const RunResult& run);
 
 /// A session of the cases of a results file's runs of WHS, each with the seed that its run began
-/// from and a tag of how it ended; profile and options are theirs, so that a run here repeats the
-/// one listed, to the bit. The most troubled come first: failed runs, then by error share; refused
-/// inputs are left out. InputError when the file or the dataset that it names cannot be read, the
-/// dataset is not the one any more, there are no such runs, or their meshes were deliberately
-/// wrong.
+/// from and a tag with its outcome; profile and options are those of the runs, so that a run here
+/// repeats the listed one bit for bit. The worst come first: failed runs, then by error share;
+/// rejected inputs are left out. InputError when the file or the dataset that it names cannot be
+/// read, the dataset has changed, there are no such runs, or their meshes were deliberately wrong.
 Session sessionOfResults(const std::filesystem::path& results_file);
 
 }  // namespace boresight::sessions

@@ -260,7 +260,7 @@ class Packer {
     }
   }
 
-  /// A file that the session knows by its hash; `read` throws InputError unless it is of its kind.
+  /// A file whose hash the session has; `read` throws InputError unless it is of its kind.
   void packInput(InputFile& input, const std::function<void(const fs::path&)>& read) {
     const fs::path file = input.file;
     const std::string name = inputFolder(input.sha256) + "/" + file.filename().string();
@@ -273,7 +273,7 @@ class Packer {
     input.file = place(name);
   }
 
-  /// As they are now: the session does not know their hash.
+  /// In their present state: the session does not store their hash.
   void packLandmarks(SessionCase& session_case) {
     const fs::path file = *session_case.landmarks;
     std::error_code error;

@@ -9,16 +9,16 @@
 
 namespace boresight::sessions {
 
-/// A file that an archive takes along.
+/// A file that an archive includes.
 struct PackedFile {
   std::string name;            ///< in the archive
   std::filesystem::path file;  ///< absolute, its links resolved
   std::string sha256;          ///< of its bytes
 };
 
-/// What an archive of a session holds: below a folder of the session's name the session, `inputs/`
-/// with every file that it names (once, under the beginning of its hash, so that files of the same
-/// name do not meet), and the traces of its runs.
+/// Content of the archive of a session: in a folder of the session's name the session, `inputs/`
+/// with every file that it names (once, below the beginning of its hash, so that equal names do not
+/// collide), and the traces of its runs.
 struct SessionPack {
   std::vector<PackedFile> files;   ///< without the session
   std::string session_name;        ///< in the archive
@@ -26,11 +26,11 @@ struct SessionPack {
   std::vector<std::string> notes;  ///< traces and landmarks that are missing and are left out
 };
 
-/// Reads every file as what the session's member says it is: an image, a mesh with its buffers, a
-/// mask, an onboard record, landmarks, the trace of a run. InputError, naming the member, when one
-/// is something else, is not the one that the session was made with, or lies (links resolved)
-/// neither below the session's folder nor below that of an image, mesh, mask or record. Nothing is
-/// written.
+/// Reads every file as the type that the session's member states: an image, a mesh with its
+/// buffers, a mask, an onboard record, landmarks, the trace of a run. InputError, naming the
+/// member, when a file has another type, has changed since the session was made, or lies (links
+/// resolved) neither below the session's folder nor below that of an image, mesh, mask or record.
+/// Nothing is written.
 SessionPack planPack(const Session& session, const std::filesystem::path& session_file);
 
 /// Writes the zip archive, which is read again before it gets its name. InputError when a file has

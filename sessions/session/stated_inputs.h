@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person states of a case after it was made.
+// Inputs that the operator states for an existing case.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace boresight::sessions {
 
-/// Where poses are judged and by what, and how frames are joined. What is nothing stays as it is.
+/// End effector, requirement and frames of a case. Members without a value change nothing.
 struct StatedInputs {
   std::optional<Pose> camera_from_end_effector;
   std::optional<Requirement> requirement;
-  /// Added; one between the same two frames takes the place of the former one.
+  /// Added; replaces a transform between the same two frames.
   std::vector<FrameTransform> frames;
 
   bool empty() const { return !camera_from_end_effector && !requirement && frames.empty(); }

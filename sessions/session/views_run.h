@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases of a rig that are solved for as one.
+// Cases of a rig that are solved together.
 #pragma once
 
 #include <filesystem>
@@ -43,19 +43,19 @@ std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> f
                                              const std::vector<SessionCase>& others);
 
 /// Runs a case together with the other views of its rig, by the session's options; one snapshot per
-/// view, the case's first. Always the same digest, from wherever it is run. A stop leaves the
-/// status at kRunning. InputError for what cannot be run.
+/// view, the case's first. The digest is the same for every caller. A stop leaves the status at
+/// kRunning. InputError for inputs that cannot be run.
 std::vector<LocalizationTrace> runViews(const Session& session, const std::string& case_id,
                                         const std::stop_token& stop = {});
 
-/// Stores what came out for each view, as storeRun does, as a run of its own case that names the
+/// Stores the result of each view, as storeRun does, as a run of its own case that names the
 /// others.
 std::vector<RunRecord> storeViews(const Session& session,
                                   const std::vector<LocalizationTrace>& views,
                                   const std::filesystem::path& session_file);
 
-/// Runs a recorded run once more by the options that it had, with the other views if there were
-/// any. InputError when its inputs are no longer its own, or its views end otherwise than recorded.
+/// Repeats a recorded run with its own options, with the other views if there were any. InputError
+/// when its inputs have changed, or its views do not end as recorded.
 LocalizationTrace repeatRun(const RunRecord& run, const Session& session,
                             const std::filesystem::path& session_file,
                             RecordLevel level = RecordLevel::kFull);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What counts of runs show about the share behind them (Clopper and Pearson 1934).
+// Confidence bounds of a share from counts of runs (Clopper and Pearson 1934).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's Figure 4, of our runs.
+// The paper's Figure 4 for our runs.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ inline constexpr const char* kStripsFigure = "error_strips";
 /// Errors of one method, as its strip shows them.
 struct ErrorStrip {
   std::vector<double> completed;  ///< errors where completed runs ended
-  std::vector<double> failed;     ///< errors that failed runs keep: those of their seeds
+  std::vector<double> failed;     ///< errors of failed runs: those of their seeds
 };
 
 /// The strip of a method's runs for one error. Runs without truth are left out.

@@ -41,8 +41,8 @@ inline constexpr std::pair<const char*, double InstructionCount::*> kCountedStag
 /// and a count for each stage}]}. InputError.
 std::vector<InstructionCount> readInstructionCounts(const std::filesystem::path& file);
 
-/// Minutes at 200 MHz and one instruction a cycle: the means of each station's runs, added up over
-/// the stations, as in the paper's Table III; with the paper's rows where asked for.
+/// Minutes at 200 MHz and one instruction per cycle: the means of each station's runs, added up
+/// over the stations, as in the paper's Table III; with the paper's rows where asked for.
 Table flightTable(std::span<const InstructionCount> counts, bool with_paper);
 
 }  // namespace boresight::sessions

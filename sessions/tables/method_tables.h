@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of the paper, of our runs.
+// The tables of the paper for our runs.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ inline constexpr const char* kBoundsNote =
     "At least, at most: one-sided 95 % bounds (Clopper-Pearson), as if runs were independent; runs "
     "from several seeds of one image are not.";
 
-/// Figures of one method on the near or the far cases of a station. Runs whose input was refused
+/// Figures of one method on the near or the far cases of a station. Runs whose input was rejected
 /// are not counted.
 struct MethodFigures {
   std::string station;
@@ -47,7 +47,7 @@ struct MethodFigures {
   CountedShare false_positives;  ///< of the same
   std::int64_t gross_false_positives = 0;
   /// Runs that ended at the limit of iterations count as completed, with their last pose: the other
-  /// reading of the paper's "converges to a pose at all" (Sec. V-A).
+  /// interpretation of the paper's "converges to a pose at all" (Sec. V-A).
   std::int64_t at_limit = 0;
   CountedShare completed_with_limit;
   CountedShare success_with_limit;
@@ -92,7 +92,7 @@ struct RunGroup {
   std::vector<const RunResult*> runs;
 };
 
-/// By station, near before far, and method. Runs whose input was refused are left out.
+/// By station, near before far, and method. Runs whose input was rejected are left out.
 std::vector<RunGroup> runGroups(std::span<const RunResult> runs);
 MethodFigures figuresOf(std::span<const RunResult* const> runs);
 /// "near", "far".
@@ -112,7 +112,7 @@ Table summaryTable(std::span<const RunResult> runs);
 /// One line for each run that was judged and not successful, at most `limit` of them.
 std::string failureList(std::span<const RunResult> results, std::size_t limit);
 
-/// The middle of the values (the mean of two); nothing of none.
+/// The median (the mean of the two middle values); empty without values.
 std::optional<double> median(std::vector<double> values);
 
 }  // namespace boresight::sessions

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Pham et al. 2025 (IEEE RA-L, DOI 10.1109/LRA.2025.3614045) report in Tables I to III.
+// Figures of Pham et al. 2025 (IEEE RA-L, DOI 10.1109/LRA.2025.3614045), Tables I to III.
 #pragma once
 
 #include <array>

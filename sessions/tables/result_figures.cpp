@@ -24,7 +24,7 @@ constexpr int kToleranceSteps = 41;
 
 using Members = std::vector<const RunResult*>;
 
-/// How methods are told apart, by colour (Okabe and Ito 2008) and by dashes.
+/// Distinguishes methods by colour (Okabe and Ito 2008) and by dashes.
 class Styles {
  public:
   explicit Styles(std::span<const RunResult> runs) {

@@ -18,9 +18,9 @@ namespace boresight::sessions {
 
 using CurvePoints = std::vector<std::array<double, 2>>;
 
-/// The corners of the staircase that says what percent of `of` runs have a value of at most x:
-/// from (smallest, its percent) on; it stays at the last one's percent. Values that are not finite
-/// are left out.
+/// The corners of the cumulative distribution: percent of `of` runs with a value of at most x, from
+/// (smallest, its percent) on, constant after the last one. Values that are not finite are left
+/// out.
 CurvePoints shareBelow(std::vector<double> values, std::size_t of);
 
 /// Percent of judged runs that completed within x times the requirement, for each factor. Empty
@@ -44,7 +44,7 @@ CurvePoints timeAgainstError(std::span<const RunResult* const> runs);
 /// `count` numbers from `low` to `high`, each the same multiple of the one before.
 std::vector<double> geometricSteps(double low, double high, int count);
 
-/// What percent of the runs completed with an error of at most x: normal, lateral and rotation side
+/// Percent of the runs that completed with an error of at most x: normal, lateral and rotation side
 /// by side, a row for each station, near and far apart.
 inline constexpr const char* kErrorFigure = "error_distribution";
 /// Success against multiples of the requirement.
@@ -66,9 +66,9 @@ std::vector<Figure> resultFigures(std::span<const RunResult> runs, CanvasFormat 
 /// ".pdf", ".svg", ".png".
 const char* extensionOf(CanvasFormat format);
 
-/// Where a run that did not succeed went astray, as far as its iterations' errors show it.
+/// How far an unsuccessful run approached the truth, by its iterations' errors.
 enum class Astray {
-  kNotBegun,   ///< its input was refused, or there is nothing to see from its seed
+  kNotBegun,   ///< its input was rejected, or the station is not visible from its seed
   kNoTruth,    ///< without truth
   kLedAway,    ///< no iteration was nearer to the truth than the seed
   kPartOfWay,  ///< some iteration was nearer, none near
@@ -77,12 +77,12 @@ enum class Astray {
 };
 Astray whereAstray(const RunResult& run);
 
-/// One to three sentences: how it ended and why, the way that its error took (seed, first
-/// iteration, nearest, end), and where it went astray. Needs the run's steps.
+/// One to three sentences: how it ended and why, the course of its error (seed, first iteration,
+/// nearest, end), and its Astray. Needs the run's steps.
 std::string failureStory(const RunResult& run);
 
-/// The iteration that was nearest to the truth, by the larger share of the seed's distance and
-/// angle that it left; nullptr without truth or iterations.
+/// The iteration that was nearest to the truth, by the larger remaining share of the seed's
+/// distance and angle; nullptr without truth or iterations.
 const RunStep* nearestStep(const RunResult& run);
 
 struct Failure {
@@ -102,8 +102,8 @@ inline constexpr const char* kFailureFigure = "failures";
 /// and of what the run ended with (green; where it did not complete, of its iteration nearest to
 /// the truth, of its first one where none was nearer than the seed, or of its last without truth),
 /// and its story beneath. One PDF, "failures", or a picture a page, "failures_1", ... Where images
-/// cannot be read (or the dataset was a BOP folder) the reason stands in the picture's place. Empty
-/// without failures. std::bad_alloc or std::runtime_error when they cannot be drawn.
+/// cannot be read (or the dataset was a BOP folder) the reason replaces the picture. Empty without
+/// failures. std::bad_alloc or std::runtime_error when they cannot be drawn.
 std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format);
 
 }  // namespace boresight::sessions

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<const char*, 6> kPaperOrder = {"seed", "orb",     "ssd",
                                                     "ncc",  "loftr-r", "loftr-s"};
 
-/// Where a method stands: its place in the paper, then others, then WHS.
+/// Rank of a method: the order of the paper, then others, then WHS.
 std::size_t rankOf(const std::string& name) {
   const std::string method = name.substr(0, name.find(' '));
   if (method == "whs") return kPaperOrder.size() + 1;

@@ -16,7 +16,7 @@
 namespace boresight::sessions {
 
 /// Runs of any number of methods. A run's `method` is the name under which it is shown: where files
-/// have a method with other options, its profile follows, and where that does not tell them apart,
+/// have a method with other options, its profile follows, and where that does not distinguish them,
 /// the file's name.
 struct ResultsSet {
   std::vector<ResultsFacts> files;
@@ -27,7 +27,7 @@ struct ResultsSet {
   std::vector<std::string> methodNames() const;
 };
 
-/// What runs are taken: those that meet each filter that is not empty.
+/// Filter of runs: a run must match each filter that is not empty.
 struct ResultsFilter {
   std::vector<std::string> stations = {};
   std::vector<std::string> tags = {};
@@ -45,7 +45,7 @@ ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
 /// by name, whs.
 bool methodBefore(const std::string& a, const std::string& b);
 
-/// The same case from the same seed, in both.
+/// Runs of the same case from the same seed, in both sets.
 struct RunPairing {
   RunResult before;
   RunResult after;
@@ -63,10 +63,10 @@ struct ResultsDifference {
   std::int64_t equal = 0;  ///< of these, bit for bit
 };
 
-/// Pairs runs by case, seed and method; by case and seed alone where each set has one method.
-/// Where truth and requirement are known a right pose is better than a run that failed, and that is
-/// better than a wrong pose, and of two wrong ones the nearer by a tenth of the requirement; else a
-/// run that completed is better than one that did not.
+/// Pairs runs by case, seed and method; by case and seed alone where each set has one method. With
+/// truth and requirement known, a correct pose is better than a failed run, which is better than a
+/// wrong pose; of two wrong poses the nearer one is better, if by a tenth of the requirement.
+/// Otherwise a run that completed is better than one that did not.
 ResultsDifference compareResults(const ResultsSet& before, const ResultsSet& after);
 
 /// The pairs that changed or, with `all`, all of them.

@@ -19,7 +19,7 @@ struct StationRuns {
   std::vector<const RunResult*> all;  ///< of all methods
 };
 
-/// By station, near before far. Runs whose input was refused are left out.
+/// By station, near before far. Runs whose input was rejected are left out.
 std::vector<StationRuns> stationRuns(std::span<const RunResult> runs);
 
 /// A limit of a requirement; nothing when the requirement lacks it.

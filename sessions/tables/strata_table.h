@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Success by the conditions of the images, and what the number of runs demonstrates.
+// Success by the conditions of the images, and the success rate that the runs demonstrate.
 #pragma once
 
 #include <span>

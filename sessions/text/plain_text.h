@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text from outside (names, comments, paths) made harmless where it is printed.
+// Sanitizes text from outside (names, comments, paths) for printing.
 #pragma once
 
 #include <charconv>
@@ -9,9 +9,9 @@
 
 namespace boresight::sessions {
 
-/// `text` with a blank in place of everything that a terminal acts on rather than shows: control
-/// characters (C0 with line feed and tab, DEL, C1), annotations of writing direction, line
-/// separators, and bytes that are not UTF-8. Nothing else changes.
+/// `text` with a blank in place of all characters that control a terminal: control characters (C0
+/// with line feed and tab, DEL, C1), marks of writing direction, line separators, and bytes that
+/// are not UTF-8. Nothing else changes.
 std::string plainText(std::string_view text);
 
 /// `plainText`, and a line feed.
@@ -20,15 +20,15 @@ std::string plainLine(std::string_view text);
 /// `plainText` with runs of blanks as one blank and none at either end.
 std::string oneLine(std::string_view text);
 
-/// Without blanks, tabs and line ends around it.
+/// The text without leading and trailing blanks, tabs and line ends.
 std::string_view trimmed(std::string_view text);
 
 /// A to Z as a to z, and the reverse, whatever the locale.
 std::string lowerCase(std::string_view text);
 std::string upperCase(std::string_view text);
 
-/// The number that the whole text is, of whole numbers also in another base; nothing where it is
-/// none. Whatever the locale; a plus or blanks are no part of a number.
+/// Parses the whole text as a number, integers also in another base; empty when it is none.
+/// Independent of the locale; a plus sign or blanks are not accepted.
 template <class Number, class... Base>
 std::optional<Number> numberIn(std::string_view text, Base... base) {
   Number value{};

@@ -6,8 +6,8 @@
 
 namespace boresight::sessions {
 
-/// Columns of equal width for a terminal: the first column left, the others right aligned. A cell
-/// stays on its line, whatever text from outside is in it.
+/// Columns of equal width for a terminal: the first column left, the others right aligned. Cells
+/// are sanitized and stay on one line.
 class TextTable {
  public:
   explicit TextTable(const std::vector<std::string>& header) { add(header); }

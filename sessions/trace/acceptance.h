@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the acceptance of a run's pose rests on.
+// Texts on the acceptance of a run's pose.
 #pragma once
 
 #include <string>
@@ -26,8 +26,7 @@ std::string timesText(double nats);
 std::string probabilityText(const LocalizationTrace& trace);
 
 /// Sentences: the probability with its parts (without a search the edge support), the width of the
-/// image's edges, the origin of the pose, and the competing poses. Empty of a run that came to no
-/// pose.
+/// image's edges, the origin of the pose, and the competing poses. Empty for a run without a pose.
 std::string acceptanceText(const LocalizationTrace& trace);
 
 }  // namespace boresight::sessions

@@ -16,16 +16,17 @@ enum class AlternativeKind : std::uint8_t {
   kCompeting,  ///< a pose that shows about the same edges as the run's result
 };
 
-/// A pose that a run weighed against the one that it went on with. Figures that its kind does not
+/// A pose that a run compared with the one with which it continued. Figures that its kind does not
 /// have are NaN.
 struct Alternative {
   AlternativeKind kind = AlternativeKind::kRolled;
-  std::int32_t iteration = -1;  ///< that weighed it, an index into the run's; -1: competing
+  std::int32_t iteration = -1;  ///< that compared it, an index into the run's; -1: competing
   std::int32_t number = 1;      ///< in its iteration, of its origin or of its kind; from 1
-  bool chosen = false;          ///< what the run went on with
+  bool chosen = false;          ///< the run continued with it
   bool has_pose = false;        ///< else there is nothing to draw
   Pose camera_from_station;
-  /// What the run went on with in that iteration; next to a competing pose, the run's result.
+  /// The pose with which the run continued in that iteration; for a competing pose, the run's
+  /// result.
   Pose camera_from_station_chosen;
   double apart_m = kUnknown;  ///< between the two, of the station's origin
   double apart_rad = kUnknown;
@@ -40,7 +41,7 @@ struct Alternative {
   HypothesisOrigin origin = HypothesisOrigin::kCandidate;  ///< of a compared pose
 };
 
-/// Of a run as far as it has come: its competing poses, the poses that it compared (the best one
+/// The alternatives of a run so far: its competing poses, the poses that it compared (the best one
 /// that is not the result first, the others by descending score), then iteration by iteration the
 /// rolled hypotheses of those that had several.
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run);

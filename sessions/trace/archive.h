@@ -61,8 +61,8 @@ class ArchiveWriter {
 };
 
 /// Reads what ArchiveWriter wrote, and blocks of onboard records; InputError where bytes are
-/// missing or impossible. A list grows with the bytes that are there, so that a wrong count cannot
-/// ask for memory.
+/// missing or impossible. A list grows with the bytes available, so that a wrong count cannot
+/// exhaust the memory.
 class ArchiveReader {
  public:
   ArchiveReader(std::filesystem::path file, std::span<const std::uint8_t> bytes)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where to look closely at how the model's edges meet the image's.
+// Image patches for a close comparison of the model's edges with the image's.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace boresight::sessions {
 
-/// A place of the image where edges of the pose run in several directions.
+/// A patch of the image where edges of the pose run in several directions.
 struct CloseUp {
   std::string name;  ///< "upper left": which quarter of the rendered edges
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
@@ -20,9 +20,9 @@ struct CloseUp {
 };
 
 /// The best place of each quarter of the edges that a refinement used, in reading order; none of a
-/// quarter where no edge of the image was found. `side_px` is the side of the square that will be
-/// looked at. Best is where the smaller eigenvalue of the normals' scatter is largest (the measure
-/// of Shi and Tomasi 1994): a corner shows a shift in any direction, a straight edge only across.
+/// quarter where no edge of the image was found. `side_px` is the side of the square to be shown.
+/// Best is where the smaller eigenvalue of the normals' scatter is largest (the measure of Shi and
+/// Tomasi 1994): a corner shows a shift in any direction, a straight edge only across.
 std::vector<CloseUp> closeUps(const Camera& camera, const RefinementTrace& refinement,
                               double side_px);
 

@@ -11,12 +11,12 @@
 
 namespace boresight::sessions {
 
-/// A best score that exceeds the second by less than this share of itself could as well be the
-/// second: its match is worth a look. For display only.
+/// A match is ambiguous when its best score exceeds the second by less than this share of itself.
+/// For display only.
 inline constexpr double kLowMargin = 0.05;
 
-/// What became of one template. Places are pixels of the full image; what the iteration has not
-/// reached, or could not measure, is NaN.
+/// Result of one template. Positions are pixels of the full image; values that the iteration has
+/// not reached, or could not measure, are NaN.
 struct MatchDetails {
   std::int32_t index = 0;  ///< into the iteration's templates
   double depth_m = 0.0;
@@ -31,7 +31,7 @@ struct MatchDetails {
   double empty_share = kUnknown;   ///< S- / c-
   double second_score = kUnknown;  ///< of the second peak; NaN where there is none
   double margin = kUnknown;        ///< (best - second) / best, of the integers that are compared
-  bool solved = false;             ///< a pose was looked for with this match
+  bool solved = false;             ///< the match was used to solve for a pose
   bool inlier = false;
   double residual_px = kUnknown;  ///< distance from the solved pose's projection
 

@@ -24,7 +24,7 @@ inline constexpr ColorBgr kResultColor = {233, 180, 86};  ///< blue
 inline constexpr ColorBgr kTruthColor = {255, 255, 255};
 ///@}
 
-/// 8-bit colour, row-major, 3 bytes a pixel.
+/// 8-bit colour, row-major, 3 bytes per pixel.
 struct ColorImage {
   int width = 0;
   int height = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pictures of an iteration show beyond what its record holds; pixels are of the full image.
+// Data for pictures of an iteration that its record does not hold; pixels are of the full image.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct AgreementMaps {
 /// Maps of different sizes give empty ones.
 AgreementMaps agreementOf(const RenderTrace& render, const BitMap& test_edges);
 
-/// What the pose after an iteration leaves: where the 3D point projects and where it was found.
+/// Residual of the pose after an iteration: where the 3D point projects and where it was found.
 struct ResidualVector {
   int template_index = -1;  ///< -1: a place on an edge, of a refinement
   Eigen::Vector2d projected = Eigen::Vector2d::Zero();

@@ -67,7 +67,7 @@ std::string noPoseSentence(const LocalizationTrace& trace) {
   return text + ".";
 }
 
-/// Whether the pose was found but refused, in contrast to a run that came to no pose.
+/// Whether a pose was found but rejected, in contrast to a run without a pose.
 bool wasRefused(const LocalizationTrace& trace) {
   switch (trace.status) {
     case LocalizationStatus::kNotSupported:

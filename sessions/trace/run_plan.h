@@ -11,13 +11,13 @@
 
 namespace boresight::sessions {
 
-/// Options that a run takes up between two iterations.
+/// Options that a run changes to between two iterations.
 struct OptionChange {
   std::int32_t iteration = 0;  ///< the first one with them, as the trace counts: from 0
   LocalizerOptions options;
 };
 
-/// The options of a whole run: those that it starts with, and those that it takes up later. The
+/// The options of a whole run: those that it starts with, and those that it changes to later. The
 /// same plan on the same inputs gives the same digest, wherever it is run.
 struct RunPlan {
   LocalizerOptions options;
@@ -29,28 +29,28 @@ struct RunPlan {
   RunPlan(const LocalizerOptions& from_start, std::vector<OptionChange> later)
       : options(from_start), changes(std::move(later)) {}
 
-  /// Those that hold at the end.
+  /// The options in force at the end.
   const LocalizerOptions& last() const {
     return changes.empty() ? options : changes.back().options;
   }
 };
 
-/// The plan of a run that goes as `plan` before `iteration` and has `options` from there on.
-/// Options that hold there anyway are no change, so that the digest stays the same; from iteration
-/// 0 on it is a new run.
+/// The plan of a run that follows `plan` before `iteration` and has `options` from there on.
+/// Options that are in force there anyway are no change, so that the digest stays the same; from
+/// iteration 0 on it is a new run.
 RunPlan continuedPlan(const RunPlan& plan, std::int32_t iteration, const LocalizerOptions& options);
 
 /// Why a plan cannot be run (an option out of its range, one that holds for a whole run, changes
 /// out of order), as a sentence; empty when it can.
 std::string planProblem(const RunPlan& plan);
 
-/// Makes a plan's changes on a localizer when they are due.
+/// Applies a plan's changes to a localizer when they are due.
 class PlannedChanges {
  public:
   explicit PlannedChanges(std::vector<OptionChange> changes) : changes_(std::move(changes)) {}
 
-  /// Before every step, with the number of iterations that are complete. True when the localizer
-  /// has other options now.
+  /// Call before every step, with the number of complete iterations. True when the localizer has
+  /// other options now.
   bool takeUp(Localizer& localizer, std::size_t complete);
 
  private:

@@ -248,7 +248,7 @@ std::string convergedText(const LocalizationTrace& trace) {
   return least_known.empty() ? text : text + " Least known: " + least_known + ".";
 }
 
-/// With the probability of a pose that was refused for another reason.
+/// With the probability of a pose that was rejected for another reason.
 std::string failedText(const LocalizationTrace& trace) {
   std::string text = "Did not converge. " + sentence(explanation(trace));
   if (hasProbability(trace) && trace.status != LocalizationStatus::kNotSupported)

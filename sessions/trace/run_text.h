@@ -22,12 +22,12 @@ std::string poseText(const Pose& pose, const Matrix6d& covariance,
 /// two; empty for a run that converged.
 std::string explanation(const LocalizationTrace& trace);
 
-/// High-water annotation of memory by stage, against the limit if there is one.
+/// High-water mark of memory by stage, compared with the limit if there is one.
 std::string memoryTable(const LocalizationTrace& trace);
 
-/// Where a run stands, for a line that is always in view: how it ended with what speaks for the
-/// pose, why it failed (as `explanation` says), or what it is at. Whole sentences. Of a replayed
-/// run it begins with that.
+/// Status of a run for a line that is always in view: how it ended with the evidence for the pose,
+/// why it failed (explanation()), or its current stage. Whole sentences; the first one states that
+/// a run is replayed.
 std::string runStatusText(const LocalizationTrace& trace);
 
 }  // namespace boresight::sessions

@@ -19,7 +19,7 @@ struct SampleCounts {
   double usedShare() const { return places > 0 ? static_cast<double>(used) / places : 0.0; }
 };
 
-/// What a refinement found along the rendered edges.
+/// Statistics of a refinement along the rendered edges.
 struct SampleStatistics {
   SampleCounts all;
   SampleCounts creases;    ///< inner edges, where the normals differ

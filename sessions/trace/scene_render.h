@@ -8,9 +8,10 @@
 
 namespace boresight::sessions {
 
-/// Renders one scene with one camera from many poses; what does not depend on the pose is computed
-/// once. It owns its memory, and its capacity for edge pixels follows the image. Like the core's
-/// stages it does one slice per step, so that a caller with a newer pose can stop in between.
+/// Renders one scene with one camera from many poses; data that does not depend on the pose is
+/// computed once. It owns its memory, and its capacity for edge pixels follows the image. Like the
+/// core's stages it does one slice per step, so that a caller with a newer pose can stop in
+/// between.
 class SceneRenderer {
  public:
   SceneRenderer();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a mesh a ray meets.
+// Intersections of rays with a mesh.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace boresight::sessions {
 
-/// Where a ray meets a face.
+/// Intersection of a ray with a face.
 struct RayHit {
   double distance = 0.0;  ///< in lengths of the ray's direction
   std::int32_t face = -1;
@@ -55,7 +55,7 @@ class FaceTree {
   std::vector<Node> nodes_;
 };
 
-/// What of the scene is seen at a pixel.
+/// The surface that is visible at a pixel.
 struct SurfacePoint {
   Eigen::Vector3d in_station_m = Eigen::Vector3d::Zero();
   double depth_m = 0.0;  ///< z in the camera frame

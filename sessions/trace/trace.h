@@ -35,7 +35,7 @@ struct RenderView {
   operator const EdgeRender&() const { return render; }
 };
 
-/// What the core's EdgeRender holds.
+/// Copy of the core's EdgeRender.
 struct RenderTrace {
   BitMap edges;
   BitMap mask;
@@ -48,7 +48,7 @@ struct RenderTrace {
   RenderView view() const;
 };
 
-/// What the core's EdgeMap holds.
+/// Copy of the core's EdgeMap.
 struct EdgeMapTrace {
   std::array<BitMap, kPyramidLevels> level;
   double low_threshold = 0.0;
@@ -56,7 +56,7 @@ struct EdgeMapTrace {
   std::int32_t edge_count = 0;
 };
 
-/// What the core's PnpSolution holds.
+/// Copy of the core's PnpSolution.
 struct PnpTrace {
   Pose camera_from_station;
   std::vector<std::uint8_t> inlier;  ///< one per correspondence
@@ -67,7 +67,7 @@ struct PnpTrace {
   std::int32_t samples = 0;
 };
 
-/// What the core's RefinementResult holds.
+/// Copy of the core's RefinementResult.
 struct RefinementTrace {
   Pose camera_from_station;
   Matrix6d covariance = Matrix6d::Zero();
@@ -93,23 +93,23 @@ struct StageSeconds {
 
 /// Memory of a run, in bytes. Not part of the digest.
 struct MemoryTrace {
-  MemoryUse use;           ///< of the localizer's block, as its options ask for
+  MemoryUse use;           ///< of the localizer's block, as its options require
   std::size_t inputs = 0;  ///< image, ignore mask and mesh
   std::size_t limit = 0;   ///< for both together; 0: there was none
 
   std::size_t total() const { return inputs + use.total(); }
 };
 
-/// What an onboard record has of a match in place of the counts that scores are made of.
+/// Scores of a match in an onboard record, which does not hold the counts behind them.
 struct RecordedScore {
   double score = 0.0;  ///< WHS in [0, 2]
   std::optional<double> second_score;
 };
 
-/// How one of several views that were solved as one ended.
+/// Outcome of one of several views that were solved together.
 struct ViewOutcome {
   std::string case_id;
-  /// As localizationStatusText says; "converged" when it took part in the pose.
+  /// localizationStatusText(); "converged" when it took part in the pose.
   std::string status;
 
   bool tookPart() const;
@@ -120,7 +120,7 @@ struct ViewOutcome {
 std::string leftOutText(const std::string& status);
 
 /// "together with bc-2 and bc-3 (left out: ...)": the views of a run but this one. Statuses are
-/// left away where the run did not converge, or has not ended.
+/// omitted when the run did not converge, or has not ended.
 std::string togetherText(const std::vector<ViewOutcome>& views, const std::string& own_case);
 
 /// How much of an iteration is copied.
@@ -130,8 +130,8 @@ enum class RecordLevel {
   kStages,   ///< everything, and the iteration under way after each of its stages
 };
 
-/// Everything of one iteration up to the stage that it reached: owning copies of what the core's
-/// `Iteration` holds. With RecordLevel::kSummary the vectors stay empty and the counts remain.
+/// One iteration up to the stage that it reached: owning copies of the data of the core's
+/// `Iteration`. With RecordLevel::kSummary the vectors stay empty and the counts remain.
 struct IterationTrace {
   std::int32_t index =
       0;  ///< as the core counts; one that failed before its pose shares the next's
@@ -192,7 +192,8 @@ struct LocalizationTrace {
   std::vector<PoseCandidate> candidates;       ///< of the search, the most evidence first
   std::vector<PoseHypothesis> hypotheses;      ///< refined and compared, of runs that search
   std::int32_t best_hypothesis = -1;           ///< index of the one with the best score
-  std::int32_t competitor = -1;                ///< index of the best one that is another pose
+  std::int32_t competitor = -1;                ///< index of the best hypothesis that is a distinct
+                                               ///< pose
   double gap = 0.0;                            ///< between the scores of these two
   std::vector<CompetingPose> competing_poses;  ///< of the pose that converged
   EdgeSupport support;
@@ -216,7 +217,7 @@ struct LocalizationTrace {
   bool replayed = false;        ///< from an onboard record (sessions/record/onboard_record.h)
   /// Of a replayed run, sentences: unknown values, and differences between ground and onboard.
   std::vector<std::string> remarks;
-  /// Of one of several views that were solved as one: all of them, the first one led.
+  /// For a view that was solved together with others: all of them, the leading view first.
   std::vector<ViewOutcome> views;
   std::size_t own_view = 0;  ///< index of this run's view
 

@@ -7,7 +7,7 @@
 
 namespace boresight::sessions {
 
-/// Writes a trace atomically; what is read back is equal bit by bit. OutputError.
+/// Writes a trace atomically; reading it back gives the same bits. OutputError.
 ///
 /// The file, all numbers big-endian:
 ///

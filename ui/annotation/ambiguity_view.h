@@ -14,7 +14,7 @@
 namespace boresight::ui {
 
 /// Both poses that annotations in a plane allow, side by side: the image round the annotations with
-/// the model's edges under each pose. Hidden while there is one pose only.
+/// the model's edges under each pose. Hidden while there is only one pose.
 class AmbiguityView : public QWidget {
   Q_OBJECT
 
@@ -23,7 +23,7 @@ class AmbiguityView : public QWidget {
                 QWidget* parent = nullptr);
 
  Q_SIGNALS:
-  /// The other pose is to be looked at in all views.
+  /// The operator asks to show the other pose in all views.
   void otherRequested(const boresight::Pose& camera_from_station);
 
  protected:

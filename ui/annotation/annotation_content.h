@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What annotations look like as layers of the image.
+// Appearance of annotations as layers of the image.
 #pragma once
 
 #include <map>
@@ -20,21 +20,21 @@ inline const QColor kChosenAnnotation(255, 255, 255);
 inline const QColor kDisabledAnnotation(175, 175, 175);
 inline const QColor kOutlierAnnotation(kBadMarkLine.color);
 
-/// State that the marks of annotations show.
+/// State that the signs of annotations show.
 struct AnnotationLook {
   std::string selected;
   std::map<std::string, double> outliers;  ///< normalized residual by id
   Camera camera;
-  /// Predicts what has no place in the image yet. Nothing: that is not drawn.
+  /// Predicts the position of annotations without image side. Nothing: these are not drawn.
   std::optional<Pose> camera_from_station = {};
 };
 
-/// State of an annotation as its sign shows it.
+/// State of an annotation that its sign shows.
 struct AnnotationState {
   bool complete = true;
   bool enabled = true;
   bool chosen = false;
-  double outlier = 0.0;  ///< residual in sigmas where it stands out, else 0
+  double outlier = 0.0;  ///< residual in sigmas if it is an outlier, else 0
 };
 /// "p1", "p1 ?" (incomplete), "p1 (off)", "p1 ! 4.2 sigma".
 QString annotationLabel(const std::string& id, const AnnotationState& state);
@@ -46,13 +46,12 @@ std::vector<Mark> withState(Mark sign, const AnnotationState& state);
 
 /// One sign for each annotation, its item being the index of the point, or the number of points
 /// plus the index of the line. A complete pair is a target, a locked one a square, one without its
-/// station side a circle with "?", one without its place in the image a dashed diamond where the
-/// pose predicts it, one that is off is struck through, one that stands out has a triangle round
-/// it.
+/// station side a circle with "?", one without its image side a dashed diamond where the pose
+/// predicts it, a disabled one is struck through, an outlier has a triangle round it.
 std::vector<Mark> annotationSigns(const sessions::Annotations& annotations,
                                   const AnnotationLook& look);
 
-/// From where the pose puts each annotation to where it was annotated, magnified. `stale`: dashed.
+/// Lines from each annotation's projection to its annotated position, magnified. `stale`: dashed.
 std::vector<Mark> residualSigns(const std::vector<sessions::AnnotationVector>& vectors,
                                 const AnnotationLook& look, double magnification, bool stale);
 
@@ -61,7 +60,7 @@ std::vector<Mark> proposalSigns(const std::vector<sessions::Proposal>& proposals
 /// Strips along the edges.
 std::vector<Mark> bandSigns(const std::vector<sessions::BandPiece>& band);
 
-/// The annotation that an item of `annotationSigns` is of, or nothing.
+/// The id of the annotation of an item of annotationSigns(), or empty.
 std::string idOfSign(const sessions::Annotations& annotations, int item);
 
 }  // namespace boresight::ui

@@ -483,8 +483,8 @@ bool AnnotationPanel::pressArrow(const QKeyEvent& key) {
   return true;
 }
 
-/// Letters typed at the table look for a row; they do not switch layers. Enter goes on to the
-/// chosen annotation in the image.
+/// Letters typed at the table look for a row; they do not switch layers. Enter moves to the chosen
+/// annotation in the image.
 bool AnnotationPanel::eventFilter(QObject* watched, QEvent* event) {
   if (watched == ui_.annotations && event->type() == QEvent::KeyPress &&
       pressArrow(*static_cast<QKeyEvent*>(event)))

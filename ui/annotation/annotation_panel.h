@@ -28,18 +28,17 @@ struct ComparedPose {
 /// "Solved from 8 annotations, 0.21 px rms.", or why there is no pose.
 QString solutionHeadline(const AnnotationAnswer& answer, bool stale);
 
-/// "Geometry: all in one plane, all at one depth.": what of the annotations is weak, in a few words
-/// that stand there before and after solving.
+/// "Geometry: all in one plane, all at one depth.": weaknesses of the annotations in a few words,
+/// shown before and after solving.
 QString geometryMeterText(const AnnotationAnswer& answer);
 
-/// Everything else that an annotator reads of a solution: what is weak in the annotations, one
-/// sigma against the requirement, the second pose of a plane next to the first, residuals per
-/// camera, and how far the other poses (seed, run, truth) and rounds are. Colour never says
-/// anything alone.
+/// Further details of a solution: weaknesses of the annotations, one sigma against the requirement,
+/// both poses of a plane, residuals per camera, and the distances to other poses (seed, run, truth)
+/// and rounds. Colour is never the only indication.
 QString solutionHtml(const AnnotationAnswer& answer, const std::vector<ComparedPose>& others);
 
-/// The station's named points that this image has no annotation of: where they should be is
-/// confirmed, or one is begun by name and then clicked. Also where landmarks come from and go to.
+/// The station's named points without annotation in this image: to confirm their predictions, or to
+/// begin one by name and click it. Also opens and saves the file of landmarks.
 class LandmarksMenu : public QMenu {
   Q_OBJECT
 
@@ -56,7 +55,7 @@ class LandmarksMenu : public QMenu {
   AnnotationController& controller_;
 };
 
-/// Which cases are solved together with the shown one: lists them, opens one, links and unlinks.
+/// Menu of the cases that are solved together with the shown one: opens, links and unlinks them.
 class RigMenu : public QMenu {
   Q_OBJECT
 
@@ -78,8 +77,7 @@ class RigMenu : public QMenu {
   AnnotationController& controller_;
 };
 
-/// The annotator's desk: tools, the table of annotations, and what the pose that solves them is
-/// worth.
+/// Panel for annotating: tools, the table of annotations, and the quality of the solved pose.
 class AnnotationPanel : public QWidget {
   Q_OBJECT
 
@@ -91,16 +89,16 @@ class AnnotationPanel : public QWidget {
   /// The menu of annotations and poses from and to files; to be filled.
   QMenu& filesMenu() { return *files_menu_; }
   LandmarksMenu& landmarksMenu() { return *landmarks_menu_; }
-  /// Knows what the places of the station are.
+  /// Sets the snapper that names the points of the station.
   void setSnapper(const StationSnapper& snapper);
-  /// A widget next to the summary, shown when it has contents.
+  /// Adds a widget next to the summary, shown when it has contents.
   void addBeside(QWidget* widget);
-  /// Asks whose annotations these are, and puts them aside.
+  /// Asks for the annotator's name, and stores the annotations as a round.
   void askForName();
 
  Q_SIGNALS:
   void openCaseRequested(const QString& case_id);
-  /// Keys go to the image from now on.
+  /// The keyboard focus should go to the image.
   void imageRequested();
 
  protected:

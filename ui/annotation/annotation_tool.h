@@ -19,14 +19,13 @@ namespace boresight::ui {
 class ImageView;
 class StationSnapper;
 
-/// Annotations with the pointer on the image while the operator annotates. A click annotates a
-/// place of the image, Ctrl+click the place of the station that is drawn there (on the edges of the
-/// annotation while these show, else of the shown pose); in line mode two clicks annotate a line,
-/// Ctrl+click an edge. Before the click it shows where the annotation would go and what it snaps
-/// to; Tab goes on to another thing to snap to, Alt held refuses it. A press on an annotation
-/// chooses it, and drags it; a drag elsewhere pans. Arrows move the chosen annotation by 0.1 px,
-/// with Shift by 1 px; Delete removes it; Escape drops the half-made gesture, then the choice, then
-/// the mode.
+/// Annotates with the pointer on the image. A click annotates an image position, Ctrl+click the
+/// point of the station drawn there (by the edges of the annotated pose while these are visible,
+/// else of the shown pose); in line mode two clicks annotate a line, Ctrl+click an edge. Before the
+/// click it shows the target and its snap; Tab changes to another snap candidate, Alt held disables
+/// snapping. A press on an annotation chooses it, and drags it; a drag elsewhere pans. Arrows move
+/// the chosen annotation by 0.1 px, with Shift by 1 px; Delete removes it; Escape drops the
+/// unfinished gesture, then the selection, then the mode.
 class AnnotationTool : public QObject {
   Q_OBJECT
 
@@ -37,15 +36,14 @@ class AnnotationTool : public QObject {
   bool snaps() const { return snaps_; }
   void setSnaps(bool snaps);
 
-  /// Where a click would go now; side kNone where it would do nothing.
+  /// Target of a click now; side kNone when a click has no effect.
   const AnnotationAim& aim() const { return aim_; }
-  /// What the pointer, or an operator who moves an annotation by keys, looks at; px. Nothing:
-  /// nowhere.
+  /// Position of the pointer, or of the annotation that is moved by keys; px. Nothing: none.
   const std::optional<QPointF>& focus() const { return focus_; }
   /// camera_from_station of the edges on which the station is picked.
   std::optional<Pose> stationPose() const;
 
-  /// Words stay clear of `taken` (widget).
+  /// Texts are kept outside `taken` (widget).
   void paint(QPainter& painter, const QRectF& taken) const;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -54,7 +52,7 @@ class AnnotationTool : public QObject {
   void snapsChanged();
 
  private:
-  /// A place of the image that can be taken hold of.
+  /// An image position that can be dragged.
   struct Handle {
     std::string id;
     int end = 0;  ///< of a line
@@ -105,7 +103,7 @@ class AnnotationTool : public QObject {
   QPointF last_;
   bool panning_ = false;
   std::optional<Drag> drag_;
-  std::optional<Eigen::Vector2d> line_start_;  ///< px, of a line half drawn
+  std::optional<Eigen::Vector2d> line_start_;  ///< px, of an unfinished line
   int end_ = 0;                                ///< of the chosen line
 };
 

@@ -17,8 +17,8 @@ class AnnotationTool;
 class PoseRenderer;
 class StationSnapper;
 
-/// Annotating on the image: the tool that annotates with the pointer, the loupe, and the layers
-/// that show annotations, residuals, proposals, the solved pose's edges and their band.
+/// Annotating on the image: the pointer tool, the loupe, and the layers for annotations, residuals,
+/// proposals, the solved pose's edges and their band.
 class ImageAnnotation : public QObject {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ class ImageAnnotation : public QObject {
   AnnotationTool& tool() { return *tool_; }
   Loupe& loupe() { return *loupe_; }
 
-  /// How much residuals are magnified on the image.
+  /// Magnification of residuals on the image.
   double magnification() const { return magnification_; }
   void setMagnification(double magnification);
 
@@ -52,7 +52,7 @@ class ImageAnnotation : public QObject {
   AnnotationController& controller_;
   ViewState& state_;
   StationSnapper& snapper_;
-  QPointer<ImageView> view_;  ///< may go before this does
+  QPointer<ImageView> view_;  ///< may be destroyed before this object
   AnnotationTool* tool_;
   Loupe* loupe_;
   PoseRenderer* edges_;

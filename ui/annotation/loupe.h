@@ -14,25 +14,25 @@
 
 namespace boresight::ui {
 
-/// A small piece of an image as a loupe shows it: every screen pixel of `size` has the gray of the
-/// image pixel that its centre lies on, stretched between the darkest and the brightest shown, a
-/// few clipped. Outside the image it is dark. `transform` is in coordinates of which
-/// `device_pixel_ratio` screen pixels make one. For the eye only.
+/// The picture of a loupe: every screen pixel of `size` has the gray value of the image pixel at
+/// its centre, stretched between the darkest and the brightest shown, a few clipped. Dark outside
+/// the image. `transform` is in coordinates of `device_pixel_ratio` screen pixels. For display
+/// only.
 QImage loupePicture(const sessions::ImageSamples& samples, const ViewTransform& transform,
                     const QSize& size, double device_pixel_ratio);
 
 /// The 8-bit values of an image as samples, for images whose file has not been read.
 sessions::ImageSamples samplesOf(const QImage& gray);
 
-/// Sides of a square loupe: a share of the shorter side of the view, in coordinates.
+/// Side of a square loupe: a share of the view's shorter side, with limits, in coordinates.
 struct LoupeSize {
   double share;
   double least;
   double most;
 };
 
-/// Puts a loupe into the upper corner of its parent that the place is not in; `left` is the corner
-/// it is in.
+/// Moves a loupe to the upper corner of its parent away from `place`; `left`: whether it is in the
+/// left corner.
 void putLoupeAside(QWidget& loupe, const LoupeSize& size, const QPoint& place, bool& left);
 
 /// The loupe's frame, and a text at its foot.
@@ -41,9 +41,9 @@ void paintLoupeFoot(QPainter& painter, const QWidget& loupe, const QString& text
 class ImageView;
 
 /// A piece of the image, magnified, in a corner of the image view away from the pointer: image
-/// pixels as squares, in their own contrast, under a cross that stands at a fraction of a pixel,
-/// with annotations and rendered edges as the view shows them. The magnification counts screen
-/// pixels per image pixel; Ctrl+wheel over the view changes it.
+/// pixels as squares, in their own contrast, under a cross at a sub-pixel position, with
+/// annotations and rendered edges as the view shows them. The magnification counts screen pixels
+/// per image pixel; Ctrl+wheel over the view changes it.
 class Loupe : public QWidget {
   Q_OBJECT
 
@@ -56,14 +56,14 @@ class Loupe : public QWidget {
 
   /// nullptr: there is no image.
   void setSamples(std::shared_ptr<const sessions::ImageSamples> samples);
-  /// At least twice what the view shows: a loupe that shows less would be none.
+  /// At least twice the magnification of the view.
   double magnification() const;
   void setMagnification(double magnification);
   bool isSwitchedOn() const { return on_; }
   void setSwitchedOn(bool on);
 
-  /// Puts a place (px) under the cross; `aim` is where a click there would go. Nothing: nowhere,
-  /// and the loupe hides.
+  /// Shows a position (px) under the cross; `aim` is the target of a click there. Nothing: the
+  /// loupe hides.
   void lookAt(const std::optional<QPointF>& pixel, const AnnotationAim& aim);
   const std::optional<QPointF>& place() const { return pixel_; }
   /// Between image pixels and this widget's coordinates.

@@ -12,9 +12,9 @@
 
 namespace boresight::ui {
 
-/// What of the current case's mesh an annotation may snap to: its corners, edges and circles, found
-/// once for all views and off the UI's thread. Image and scene both ask here, each with the camera
-/// and the pose that it draws with.
+/// Features of the current case's mesh that an annotation may snap to: corners, edges and circles,
+/// found once for all views on a worker thread. Image and scene query it, each with its own camera
+/// and pose.
 class StationSnapper : public QObject {
   Q_OBJECT
 
@@ -22,11 +22,11 @@ class StationSnapper : public QObject {
   explicit StationSnapper(ViewState& state, QObject* parent = nullptr);
 
   using MeshPtr = std::shared_ptr<const sessions::MeshSnapper>;
-  /// nullptr without a case and until they are found; may be kept and asked in another thread.
+  /// nullptr without a case and until the features are found; usable in another thread.
   const MeshPtr& mesh() const { return mesh_; }
 
-  /// The nearest seen vertex, circle centre and edge within the radius of a pixel of that camera,
-  /// the likeliest first; nothing until they are found.
+  /// The nearest visible vertex, circle centre and edge within the radius of a pixel of that
+  /// camera, the likeliest first; empty until the features are found.
   std::vector<sessions::MeshSnap> near(const Camera& camera, const Pose& camera_from_station,
                                        const Eigen::Vector2d& pixel, double radius_px) const;
 

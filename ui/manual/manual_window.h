@@ -24,12 +24,12 @@ QStringList manualPages(const QString& folder);
 QString manualText(const QString& file);
 
 /// The manual in a window of its own: its pages, and a field that finds words on this and, after
-/// the last place, on the next page that has them. Without a manual one sentence says so.
+/// the last place, on the next page that has them. Without a manual it shows a sentence.
 class ManualWindow : public QMainWindow {
   Q_OBJECT
 
  public:
-  /// `folder`: of the manual, "" where there is none.
+  /// `folder`: of the manual; "" when there is none.
   explicit ManualWindow(const QString& folder, QWidget* parent = nullptr);
 
   /// Shows a page, "annotate.md" or "window.md#queue", and comes to the front.
@@ -48,14 +48,14 @@ class ManualWindow : public QMainWindow {
   Ui::ManualWindow ui_;
 };
 
-/// Opens the manual at what an operator works at: the section of the panel that has the focus.
+/// Opens the manual at the section of the panel that has the focus.
 class ManualHelp : public QObject {
   Q_OBJECT
 
  public:
   explicit ManualHelp(QMainWindow& window);
 
-  /// The section of the panel with the focus, else the contents.
+  /// Shows the section of the panel with the focus, else the contents.
   void showHere();
   /// nullptr until it was shown.
   ManualWindow* manual() { return manual_.get(); }

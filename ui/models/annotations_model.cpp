@@ -322,7 +322,7 @@ bool AnnotationsModel::setData(const QModelIndex& index, const QVariant& value, 
   if (!index.isValid() || !(check || role == Qt::EditRole)) return false;
   if (check != (index.column() == kOn || index.column() == kLocked)) return false;
   const AnnotationRow& annotation = at(index.row());
-  const std::string id = annotation.id;  // the row may go while the edit is told
+  const std::string id = annotation.id;  // the row may be removed while the edit is reported
   const bool on = value.toInt() == Qt::Checked;
   const QString text = editText(index.column(), id, on);
   if (annotation.line) {

@@ -13,8 +13,8 @@
 
 namespace boresight::ui {
 
-/// A row's annotation: what points and lines have in common, and what the solved pose says of it.
-/// The pointers are valid until the annotations change.
+/// A row's annotation: the data common to points and lines, and its result in the solved pose. The
+/// pointers are valid until the annotations change.
 struct AnnotationRow {
   const sessions::PointPair* point = nullptr;  ///< nullptr where it is a line
   const sessions::LinePair* line = nullptr;    ///< nullptr where it is a point
@@ -24,8 +24,8 @@ struct AnnotationRow {
   bool enabled = true;
   bool locked = false;
   bool complete = false;
-  std::optional<Eigen::Vector2d> pixel;               ///< of a line its first place
-  std::optional<Eigen::Vector3d> point_in_station_m;  ///< of a line the edge's start
+  std::optional<Eigen::Vector2d> pixel;               ///< for a line, its first position
+  std::optional<Eigen::Vector3d> point_in_station_m;  ///< for a line, the edge's start
   QString station_kind;  ///< "corner", "circle centre", "edge" or "surface"; empty: not known
   std::optional<sessions::SolvedAnnotation> solved;
   std::optional<sessions::LeftOut> left_out;
@@ -33,8 +33,8 @@ struct AnnotationRow {
   bool isOutlier() const { return solved && solved->isOutlier(); }
 };
 
-/// The annotations of one image, points before lines, one row each, with what the solved pose says
-/// of them. What a person edits is told, not done: who owns the annotations answers by setting them
+/// The annotations of one image, points before lines, one row each, with their results in the
+/// solved pose. Edits are reported, not made: the owner of the annotations answers by setting them
 /// again.
 class AnnotationsModel : public RowsModel<AnnotationRow> {
   Q_OBJECT
@@ -60,7 +60,7 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
     kLocked,
     kComment,
   };
-  /// Which annotations a list shows.
+  /// Filter of the listed annotations.
   enum class Show { kAll, kUsed, kOff, kHalfMade, kStandOut, kLines };
 
   using SolutionPtr = std::shared_ptr<const sessions::CaseAnnotationsSolution>;
@@ -68,11 +68,11 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
   explicit AnnotationsModel(QObject* parent = nullptr);
 
   void setAnnotations(const sessions::Annotations& annotations);
-  /// Of these annotations; residuals of annotations that moved since are shown dimmed. nullptr:
+  /// The solution of these annotations; residuals of annotations moved since are dimmed. nullptr:
   /// none.
   void setSolution(SolutionPtr solution, bool stale);
 
-  /// Names what a place of the station is. nullptr: not known.
+  /// Determines the kind of a point of the station. nullptr: kinds are not known.
   void setMesh(std::shared_ptr<const sessions::MeshSnapper> mesh);
 
   const sessions::Annotations& annotations() const { return annotations_; }
@@ -86,7 +86,7 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
   Qt::ItemFlags flags(const QModelIndex& index) const override;
 
  Q_SIGNALS:
-  /// What the annotation of this id should become, and what to call it.
+  /// The new value of the annotation of this id, and the name of the edit.
   void pointEdited(const std::string& replaced, const boresight::sessions::PointPair& point,
                    const QString& text);
   void lineEdited(const std::string& replaced, const boresight::sessions::LinePair& line,
@@ -102,7 +102,7 @@ class AnnotationsModel : public RowsModel<AnnotationRow> {
   sessions::Annotations annotations_;
   SolutionPtr solution_;
   std::shared_ptr<const sessions::MeshSnapper> mesh_;
-  /// Kinds of the places so far, by their coordinates.
+  /// Kinds of points determined so far, by their coordinates.
   std::map<std::array<double, 3>, QString> kinds_;
   bool stale_ = false;
 };

@@ -13,10 +13,10 @@
 
 namespace boresight::ui {
 
-/// What a column sorts by: a text, or a number (NaN where there is none).
+/// Sort key of a column: a text, or a number (NaN where there is none).
 inline constexpr int kSortRole = Qt::UserRole;
 
-/// One column of a table: its head, and what its cells show.
+/// One column of a table: its head, and the content of its cells.
 template <class Row>
 struct TableColumn {
   using Value = std::function<QVariant(const Row& row)>;
@@ -32,7 +32,7 @@ struct TableColumn {
   QString help;  ///< with the unit: tool tip of the head, and of cells without one of their own
   int decimals;  ///< of its numbers; -1: text
   Value value;   ///< a number (NaN: none) or a text
-  Value sort;    ///< what it sorts by, where that is not the value
+  Value sort;    ///< sort key, if it is not the value
 };
 
 /// Of cells and heads: numbers to the right, texts to the left.
@@ -47,7 +47,7 @@ class RowsModel : public QAbstractTableModel {
 
   const std::vector<Row>& rows() const { return rows_; }
   const Row& at(int row) const { return rows_[static_cast<std::size_t>(row)]; }
-  /// The first row that fulfils this, or -1.
+  /// The first row for which `test` holds, or -1.
   template <class Test>
   int firstRow(Test&& test) const {
     for (int row = 0; row < rowCount(); ++row)
@@ -79,7 +79,7 @@ class RowsModel : public QAbstractTableModel {
     return role == Qt::ToolTipRole ? column.help : QVariant();
   }
 
-  /// Rows that continue those before change in place and are appended, so that selections and
+  /// With `continues`, rows change in place and new ones are appended, so that selections and
   /// editors stay.
   void setRows(std::vector<Row> rows, bool continues) {
     const int before = rowCount();
@@ -96,7 +96,7 @@ class RowsModel : public QAbstractTableModel {
     if (before > 0) Q_EMIT dataChanged(index(0, 0), index(before - 1, columnCount() - 1));
   }
 
-  /// In place where `key` gives the same for all rows.
+  /// Changes rows in place when `key` is equal for all rows.
   template <class Key>
   void setRowsByKey(std::vector<Row> rows, Key&& key) {
     const bool same = std::equal(
@@ -106,7 +106,7 @@ class RowsModel : public QAbstractTableModel {
   }
 
  protected:
-  /// What a cell has for a role beyond its column's value; an invalid one leaves it to the column.
+  /// Value of a cell for a role; an invalid one leaves it to the column.
   virtual QVariant look(const Row& /*row*/, int /*column*/, int /*role*/) const { return {}; }
 
   QVariant valueOf(const Row& row, int column) const {
@@ -136,8 +136,8 @@ class RowsModel : public QAbstractTableModel {
   std::vector<Row> rows_;
 };
 
-/// Rows of a table that fulfil a condition, sorted by number or text; what has no number comes last
-/// either way.
+/// Rows of a table that fulfil a condition, sorted by number or text; rows without a number come
+/// last in either order.
 class RowsFilter : public QSortFilterProxyModel {
   Q_OBJECT
 
@@ -146,7 +146,7 @@ class RowsFilter : public QSortFilterProxyModel {
 
   explicit RowsFilter(QObject* parent = nullptr);
 
-  /// Of the source's rows; none: all rows.
+  /// Condition for rows of the source; without one all rows are shown.
   void setCondition(Condition condition);
 
  protected:

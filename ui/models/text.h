@@ -16,8 +16,8 @@ QString numberText(double value, int decimals);
 /// For table cells: "98.7 %", "> 99.9 %"; nothing for NaN.
 QString probabilityCell(double probability);
 
-/// 1, 2 or 5 times a power of ten, not below the value by more than rounding: where a scale or an
-/// axis ends. 1 for what is not above zero.
+/// 1, 2 or 5 times a power of ten, not below the value by more than rounding: the end of a scale or
+/// an axis. 1 for values that are not above zero.
 double roundedUp(double value);
 
 /// A core or session text in UTF-8.

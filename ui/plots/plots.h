@@ -21,16 +21,16 @@ namespace boresight::ui {
 
 class NamedScale;
 
-/// What plots have in common: horizontal grid lines, a vertical line, and the palette's colours.
+/// Common parts of plots: horizontal grid lines, a vertical line, and the palette's colours.
 class Plot : public QWidget {
   Q_OBJECT
 
  protected:
   Plot(int least_height_px, QWidget* parent);
 
-  /// Colours and texts of the kind of plot.
+  /// Applies colours and texts of the kind of plot.
   virtual void applyColors(const PlotColors& colors) = 0;
-  /// All colours and fonts. To be called once by the constructor of the kind of plot.
+  /// Applies all colours and fonts. To be called once by the constructor of the derived class.
   void applyPalette();
   struct Quantity {
     QString sign;
@@ -68,7 +68,7 @@ class DoublePlot : public Plot {
   void setMarked(int place);
 
   QWidget* canvas() const;
-  /// Where a place is on the canvas; half way up.
+  /// Position of a place on the canvas, at half its height.
   QPoint canvasPoint(int place) const;
   int leftCount() const { return left_.count; }
 

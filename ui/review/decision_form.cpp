@@ -37,7 +37,7 @@ QString verdictText(const Decision& decision) {
                                                   : DecisionForm::tr("↺ Withdrawn");
 }
 
-/// Failed checks that were passed over, each with its reason.
+/// Failed checks that were waived, each with its reason.
 QString waiversHtml(const Decision& decision) {
   QString html;
   for (const sessions::JudgedCheck& judged : decision.checks)
@@ -168,7 +168,7 @@ bool DecisionForm::eventFilter(QObject* watched, QEvent* event) {
   return true;
 }
 
-/// What a person most likely wants to do, whose obstacle is told without being asked.
+/// The most likely next step, whose obstacle is always shown.
 ReviewController::Act DecisionForm::nextStep() const {
   const sessions::ReviewStatus status = controller_.reviewStatus();
   if (status.awaits_approval) return Act::kApprove;

@@ -15,9 +15,9 @@
 
 namespace boresight::ui {
 
-/// Who decides what about the shown case, for what reason, and what was decided before: the one
-/// place of decisions. What cannot be done now is disabled, and said why in place. The name is
-/// asked once in each run of the program.
+/// Form of all decisions on the shown case: name, decision, reason, and former decisions. Actions
+/// that are not possible now are disabled, with the reason shown. The name is asked once in each
+/// run of the program.
 class DecisionForm : public QWidget {
   Q_OBJECT
 
@@ -28,23 +28,23 @@ class DecisionForm : public QWidget {
 
   explicit DecisionForm(ReviewController& controller, QWidget* parent = nullptr);
 
-  /// What stands in the way of the next step, as it is shown.
+  /// The shown reason why the next step is not possible.
   const QString& obstacle() const { return obstacle_; }
-  /// Something to read while deciding, above the former decisions.
+  /// Sets a note above the former decisions.
   void setNote(const QString& html);
   /// The failed check whose waiver can be typed here; "": none.
   void setFailedCheck(const std::string& id, const QString& title, const QString& reason);
-  /// Without it no case follows.
+  /// Without it no next case is shown.
   void setNext(Next next) { next_ = std::move(next); }
-  /// By a key: asks for name and reason where they are missing, then decides and goes to the next
-  /// case; Escape withdraws the question.
+  /// Called by a key: asks for a missing name and reason, then decides and goes to the next case;
+  /// Escape withdraws the question.
   void ask(ReviewController::Act act);
 
  Q_SIGNALS:
   /// One sentence.
   void decided(const QString& what);
   void nextRequested(const QString& id);
-  /// A question by a key was answered, refused or withdrawn.
+  /// A question started by a key was answered, rejected or withdrawn.
   void questionEnded();
 
  protected:
@@ -73,7 +73,7 @@ class DecisionForm : public QWidget {
   std::map<Act, QPushButton*> buttons_;
   std::map<Act, QString> tips_;
   QString obstacle_;
-  QString refusal_;  ///< of what was asked for last
+  QString refusal_;  ///< reason why the last request was rejected
   QString note_;
   QString read_;
   std::string failed_check_;

@@ -17,9 +17,9 @@ namespace boresight::ui {
 class Document;
 class TaskRunner;
 
-/// The current case's onboard record: attached by an edit of the document, read and replayed off
-/// the UI's thread, shown instead of the ground's run when that is asked for, and compared with it
-/// whenever either is another.
+/// The current case's onboard record: attached by an edit of the document, read and replayed on a
+/// worker thread, shown instead of the ground's run on request, and compared with it whenever
+/// either changes.
 class OnboardController : public QObject {
   Q_OBJECT
 
@@ -34,11 +34,11 @@ class OnboardController : public QObject {
   std::filesystem::path file() const;
   /// nullptr until it is read, or when it cannot be.
   const ReviewPtr& review() const { return review_; }
-  /// Why it cannot be shown, or empty.
+  /// Why the record cannot be shown, or empty.
   const QString& problem() const { return problem_; }
-  /// nullptr until both are there; then `whyNotCompared` is empty.
+  /// nullptr until both runs exist; then whyNotCompared() is empty.
   const ComparisonPtr& comparison() const { return comparison_; }
-  /// What stands in the way of a comparison; a sentence, or empty.
+  /// Why there is no comparison, as a sentence; or empty.
   QString whyNotCompared() const;
   /// Whether the views show the onboard run.
   bool showsOnboard() const;
@@ -49,13 +49,13 @@ class OnboardController : public QObject {
   void detach();
   void showOnboard();
   void showGround();
-  /// Runs the case on the ground by the record's options.
+  /// Runs the case on the ground with the record's options.
   void rerun();
-  /// Moves every view to where the runs differ first.
+  /// Moves every view to the first difference of the runs.
   void goToFirstDifference();
 
  Q_SIGNALS:
-  /// Anything of the above.
+  /// Any of the values above.
   void changed();
   void rerunRequested(const boresight::sessions::RunPlan& plan);
   void failed(const QString& message);
@@ -77,10 +77,10 @@ class OnboardController : public QObject {
   ReviewPtr review_;
   QString problem_;
   ViewState::SnapshotPtr ground_;
-  std::shared_ptr<const sessions::LoadedCase> ground_case_;  ///< as it was when the run came
+  std::shared_ptr<const sessions::LoadedCase> ground_case_;  ///< when the run was taken
   ComparisonPtr comparison_;
   std::string case_id_;
-  std::optional<sessions::InputFile> read_;  ///< what `review_` or `problem_` is of
+  std::optional<sessions::InputFile> read_;  ///< the record of `review_` or `problem_`
 };
 
 }  // namespace boresight::ui

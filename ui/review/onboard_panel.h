@@ -14,8 +14,8 @@ class RunController;
 /// Asks for a file and attaches it to the current case.
 void askForOnboardRecord(OnboardController& onboard, QWidget* parent);
 
-/// What the onboard record of the current case says, which run the views show, and how the onboard
-/// run compares with the one on the ground: the first difference and a table of the iterations.
+/// Content of the current case's onboard record, choice of the run that the views show, and
+/// comparison of the onboard run with the ground's: first difference and a table of the iterations.
 class OnboardPanel : public QWidget {
   Q_OBJECT
 

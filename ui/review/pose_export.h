@@ -19,22 +19,22 @@ namespace boresight::ui {
 
 class TaskRunner;
 
-/// Of a file or a folder, without where it lies.
+/// Name of a file or a folder, without its path.
 QString fileNameOf(const std::filesystem::path& file);
 /// Notes of an export or an import as one text.
 QString joinedNotes(const std::vector<std::string>& notes);
-/// What came of an export to `path`, for the status bar.
+/// Result of an export to `path`, for the status bar.
 QString exportNote(const sessions::ExportReport& report, const std::filesystem::path& path);
 
-/// A path in the session's folder; of a session without a name in the operator's documents.
+/// A path in the session's folder; for an untitled session, in the operator's documents.
 QString inSessionFolder(const Document& document, const QString& name);
 /// Asks for a file to write; a name without a suffix gets that of the proposed path. Empty when the
 /// operator cancels.
 std::filesystem::path askForNewFile(QWidget& window, const QString& title, const QString& proposed,
                                     const QString& filter);
 
-/// Poses to hand over, as files. What is not validated is called so in its name and in the file.
-/// An export is done when `noted` says so; the task runner reports failures.
+/// Exports poses to be handed over. Poses that are not validated are named so in the file and its
+/// name. noted() is emitted when an export is done; the task runner reports failures.
 class PoseExport : public QObject {
   Q_OBJECT
 
@@ -43,24 +43,24 @@ class PoseExport : public QObject {
 
   /// The entries of File > Export.
   void addTo(QMenu& menu);
-  /// Ask for a file, then write it.
+  /// Asks for a file, then writes it.
   void askForPose();
   void askForReport();
-  /// The shown case's pose, with its checks and where everything in it comes from.
+  /// Exports the shown case's pose with its checks and provenance.
   void exportPose(const std::filesystem::path& file);
-  /// The same on two pages for the reader.
+  /// Exports the same as a report of two pages.
   void exportReport(const std::filesystem::path& file);
-  /// Proposed for pose and report: of the case, and says so when that is not validated.
+  /// Proposed names for pose and report: that of the case, with a note when it is not validated.
   QString poseFileName() const;
   QString reportFileName() const;
-  /// The poses of all cases that have one: a BOP19 results file, whose name has to say when one of
+  /// The poses of all cases that have one: a BOP19 results file, whose name must state when one of
   /// them is not validated, and a COLMAP text model in a new folder.
   void exportBopResults(const std::filesystem::path& file, int scene_id);
   void exportColmap(const std::filesystem::path& folder);
   QString bopResultsFileName() const;
 
  Q_SIGNALS:
-  /// What happened, for the status bar.
+  /// The result, for the status bar.
   void noted(const QString& message);
 
  private:

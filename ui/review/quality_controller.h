@@ -13,8 +13,8 @@ namespace boresight::ui {
 class Document;
 class TaskRunner;
 
-/// The quality of the shown run's pose by the session's requirement and limits, measured off the
-/// UI's thread.
+/// The quality of the shown run's pose by the session's requirement and limits, measured on a
+/// worker thread.
 class QualityController : public QObject {
   Q_OBJECT
 
@@ -22,7 +22,7 @@ class QualityController : public QObject {
   QualityController(Document& document, ViewState& state, TaskRunner& tasks,
                     QObject* parent = nullptr);
 
-  /// Nothing for a run that did not converge, and while it is measured.
+  /// Empty for a run that did not converge, and during the measurement.
   const std::optional<sessions::PoseQuality>& quality() const { return quality_; }
 
  Q_SIGNALS:

@@ -35,7 +35,7 @@ QImage pictureOf(const sessions::LoadedCase& loaded, const QueueRow& row, const 
       converged ? sessions::kResultColor : sessions::kSeedColor));
 }
 
-/// What the session alone tells of a case.
+/// The row of a case from the session alone.
 QueueRow plainRow(const sessions::Session& session, const std::string& id) {
   QueueRow row;
   row.case_id = id;

@@ -22,9 +22,8 @@
 
 namespace boresight::ui {
 
-/// A value for each case of a session, computed off the UI's thread one case at a time, and
-/// computed again when its key (what it depends on) changes. The previous value is shown until
-/// then.
+/// A value for each case of a session, computed on a worker thread one case at a time, and computed
+/// again when its key (of all inputs) changes. The previous value is shown until then.
 template <class Value>
 class CaseByCase {
  public:
@@ -34,16 +33,16 @@ class CaseByCase {
     std::optional<Value> value;
     bool current = false;  ///< the value is of this key
   };
-  /// On the worker's thread; throws nothing.
+  /// Called on the worker's thread; must not throw.
   using Make = std::function<Value(const sessions::Session& session, const std::string& id)>;
   using Keys = std::vector<std::pair<std::string, std::string>>;  ///< id and key, in order
   using Before = std::function<bool(const Entry&, const Entry&)>;
 
-  /// `changed` is called on the UI's thread whenever an entry has.
+  /// `changed` is called on the UI's thread whenever an entry has changed.
   CaseByCase(Make make, std::function<void()> changed)
       : make_(std::move(make)), changed_(std::move(changed)) {}
 
-  /// The values are to be of these cases now.
+  /// Sets the cases and keys of the values.
   void follow(const sessions::Session& session, const Keys& keys) {
     session_ = session;
     std::map<std::string, Entry> former;
@@ -61,7 +60,7 @@ class CaseByCase {
     changed_();
   }
 
-  /// Nothing is made while it is not in sight, or while it is halted.
+  /// No value is computed while inactive (not visible) or halted.
   void setActive(bool active) {
     active_ = active;
     goOn();
@@ -72,7 +71,7 @@ class CaseByCase {
     changed_();
   }
   bool isBusy() const { return making_; }
-  /// Which of those that wait is made first; without it the order is that of the keys.
+  /// Order in which waiting values are computed; without it the order is that of the keys.
   void setOrder(Before before) { before_ = std::move(before); }
 
   const std::vector<Entry>& entries() const { return entries_; }
@@ -104,7 +103,7 @@ class CaseByCase {
         [this, id = entry->id, key = entry->key](Value value) { take(id, key, std::move(value)); });
   }
 
-  /// A value of what is no longer so is dropped.
+  /// Drops a value whose key has changed.
   void take(const std::string& id, const std::string& key, Value value) {
     making_ = false;
     Entry* entry = find(id);
@@ -124,16 +123,16 @@ class CaseByCase {
   bool active_ = false;
   bool halted_ = false;
   bool making_ = false;
-  TaskRunner runner_;  ///< last: it ends before what its work uses
+  TaskRunner runner_;  ///< declared last: it ends before the members that its work uses
 };
 
 class Document;
 
 /// A case of the queue as it is shown.
 struct QueueEntry {
-  sessions::QueueRow row;  ///< before it was checked, what the session alone tells
+  sessions::QueueRow row;  ///< before its check, only data of the session
   QImage thumbnail;
-  bool checked = false;  ///< of what the document holds now
+  bool checked = false;  ///< whether the row is of the document's present state
 };
 
 /// A case's last run against the one before.
@@ -144,18 +143,18 @@ struct DifferenceEntry {
   bool current = false;
 };
 
-/// The queue of the document's cases, and what changed between their two last runs: both filled
-/// off the UI's thread while the operator looks.
+/// The queue of the document's cases, and the differences between their last two runs: both filled
+/// on a worker thread while visible.
 class QueueController : public QObject {
   Q_OBJECT
 
  public:
   enum class List { kNone, kTrouble, kDifferences };
 
-  /// The pictures have at most this size, in device pixels.
+  /// `thumbnail_px`: largest size of the pictures, in device pixels.
   QueueController(Document& document, const QSize& thumbnail_px, QObject* parent = nullptr);
 
-  /// Which of the two the operator looks at; the other one is not filled.
+  /// Sets the list that is visible; the other one is not filled.
   void setLookedAt(List list);
 
   /// One per case, in the order of the session.
@@ -163,12 +162,12 @@ class QueueController : public QObject {
   /// One per case that was run twice.
   std::vector<DifferenceEntry> differences() const;
 
-  /// Of the list that is looked at.
+  /// Of the visible list.
   int doneCount() const;
   int count() const;
   bool isBusy() const;
   bool isHalted() const { return halted_; }
-  /// A case that is being checked is finished first.
+  /// The case that is being checked is finished first.
   void setHalted(bool halted);
 
  Q_SIGNALS:

@@ -13,7 +13,7 @@ namespace boresight::ui {
 
 class EmptyHint;
 
-/// What changed between the two last runs of each case, as a table.
+/// Differences between the last two runs of each case, as a table.
 class DifferencesModel : public RowsModel<DifferenceEntry> {
   Q_OBJECT
 
@@ -35,17 +35,17 @@ class QueueModel : public RowsModel<QueueEntry> {
 
   explicit QueueModel(QObject* parent = nullptr);
 
-  /// -1 where there is none.
+  /// -1 when there is none.
   int rowOf(const QString& id) const;
-  /// Where a case stands: a word with a sign of its own shape before it.
+  /// Review status of a case: a word after a sign whose shape is unique to the status.
   static QString reviewStatusText(const sessions::QueueRow& row);
 
  protected:
   QVariant look(const QueueEntry& entry, int column, int role) const override;
 };
 
-/// Cases whose id, state or trouble holds a text. By trouble they are in the queue's order, by
-/// another column in that one's; those without a number come last either way.
+/// Cases whose id, state or trouble holds a text. Sorted by trouble they are in the queue's order,
+/// else in the order of the column; rows without a number come last in either direction.
 class QueueFilter : public RowsFilter {
   Q_OBJECT
 
@@ -61,9 +61,9 @@ class QueueFilter : public RowsFilter {
   QueueModel& model_;
 };
 
-/// A batch of cases, the most troubled first, and what changed between the two last runs of each.
-/// The chosen row is the shown case: choosing another one shows it, and what is decided is decided
-/// in the review of the shown case. Filled only while it is in sight.
+/// A batch of cases, the worst first, and the differences between the last two runs of each. The
+/// chosen row is the shown case: choosing another one shows it. Decisions are made in the review of
+/// the shown case. Filled only while it is visible.
 class QueuePanel : public QWidget {
   Q_OBJECT
 
@@ -71,13 +71,13 @@ class QueuePanel : public QWidget {
   explicit QueuePanel(Document& document, QWidget* parent = nullptr);
 
   QueueController& controller() { return controller_; }
-  /// Whether the operator can see it: Qt also calls a panel behind another one's tab visible.
-  /// Nothing is checked out of sight.
+  /// Sets whether the operator can see the panel: Qt also calls a panel behind another one's tab
+  /// visible. Cases are checked only while it is in sight.
   void setInSight(bool in_sight);
   bool isInSight() const { return in_sight_; }
-  /// The case that the window shows becomes the chosen row.
+  /// Chooses the row of the case that the window shows.
   void setCurrent(const QString& id);
-  /// Of the chosen row of the list that is shown, or empty.
+  /// Id of the chosen row of the shown list, or empty.
   QString chosenCase() const;
   /// The undecided case that is listed next after the shown one, from the top again at the end;
   /// empty when there is none.
@@ -123,7 +123,7 @@ class QueuePanel : public QWidget {
   QSortFilterProxyModel differences_filter_;
   EmptyHint* queue_hint_ = nullptr;
   EmptyHint* differences_hint_ = nullptr;
-  bool following_ = false;  ///< the list follows the window, not a person
+  bool following_ = false;  ///< the list is being updated by the window, not the operator
   bool in_sight_ = false;
   bool fitted_ = false;
   Ui::QueuePanel ui_;

@@ -20,9 +20,9 @@ namespace boresight::ui {
 
 class Document;
 
-/// The pose of the shown case under review: its checks, made off the UI's thread while the operator
-/// looks at them, the reasons for passing over failed ones, and what can be decided. Every decision
-/// and every change of a limit is one edit of the document.
+/// The pose of the shown case under review: its checks, evaluated on a worker thread while visible,
+/// the reasons for waiving failed ones, and the possible decisions. Every decision and every change
+/// of a limit is one edit of the document.
 class ReviewController : public QObject {
   Q_OBJECT
 
@@ -31,15 +31,15 @@ class ReviewController : public QObject {
 
   ReviewController(Document& document, ViewState& state, QObject* parent = nullptr);
 
-  /// Checks are made only while the operator looks.
+  /// Checks are evaluated only while active (visible).
   void setActive(bool active);
-  /// The case that the operator chose; while it is being read, another one is shown and nothing is
-  /// decided.
+  /// Sets the case that the operator chose; while it is being read, another case is shown and no
+  /// decision is possible.
   void setChosenCase(const QString& id);
 
-  /// Of the shown case, or empty.
+  /// Id of the shown case, or empty.
   std::string caseId() const { return shownCaseId(document_, state_); }
-  /// Whether the session has more than the shown case.
+  /// Whether the session has cases other than the shown one.
   bool hasOtherCases() const;
   bool hasRun() const;
   bool hasAnnotations() const;
@@ -49,22 +49,22 @@ class ReviewController : public QObject {
   void setSource(sessions::PoseSource source);
 
   const std::vector<sessions::Check>& checks() const { return checks_; }
-  /// The checks are of what the document holds now.
+  /// Whether the checks are of the document's present state.
   bool isCurrent() const { return current_; }
   bool isBusy() const { return checks_runner_.isBusy() || convergence_runner_.isBusy(); }
   /// Why there is nothing to check and what to do, or empty.
   const QString& problem() const { return problem_; }
 
-  /// Why a failed check does not stand in the way; it holds for the figure that it was given for.
+  /// Reason to waive a failed check; valid only for the figure for which it was given.
   QString reasonFor(const sessions::Check& check) const;
   void setReason(const std::string& check_id, const QString& reason);
 
   sessions::ReviewStatus reviewStatus() const;
   /// The decisions on the case, the newest first; they point into the document's session.
   std::vector<const sessions::Decision*> history() const;
-  /// Why this cannot be done now, or empty.
+  /// Why an act is not possible now, or empty.
   QString obstacle(Act act, const sessions::Signature& who) const;
-  /// False, with nothing done, when there is an obstacle.
+  /// Returns false without effect when there is an obstacle.
   bool decide(Act act, const sessions::Signature& who);
 
   const sessions::ReviewSettings& settings() const;
@@ -72,28 +72,28 @@ class ReviewController : public QObject {
   void setLimits(const sessions::CheckLimits& limits);
   void setSecondPerson(bool asked);
 
-  /// Whether a pose is ready to be judged from which no other seeds have been run yet.
+  /// Whether a pose is ready to be judged and its convergence test has not been run yet.
   bool awaitsConvergenceTest() const {
     return current_ && !convergence_ && !isConvergenceTestRunning();
   }
   bool isConvergenceTestRunning() const { return convergence_runner_.isBusy(); }
-  /// Of the test that is under way.
+  /// Result so far of the test under way.
   const sessions::ConvergenceResult& convergenceSoFar() const { return convergence_so_far_; }
-  /// Runs further seeds and takes up what comes of them into the checks. Nothing while the checks
-  /// are not current.
+  /// Runs further seeds and includes the result in the checks. Does nothing while the checks are
+  /// not current.
   void startConvergenceTest(int seeds);
-  /// What has been run by then counts.
+  /// Stops the test; the seeds run so far are used.
   void stopConvergenceTest();
 
  Q_SIGNALS:
-  /// Checks, reasons, or whether the checks are current.
+  /// Checks, reasons, or isCurrent() have changed.
   void checksChanged();
-  /// Case, decisions, limits, or what can be judged.
+  /// Case, decisions, limits, or the poses that can be judged have changed.
   void reviewStatusChanged();
   void convergenceChanged();
 
  private:
-  /// All that the answer depends on.
+  /// All inputs of the answer.
   struct Question {
     ViewState::CasePtr loaded;
     sessions::PoseSource source = sessions::PoseSource::kRun;
@@ -128,7 +128,7 @@ class ReviewController : public QObject {
   Document& document_;
   ViewState& state_;
   bool active_ = false;
-  QString chosen_id_;  ///< empty: not told
+  QString chosen_id_;  ///< empty: not set
   bool shows_other_run_ = false;
   std::string shown_id_;  ///< the case that the source was chosen for
   std::optional<sessions::PoseSource> wanted_source_;

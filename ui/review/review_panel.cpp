@@ -9,6 +9,7 @@
 #include "sessions/checks/pose_quality.h"
 #include "sessions/decision/check_limits.h"
 #include "ui/models/text.h"
+#include "ui/panels/case/cases_panel.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
@@ -90,7 +91,7 @@ QString foundAndLimit(const sessions::Check& check) {
   return QStringLiteral("%1 (%2)").arg(fromText(sessions::foundText(check)), shortLimit(check));
 }
 
-/// In a side pane the limit stands next to what was found.
+/// In a side pane the limit is shown next to the figure found.
 class FoundCell final : public QStyledItemDelegate {
  public:
   FoundCell(const ChecksModel& model, QTableView& view)
@@ -130,6 +131,34 @@ std::vector<TableColumn<CheckRow>> columns() {
           "pose, and dropped when the measured value changes."),
        -1, reasonText},
   };
+}
+
+/// A tick next to "NOT VALIDATED" would be read as a yes: a pose that converged or was annotated,
+/// but is not validated, has an open circle here.
+QString signOf(const sessions::ReviewStatus& status) {
+  using sessions::ReviewState;
+  if (!status.dropped.empty() || !status.outdated.empty()) return QStringLiteral("⚠");
+  const bool open =
+      status.state == ReviewState::kConverged || status.state == ReviewState::kAnnotated;
+  return CasesModel::stateText(open ? CaseState::kNew : caseStateOf(status.state)).left(1);
+}
+
+/// A decision that no longer holds, or is outdated, stands out: it was relied on.
+Banner::Tone toneOf(const sessions::ReviewStatus& status) {
+  using sessions::ReviewState;
+  if (status.state == ReviewState::kFailed || status.state == ReviewState::kRejected ||
+      !status.dropped.empty() || !status.outdated.empty())
+    return Banner::Tone::kBad;
+  return status.state == ReviewState::kValidated ? Banner::Tone::kGood : Banner::Tone::kPlain;
+}
+
+/// The review status of a case; nullptr: no case is shown.
+void showStatus(const sessions::ReviewStatus* status, Banner& banner) {
+  if (status == nullptr)
+    return banner.setMessage({}, ReviewPanel::tr("No case is shown."), Banner::Tone::kPlain);
+  QString text = fromText(sessions::reviewStatusText(*status));
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  banner.setMessage(signOf(*status), text, toneOf(*status));
 }
 
 }  // namespace
@@ -273,7 +302,7 @@ void ReviewPanel::hideEvent(QHideEvent* event) {
 
 void ReviewPanel::showReviewStatus() {
   const sessions::ReviewStatus status = controller_.reviewStatus();
-  ui_.caseReviewStatus->showReviewStatus(controller_.caseId().empty() ? nullptr : &status);
+  showStatus(controller_.caseId().empty() ? nullptr : &status, *ui_.caseReviewStatus);
   const sessions::ReviewSettings& settings = controller_.settings();
   ui_.openLimits->setText(settings.limits.empty() ? tr("Limits...") : tr("Limits (edited)..."));
   const sessions::CheckPreset* preset = sessions::findCheckPreset(settings.preset);

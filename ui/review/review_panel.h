@@ -18,7 +18,7 @@ namespace boresight::ui {
 class EmptyHint;
 
 /// Limits of the session's checks: preset, single limits, and whether a second person must approve.
-/// Stays open next to the checks; every change is an edit at once.
+/// Stays open next to the checks; every change is immediately an edit.
 class LimitsDialog : public QDialog {
   Q_OBJECT
 
@@ -36,13 +36,13 @@ class LimitsDialog : public QDialog {
 /// A check as the table shows it.
 struct CheckRow {
   sessions::Check check;
-  QString reason;  ///< for passing over it, or empty
+  QString reason;  ///< for waiving it, or empty
 
   bool operator==(const CheckRow&) const = default;
 };
 
-/// The checks of a pose: failed ones first, then passed ones, then what could not be asked. The
-/// reason for passing over a failed one is edited here.
+/// The checks of a pose: failed ones first, then passed ones, then those not applicable. The reason
+/// for waiving a failed one is edited here.
 class ChecksModel : public RowsModel<CheckRow> {
   Q_OBJECT
 
@@ -51,13 +51,13 @@ class ChecksModel : public RowsModel<CheckRow> {
 
   explicit ChecksModel(QObject* parent = nullptr);
 
-  /// `current` false: they are of something that has changed since, and are shown as such. Rows of
-  /// the same checks change in place, so that selections and editors stay.
+  /// `current` false: their inputs have changed since, and they are shown as outdated. Rows of the
+  /// same checks change in place, so that selections and editors stay.
   void setRows(std::vector<CheckRow> rows, bool current);
   sessions::CheckState state(int row) const { return at(row).check.state; }
   int count(sessions::CheckState state) const;
   bool isFailed(int row) const { return at(row).check.state == sessions::CheckState::kFailed; }
-  /// "✓", "✗" or "–": each state has a shape of its own.
+  /// "✓", "✗" or "–": each state has a unique shape.
   static QString sign(sessions::CheckState state);
 
   bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
@@ -76,7 +76,7 @@ class ChecksModel : public RowsModel<CheckRow> {
   bool current_ = true;
 };
 
-/// The reviewer's desk: where the case stands, the checks of its pose with their figures and
+/// Panel for the review: the case's review status, the checks of its pose with their figures and
 /// limits, and the decision.
 class ReviewPanel : public QWidget {
   Q_OBJECT

@@ -19,14 +19,14 @@ namespace boresight::ui {
 struct BatchProgress {
   int done = 0;
   int of = 0;
-  QString case_id;    ///< at work, or empty between two cases
+  QString case_id;    ///< under way, or empty between two cases
   int iteration = 0;  ///< of that case, from 1; 0: before the first
   std::optional<double> seconds_left;  ///< from the second case on
 };
 
 /// Runs cases in the background, whatever case the views show: inputs are read, run and recorded
 /// on a thread of its own. One case at a time, so that its owner stores it before the next begins;
-/// a stop holds at any time, also in between.
+/// a stop takes effect at any time, also in between.
 class Batch : public QObject {
   Q_OBJECT
 
@@ -39,7 +39,7 @@ class Batch : public QObject {
   const std::optional<BatchProgress>& progress() const { return progress_; }
 
   void start(const QStringList& ids);
-  /// The next case of those that wait; empty when there is none, and the batch has ended.
+  /// Takes the next waiting case; empty when there is none and the batch has ended.
   QString takeNext();
   /// `caseEnded` or `caseFailed` follows, unless the batch is stopped.
   void run(const sessions::Session& session, const QString& id);

@@ -14,9 +14,9 @@
 
 namespace boresight::ui {
 
-/// Renders the salient edges of a pose that the operator moves, off the UI's thread. While poses
-/// come in, each is drawn at half resolution, the newest first, and those in between are left out;
-/// once the pose has rested it is drawn at full resolution, which the next move interrupts.
+/// Renders the salient edges of a pose that the operator moves, on a worker thread. During a move
+/// the newest pose is drawn at half resolution, and poses in between are left out; when the pose
+/// rests it is drawn at full resolution, which the next move interrupts.
 class PoseRenderer : public QObject {
   Q_OBJECT
 
@@ -28,10 +28,10 @@ class PoseRenderer : public QObject {
 
   explicit PoseRenderer(QObject* parent = nullptr);
 
-  /// Later poses are of this case; what was drawn of another one is dropped. nullptr: none.
+  /// Sets the case of later poses; renders of another case are dropped. nullptr: none.
   void setCase(std::shared_ptr<const sessions::LoadedCase> loaded_case);
   void setPose(const Pose& camera_from_station);
-  /// Nothing more comes until the next pose.
+  /// Emits nothing until the next pose.
   void clear();
 
  Q_SIGNALS:
@@ -51,7 +51,7 @@ class PoseRenderer : public QObject {
   std::shared_ptr<Renderers> renderers_;  ///< nullptr without a case
   Pose camera_from_station_;
   bool drawing_ = false;    ///< at half resolution
-  bool overtaken_ = false;  ///< by a pose that waits for the end of that
+  bool overtaken_ = false;  ///< a newer pose waits for the end of that
   QTimer rest_;
   TaskRunner runner_;
 };

@@ -33,7 +33,7 @@ struct RunController::Job {
     return records;
   }
 
-  /// False when it was stopped before it was where the run goes on from.
+  /// False when it was stopped before the iteration from which the run continues.
   bool advance(StepUntil until, const std::stop_token& stop) {
     const sessions::RunSettings watched{.level = sessions::RecordLevel::kStages};
     if (!run && inputs.others.empty()) {

@@ -18,26 +18,26 @@ namespace boresight::ui {
 enum class RunState {
   kEmpty,    ///< no case
   kReady,    ///< nothing has run yet
-  kWorking,  ///< the worker is at it
-  kHalted,   ///< between two slices, can go on
+  kWorking,  ///< the worker runs
+  kHalted,   ///< between two slices, can continue
   kFinished,
 };
 
-/// What one run works on; immutable, shared with the worker.
+/// Inputs of one run; immutable, shared with the worker.
 struct RunInputs {
   std::shared_ptr<const sessions::LoadedCase> one = {};
   sessions::RunPlan plan;
-  /// Of the run that is gone on from: its first iterations, which are run again without being shown
-  /// and must come out as they are here; and its digest, empty when it was halted.
+  /// Of the run that is continued: its first iterations, which are repeated without being shown and
+  /// must give the same results; and its digest, empty when it was halted.
   std::vector<std::shared_ptr<const sessions::IterationTrace>> kept = {};
   std::string continued = {};
   /// Other views of the case's rig that it is solved together with; read by the worker.
   std::vector<sessions::SessionCase> others = {};
 };
 
-/// Runs one localization off the UI's thread. Inputs go in as a snapshot, records that never change
-/// come back through signals; the newest order wins, what an older one still yields is dropped, and
-/// stopping never waits.
+/// Runs one localization on a worker thread. Inputs are a snapshot; immutable records come back
+/// through signals. The newest request replaces older ones, whose results are dropped; stopping
+/// never waits.
 class RunController : public QObject {
   Q_OBJECT
 
@@ -50,13 +50,13 @@ class RunController : public QObject {
   /// The latest record; nullptr before the first.
   const SnapshotPtr& snapshot() const { return snapshot_; }
   const RunInputs& inputs() const { return inputs_; }
-  /// Of a run of several views, the latest record of each, the case's first; else none.
+  /// The latest record of each view of a run of several views, the case's first; else none.
   const std::vector<SnapshotPtr>& views() const { return views_; }
 
-  /// Drops the run, if any; the next step begins again from these. Without a case: kEmpty.
+  /// Drops the run, if any; the next step starts with these inputs. Without a case: kEmpty.
   void reset(RunInputs inputs);
-  /// Goes on until the stage, the iteration or the run is complete. Nothing while working, without
-  /// a case, or after the end.
+  /// Continues until the stage, the iteration or the run is complete. No effect while working,
+  /// without a case, or after the end.
   void advance(sessions::StepUntil until);
   /// Halts after the slice under way (20 ms at most at 2048 x 2048).
   void stop();
@@ -65,9 +65,9 @@ class RunController : public QObject {
   void stateChanged();
   /// A stage or an iteration is complete, or the run has halted or ended.
   void snapshotChanged();
-  /// The run has ended by itself.
+  /// The run has ended without a stop.
   void finished();
-  /// The worker could not go on (no memory); a sentence for the operator.
+  /// The worker failed (no memory); a sentence for the operator.
   void failed(const QString& message);
 
  private:

@@ -14,7 +14,7 @@
 
 namespace boresight::ui {
 
-/// How far a sequence has come.
+/// Progress of a sequence.
 struct SequenceProgress {
   std::int64_t done = 0;
   std::int64_t of = 0;  ///< 0: not stated
@@ -24,14 +24,14 @@ struct SequenceProgress {
 };
 
 /// Localizes the frames of a sequence on a thread of its own. Each frame is stored before it is
-/// reported: a stop keeps what is done, and the next start goes on from there.
+/// reported: a stop keeps the stored frames, and the next start continues after them.
 class SequenceRunner : public QObject {
   Q_OBJECT
 
  public:
   explicit SequenceRunner(QObject* parent = nullptr);
 
-  /// `loaded` is the case as it is shown; its image gives no frame.
+  /// `loaded` is the case as it is shown; its image is not a frame.
   void start(const sessions::SequenceOrder& order,
              std::shared_ptr<const sessions::LoadedCase> loaded);
   /// Ends after the slice of the frame under way, which is not stored.
@@ -46,9 +46,9 @@ class SequenceRunner : public QObject {
   const std::shared_ptr<const sessions::LoadedCase>& loadedCase() const { return loaded_; }
 
  Q_SIGNALS:
-  /// Started, ended, or a frame further.
+  /// Started, ended, or advanced by a frame.
   void changed();
-  /// It cannot start or go on; one sentence.
+  /// It cannot start or continue; one sentence.
   void failed(const QString& message);
 
  private:

@@ -55,7 +55,7 @@ class TaskRunner::Thread {
     drop(key);
   }
 
-  /// The oldest report, on the owner's thread; one event stands for each.
+  /// The oldest report, on the owner's thread; there is one event for each.
   std::function<void()> takeReport() {
     const std::lock_guard lock(mutex_);
     std::function<void()> report = std::move(reports_.front());
@@ -64,7 +64,7 @@ class TaskRunner::Thread {
   }
 
  private:
-  /// What waits is passed over, what runs is asked to stop; its owner drops what it yields.
+  /// Skips waiting tasks and asks the running one to stop; the owner drops its results.
   void drop(const QString& key) {
     if (running_.key == key) running_.stop.request_stop();
     for (Item& item : queue_)
@@ -111,9 +111,9 @@ class TaskRunner::Thread {
     return {};
   }
 
-  /// To be called in the owner's thread; dropped when the owner is gone. The event only says that
-  /// there is something: what crosses threads does so under the mutex, where a thread sanitizer
-  /// sees it, which knows nothing of Qt's own locks.
+  /// To be called in the owner's thread; dropped when the owner is gone. The event only signals
+  /// that there is a report: data crosses threads under the mutex, where a thread sanitizer sees
+  /// it, which does not see Qt's own locks.
   void post(std::function<void()> function) {
     const std::lock_guard lock(mutex_);
     reports_.push_back(std::move(function));

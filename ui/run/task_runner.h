@@ -15,23 +15,22 @@
 
 namespace boresight::ui {
 
-/// The one worker thread there is a class for: work for views, off the UI's thread and in the order
-/// in which it was asked for. Each kind of work has a key: of one key only the newest counts, an
-/// older one is stopped and what it still yields is dropped. Work that must not wait for other work
-/// has a runner of its own.
+/// A worker thread for tasks of views, which run in the order of their requests. Each kind of task
+/// has a key: of one key only the newest task is used; an older one is stopped and its results are
+/// dropped. Tasks that must not wait for others have a runner of their own.
 class TaskRunner : public QObject {
   Q_OBJECT
 
  public:
-  /// Has a function called on the runner's own (the UI's) thread, unless the task is dropped.
+  /// Calls a function on the runner's own (the UI's) thread, unless the task is dropped.
   using Report = std::function<void(std::function<void()>)>;
   using Work = std::function<void(const std::stop_token&, const Report&)>;
 
   explicit TaskRunner(QObject* parent = nullptr);
   ~TaskRunner() override;
 
-  /// Work that reports on its way. What it captures must be shared or copied. If it throws,
-  /// `failed` says why.
+  /// Runs a task that reports progress. Its captures must be shared or copied. If it throws,
+  /// failed() is emitted.
   void run(const QString& key, Work work);
 
   /// `work(stop_token)` makes a value, `done(value)` takes it on this object's thread.
@@ -43,7 +42,7 @@ class TaskRunner : public QObject {
       report([value, done] { done(std::move(*value)); });
     });
   }
-  /// The same; `failed(message)` takes a sentence where the work throws.
+  /// The same; `failed(message)` is called when the work throws.
   template <class Make, class Done, class Failed>
   void start(const QString& key, Make make, Done done, Failed failed) {
     using Value = decltype(make(std::stop_token()));
@@ -68,9 +67,9 @@ class TaskRunner : public QObject {
         });
   }
 
-  /// Asks what is under way or waits under this key to stop; what it reports still counts.
+  /// Asks running and waiting tasks of this key to stop; their reports are still delivered.
   void stop(const QString& key);
-  /// Drops what is under way or waits under this key.
+  /// Drops running and waiting tasks of this key.
   void cancel(const QString& key);
   bool isBusy() const { return pending_ > 0; }
 
@@ -79,7 +78,7 @@ class TaskRunner : public QObject {
   void failed(const QString& message);
 
  protected:
-  /// A report of the worker has come.
+  /// Handles a report of the worker.
   void customEvent(QEvent* event) override;
 
  private:

@@ -12,7 +12,7 @@
 namespace boresight::ui {
 namespace {
 
-/// Whether a face stands between the eye and the point, by more than a thousandth of the scene
+/// Whether a face lies between the eye and the point, by more than a thousandth of the scene
 /// (points on the surface must not hide themselves).
 bool isHidden(const SceneContent& content, const Viewpoint& view, const Eigen::Vector3d& at_m,
               const QPointF& pixel) {

@@ -16,40 +16,40 @@ namespace boresight::ui {
 inline constexpr double kTemplatePick_px = 9.0;
 
 /// The template nearest to a pixel of the canvas among those that no face hides, within
-/// kTemplatePick_px; its index into the iteration's templates, or -1. Picking computes, and does
-/// not read pixels back: it works alike on every screen and without OpenGL.
+/// kTemplatePick_px; its index into the iteration's templates, or -1. Picking uses the geometry and
+/// reads no pixels back: the result is the same on every screen and without OpenGL.
 int pickTemplate(const SceneContent& content, const Viewpoint& view, const QPointF& pixel);
 
 inline constexpr double kSceneSnap_px = 12.0;  ///< of the canvas
 
-/// How a place of the station may be aimed at.
+/// Rules of aiming at a point of the station.
 struct SceneAimRules {
   bool snaps = true;
   bool line = false;  ///< an edge, or nothing
-  int turn = 0;       ///< how often the operator asked for another thing to snap to
+  int turn = 0;       ///< number of requests for another candidate
 };
 
-/// What a click into the scene would annotate.
+/// Target of a click into the scene.
 struct SceneAim {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
-  std::optional<sessions::ModelEdge> edge;     ///< that it lies on
+  std::optional<sessions::ModelEdge> edge;     ///< on which it lies
   std::optional<sessions::MeshCircle> circle;  ///< whose centre it is
-  std::optional<sessions::Landmark> landmark;  ///< that it is
+  std::optional<sessions::Landmark> landmark;  ///< the landmark at this point
   bool snapped = false;
-  int found = 0;  ///< how many things there were to snap to
-  QString text;   ///< what it snaps to, for the operator
+  int found = 0;  ///< number of snap candidates
+  QString text;   ///< name of the snap, for the operator
 };
 
-/// What is under a pixel of the canvas: named points, then corners, edges and centres of circles
-/// that are seen from there within kSceneSnap_px, the likeliest first; without one (or where snaps
-/// are refused) the surface. Nothing off the station, and for lines away from all edges.
-/// Computed from the geometry: alike on every screen, and exact at any magnification.
+/// The target at a pixel of the canvas: named points, then visible corners, edges and centres of
+/// circles within kSceneSnap_px, the likeliest first; without one (or with snapping off) the
+/// surface. Empty off the station, and for lines away from all edges. Computed from the geometry:
+/// the same on every screen, and exact at any magnification.
 std::optional<SceneAim> sceneAim(const sessions::MeshSnapper& mesh,
                                  const std::vector<sessions::Proposal>& proposals,
                                  const Viewpoint& view, const QPointF& pixel,
                                  const SceneAimRules& rules);
 
-/// A place of the station in millimetres, and what is there.
+/// Coordinates of a point of the station in millimetres, and its kind.
 QString stationPlaceText(const Eigen::Vector3d& place_m, const QString& what);
 
 }  // namespace boresight::ui

@@ -21,15 +21,15 @@ namespace boresight::ui {
 
 class StationSnapper;
 
-/// The view of a square of `side` canvas pixels in which the surroundings of a pixel appear
-/// magnified: the pixel's centre comes to lie in the square's middle.
+/// The view of a square of `side` canvas pixels that shows the surroundings of a pixel magnified,
+/// with the pixel's centre in its middle.
 Viewpoint magnifiedView(const Viewpoint& view, const QPointF& pixel, double magnification,
                         int side);
-/// The same for the camera's image behind the scene, cut to what the square shows of it.
+/// The same for the camera's image behind the scene, cut to the part that the square shows.
 std::optional<Backdrop> magnifiedBackdrop(const std::optional<Backdrop>& backdrop,
                                           const QPointF& pixel, double magnification, int side);
 
-/// What the scene draws, in one value.
+/// All data that the scene draws, in one value.
 struct SceneShot {
   std::shared_ptr<const SceneContent> content;
   SceneLook look;
@@ -37,9 +37,9 @@ struct SceneShot {
   std::optional<Backdrop> backdrop;
 };
 
-/// The scene around the pointer, rendered again as large as it is shown, in a corner away from the
-/// pointer, under a cross. The core draws it, off the UI's thread: as exact as the geometry, and
-/// alike with and without OpenGL.
+/// The scene around the pointer, rendered at the loupe's resolution, under a cross, in a corner
+/// away from the pointer. The core draws it on a worker thread: exact, and the same with and
+/// without OpenGL.
 class SceneLoupe : public QWidget {
   Q_OBJECT
 
@@ -56,10 +56,10 @@ class SceneLoupe : public QWidget {
   double magnification() const { return magnification_; }
   void setMagnification(double magnification);
 
-  /// Puts a pixel of the canvas under the cross; nothing: the loupe hides.
+  /// Shows a pixel of the canvas under the cross; nothing: the loupe hides.
   void lookAt(const SceneShot& shot, const std::optional<QPointF>& pixel);
   const std::optional<QPointF>& place() const { return pixel_; }
-  /// Nothing of the newest place is still being drawn.
+  /// Whether the newest position is drawn.
   bool ready() const { return !runner_.isBusy(); }
 
  protected:
@@ -78,10 +78,10 @@ class SceneLoupe : public QWidget {
   TaskRunner runner_;
 };
 
-/// Annotating in the scene. While the operator places annotations, a click gives the station's
-/// side: the corner, edge, circle centre or named point that is shown next to the pointer before,
-/// or with Alt held the surface itself; Tab goes on to another thing to snap to. In line mode it is
-/// the edge that is lit. Otherwise a click on an annotation chooses it.
+/// Annotating in the scene. While the operator places annotations, a click sets the station side:
+/// the corner, edge, circle centre or named point shown next to the pointer, or with Alt held the
+/// surface; Tab changes to another snap candidate. In line mode it is the highlighted edge.
+/// Otherwise a click on an annotation selects it.
 class SceneAnnotator : public QObject {
   Q_OBJECT
 
@@ -90,27 +90,27 @@ class SceneAnnotator : public QObject {
   SceneAnnotator(QWidget& canvas, AnnotationController& annotation, StationSnapper& snapper);
 
   bool places() const;
-  /// What the scene shows now.
+  /// Sets the data that the scene shows.
   void setShot(const SceneShot& shot);
-  /// True when the click was for an annotation. `at`: the canvas' coordinates.
+  /// Returns whether the click was used for an annotation. `at`: the canvas' coordinates.
   bool click(const QPointF& at, Qt::KeyboardModifiers modifiers);
-  /// What a click at a pixel of the canvas would snap to; nothing off the station and until its
-  /// corners and edges are found.
+  /// Target of a click at a pixel of the canvas; empty off the station and until its corners and
+  /// edges are found.
   std::optional<SceneAim> aimAt(const QPointF& pixel) const;
-  /// Where a click would go; nothing where it would do nothing.
+  /// Target of a click now; empty when a click has no effect.
   const std::optional<SceneAim>& aim() const { return aim_; }
   const std::vector<SceneAnnotation>& annotations() const { return annotations_; }
   SceneLoupe& loupe() const { return *loupe_; }
-  /// Cameras of the rig that are solved with this one, as the solved poses put them.
+  /// Cameras of the rig that are solved with this one, at their solved poses.
   std::vector<Frustum> rigFrusta(const Eigen::Vector3d& centre_m) const;
-  /// The place that a click would annotate, in words and figures.
+  /// The target of a click, in words and figures.
   QString place() const;
-  /// What is to be done next, or empty.
+  /// The next step for the operator, or empty.
   QString nextStep() const;
   void paint(QPainter& painter, const QRectF& area) const;
 
  Q_SIGNALS:
-  void changed();  ///< what it paints
+  void changed();  ///< the painted content
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -16,31 +16,31 @@ class QWidget;
 
 namespace boresight::ui {
 
-/// Who draws the scene.
+/// The renderer of the scene.
 enum class SceneBackend {
   kVtk,
-  kPicture,  ///< the core; where no OpenGL context can be had
+  kPicture,  ///< the core; when no OpenGL context is available
 };
 
-/// Sets the surface format that VTK wants. Call before the application object is made.
+/// Sets the surface format that VTK wants. Call before the application object is created.
 void prepareSceneSurface();
 
-/// The rule: VTK on window systems that it is built for, when a context of at least OpenGL 3.2 can
-/// be made; the picture everywhere else, and when the environment's BORESIGHT_SCENE is "picture"
-/// (for broken drivers). `context_works` is asked at most once, and not where the answer is plain.
+/// VTK on window systems that it is built for, when a context of at least OpenGL 3.2 can be
+/// created; the picture everywhere else, and when the environment's BORESIGHT_SCENE is "picture"
+/// (for broken drivers). `context_works` is called at most once, and only when it decides.
 SceneBackend decideSceneBackend(const QString& platform, const QString& wish,
                                 const std::function<bool()>& context_works);
 
-/// Decided once per program, when it is first asked.
+/// Decided once per program, at the first call.
 SceneBackend sceneBackend();
 
-/// Whether OpenGL runs without a graphics card, so that what only looks nicer is left out.
+/// Whether OpenGL runs without a graphics card, so that decoration is left out.
 bool sceneIsDrawnInSoftware();
 
 /// The camera's image behind the scene.
 struct Backdrop {
   QImage gray;   ///< Format_Grayscale8
-  QRectF where;  ///< on the canvas, its top-left corner (0, 0)
+  QRectF where;  ///< on the canvas, whose top-left corner is (0, 0)
 };
 
 /// Appearance of the scene apart from its contents.
@@ -53,7 +53,7 @@ struct SceneLook {
 inline const QColor kMatchedColor(196, 203, 214);
 inline const QColor kOccludingColor(178, 148, 104);
 
-/// Something that draws a scene. Its owner draws names over it.
+/// Interface of a widget that draws a scene. Its owner draws names over it.
 class SceneCanvas {
  public:
   virtual ~SceneCanvas() = default;
@@ -69,8 +69,8 @@ std::unique_ptr<SceneCanvas> makeVtkCanvas(QWidget* parent);
 std::unique_ptr<SceneCanvas> makePictureCanvas(QWidget* parent);
 
 /// The scene drawn without OpenGL: the core renders surfaces and salient edges, plain Qt draws
-/// lines and points where no surface hides them. `ratio` device pixels to a pixel of the view; the
-/// picture carries it.
+/// lines and points where no surface hides them. `ratio`: device pixels per pixel of the view; it
+/// is set in the picture.
 QImage drawScenePicture(const SceneContent& content, const SceneLook& look, const Viewpoint& view,
                         const std::optional<Backdrop>& backdrop, double ratio = 1.0);
 

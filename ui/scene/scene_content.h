@@ -17,12 +17,12 @@
 
 namespace boresight::ui {
 
-/// How a pose's camera looks; the hues are those of the image's layers.
+/// Appearance of a pose's camera; the hues are those of the image's layers.
 struct PoseRoleStyle {
   const char* name = "";
   QColor color;
-  /// Lengths of dashes and gaps in turn, as shares of the line; empty: one whole line. The second
-  /// difference in addition to the colour.
+  /// Lengths of dashes and gaps in turn, as shares of the line; empty: a solid line. A second
+  /// distinction in addition to the colour.
   std::vector<double> dashes;
   double width_px = 2.0;
 };
@@ -35,7 +35,7 @@ using SceneLine = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
 /// A line cut into the dashes of a style, which repeat along it.
 std::vector<SceneLine> dashed(const SceneLine& line, const std::vector<double>& dashes);
 
-/// A camera as a pyramid: what its image's corners see.
+/// A camera as a pyramid of the rays through its image's corners.
 struct Frustum {
   PoseRole role = PoseRole::kSeed;
   bool rejected = false;
@@ -43,12 +43,12 @@ struct Frustum {
   QColor color;
   Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 4> corner_m;  ///< top left, top right, bottom right, bottom left
-  /// Dashed as the role is, with a roof at the image's top; and edges of what the camera carries.
+  /// Dashed by the role, with a roof at the image's top; and edges of parts fixed to the camera.
   std::vector<SceneLine> lines;
   Eigen::Vector3d label_at_m = Eigen::Vector3d::Zero();
 };
 
-/// `centre_m`: of the scene, towards which a share of the way is drawn.
+/// `centre_m`: of the scene; the pyramid is drawn a share of the way towards it.
 Frustum frustumOf(PoseRole role, const QString& label, const Camera& camera,
                   const Pose& camera_from_station, const Eigen::Vector3d& centre_m,
                   bool rejected = false);
@@ -67,7 +67,7 @@ struct ScenePoint {
   int template_index = -1;   ///< into the iteration's templates, or -1
 };
 
-/// What of the scene the operator wants to see.
+/// Elements of the scene that are shown.
 struct SceneShown {
   bool mesh = true;
   bool mesh_edges = true;
@@ -81,12 +81,12 @@ struct SceneShown {
 
 /// Everything that the scene draws, as plain values in the station frame.
 struct SceneContent {
-  /// Keeps the mesh alive, which is looked at in place; nullptr: nothing is open.
+  /// Owns the mesh, which is not copied; nullptr: nothing is open.
   std::shared_ptr<const sessions::LoadedCase> one;
   BoundingBox bounds;  ///< of all parts
   std::vector<Frustum> frusta;
   std::vector<Eigen::Vector3d> trail_m;  ///< camera centres: the seed's, then each iteration's
-  int trail_now = -1;                    ///< the one that is shown, or -1
+  int trail_now = -1;                    ///< index of the shown one, or -1
   std::vector<ScenePoint> points;
   double residual_limit_px = 1.0;  ///< upper end of the colours
   double point_radius_px = 4.5;    ///< on the screen; edge places are many and therefore small
@@ -98,7 +98,7 @@ struct SceneContent {
   MeshView mesh() const { return one ? sessions::stationView(one->scene) : MeshView(); }
 };
 
-/// What the state's cursor points at.
+/// The content at the state's cursor.
 SceneContent sceneContent(const ViewState& state);
 
 /// Colours of the station's x, y and z axis, which also carry their letters.

@@ -49,21 +49,21 @@ class SceneNavigation : public QObject {
   bool throughCamera() const { return through_; }
   /// Shows the whole image at first.
   void setThroughCamera(bool through);
-  /// Another station is shown whole, from the default direction.
+  /// Sets the content; another station is shown whole, from the default direction.
   void setContent(std::shared_ptr<const SceneContent> content);
   /// Whether "the whole scene" is the station alone, or includes the cameras. A view that is not
   /// yet moved follows.
   void setStationAlone(bool alone);
-  /// The whole scene again (through the camera: the whole image).
+  /// Shows the whole scene again (through the camera: the whole image).
   void reset();
   void lookFrom(StandardView view);
   /// Fits the image to the canvas until the operator moves it.
   void fitImage();
-  /// `through_pose`: of the camera that is looked through.
+  /// `through_pose`: pose of the camera for views through it.
   Viewpoint viewpoint(const Pose& through_pose) const;
 
  Q_SIGNALS:
-  /// The viewpoint or the size of the canvas.
+  /// The viewpoint or the size of the canvas has changed.
   void changed();
   void throughCameraChanged();
   void clicked(const QPointF& at, Qt::KeyboardModifiers modifiers);
@@ -78,7 +78,7 @@ class SceneNavigation : public QObject {
   void press(const QMouseEvent& event);
   void move(const QMouseEvent& event);
   void release(const QMouseEvent& event);
-  /// What a key does; nullptr: nothing.
+  /// Action of a key; nullptr: none.
   std::function<void()> actOf(const QKeyEvent& event);
   void drag(const QPointF& moved, const QMouseEvent& event);
   void turn(const QPointF& by);

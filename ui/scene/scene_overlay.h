@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is painted over the scene: annotations of an annotation, names and the legend.
+// Painting over the scene: annotations, names and the legend.
 #pragma once
 
 #include <functional>
@@ -24,17 +24,17 @@ class AnnotationController;
 /// The station side of an annotation.
 struct SceneAnnotation {
   std::string id;
-  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< of an edge its middle
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< for an edge, its middle
   std::optional<sessions::ModelEdge> edge;
   AnnotationState state;
   bool locked = false;
   bool proposed = false;  ///< a named point without annotation in this image
 };
 
-/// Annotations that have a place on the station, the chosen one last, after the proposals.
+/// Annotations that have a station side, after the proposals; the chosen one is last.
 std::vector<SceneAnnotation> sceneAnnotations(const AnnotationController& controller);
 
-/// What is annotated and aimed at, drawn over the scene. What a face hides is drawn faintly.
+/// Draws annotations and the aim over the scene. Hidden ones are drawn faintly.
 class SceneAnnotationPainter {
  public:
   /// `mesh` may be nullptr: nothing hides anything.
@@ -58,28 +58,27 @@ class SceneAnnotationPainter {
   const sessions::MeshSnapper* mesh_;
 };
 
-/// Text with a rim, so that it is legible over everything.
+/// Draws text with a rim, so that it is legible on any background.
 void paintOutlined(QPainter& painter, const QPointF& at, const QFont& font, const QString& text,
                    const QColor& color, const QColor& rim);
 
-/// Id of the annotation under a pixel of the canvas that no face hides, the nearest; empty without
-/// one. Proposals are no annotations.
+/// Id of the nearest visible annotation at a pixel of the canvas; empty without one. Proposals are
+/// not included.
 std::string pickAnnotation(const std::vector<SceneAnnotation>& annotations, const Viewpoint& view,
                            const sessions::MeshSnapper& mesh, const QPointF& pixel);
 
-/// Names and the legend, in plain Qt over whichever canvas draws the scene. It lets the mouse
-/// through.
+/// Names and the legend, in plain Qt over whichever canvas draws the scene. It ignores the mouse.
 class SceneOverlay : public QWidget {
  public:
   explicit SceneOverlay(QWidget* canvas);
 
   void setContent(std::shared_ptr<const SceneContent> content, const SceneLook& look);
   void setView(const Viewpoint& view);
-  /// A line at the top, e.g. that the view is undistorted.
+  /// Sets a line at the top, e.g. that the view is undistorted.
   void setNote(const QString& note);
-  /// The place that was pointed at last; none after another case.
-  /// A place that another view points at.
+  /// Sets the point at which another view points; nothing: none.
   void setHovered(const std::optional<Eigen::Vector3d>& at_m);
+  /// Sets the point that was clicked last; nothing after a change of the case.
   void setAnnotation(const std::optional<Eigen::Vector3d>& at_m);
   /// Drawn over the scene's names, below notes.
   void setOver(std::function<void(QPainter&)> over);

@@ -283,7 +283,7 @@ class PictureCanvas final : public QWidget, public SceneCanvas {
     update();
   }
 
-  /// Surfaces take longest, and stay what they are while a run goes on.
+  /// Surfaces take longest, and do not change during a run.
   void draw(double ratio) {
     if (!surfaces_ || ratio != ratio_) surfaces_.emplace(*content_, view_, ratio);
     ratio_ = ratio;

@@ -27,8 +27,9 @@ class StationSnapper;
 
 /// The station with its cameras in space. It follows the view state; dragging orbits (the station's
 /// z axis stays upright), the middle button or Shift pans, the wheel zooms, a click picks a
-/// template or a point of the mesh. Looking through the camera it lies over the camera's image,
-/// undistorted where the camera distorts, and dragging and the wheel move that picture.
+/// template or a point of the mesh. When looking through the camera, the scene lies over the
+/// camera's image, undistorted if the camera distorts, and dragging and the wheel move that
+/// picture.
 class SceneView : public QWidget {
   Q_OBJECT
 
@@ -36,9 +37,9 @@ class SceneView : public QWidget {
   explicit SceneView(ViewState& state, QWidget* parent = nullptr,
                      SceneBackend backend = sceneBackend());
 
-  /// Lets the operator annotate in it; both must outlive it.
+  /// Enables annotating in the scene; both must outlive it.
   void setAnnotation(AnnotationController& annotation, StationSnapper& snapper);
-  /// nullptr before.
+  /// nullptr before setAnnotation().
   SceneAnnotator* annotator() const { return annotator_; }
 
   SceneBackend backend() const { return backend_; }
@@ -46,20 +47,20 @@ class SceneView : public QWidget {
   const SceneContent& content() const { return *content_; }
   SceneNavigation& navigation() { return *navigation_; }
   Viewpoint viewpoint() const { return navigation_->viewpoint(throughPose()); }
-  /// The image lies behind the mesh while looking through the camera.
+  /// Whether the image is drawn behind the mesh while looking through the camera.
   bool backdropReady() const { return navigation_->throughCamera() && !backdrop_.isNull(); }
 
-  /// Whose camera is looked through: kEstimate is what the views show, nudged or not.
+  /// Sets the pose for looking through the camera: kEstimate is the shown pose, nudged or not.
   void setThroughRole(PoseRole role);
   void setShown(const SceneShown& shown);
   void setMeshOpacity(double opacity);
-  /// The view state as it is now, without waiting for the event loop.
+  /// Shows the present view state at once, without waiting for the event loop.
   void refresh();
-  /// Shows where a place of the station is in the scene; nothing: nowhere.
+  /// Marks a point of the station in the scene; nothing: none.
   void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  Q_SIGNALS:
-  /// The place of the station under the pointer, or nothing.
+  /// The point of the station under the pointer, or nothing.
   void stationPlaceHovered(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  protected:
@@ -92,7 +93,7 @@ class SceneView : public QWidget {
 
   std::shared_ptr<const SceneContent> content_;
   SceneLook look_;
-  QImage backdrop_;  ///< the case's image without lens distortion; null until it is there
+  QImage backdrop_;  ///< the case's image without lens distortion; null until it is computed
   std::weak_ptr<const sessions::LoadedCase> backdrop_of_;
   TaskRunner runner_;
   PoseRole role_ = PoseRole::kEstimate;

@@ -13,14 +13,14 @@
 
 namespace boresight::ui {
 
-/// From where and with which (pinhole) camera the scene is drawn. The camera's pixels are those of
-/// the canvas, its centre of the top-left pixel is (0, 0), and its principal point may lie
-/// anywhere: what every canvas, the picking and the labels agree on.
+/// Pose and (pinhole) camera with which the scene is drawn, shared by canvases, picking and labels.
+/// The camera's pixels are those of the canvas; the centre of the top-left pixel is (0, 0); the
+/// principal point may lie anywhere.
 struct Viewpoint {
   Pose view_from_station;
   Camera camera;
 
-  /// Pixel of a point; nothing behind the viewer.
+  /// Pixel of a point; empty for a point behind the viewer.
   std::optional<QPointF> toCanvas(const Eigen::Vector3d& point_in_station_m) const;
   /// Direction (not of unit length, z forward 1) of the ray through a pixel, station frame.
   Eigen::Vector3d rayInStation(const QPointF& pixel) const;
@@ -33,22 +33,22 @@ double distance_px(const QPointF& a, const QPointF& b);
 /// The fixed directions to look from. "Front" looks along the station's +y.
 enum class StandardView { kTop, kBottom, kFront, kBack, kLeft, kRight, kOblique };
 
-/// Looking at a place from around it, with the station's z axis upright on the screen until it is
+/// A camera that orbits a target, with the station's z axis upright on the screen until it is
 /// rolled.
 class OrbitCamera {
  public:
   static constexpr double kFieldOfView_rad = 0.6;
 
-  /// Looks at the box from the same side as before, as far away as shows all of it.
+  /// Looks at the box from the same side as before, at the distance that shows all of it.
   void frame(const BoundingBox& bounds);
   void lookFrom(StandardView view);
 
-  /// Dragging by this many pixels of a canvas of this height.
+  /// Dragging by `pixels` on a canvas of this height.
   void orbit(const QPointF& pixels, double canvas_height);
   void pan(const QPointF& pixels, double canvas_height);
   /// Turns the picture clockwise.
   void roll(double angle_rad);
-  /// Factor below 1 comes nearer.
+  /// A factor below 1 moves nearer.
   void dolly(double factor);
 
   Viewpoint viewpoint(const QSizeF& canvas) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scenes are made of: lines, clouds of small shapes, a backdrop image, and camera placement.
+// Elements of scenes: lines, clouds of small shapes, a backdrop image, and camera placement.
 #pragma once
 
 #include <optional>
@@ -24,11 +24,11 @@
 
 namespace boresight::ui {
 
-/// Gives a renderer exactly the viewpoint's pinhole: its focal lengths and principal point, not an
-/// opening angle. Returns how far away something can be and still be seen, m.
+/// Sets a renderer's camera exactly to the viewpoint's pinhole: focal lengths and principal point,
+/// not an opening angle. Returns the distance of the far plane, m.
 double placeCamera(vtkRenderer& renderer, const Viewpoint& view);
 
-/// The camera's image: a textured square behind everything else, as far away as can be seen.
+/// The camera's image: a textured square behind everything else, near the far plane.
 class BackdropActor {
  public:
   explicit BackdropActor(vtkRenderer& renderer);
@@ -47,10 +47,10 @@ class BackdropActor {
 /// Lines of one colour each.
 using ColoredLines = std::vector<std::pair<SceneLine, QColor>>;
 
-/// Three bars across each other: what an outlier looks like from everywhere.
+/// Three crossed bars: the shape of an outlier, the same from every side.
 vtkNew<vtkPolyData> crossShape();
 
-/// Round enough for a template's point, or for one of ten thousand places on edges.
+/// Resolution of a sphere: for a few template points, or for ten thousand edge places.
 enum class Roundness { kFew, kMany };
 
 vtkNew<vtkPolyData> sphereShape(double radius, Roundness roundness = Roundness::kFew);
@@ -76,7 +76,7 @@ struct Lines {
   vtkNew<vtkActor> actor;
 
   Lines();
-  /// Lines with more of it lie upon those with less.
+  /// Lines with a larger value are drawn over those with a smaller one.
   void lift(double units);
   void set(const ColoredLines& lines);
 };

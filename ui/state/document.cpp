@@ -145,7 +145,7 @@ bool Document::declineRecovery() {
 }
 
 bool Document::edit(const sessions::Session& after, const QString& text) {
-  // Before the attempt: its failure is told at once, and answered by saving elsewhere.
+  // Before the attempt: its failure is reported at once, and the answer is to save elsewhere.
   if (!history_) return false;
   refused_ = Refused{after, text};
   return attempt(&Document::changed, [&] {

@@ -12,9 +12,9 @@
 
 namespace boresight::ui {
 
-/// The open session as the window knows it: its value, what can be undone, and signals when either
-/// changes. Every edit is in the journal before `changed` is emitted. What fails is told by
-/// `failed`, one sentence for the operator, and has not happened.
+/// The open session of the window: its value, its undo history, and signals when either changes.
+/// Every edit is in the journal before `changed` is emitted. A failure emits `failed` with one
+/// sentence for the operator and has no other effect.
 class Document : public QObject {
   Q_OBJECT
 
@@ -26,7 +26,7 @@ class Document : public QObject {
   const sessions::Session& session() const;
   std::filesystem::path file() const;
   bool isModified() const { return document_ && document_->modified(); }
-  /// Made by dropping files and never saved under a name of its own.
+  /// Whether it was made by dropping files and never saved under a name of its own.
   bool isUntitled() const { return untitled_; }
   /// Why it cannot be edited, or empty.
   QString readOnlyReason() const;
@@ -37,23 +37,23 @@ class Document : public QObject {
   /// Each of these returns whether it was done.
   bool open(const std::filesystem::path& file);
   bool create(const std::filesystem::path& file, const sessions::Session& session);
-  /// In the folder for sessions without a name; `saveAs` gives it one.
+  /// Creates a session in the folder for sessions without a name; saveAs() gives it one.
   bool createUntitled(const sessions::Session& session);
   bool save();
-  /// Also makes the edit that could not be written last, if any.
+  /// Also makes the last edit that could not be written, if any.
   bool saveAs(const std::filesystem::path& file);
   void close();
   /// Removes an untitled session with its runs; nothing is open afterwards.
   void discardUntitled();
-  /// Drops what was changed since the session was saved, for good.
+  /// Permanently drops all changes since the session was saved.
   bool discardChanges();
   bool acceptRecovery();
   bool declineRecovery();
 
   /// One edit, to be undone as one.
   bool edit(const sessions::Session& after, const QString& text);
-  /// What happened rather than was edited (a run that ended, the case that is looked at): in the
-  /// journal, but not to be undone.
+  /// Records an event that is not an edit (a run that ended, the shown case): in the journal, but
+  /// not undoable.
   bool note(const sessions::Session& after, const QString& text);
   bool undo();
   bool redo();
@@ -61,13 +61,13 @@ class Document : public QObject {
   bool canRedo() const { return history_ && history_->canRedo(); }
   QString undoText() const;
   QString redoText() const;
-  /// All edits, those that are undone last; the first `editsDone` are in effect.
+  /// All edits, the undone ones last; the first editsDone() are in effect.
   QStringList editTexts() const;
   std::size_t editsDone() const { return history_ ? history_->done() : 0; }
   /// Undoes or redoes until this number of edits is in effect.
   bool goToEdit(std::size_t done);
 
-  /// Where sessions without a name are kept.
+  /// The folder of sessions without a name.
   static std::filesystem::path untitledFolder();
   /// The newest session without a name that no program has open, or nothing.
   static std::optional<std::filesystem::path> leftUntitled();
@@ -75,15 +75,15 @@ class Document : public QObject {
   static void removeUntitled(const std::filesystem::path& file);
 
  Q_SIGNALS:
-  void opened();   ///< another document, or none
-  void changed();  ///< its value, or whether it is saved
+  void opened();   ///< another document is open, or none
+  void changed();  ///< its value, or whether it is saved, has changed
   void failed(const QString& message);
-  /// Nothing could be written where the session lies (a full disk, a read-only folder); one
-  /// sentence. What was to be written is not lost: `saveAs` takes it elsewhere.
+  /// Writing in the session's folder failed (a full disk, a read-only folder); one sentence. The
+  /// data is not lost: saveAs() writes it elsewhere.
   void writeFailed(const QString& message);
 
  private:
-  /// An edit that the journal could not take; the next `saveAs` makes it.
+  /// An edit that could not be written to the journal; the next saveAs() makes it.
   struct Refused {
     sessions::Session after;
     QString text;

@@ -21,19 +21,19 @@ namespace boresight::ui {
 
 class Document;
 
-/// Whose pose something is.
+/// The role of a pose.
 enum class PoseRole : std::uint8_t { kSeed, kEstimate, kNudged, kTruth, kAnnotated };
 inline constexpr int kPoseRoles = 5;
 
-/// The place in a run that every view shows.
+/// The position in a run that every view shows.
 struct RunCursor {
   int iteration = -1;  ///< index into the snapshot's iterations; -1: the seed, before the first
-  Stage stage = Stage::kFinished;  ///< what of the iteration is shown: this stage and those before
+  Stage stage = Stage::kFinished;  ///< shown of the iteration: this stage and those before
 
   bool operator==(const RunCursor&) const = default;
 };
 
-/// What of the view state changed.
+/// Changed parts of the view state.
 enum class ViewChange {
   kCase = 1 << 0,
   kSnapshot = 1 << 1,
@@ -47,9 +47,9 @@ enum class ViewChange {
 Q_DECLARE_FLAGS(ViewChanges, ViewChange)
 Q_DECLARE_OPERATORS_FOR_FLAGS(ViewChanges)
 
-/// What the whole window looks at: one case, its run as far as it has come, one place in it, one
-/// template of it, and the pose that a person has nudged. All views show this and change it only
-/// here; nothing of it is part of the document.
+/// The view state of the whole window: one case, its run so far, one position in the run, one
+/// template, and the nudged pose. All views show this state and change it only here; it is not part
+/// of the document.
 class ViewState : public QObject {
   Q_OBJECT
 
@@ -66,38 +66,38 @@ class ViewState : public QObject {
   const RunCursor& cursor() const { return cursor_; }
   /// The iteration under the cursor, or nullptr.
   std::shared_ptr<const sessions::IterationTrace> iteration() const;
-  /// Its pose after it, or before it where the shown stage is earlier than the pose.
+  /// The pose after the iteration, or before it when the shown stage is earlier than the pose.
   std::optional<Pose> iterationPose() const;
   /// Index into the iteration's templates, or -1.
   int selectedTemplate() const { return selected_template_; }
   /// The pose that is being nudged, if any.
   const std::optional<Pose>& nudgedPose() const { return nudged_; }
-  /// The pose that solves the case's annotated annotations, if any.
+  /// The pose solved from the case's annotations, if any.
   const std::optional<Pose>& annotatedPose() const { return annotated_; }
   /// The hypothesis that is shown next to the chosen pose, if any.
   const std::optional<sessions::Alternative>& alternative() const { return alternative_; }
   /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
   /// it where the shown stage is earlier), else the seed; of a case without a seed the annotated
-  /// pose. Nothing where there is none of these.
+  /// pose. Empty when there is none of these.
   std::optional<Pose> knownPose() const;
-  /// The same; the identity where there is none.
+  /// The same; the identity when there is none.
   Pose shownPose() const { return knownPose().value_or(Pose()); }
 
   void setCase(CasePtr loaded_case);
-  /// The current case after an edit of its inputs: the shown run, now stale, the place in it and
+  /// The current case after an edit of its inputs: the shown run, now stale, the position in it and
   /// the nudged pose stay.
   void replaceCase(CasePtr loaded_case);
-  /// Keeps the cursor where it was; at the last iteration it follows the run.
+  /// Keeps the cursor; a cursor at the last iteration follows the run.
   void setSnapshot(SnapshotPtr snapshot);
   void setCursor(const RunCursor& cursor);
   /// -1 selects none.
   void selectTemplate(int index);
   void setNudgedPose(const std::optional<Pose>& camera_from_station);
   void setAnnotatedPose(const std::optional<Pose>& camera_from_station);
-  /// Of the current snapshot: another one drops it.
+  /// Sets an alternative of the current snapshot; another snapshot drops it.
   void setAlternative(const std::optional<sessions::Alternative>& alternative);
 
-  /// Calls a function of the receiver, once for each change of any of these.
+  /// Calls a function of the receiver once for each change of any of these parts.
   template <class Receiver, class Function>
   void onChange(ViewChanges any_of, Receiver* receiver, Function function) {
     connect(this, &ViewState::changed, receiver, [any_of, receiver, function](ViewChanges what) {
@@ -110,7 +110,7 @@ class ViewState : public QObject {
   }
 
  Q_SIGNALS:
-  /// One for each change, however much of the state it concerns.
+  /// Emitted once for each change, with all parts concerned.
   void changed(boresight::ui::ViewChanges what);
 
  private:
@@ -126,18 +126,19 @@ class ViewState : public QObject {
 };
 
 /// camera_from_station of that role as the views have it: the run's seed (the case's before a run),
-/// the iteration under the cursor (before or after it, as the shown stage says), the nudged pose,
-/// the truth, the pose that solves the annotated annotations. Nothing where there is none.
+/// the iteration under the cursor (before or after it, according to the shown stage), the nudged
+/// pose, the truth, the pose solved from annotations. Empty when there is none.
 std::optional<Pose> poseOf(const ViewState& state, PoseRole role);
 
 /// The document's case that the views show, or nullptr.
 const sessions::SessionCase* shownCase(const Document& document, const ViewState& state);
-/// Its id, or empty.
+/// The id of that case, or empty.
 std::string shownCaseId(const Document& document, const ViewState& state);
 
 /// "Competing pose 2", "Candidate 1", "Rolled by +5.0 deg".
 QString alternativeTitle(const sessions::Alternative& alternative);
-/// What it was weighed against: "Result of the run", "Chosen candidate", "Chosen roll".
+/// Name of the pose that it was compared with: "Result of the run", "Chosen candidate", "Chosen
+/// roll".
 QString chosenTitle(const sessions::Alternative& alternative);
 
 }  // namespace boresight::ui

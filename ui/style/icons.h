@@ -53,17 +53,17 @@ enum class Icon {
   kFloat,
 };
 
-/// Of an icon next to a text: with room between the two.
+/// Size of an icon next to a text, with room between the two.
 inline constexpr QSize kButtonIcon(kIcon + 6, kIcon);
 
-/// In a colour of the theme that is in use when the icon is drawn; disabled: that of hints.
+/// An icon in a colour of the theme in use when it is drawn; disabled: the colour of hints.
 QIcon iconOf(Icon icon, QRgb Theme::*color = &Theme::text);
 /// A picture of a list; the style would tint it where its row is chosen.
 QIcon pictureIcon(const QImage& picture);
-/// For the overlay on the image, which is dark in every theme.
+/// An icon for the overlay on the image, which is dark in every theme.
 QIcon overlayIcon(Icon icon);
 
-/// Draws it in a square, in one colour.
+/// Draws an icon in a square, in one colour.
 void paintIcon(QPainter& painter, const QRectF& place, Icon icon, const QColor& color);
 
 }  // namespace boresight::ui

@@ -11,14 +11,14 @@ namespace boresight::ui {
 
 enum class ThemeName { kLight, kDark };
 
-/// Colours of the theme that is in use; the light one before any was applied.
+/// Colours of the theme in use; the light theme before any was applied.
 const Theme& theme();
 ThemeName themeName();
 
-/// Gives the program palette, style sheet and type of a theme. Widgets follow at once.
+/// Applies palette, style sheet and fonts of a theme to the program. Widgets change at once.
 void applyTheme(QApplication& application, ThemeName name);
 
-/// The theme that was chosen last, on this machine; the desktop's where none was.
+/// The theme chosen last, from the program's settings; the desktop's when none was chosen.
 ThemeName rememberedTheme();
 void rememberTheme(ThemeName name);
 

@@ -104,7 +104,7 @@ inline constexpr QRgb kOverlayText = 0xE8EAED;
 struct LineToken {
   QRgb color;
   double width_px;
-  double dash_px;  ///< 0: solid. Of dots: 0 with a gap.
+  double dash_px;  ///< 0: solid. Dots: 0 with a gap.
   double gap_px;   ///< from the end of a dash to the next; between centres of dots
   bool round_cap;
   QRgb halo = 0x000000;
@@ -125,15 +125,15 @@ inline constexpr LineToken kBadMarkLine = {0xD55E00, 2.4, 4, 3, false, 0xFFFFFF,
 inline constexpr LineToken kUnfinishedMarkLine = {0xE69F00, 2.4, 0, 0, false, 0xFFFFFF, 2.6, 1.0};
 inline constexpr double kMarkRadius_px = 9;
 
-/// Where pose and truth coincide, the truth would hide the pose.
+/// Width factor of the pose's line below the truth's, which would otherwise hide it.
 inline constexpr double kPoseUnderTruthFactor = 1.5;
 
-/// Of poses in the 3D scene, whose ground is light.
+/// Colours of poses in the 3D scene, whose background is light.
 inline constexpr QRgb kSceneSeed = 0xB87900;
 inline constexpr QRgb kScenePose = 0x0072B2;
 inline constexpr QRgb kSceneRejected = 0xC21E8E;
 
-/// Widths of the frame of what the spacecraft computed, and of what was run on the ground.
+/// Widths of the frames around the onboard run and the ground run.
 inline constexpr int kOnboardFrame_px = 6;
 inline constexpr int kGroundFrame_px = 4;
 
@@ -151,7 +151,7 @@ inline constexpr double kIconStroke = 1.4;
 inline constexpr int kRadius = 4;
 inline constexpr int kBadge = 20;
 
-/// What depends on the width of the window.
+/// Sizes that depend on the width of the window.
 struct Measures {
   int strip_width;
   int strip_thumbnail;
@@ -160,14 +160,14 @@ struct Measures {
   int review_side;
   int queue_width;
 };
-inline constexpr int kWideWindow = 1600;  ///< from this width on the wide measures hold
+inline constexpr int kWideWindow = 1600;  ///< from this width on the wide measures apply
 inline constexpr Measures kWide = {96, 64, 416, 616, 464, 304};
 inline constexpr Measures kNarrow = {64, 48, 360, 360, 392, 64};
 constexpr const Measures& measuresFor(int window_width) {
   return window_width >= kWideWindow ? kWide : kNarrow;
 }
 
-/// Type, in points.
+/// Fonts; sizes in points.
 inline constexpr std::array<const char*, 3> kFontFamilies = {"Inter", "Noto Sans", "DejaVu Sans"};
 inline constexpr double kTextSize = 10;
 inline constexpr double kCaptionSize = 9;

@@ -11,8 +11,8 @@ namespace boresight::ui {
 
 class ImageView;
 
-/// What lies over the image as children of it: the strip of tools, next to it the title, what is
-/// shown (upper right), the zoom (lower right). Keeps them in their corners.
+/// Child widgets over the image: the strip of tools, next to it the title, the shown iteration
+/// (upper right), the zoom (lower right). Keeps them in their corners.
 class CanvasChips : public QObject {
   Q_OBJECT
 
@@ -20,7 +20,7 @@ class CanvasChips : public QObject {
   explicit CanvasChips(ImageView& view);
 
   QToolBar& tools() { return *tools_; }
-  /// The shown case and run; empty hides it.
+  /// Sets the title: the shown case and run; empty hides it.
   void setTitle(const QString& text);
   /// "Iteration 1.4, refine"; empty hides it.
   void setShown(const QString& text);

@@ -20,8 +20,8 @@ class ImagePanel;
 class ImageView;
 class TaskRunner;
 
-/// A second canvas beside the image: the seed, the truth, another run of the case or another camera
-/// of its rig. Zoom and pointer of both are linked.
+/// A second canvas next to the image: the seed, the truth, another run of the case or another
+/// camera of its rig. Zoom and pointer of both are linked.
 class CompareView : public QWidget {
   Q_OBJECT
 
@@ -29,17 +29,17 @@ class CompareView : public QWidget {
   CompareView(ImagePanel& image, Document& document, ViewState& state, TaskRunner& tasks);
 
   ImageView& view() { return *view_; }
-  /// What can be chosen, in the order of the box.
+  /// Names of the choices, in the order of the box.
   QStringList choices() const;
   /// Shows the canvas with this run of the case.
   void showRun(const std::string& digest);
-  /// The onboard run of the case, or nullptr: not there.
+  /// Sets the onboard run of the case; nullptr: none.
   void setOnboardRun(ViewState::SnapshotPtr run);
   /// Shows the canvas with the onboard run, if there is one.
   void showOnboardRun();
 
  Q_SIGNALS:
-  /// Another thing is chosen; whether it is the onboard run.
+  /// Another choice was made; `onboard_run`: whether it is the onboard run.
   void chosen(bool onboard_run);
 
  protected:
@@ -47,7 +47,7 @@ class CompareView : public QWidget {
   void hideEvent(QHideEvent* event) override;
 
  private:
-  /// One thing to compare with: a pose of this case, a run whose pose is to be read, or a camera.
+  /// One choice to compare with: a pose of this case, a run whose pose is to be read, or a camera.
   struct Choice {
     QString name;
     LineToken line = kPoseLine;
@@ -56,7 +56,7 @@ class CompareView : public QWidget {
     std::string case_id;  ///< of another camera
     bool onboard = false;
   };
-  /// What is shown of a choice.
+  /// The picture of a choice.
   struct Picture {
     std::shared_ptr<const sessions::LoadedCase> loaded_case;
     Pose camera_from_station;

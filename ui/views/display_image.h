@@ -23,30 +23,30 @@ QImage grayImage(const boresight::ImageView& image);
 /// The share of the samples that an automatic stretch makes black, and white.
 inline constexpr double kClippedShare = 0.005;
 
-/// Levels between which all but the darkest and the brightest samples lie; of an even image some
-/// that can be told apart.
+/// Levels between which all but the darkest and the brightest samples lie; for a uniform image some
+/// distinct levels.
 sessions::GrayLevels automaticLevels(const sessions::ImageSamples& samples);
 
-/// With which an image is shown at first: images of more than 8 bits are stretched automatically,
-/// and those of 8 bits that use less than half of their range.
+/// Levels with which an image is shown at first: images of more than 8 bits are stretched
+/// automatically, and those of 8 bits that use less than half of their range.
 sessions::GrayLevels firstLevels(const sessions::ImageSamples& samples,
                                  const sessions::GrayLevels& automatic);
 
-/// Number of samples in each of 256 even ranges of all that the samples' bits can say.
+/// Number of samples in each of 256 equal bins of the samples' full range.
 std::vector<int> histogramOf(const sessions::ImageSamples& samples);
 
-/// All that the samples' bits can say.
+/// The full range of the samples' bits.
 sessions::GrayLevels fullLevels(const sessions::ImageSamples& samples);
 
-/// The file's own value at a pixel inside: whole numbers as they are, others with six digits.
+/// The file's own value at a pixel inside: integers unchanged, others with six digits.
 QString sampleText(const sessions::ImageSamples& samples, int x, int y);
 
-/// For the eye only.
+/// For display only.
 QImage stretched(const sessions::ImageSamples& samples, const sessions::GrayLevels& levels);
 
-/// The current case's image as the operator sees it: the 8-bit pixels that the core sees, or the
-/// file's samples stretched between two levels, at first `firstLevels`. Reading and stretching
-/// happen in the task runner; until a picture is made the one before, or the core's, is shown.
+/// The current case's image as displayed: the 8-bit pixels that the core uses, or the file's
+/// samples stretched between two levels, at first firstLevels(). Reading and stretching run in the
+/// task runner; until then the former picture, or the core's, is shown.
 class DisplayImage : public QObject {
   Q_OBJECT
 
@@ -67,14 +67,14 @@ class DisplayImage : public QObject {
   bool showsCore() const { return shows_core_; }
 
   void setShowsCore(bool shows_core);
-  /// Black and white are brought into the range of the samples, black below white.
+  /// Black and white are clamped to the range of the samples, black below white.
   void setLevels(const sessions::GrayLevels& levels);
   void setAutomaticLevels();
   void setFullLevels();
 
  Q_SIGNALS:
   void pictureChanged();
-  /// Levels, samples, or what is shown.
+  /// Levels, samples, or the kind of display have changed.
   void levelsChanged();
 
  private:
@@ -96,15 +96,15 @@ class DisplayImage : public QObject {
 };
 
 /// A binary image in one colour for drawing at any zoom. Each coarser picture is the OR of 2x2
-/// pixels of the one before, so that a line one pixel wide is still there when the image is drawn
-/// small. Coarser pictures are made when they are asked for.
+/// pixels of the finer one, so that a line one pixel wide remains visible when the image is drawn
+/// small. Coarser pictures are computed on demand.
 class BitPixmaps {
  public:
   BitPixmaps(const BitImage& bits, const QColor& color);
 
-  /// The picture whose pixels cover 2^step pixels of the bits, with step as small as it can be
-  /// while one of its pixels covers at least `bits_per_pixel` of theirs, so that drawing it drops
-  /// none; the step comes back.
+  /// The picture whose pixels cover 2^step pixels of the bits, with the smallest step at which one
+  /// of its pixels covers at least `bits_per_pixel` of them, so that drawing it drops none. Sets
+  /// `step`.
   const QImage& at(double bits_per_pixel, int& step);
 
  private:
@@ -121,7 +121,7 @@ class GrayPyramid {
   const QImage& full() const { return pictures_.front(); }
   QSize size() const { return isNull() ? QSize() : full().size(); }
   /// The picture whose pixels cover 2^step pixels of the image, as large a step as
-  /// `image_per_pixel` allows; coarser ones are made when they are asked for.
+  /// `image_per_pixel` allows; coarser ones are computed on demand.
   const QImage& at(double image_per_pixel, int& step) const;
 
  private:

@@ -255,7 +255,7 @@ void ImagePanel::showAlternative() {
   askForRenders();
 }
 
-/// While two poses are compared, the edges of others stand back.
+/// While two poses are compared, the edges of others are drawn faintly.
 void ImagePanel::fadeOthers() {
   for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges}) {
     Layer layer = view_->layer(id);
@@ -410,7 +410,7 @@ void ImagePanel::askForAgreement() {
       });
 }
 
-/// Of the station below a pixel; nothing beside it, and while no pose is known.
+/// The point of the station at a pixel; empty outside the station, and while no pose is known.
 std::optional<sessions::SurfacePoint> ImagePanel::surfacePoint(const QPointF& pixel) const {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   const std::optional<Pose> pose = state_.knownPose();

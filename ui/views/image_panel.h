@@ -28,8 +28,8 @@ class MeasureTool;
 class TaskRunner;
 
 /// The image of the current case with the layers of the current iteration; over it the tools, the
-/// legend and what is shown. Follows the view state; lines of poses and the agreement are made by
-/// the task runner when their layer is shown first.
+/// legend and the shown iteration. Follows the view state; lines of poses and the agreement are
+/// computed by the task runner when their layer is first shown.
 class ImagePanel : public QWidget {
   Q_OBJECT
 
@@ -40,24 +40,24 @@ class ImagePanel : public QWidget {
   DisplayImage& display() { return *display_; }
   LayerLegend& legend() { return *legend_; }
   MeasureTool& measure() { return *measure_; }
-  /// The strip of tools on the image; owners of further tools add theirs.
+  /// The strip of tools on the image; other classes add their tools.
   QToolBar& tools();
-  /// The shown case and run, over the image.
+  /// Sets the title over the image: the shown case and run.
   void setTitle(const QString& text);
-  /// A second canvas at the right of the image, hidden until it is asked for; its owner is this
-  /// panel from now on.
+  /// Sets a second canvas to the right of the image, hidden until showBeside(); the panel becomes
+  /// its owner.
   void setBeside(QWidget* canvas);
   void showBeside(bool shown);
   void setStyle(LayerId id, const LayerStyle& style);
   const LayerStyle& style(LayerId id) const;
-  /// Edges of the pose being nudged; nullptr takes them away.
+  /// Sets the edges of the nudged pose; nullptr removes them.
   void setNudgedRender(std::shared_ptr<const sessions::RenderTrace> render, int level);
-  /// What is said while there is no image; nothing: what can be dropped here.
+  /// Sets the text shown without an image; empty: a list of files that can be dropped here.
   void setHint(const QString& hint);
-  /// Marks of a layer that no run fills.
+  /// Sets the marks of a layer that no run fills.
   void setMarks(LayerId id, std::vector<Mark> marks);
   void setLines(LayerId id, LinesPtr lines);
-  /// Shows where a place of the station is in the image; nothing: nowhere.
+  /// Marks a point of the station in the image; nothing: none.
   void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  public Q_SLOTS:
@@ -69,7 +69,7 @@ class ImagePanel : public QWidget {
   void stylesChanged();
   /// For the status bar: pixel, gray value, and the station point where the shown pose covers it.
   void placeText(const QString& text);
-  /// The place of the station under the pointer, or nothing.
+  /// The point of the station under the pointer, or nothing.
   void stationPlaceHovered(const std::optional<Eigen::Vector3d>& point_in_station_m);
   void allLayersRequested();
   /// A template was clicked.
@@ -96,7 +96,7 @@ class ImagePanel : public QWidget {
   void askForAgreement();
   void showImage();
 
-  /// What the pose's lines are of.
+  /// The iteration and pose of the pose's lines.
   struct PoseLines {
     std::shared_ptr<const sessions::IterationTrace> iteration;
     bool corrected = false;  ///< the pose after the iteration
@@ -119,7 +119,7 @@ class ImagePanel : public QWidget {
   QAction* core_view_ = nullptr;
   QTimer blink_timer_;
   ViewState::CasePtr shown_case_;
-  std::array<bool, kLayerCount> asked_{};  ///< lines of this case that were asked for
+  std::array<bool, kLayerCount> asked_{};  ///< lines of this case that were requested
   PoseLines pose_lines_;
   std::optional<LayerId> stage_layer_;  ///< shown for the stage, hidden before
   std::shared_ptr<const sessions::IterationTrace> agreement_of_;

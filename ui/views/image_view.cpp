@@ -21,7 +21,7 @@ constexpr double kClickSlack = 3.0;
 constexpr double kSwipeReach = 6.0;
 constexpr double kFaded = 0.25;
 constexpr double kCursorSize = 12.0;
-constexpr int kToolMargin = 56;  ///< of texts beside the tool strip
+constexpr int kToolMargin = 56;  ///< of texts next to the tool strip
 const QColor kSwipeColor(255, 255, 255);
 
 }  // namespace

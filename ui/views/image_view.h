@@ -18,8 +18,8 @@ namespace boresight::ui {
 
 /// The image with layers over it, in plain Qt: exact, and the same on every platform. The wheel
 /// zooms at the cursor, dragging pans, a double click fits, H held hides the layers; from 8x the
-/// pixel grid and the gray values show. It knows nothing of runs; its owner hands it pictures,
-/// lines and marks.
+/// pixel grid and the gray values show. It is independent of runs; its owner sets pictures, lines
+/// and marks.
 class ImageView : public QWidget {
   Q_OBJECT
 
@@ -31,9 +31,9 @@ class ImageView : public QWidget {
 
   /// 8-bit gray; a null image shows nothing but a hint. Keeps the zoom when the size stays.
   void setImage(const QImage& gray);
-  /// Gray levels that the values of the grid are taken from, when the picture is stretched.
+  /// Sets the gray levels for the values of the grid, when the picture is stretched.
   void setValues(const QImage& gray) { values_ = gray; }
-  /// Replaces one layer; the others keep what they have drawn before.
+  /// Replaces one layer; the others keep their pixmaps.
   void setLayer(Layer layer);
   const Layer& layer(LayerId id) const { return layers_[static_cast<std::size_t>(id)]; }
   void setStyle(LayerId id, const LayerStyle& style);
@@ -48,10 +48,10 @@ class ImageView : public QWidget {
   /// Layers are drawn only left of this share of the width; none: everywhere.
   void setSwipe(std::optional<double> share);
   const std::optional<double>& swipe() const { return swipe_; }
-  /// Where another view's pointer is; drawn as a cross. Nothing: nowhere.
+  /// Sets the position of another view's pointer, drawn as a cross. Nothing: none.
   void setLinkedCursor(const std::optional<QPointF>& pixel);
   const std::optional<QPointF>& linkedCursor() const { return linked_cursor_; }
-  /// Hides all layers for the moment (blinking).
+  /// Hides all layers temporarily (blinking).
   void setLayersHidden(bool hidden);
   bool layersHidden() const { return layers_hidden_; }
 
@@ -63,7 +63,7 @@ class ImageView : public QWidget {
   };
   std::optional<Pick> pickAt(const QPointF& widget) const;
 
-  /// What is shown when there is no image.
+  /// The text shown when there is no image.
   const QString& hint() const { return hint_; }
   void setHint(const QString& hint);
 
@@ -89,11 +89,10 @@ class ImageView : public QWidget {
   /// A tool takes the left button; its radius (image px) is shown round the cursor when positive.
   void setToolActive(bool active, double radius_px = 0.0);
   bool toolActive() const { return tool_active_; }
-  /// One tool works at a time: what else is in use is told to end.
+  /// One tool works at a time: other tools are asked to end.
   void claimTool(const QObject* owner) { Q_EMIT toolClaimed(owner); }
   void setToolPreviews(std::vector<ToolPreview> previews);
-  /// What is painted over everything else, in the widget's coordinates; one for each owner. Empty:
-  /// nothing.
+  /// Painting over everything else, in the widget's coordinates; one for each owner. Empty: none.
   using Overlay = std::function<void(QPainter&)>;
   void setOverlay(const QObject* owner, Overlay overlay);
 

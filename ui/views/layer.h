@@ -21,7 +21,7 @@
 
 namespace boresight::ui {
 
-/// What can lie over the image, from the lowest to the highest.
+/// Layers over the image, from the lowest to the highest.
 enum class LayerId : std::uint8_t {
   kIgnoreMask,
   kTestEdges,
@@ -45,7 +45,7 @@ enum class LayerId : std::uint8_t {
 };
 inline constexpr int kLayerCount = 19;
 
-/// Of the pose that solves the annotated marks, wherever it is drawn.
+/// Colour of the pose solved from annotations, in all views.
 inline const QColor kAnnotatedColor(178, 120, 255);
 
 struct LayerStyle {
@@ -56,7 +56,7 @@ struct LayerStyle {
   bool operator==(const LayerStyle&) const = default;
 };
 
-/// What the operator reads of a layer: its name, its key, how it looks at first.
+/// Description of a layer for the operator: its name, its key, its default look.
 struct LayerInfo {
   LayerId id = LayerId::kTestEdges;
   const char* name = "";
@@ -67,12 +67,12 @@ struct LayerInfo {
 };
 const LayerInfo& layerInfo(LayerId id);
 
-/// The run ended without a pose to trust; its pose never looks like a result.
+/// Whether the run ended without an accepted pose, which must not look like a result.
 inline bool isRejected(const sessions::LocalizationTrace& run) {
   return run.status != LocalizationStatus::kRunning && !run.converged();
 }
 
-/// Lines that a layer draws, shared with who made them.
+/// Lines that a layer draws, shared with their maker.
 using LinesPtr = std::shared_ptr<const sessions::EdgeLines>;
 LinesPtr linesOf(const sessions::RenderTrace& render, int level);
 
@@ -98,21 +98,21 @@ enum class MarkShape : std::uint8_t {
   kStrip,  ///< between two lines, lightly filled
 };
 
-/// Something drawn with lines of constant width. Coordinates are pixels of the full image; the
+/// A symbol drawn with lines of constant width. Coordinates are pixels of the full image; the
 /// centre of the top-left pixel is (0, 0).
 struct Mark {
   MarkShape shape = MarkShape::kCross;
-  QPointF at;                     ///< centre, or where an arrow or a segment begins
-  QPointF to;                     ///< where it ends
+  QPointF at;                     ///< centre, or start of an arrow or a segment
+  QPointF to;                     ///< end of an arrow or a segment
   QRectF area;                    ///< of a rectangle
   QPolygonF outline;              ///< of a strip: along one side and back along the other
-  double size_px = 9.0;           ///< on the screen, whatever the zoom
+  double size_px = 9.0;           ///< on the screen, at any zoom
   QColor color;                   ///< instead of the layer's, where valid
-  bool dashed = false;            ///< a second difference in addition to the colour
+  bool dashed = false;            ///< a second distinction in addition to the colour
   bool cased = false;             ///< with a dark rim, to be seen on any image
   double width = 1.5;             ///< of its lines, on the screen
   std::optional<LineToken> line;  ///< width, pattern and halo instead of these three
-  int item = -1;  ///< what it belongs to (a template, a point), or -1: cannot be picked
+  int item = -1;  ///< its object (a template, a point), or -1: cannot be picked
   QString label;
 };
 
@@ -123,16 +123,16 @@ struct Layer {
   std::vector<LayerBits> bits;
   std::vector<Mark> marks;
   LinesPtr lines;
-  std::optional<LineToken> line;  ///< how the lines look now, instead of the layer's own
-  QString name;                   ///< what it shows now, instead of the layer's name
-  bool faded = false;             ///< stands back while other layers are compared
+  std::optional<LineToken> line;  ///< present look of the lines, instead of the layer's own
+  QString name;                   ///< name of its present content, instead of the layer's name
+  bool faded = false;             ///< drawn faintly while other layers are compared
 
   bool empty() const { return bits.empty() && marks.empty() && (!lines || lines->empty()); }
-  /// With the colour of the style, unless the look is another for now.
+  /// With the colour of the style, unless `line` replaces it.
   LineToken shownLine() const;
 };
 
-/// How much residual vectors are magnified on the image.
+/// Magnification of residual vectors on the image.
 inline constexpr double kResidualMagnification = 40.0;
 
 std::vector<LayerBits> testEdgeBits(const std::shared_ptr<const sessions::EdgeMapTrace>& edges,

@@ -17,7 +17,7 @@ constexpr int kSample = 30;
 constexpr int kKeySide = 18;
 constexpr int kSpace = 8;
 
-/// Shown without being asked for while there is something to compare.
+/// Layers that are shown automatically while there is something to compare.
 constexpr LayerId kOnDemand[] = {LayerId::kHypothesisEdges, LayerId::kChosenEdges,
                                  LayerId::kNudgedEdges};
 

@@ -14,16 +14,15 @@ namespace boresight::ui {
 
 class ImagePanel;
 
-/// On the image: a line sample, the name and the key of each of a few layers; a click shows and
-/// hides it. What shows nothing now is gray.
+/// On the image: a line sample, the name and the key of each of a few layers; a click shows or
+/// hides the layer. Layers without content are gray.
 class LayerLegend : public QFrame {
   Q_OBJECT
 
  public:
   explicit LayerLegend(ImagePanel& image);
 
-  /// From top to bottom; layers that the operator compares with are added while they show
-  /// something.
+  /// Layers from top to bottom; layers for comparison are added while they have content.
   void setLayers(const std::vector<LayerId>& layers);
   const std::vector<LayerId>& layers() const { return layers_; }
   /// Layers that are listed now.

@@ -27,7 +27,7 @@ class LayersPanel : public QWidget {
 
   /// The layers of a workspace, from top to bottom, here and in the image's legend; empty: all.
   void setShortList(const std::vector<LayerId>& layers);
-  /// Shows all layers, as the legend's button asks for.
+  /// Shows all layers; called by the legend's button.
   void showAll();
 
  private:

@@ -15,15 +15,15 @@ namespace boresight::ui {
 class ViewTransform;
 
 QPen linePen(const LineToken& line);
-/// The wider one below it, whose dashes have the same places.
+/// The wider pen below it, whose dashes have the same positions.
 QPen haloPen(const LineToken& line);
 
-/// Edges at any zoom. Only the parts within `seen` (widget) are drawn, with the pattern that the
-/// whole line has.
+/// Draws edges at any zoom. Only the parts within `seen` (widget) are drawn, with the pattern of
+/// the whole line.
 void paintLines(QPainter& painter, const ViewTransform& transform, const sessions::EdgeLines& lines,
                 const LineToken& line, const QRectF& seen);
 
-/// A short piece for legends, along the middle of a box.
+/// Draws a line sample for legends, along the middle of a box.
 void paintLineSample(QPainter& painter, const QRectF& box, const LineToken& line);
 
 }  // namespace boresight::ui

@@ -16,9 +16,9 @@ class ImageView;
 enum class MaskTool : std::uint8_t { kNone, kBrush, kPolygon };
 
 /// Draws strokes of the ignore mask on an image view: a brush by dragging, a polygon by clicking
-/// its corners. What is drawn is told when the gesture ends; until the mask shows it, it is drawn
-/// as a preview. Enter or a click on the first or the last corner closes a polygon, Backspace drops
-/// its last corner, Escape drops the polygon, and without one the tool.
+/// its corners. The stroke is reported when the gesture ends; until the mask includes it, it is
+/// drawn as a preview. Enter or a click on the first or the last corner closes a polygon, Backspace
+/// drops its last corner, Escape drops the polygon, and without one the tool.
 class MaskEditor : public QObject {
   Q_OBJECT
 
@@ -37,14 +37,14 @@ class MaskEditor : public QObject {
   /// Closes the polygon under way: a stroke if it has three corners or more, else nothing.
   void closePolygon();
 
-  /// Strokes that were made and whose mask is still being computed.
+  /// Sets the strokes whose mask is still being computed.
   void setPending(const sessions::MaskStrokes& strokes);
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  Q_SIGNALS:
   void strokeDrawn(const boresight::sessions::MaskStroke& stroke);
-  /// Tool, size, or whether it erases.
+  /// Tool, size, or erasing has changed.
   void changed();
 
  private:

@@ -17,7 +17,7 @@ class ImageView;
 class ViewState;
 
 /// Measures on the image: from a press to the release, in pixels, and in millimetres on the
-/// station's surface where both ends are on it in the shown pose.
+/// station's surface if both ends are on it in the shown pose.
 class MeasureTool : public QObject {
   Q_OBJECT
 

@@ -53,7 +53,7 @@ void paintArrow(QPainter& painter, const QPointF& from, const QPointF& to) {
 }
 
 /// A strip whose outline goes along one side and back along the other: its ends stay open, as it
-/// goes on in the next one.
+/// continues in the next one.
 void paintStrip(QPainter& painter, const QPolygonF& outline) {
   QColor fill = painter.pen().color();
   fill.setAlphaF(kStripFill);

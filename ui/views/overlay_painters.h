@@ -23,24 +23,24 @@ inline constexpr QColor kLoupeCrossColor(255, 255, 255, 210);
 /// Leaves no brush behind.
 void paintLoupeCross(QPainter& painter, const QSizeF& loupe);
 
-/// Four short lines that leave the place itself free.
+/// Draws four short lines that leave the position itself free.
 void paintTicks(QPainter& painter, const QPointF& at, double from, double to);
 QPolygonF diamond(const QPointF& at, double half);
 double distanceToSegment(const QPointF& from, const QPointF& to, const QPointF& place);
 
-/// Draws a mark with lines of constant width, whatever the zoom.
+/// Draws a mark with lines of constant width at any zoom.
 void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& mark,
                const QColor& layer_color);
 
-/// Distance on the widget from a place to what is drawn of the mark.
+/// Distance on the widget from a position to the drawn mark.
 double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget);
 
 /// The size of a note over the image, and the note: a dark rounded box with one line of text.
 QSizeF noteSize(const QPainter& painter, const QString& text);
 void paintNote(QPainter& painter, const QPointF& top_left, const QString& text);
 
-/// What a tool is about to do, drawn over the image while a gesture is under way: a brush's track,
-/// or a polygon's outline.
+/// Preview of a tool's effect during a gesture, drawn over the image: a brush's track, or a
+/// polygon's outline.
 struct ToolPreview {
   std::vector<QPointF> points;  ///< px
   double radius_px = 0.0;       ///< of a brush; 0: an outline

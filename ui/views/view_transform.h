@@ -10,9 +10,9 @@
 
 namespace boresight::ui {
 
-/// Where the pointer is on a widget, in its coordinates: the centre of the screen pixel that the
-/// pointer's tip is on. Windowing systems tell that pixel's corner, and QMouseEvent::pos() rounds
-/// it to whole coordinates, which where the display is scaled are more than a screen pixel apart.
+/// Position of the pointer on a widget, in its coordinates: the centre of the screen pixel at the
+/// pointer's tip. Windowing systems report that pixel's corner, and QMouseEvent::pos() rounds it to
+/// whole coordinates, which on scaled displays are more than a screen pixel apart.
 inline QPointF pointerPlace(const QMouseEvent& event, const QWidget& widget) {
 #if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
   const QPointF corner = event.localPos();
@@ -23,7 +23,7 @@ inline QPointF pointerPlace(const QMouseEvent& event, const QWidget& widget) {
   return corner + QPointF(half, half);
 }
 
-/// A pixel as Qt draws it.
+/// A pixel as a Qt point.
 inline QPointF pointOf(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y()}; }
 
 /// Between image pixels (the centre of the top-left one is (0, 0)) and the widget's coordinates:
@@ -39,12 +39,12 @@ class ViewTransform {
   /// Corners of pixels on the widget: the whole image is imageRect({-0.5, -0.5, width, height}).
   QRectF toWidget(const QRectF& pixels) const;
 
-  /// The whole image, centred.
+  /// Shows the whole image, centred.
   void fit(const QSizeF& image, const QSizeF& widget);
-  /// A scale about a place that stays where it is on the widget.
+  /// Sets the scale about a fixed point of the widget.
   void zoomAt(const QPointF& widget, double scale);
   void pan(const QPointF& widget_delta) { offset_ += widget_delta; }
-  /// Puts a pixel into the middle.
+  /// Moves a pixel to the middle of the widget.
   void centreOn(const QPointF& pixel, const QSizeF& widget);
 
   bool operator==(const ViewTransform&) const = default;

@@ -32,9 +32,12 @@ bool ColumnFitter::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
+/// The width that a column needs: the last one may be stretched over what is left.
 int ColumnFitter::widthOf(int column) const {
   const auto hidden = hidden_.find(column);
-  return hidden == hidden_.end() ? header_.sectionSize(column) : hidden->second;
+  if (hidden != hidden_.end()) return hidden->second;
+  const bool stretched = header_.stretchLastSection() && column == header_.count() - 1;
+  return stretched ? header_.sectionSizeHint(column) : header_.sectionSize(column);
 }
 
 void ColumnFitter::show(int column, bool shown) {
@@ -42,7 +45,7 @@ void ColumnFitter::show(int column, bool shown) {
     if (shown)
       hidden_.erase(column);
     else
-      hidden_[column] = header_.sectionSize(column);
+      hidden_[column] = widthOf(column);
     header_.setSectionHidden(column, !shown);
   }
 }
@@ -53,7 +56,7 @@ void ColumnFitter::fit() {
   int room = view_.viewport()->width();
   for (int column = 0; column < header_.count(); ++column)
     if (std::find(dispensable_.begin(), dispensable_.end(), column) == dispensable_.end())
-      room -= header_.sectionSize(column);
+      room -= widthOf(column);
   for (auto column = dispensable_.rbegin(); column != dispensable_.rend(); ++column) {
     const int width = widthOf(*column);
     const bool fits = width <= room;

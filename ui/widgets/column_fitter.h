@@ -13,9 +13,9 @@ class QTreeView;
 
 namespace boresight::ui {
 
-/// Keeps a table or a tree from scrolling sideways: where it is too narrow, columns that can be done without
-/// are hidden, the first of the list first, and come back where there is room. Once the operator
-/// has chosen columns, those stay. Belongs to the view.
+/// Keeps a table or a tree from scrolling sideways: when it is too narrow, dispensable columns are
+/// hidden, the first of the list first, and shown again when there is room. Once the operator has
+/// chosen columns, those stay. Belongs to the view.
 class ColumnFitter : public QObject {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ class ColumnFitter : public QObject {
   QAbstractItemView& view_;
   QHeaderView& header_;
   std::vector<int> dispensable_;
-  std::map<int, int> hidden_;  ///< by this object, with their widths
+  std::map<int, int> hidden_;  ///< hidden by this object, with their widths
   bool fitting_ = false;
 };
 

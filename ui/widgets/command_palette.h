@@ -14,8 +14,8 @@ class QMenuBar;
 
 namespace boresight::ui {
 
-/// Every action of the menus, found by parts of its name; Enter does it. Actions that cannot be
-/// used now are listed in gray, with the reason as tip.
+/// Every action of the menus, found by parts of its name; Enter triggers it. Disabled actions are
+/// listed in gray, with the reason as tip.
 class CommandPalette : public QDialog {
   Q_OBJECT
 

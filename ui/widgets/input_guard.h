@@ -6,7 +6,7 @@
 namespace boresight::ui {
 
 /// For the whole program: the wheel never changes a field that does not have the focus, and Ctrl+Z
-/// and Ctrl+Shift+Z are the session's, not those of the field that has it. Installed as the
+/// and Ctrl+Shift+Z apply to the session, not to the field with the focus. Installed as the
 /// application's event filter.
 class InputGuard : public QObject {
   Q_OBJECT

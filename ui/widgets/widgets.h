@@ -18,15 +18,15 @@ class QTableWidget;
 
 namespace boresight::ui {
 
-/// How all tables look: whole rows, one at a time, no row numbers, compact, columns as wide as what
-/// they hold. A menu of the header hides columns and shows them, which is remembered.
+/// Style of all tables: whole rows, one at a time, no row numbers, compact, columns as wide as
+/// their contents. A menu of the header hides and shows columns; the choice is remembered.
 void styleTable(QTableView& table);
 /// Whether the operator has chosen the columns of this view.
 bool hasChosenColumns(const QAbstractItemView& view);
-/// The same for a table of a model, which it is given.
+/// Sets the model of a table and styles it.
 void setUpTable(QTableView& table, QAbstractItemModel& model);
 
-/// Appends a row of texts: the first to the left, the others, figures, to the right.
+/// Appends a row of texts: the first left aligned, the others (figures) right aligned.
 void addRow(QTableWidget& table, const QStringList& texts);
 
 /// The widget, with a name for tests and a tool tip.
@@ -42,8 +42,7 @@ inline QKeySequence keys(const char* text) { return QKeySequence(QLatin1String(t
 
 /// A tip that names the keys of the action, if there are any.
 void setTip(QAction& action, const QString& tip);
-/// Says in an empty list why it is empty and what to do about it. Lies over the view and takes no
-/// clicks.
+/// States in an empty list why it is empty and what to do. Lies over the view and takes no clicks.
 class EmptyHint : public QLabel {
   Q_OBJECT
 
@@ -69,10 +68,10 @@ class FoldButton : public QToolButton {
  public:
   explicit FoldButton(QWidget* parent = nullptr);
 
-  /// `folded` holds until the operator chooses otherwise.
+  /// `folded` is used until the operator chooses.
   void restore(bool folded);
   bool isFolded() const { return !isChecked(); }
-  /// What is folded; the button hides where that is nothing.
+  /// Describes the folded part; the button hides when `text` is empty.
   void setContent(const QString& text);
 
  Q_SIGNALS:
@@ -82,8 +81,8 @@ class FoldButton : public QToolButton {
   QString key() const;
 };
 
-/// A sentence behind a sign of its own shape, and a button where something can be done about it.
-/// The colour is never the only difference.
+/// A sentence after a sign with a unique shape, and a button for a remedy. The colour is never the
+/// only distinction.
 class Banner : public QFrame {
   Q_OBJECT
 
@@ -93,12 +92,12 @@ class Banner : public QFrame {
   explicit Banner(QWidget* parent = nullptr);
 
   void setMessage(const QString& sign, const QString& text, Tone tone);
-  /// Progress of a run; after its end what was measured, what was needed and what to try. nullptr:
-  /// no run.
+  /// Progress of a run; after its end the measured values, the required values and a remedy.
+  /// nullptr: no run.
   void showRun(const sessions::LocalizationTrace* run);
   /// Shows the first sentences, and all of them in the tooltip. Hides the banner when empty.
   void showWarnings(const QStringList& sentences);
-  /// Adds the button; `tip` says what it does.
+  /// Adds the button; `tip` describes its action.
   void setAction(const QString& text, const QString& tip);
   QString text() const;
 

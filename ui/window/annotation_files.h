@@ -17,21 +17,21 @@ namespace boresight::ui {
 
 class AnnotationPanel;
 
-/// Annotations, annotated poses and landmarks from and to files that the operator is asked for.
+/// Imports and exports annotations, annotated poses and landmarks; asks the operator for the files.
 class AnnotationFiles : public QObject {
   Q_OBJECT
 
  public:
   AnnotationFiles(QWidget& window, const WindowParts& parts, AnnotationPanel& panel);
 
-  /// points.json or a table (.csv): the annotations of the shown case are replaced by these.
+  /// Replaces the annotations of the shown case by those of a points.json or a table (.csv).
   void importAnnotations();
   void exportAnnotations();
 
  Q_SIGNALS:
-  /// Something could not be done; one sentence.
+  /// An action failed; one sentence.
   void failed(const QString& message);
-  /// What happened, for the status bar.
+  /// The result, for the status bar.
   void noted(const QString& message);
 
  private:
@@ -40,12 +40,13 @@ class AnnotationFiles : public QObject {
                                               const sessions::CasePoses&);
   using Importer = sessions::ImportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&, bool);
-  /// Annotated poses of all cases that have any, in a new folder; done when `noted` says so.
+  /// Exports the annotated poses of all cases to a new folder; noted() is emitted when done.
   void exportPoses(Exporter exporter, const QString& title, const QString& name);
-  /// Poses of the folder become the truths of the cases that it names.
+  /// Makes the poses of the folder the truths of the cases that it names.
   void importPoses(Importer importer, const QString& title);
   void openLandmarks();
-  /// The station's landmarks with the annotations of this image, which the case then uses.
+  /// Saves the station's landmarks with the annotations of this image; the case then uses this
+  /// file.
   void saveLandmarks();
   std::string caseId() const { return shownCaseId(parts_.document, parts_.state); }
   bool mayReplaceAnnotations();

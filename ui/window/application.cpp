@@ -154,7 +154,8 @@ void nameApplication(QApplication& application) {
   QCoreApplication::setOrganizationName(QStringLiteral("Boresight"));
   QCoreApplication::setApplicationName(QStringLiteral("boresight"));
   QCoreApplication::setApplicationVersion(QString::fromUtf8(sessions::kVersion));
-  // What is installed: the entry that docks and task bars know the window by, and its icon.
+  // Installed files: the desktop entry by which docks and task bars identify the window, and its
+  // icon.
   QGuiApplication::setDesktopFileName(QStringLiteral("boresight"));
   QApplication::setWindowIcon(QIcon::fromTheme(QStringLiteral("boresight")));
   application.setStyle(new ProgramStyle);

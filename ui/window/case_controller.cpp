@@ -146,7 +146,7 @@ void CaseController::loaded(const QString& id,
   run_is_prepared_ = false;
   const ViewState::CasePtr& before = state_.currentCase();
   const bool edited = before && before->source.id == loaded_case->source.id;
-  // A run that did not end cannot go on with other inputs; one that did stays, as a stale one.
+  // A run that has not ended cannot continue with other inputs; a finished one stays and is stale.
   if (edited && state_.snapshot() && state_.snapshot()->finished) {
     state_.replaceCase(std::move(loaded_case));
     judgeInputs();
@@ -159,7 +159,7 @@ void CaseController::loaded(const QString& id,
   loadLatestRun(id);
 }
 
-/// By the run's own checks, before the operator asks for a run.
+/// By the run's own checks, before the operator requests a run.
 void CaseController::judgeInputs() {
   tasks_.start(
       QStringLiteral("judge inputs"),
@@ -364,7 +364,8 @@ void CaseController::store(const EndedRun& ended) {
       },
       [this, ended, file = document_.file()](const Stored& stored) {
         --storing_;
-        // Before it is noted: a failure is told at once, and answered by saving elsewhere.
+        // Before it is recorded: a failure is reported at once, and the answer is to save
+        // elsewhere.
         unstored_file_ = file;
         unstored_.push_back(ended);
         if (stored.records.empty()) {

@@ -24,8 +24,8 @@ namespace boresight::ui {
 class Document;
 class TaskRunner;
 
-/// What happens between document, worker and view state: a case that is chosen is read and shown
-/// with its latest run, a run is shown as it goes and stored when it ends.
+/// Connects document, worker and view state: a chosen case is read and shown with its latest run; a
+/// run is shown while it proceeds and stored when it ends.
 class CaseController : public QObject {
   Q_OBJECT
 
@@ -36,55 +36,55 @@ class CaseController : public QObject {
   const QString& caseId() const { return case_id_; }
   /// Why the case could not be read, or empty.
   const QString& loadProblem() const { return load_problem_; }
-  /// The options that the next run of the case has.
+  /// The options of the next run of the case.
   LocalizerOptions options() const;
-  /// Whether the shown run was made with other options or inputs; then `stale` names what.
+  /// A sentence when the case's last run was made with other options or inputs; else empty.
   QString staleness() const;
   /// Why the case cannot be run together with other views, one sentence; empty when it can.
   QString whyAlone() const;
-  /// The batch under way, from its first case's reading to its last run's storing; else nothing.
+  /// The batch under way, from reading its first case to storing its last run; else nothing.
   const std::optional<BatchProgress>& batch() const { return batch_.progress(); }
-  /// What a run of the shown case would refuse; nothing while that is not known.
+  /// Input that a run of the shown case would reject; nothing while that is not known.
   const std::optional<sessions::InputConcern>& inputConcern() const { return input_concern_; }
   /// Why the shown case cannot be run, or empty.
   QString whyNotRunnable() const;
 
  public Q_SLOTS:
-  /// Shows another case; a batch goes on.
+  /// Shows another case; a batch continues.
   void chooseCase(const QString& id);
   void advance(boresight::sessions::StepUntil until);
-  /// The case that is being read, as soon as it is there.
+  /// Runs the case that is being read as soon as it is loaded.
   void runOnceLoaded() { run_when_loaded_ = sessions::StepUntil::kEnd; }
-  /// Keeps the shown run's iterations before this one and computes those from it on with the
-  /// options as they are now.
+  /// Keeps the shown run's iterations before this one and computes the following ones with the
+  /// present options.
   void rerunFrom(int iteration);
-  /// Runs the case by a plan of its own instead of the session's options.
+  /// Runs the case by this plan instead of the session's options.
   void runPlan(const boresight::sessions::RunPlan& plan);
-  /// Halts the run and ends the batch, also while a case of it is read or stored.
+  /// Halts the run and ends the batch, also while one of its cases is read or stored.
   void stop();
-  /// Drops the shown run; the next step begins again.
+  /// Drops the shown run; the next step starts a new one.
   void reset();
-  /// In the background: the shown case stays, and shows its run when its turn is over.
+  /// Runs cases in the background: the shown case stays, and its run is shown when it has ended.
   void runAll(const QStringList& ids);
   /// Runs the case to its end together with the other views of its rig, as one pose; each gets a
   /// run of its own.
   void runTogether();
-  /// Of runs that have ended and for which there was no room where the session lies; they are
-  /// stored as soon as it is saved, there or elsewhere.
+  /// Cases of ended runs that could not be stored in the session's folder (no room); they are
+  /// stored as soon as the session is saved, there or elsewhere.
   QStringList unstoredRuns() const;
-  /// Waits until a run that has ended is in the session: what was shown as done is not lost.
+  /// Waits until a run that has ended is stored in the session, so that it is not lost.
   void finishStoring();
-  /// Puts another file in place of a case's input, once it is read.
+  /// Replaces a case's input by another file, once that is read.
   void changeInput(const QString& id, boresight::sessions::InputKind kind,
                    const std::filesystem::path& file, const std::string& mesh_unit);
   void useAsSeed(const boresight::Pose& camera_from_station);
-  /// States how far the seed may be off, and runs the case again.
+  /// Sets the seed's uncertainty, and runs the case again.
   void runWithUncertainty(const boresight::sessions::DeclaredUncertainty& uncertainty);
-  /// The same with a seed that may be turned by any angle about the view axis.
+  /// The same with any rotation of the seed about the view axis allowed.
   void runWithWiderSearch();
-  /// A gesture has ended: where the pose is nudged to becomes an edit of the document.
+  /// Makes the nudged pose an edit of the document, at the end of a gesture.
   void keepNudgedPose();
-  /// Shows an earlier run of the case in place of the latest.
+  /// Shows an earlier run of the case instead of the latest.
   void showRun(const std::string& digest);
   void setOptions(const QString& profile, const boresight::LocalizerOptions& options);
 
@@ -92,19 +92,19 @@ class CaseController : public QObject {
   void caseChosen(const QString& id);
   /// Reading, running or storing something failed; one sentence.
   void failed(const QString& message);
-  /// There is no room for a run where the session lies; one sentence.
+  /// There is no room for a run in the session's folder; one sentence.
   void storeFailed(const QString& message);
   void stalenessChanged();
-  /// A batch has begun, gone on to its next case, or ended.
+  /// A batch has begun, continued with its next case, or ended.
   void batchChanged();
 
  private:
   /// All that is needed to store a run.
   struct EndedRun {
-    sessions::Session session;  ///< as it was made from
+    sessions::Session session;  ///< from which it was run
     std::string case_id;
     ViewState::SnapshotPtr snapshot;
-    std::string continued;  ///< digest of the run that it goes on from, or empty
+    std::string continued;  ///< digest of the run that it continues, or empty
     std::vector<ViewState::SnapshotPtr> views;  ///< of several that were solved as one
     bool of_batch = false;
   };
@@ -142,16 +142,16 @@ class CaseController : public QObject {
   QString load_problem_;
   std::optional<sessions::InputConcern> input_concern_;
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
-  std::optional<sessions::SessionCase> asked_;  ///< what was read last, or is being read
+  std::optional<sessions::SessionCase> asked_;  ///< the case read last, or being read
   bool run_is_prepared_ = false;
   int storing_ = 0;
   std::vector<EndedRun> unstored_;
   std::filesystem::path unstored_file_;  ///< where there was no room
-  sessions::Session run_session_;        ///< what the run that is prepared is made from
+  sessions::Session run_session_;        ///< of the prepared run
   std::optional<sessions::StepUntil> run_when_loaded_;
   Batch batch_;
-  sessions::Session batch_session_;  ///< what the case at work is run from
-  QStringList batch_failures_;       ///< told together at its end
+  sessions::Session batch_session_;  ///< of the case under way
+  QStringList batch_failures_;       ///< reported together at its end
 };
 
 }  // namespace boresight::ui

@@ -65,8 +65,8 @@ namespace {
 constexpr int kCaseThumbnail_px = 128;  // also sharp on a screen of double density
 constexpr int kPause_ms = 200;          // the list is filled as a whole
 
-/// As the canvas shows the image at first. Null when the file cannot be read: the operator who
-/// opens the case is told why.
+/// As the canvas shows the image at first. Null when the file cannot be read: opening the case
+/// reports the reason.
 QImage thumbnailOf(const sessions::ImageInput& input) {
   try {
     const sessions::ImageSamples samples =
@@ -118,7 +118,7 @@ void CaseDetails::readNext() {
   Q_EMIT changed();
 }
 
-/// Of a thousand files it is told some times a second, and at the end.
+/// Limits the signal to some times per second, and emits it at the end.
 void CaseDetails::tellSoon() {
   if (!pause_.isActive()) pause_.start();
   readNext();

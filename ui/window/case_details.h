@@ -17,29 +17,29 @@
 
 namespace boresight::ui {
 
-/// The session's cases as the list of cases shows them. `running` is the id of the one at work, or
+/// The session's cases as rows of the list of cases. `running` is the id of the case under way, or
 /// empty; `file` is the session's, for messages; `known` is kept from one call to the next.
 std::vector<CaseRow> caseRows(const sessions::Session& session, const QString& running,
                               const std::filesystem::path& file, sessions::StaleRuns& known);
 
 class TaskRunner;
 
-/// What the list of cases shows and the session does not hold: small pictures of the images, and
-/// how far the results of the latest runs are from the truth. Files are read off the UI's thread,
-/// each once and one at a time, so that whatever a person asks for comes in between.
+/// Data of the list of cases that the session does not hold: thumbnails of the images, and errors
+/// of the latest runs against the truth. Files are read on a worker thread, each once and one at a
+/// time, so that requests of the operator run in between.
 class CaseDetails : public QObject {
   Q_OBJECT
 
  public:
   explicit CaseDetails(TaskRunner& tasks, QObject* parent = nullptr);
 
-  /// Takes note of what is to be read; what is known already is kept.
+  /// Sets the session whose files are to be read; known data is kept.
   void setSession(const sessions::Session& session);
-  /// Adds what is known by now to rows of the session.
+  /// Adds the data known so far to rows of the session.
   void fill(std::vector<CaseRow>& rows) const;
 
  Q_SIGNALS:
-  /// There is more to fill in.
+  /// More data is available.
   void changed();
 
  private:
@@ -54,7 +54,7 @@ class CaseDetails : public QObject {
   std::map<std::string, QImage> thumbnails_;          ///< by hash of the file; null: cannot be read
   std::map<std::string, std::optional<Pose>> poses_;  ///< by digest of the run; nothing: no result
   bool reading_ = false;
-  std::size_t next_ = 0;  ///< case to look at next, for its picture, then again for its run
+  std::size_t next_ = 0;  ///< next case to read, first for its picture, then for its run
   QTimer pause_;          ///< between two signals
 };
 

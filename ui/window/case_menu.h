@@ -14,7 +14,7 @@ namespace boresight::ui {
 
 class Workspaces;
 
-/// What can be done with one case of a list, as its context menu.
+/// The context menu of one case of a list.
 class CaseMenu : public QObject {
   Q_OBJECT
 

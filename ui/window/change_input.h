@@ -16,7 +16,7 @@ QString inputName(sessions::InputKind kind);
 /// Files of this kind, for a dialog.
 QString inputFilter(sessions::InputKind kind);
 
-/// Asks for another file of this kind; a mesh also for its unit. Undo brings the former one back.
+/// Asks for another file of this kind; for a mesh also for its unit. Undo restores the former one.
 void askForInput(const WindowParts& parts, QWidget& window, const QString& case_id,
                  sessions::InputKind kind);
 /// Asks for another unit of the mesh.

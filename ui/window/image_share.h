@@ -7,8 +7,8 @@ namespace boresight::ui {
 
 class MainWindow;
 
-/// The part of the window that shows the image, 0 .. 1: of the image as it lies in its view, what
-/// neither the view's border nor another widget above the view cuts off.
+/// The share of the window that shows the image, 0 .. 1: the part of the image that is inside its
+/// view and not covered by another widget.
 double imageShare(MainWindow& window);
 
 }  // namespace boresight::ui

@@ -15,10 +15,9 @@ namespace boresight::ui {
 
 class Banner;
 
-/// Compares the files of a session with what the session knows of them once its first case is read,
-/// says which are missing or changed, and mends it when asked: looks for moved files below the
-/// session's folder, or takes changed ones as they are. Hashing may take long, so it has a runner
-/// of its own.
+/// Compares the files of a session with the hashes in the session once its first case is read,
+/// reports missing and changed files, and on request searches for moved files below the session's
+/// folder or accepts changed ones. Hashing may take long, so it has a runner of its own.
 class InputFindings : public QObject {
   Q_OBJECT
 
@@ -27,7 +26,7 @@ class InputFindings : public QObject {
 
   const std::vector<sessions::Finding>& findings() const { return findings_; }
   bool isBusy() const { return waits_ || tasks_.isBusy(); }
-  /// Which files of a case are not as they should be and what to do; empty when all are.
+  /// Missing or changed files of a case and what to do; empty when there are none.
   QString adviceFor(const QString& case_id) const;
 
  public Q_SLOTS:

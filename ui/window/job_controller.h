@@ -13,7 +13,7 @@ namespace boresight::ui {
 
 class ReviewController;
 
-/// Keeps the job strip in step with what runs, and stops it.
+/// Updates the job strip with the running jobs, and stops them.
 class JobController : public QObject {
   Q_OBJECT
 
@@ -23,8 +23,8 @@ class JobController : public QObject {
 
   Job job() const;
   void update();
-  /// All that runs: a run, a batch also between two cases, a sequence, a
-  /// convergence test.
+  /// Stops everything that runs: a run, a batch (also between two cases), a sequence, a convergence
+  /// test.
   void stop();
 
  private:

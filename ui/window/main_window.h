@@ -42,15 +42,15 @@ class MainWindow : public QMainWindow {
 
   /// Opens a session; false, with a message, when it cannot.
   bool openSession(const std::filesystem::path& file);
-  /// A session of its own from files: another session, a dataset, or what makes a case.
+  /// Makes a session from files: another session, a dataset, or the files of a case.
   void takeFiles(const std::vector<std::filesystem::path>& files);
 
-  /// Messages are kept instead of shown, for pictures and tests.
+  /// Messages are stored instead of shown, for pictures and tests.
   void setQuiet(bool quiet) { quiet_ = quiet; }
   const QString& lastMessage() const { return last_message_; }
 
-  /// Takes the place, size and panels that the window had when it was last closed, and leaves them
-  /// to the next one. Without this the window is as at the first start.
+  /// Restores position, size and panels of the window from its last session, and stores them when
+  /// it closes. Without this call the window is as at the first start.
   void rememberLayout();
 
   Document& document() { return document_; }

@@ -12,8 +12,8 @@ namespace boresight::ui {
 
 class LevelsPanel;
 
-/// Makes another rule by which images become 8 bit an edit of the document. The images are read off
-/// this thread first, as the document knows their 8-bit pixels by a hash.
+/// Makes a changed rule for the conversion of images to 8 bit an edit of the document. The images
+/// are read on a worker thread first, as the document stores the hash of their 8-bit pixels.
 class LevelsController : public QObject {
   Q_OBJECT
 
@@ -35,8 +35,8 @@ class ImagePanel;
 class MaskEditor;
 class MaskPanel;
 
-/// Makes what is drawn on the image and asked for in the panel edits of the document, and shows in
-/// both what the document says. A stroke belongs to the case whose image it was drawn on.
+/// Makes strokes drawn on the image and requests of the panel edits of the document, and shows the
+/// document's state in both. A stroke belongs to the case on whose image it was drawn.
 class MaskController : public QObject {
   Q_OBJECT
 

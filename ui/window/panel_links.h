@@ -14,7 +14,7 @@ namespace boresight::ui {
 
 class WindowDocks;
 
-/// Shows the case and the iteration that the queue asks for.
+/// Shows the case and the iteration that the queue requests.
 class QueueLinks : public QObject {
   Q_OBJECT
 
@@ -39,8 +39,8 @@ class CaseDetails;
 class PoseRenderer;
 class WindowDocks;
 
-/// Keeps the panels in step with the document, the worker and the view state, and hands on what a
-/// person asks of them. Panels that follow the view state alone are not known here.
+/// Updates the panels from the document, the worker and the view state, and forwards the operator's
+/// requests. Panels that follow only the view state are not included.
 class PanelLinks : public QObject {
   Q_OBJECT
 
@@ -50,7 +50,7 @@ class PanelLinks : public QObject {
  Q_SIGNALS:
   /// A panel cannot show something; one sentence.
   void failed(const QString& message);
-  /// What looks wrong with the shown case's inputs; sentences.
+  /// Probable errors of the shown case's inputs; sentences.
   void warningsChanged(const QStringList& sentences);
 
  private:

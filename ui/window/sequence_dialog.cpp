@@ -12,6 +12,7 @@
 #include "ui/style/icons.h"
 #include "ui/views/display_image.h"
 #include "ui/views/image_view.h"
+#include "ui/widgets/column_fitter.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 
@@ -30,6 +31,9 @@ struct FramePicture {
   LinesPtr lines;
   QString problem;  ///< why there is no image
 };
+
+/// Of sequenceColumns(), those that a narrow table does without, the first one first.
+const std::vector<int> kDispensable = {6, 5, 4, 3};
 
 std::vector<TableColumn<sessions::SequenceRow>> sequenceColumns() {
   using Row = const sessions::SequenceRow&;
@@ -175,6 +179,7 @@ QWidget* SequenceDialog::buildForm() {
 QWidget* SequenceDialog::buildFrames() {
   setUpTable(*table_, *model_);
   table_->horizontalHeader()->setStretchLastSection(true);
+  new ColumnFitter(*table_, kDispensable);
   (new EmptyHint(*table_))->setText(tr("Choose the images, then Run: one row per frame."));
   auto* split = new QSplitter;
   split->addWidget(table_);

@@ -32,7 +32,7 @@ class SequenceModel : public RowsModel<sessions::SequenceRow> {
   QVariant look(const sessions::SequenceRow& row, int column, int role) const override;
 };
 
-/// Runs the shown case's station through a sequence of images: asks for images, motion and results,
+/// Localizes the shown case's station in a sequence of images: asks for images, motion and results,
 /// lists the frames as they come, and shows the chosen frame with the outline of its pose. Closing
 /// it does not stop the run.
 class SequenceDialog : public QDialog {
@@ -44,7 +44,7 @@ class SequenceDialog : public QDialog {
   /// A folder, list or video; results go next to it unless they were chosen.
   void setImages(const std::filesystem::path& images);
   void setResults(const std::filesystem::path& results);
-  /// Starts with what the fields state.
+  /// Starts with the values of the fields.
   void start();
   QTableView& table() { return *table_; }
   ImageView& picture() { return *picture_; }
@@ -75,7 +75,7 @@ class SequenceDialog : public QDialog {
   QTableView* table_;
   ImageView* picture_;
   std::filesystem::path chosen_results_;  ///< empty: next to the images
-  QString problem_;                       ///< why it did not start or go on
+  QString problem_;                       ///< why it did not start or continue
   TaskRunner pictures_;
 };
 

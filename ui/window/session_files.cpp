@@ -260,7 +260,7 @@ void SessionFiles::measureMesh() {
         mesh_extent_ = extent;
         Q_EMIT collectedChanged();
       },
-      [](const QString&) {});  // told when the case is made
+      [](const QString&) {});  // reported when the case is created
 }
 
 /// After the mesh was measured: the same thread does one after the other.
@@ -295,7 +295,7 @@ void SessionFiles::closeSession() {
 }
 
 /// Every image and mesh is read and hashed: off the UI's thread. Runs of results become cases, the
-/// most troubled first, and the queue comes to the front.
+/// worst first, and the queue is brought to the front.
 void SessionFiles::makeFrom(const std::filesystem::path& file, bool results) {
   if (!mayLeave()) return;
   forgetCollected();

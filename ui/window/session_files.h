@@ -22,21 +22,20 @@ class QWidget;
 namespace boresight::ui {
 
 /// Sessions that were opened or saved last, the newest first, as absolute paths. Kept in the
-/// program's settings; files that are gone are left out.
+/// program's settings; files that no longer exist are left out.
 QStringList recentFiles();
 void noteRecentFile(const std::filesystem::path& file);
 
-/// A session's file with the suffix by which sessions are listed: "sol" becomes
-/// "sol.boresight.json".
+/// A session's file name with the suffix of sessions: "sol" becomes "sol.boresight.json".
 std::filesystem::path sessionFileName(std::filesystem::path file);
 
 /// The units that a mesh can be in, the likely ones first.
 inline constexpr std::array<const char*, 5> kMeshUnits = {"m", "mm", "cm", "in", "ft"};
-/// "m: 412 mm across"; the unit alone where the extent is not known.
+/// "m: 412 mm across"; the unit alone when the extent is not known.
 QString meshUnitText(const char* unit, const std::optional<double>& extent);
 
-/// Sessions and what they are made of, from and to files: opening, making, saving, recovering. Asks
-/// a person where it must, in front of the window.
+/// Opens, creates, saves and recovers sessions, and collects the files of new cases. Asks the
+/// operator in dialogs of the window.
 class SessionFiles : public QObject {
   Q_OBJECT
 
@@ -45,8 +44,8 @@ class SessionFiles : public QObject {
 
   /// False, with a message, when it cannot be opened.
   bool open(const std::filesystem::path& file);
-  /// Another session, a dataset, results, or what makes a case; parts of a case are kept until it
-  /// is whole.
+  /// Takes another session, a dataset, results, or files of a case; the latter are collected until
+  /// the case is complete.
   void take(const std::vector<std::filesystem::path>& files);
   /// Whether the open session may be left; asks when it has changes.
   bool mayLeave();
@@ -58,43 +57,43 @@ class SessionFiles : public QObject {
   FilesSituation situation() const;
   /// Largest extent of the collected mesh in the file's own numbers; nothing until it is measured.
   const std::optional<double>& meshExtent() const { return mesh_extent_; }
-  /// What the collected files are, and why some cannot be used; empty until they are read.
+  /// Description of the collected files, and why some cannot be used; empty until they are read.
   const sessions::JudgedFiles& judged() const { return judged_; }
-  /// The case is made where nothing else is needed.
+  /// Sets the unit; the case is created when nothing else is needed.
   void setMeshUnit(const std::string& unit);
   void askForFile(sessions::InputKind kind);
-  /// For the file that cannot be used, else the first that is missing; with all there, the case is
-  /// made.
+  /// Asks for the file that cannot be used, else for the first missing one; when all are present,
+  /// the case is created.
   void askForNext();
   void removeFile(sessions::InputKind kind);
-  /// A case that has all but a seed.
+  /// Creates a case without a seed.
   void makeSeedless();
   void forgetCollected();
-  /// Whether a case becomes a session of its own, or is added to the one that is open.
+  /// Whether a case becomes a session of its own or is added to the open one.
   void setMakesNewSession(bool makes) { makes_new_session_ = makes; }
-  /// A session of the examples under a new name, run at once.
+  /// Opens an example session under a new name and runs it.
   void openExample(const std::filesystem::path& file);
-  /// An untitled session that a program has left.
+  /// Opens an untitled session left by a program that ended.
   void recoverUntitled(const std::filesystem::path& file);
 
  public Q_SLOTS:
   void askForSession();
   void askForFiles();
-  /// Makes room for another session.
+  /// Closes the session; asks when it has changes.
   void closeSession();
   bool save();
   bool saveAs();
-  /// Says why nothing can be written where the session lies, and offers to save it elsewhere.
+  /// Reports why nothing can be written in the session's folder, and offers to save it elsewhere.
   void offerSavingElsewhere(const QString& reason);
 
  Q_SIGNALS:
-  /// Something could not be done; one sentence.
+  /// An action failed; one sentence.
   void failed(const QString& message);
-  /// What happened, for the status bar.
+  /// The result, for the status bar.
   void noted(const QString& message);
-  /// Files of a case have come, or are gone.
+  /// Files of a case were added or removed.
   void collectedChanged();
-  /// The session that has just been made is one to go through in the queue.
+  /// The new session should be reviewed in the queue.
   void queueWanted();
 
  private:
@@ -116,7 +115,7 @@ class SessionFiles : public QObject {
   WindowParts parts_;
   DroppedFiles collected_;  ///< of a case that is not complete yet
   sessions::JudgedFiles judged_;
-  QString kept_;  ///< names of those that came with an earlier drop
+  QString kept_;  ///< names of the files from an earlier drop
   std::optional<double> mesh_extent_;
   bool makes_new_session_ = false;
 };

@@ -9,7 +9,7 @@
 
 namespace boresight::ui {
 
-/// A key, or where the pointer or the focus is and a key, and what it does.
+/// A key, possibly with the required position of pointer or focus, and its action.
 struct KeyRow {
   QString keys;
   QString text;

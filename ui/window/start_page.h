@@ -19,7 +19,7 @@ namespace boresight::ui {
 class Document;
 class SessionFiles;
 
-/// One of the files that make a case: what it is for, whether it is there, and a way to choose it.
+/// Widgets of one file of a case: its kind, its state, and buttons to choose and remove it.
 struct FileSlot {
   QFrame* card = nullptr;
   QLabel* state = nullptr;
@@ -29,19 +29,19 @@ struct FileSlot {
   QToolButton* remove = nullptr;
 };
 
-/// Where the work begins: the four files of a new case, examples, recent sessions, and work that a
-/// killed program has left.
+/// Start page: the four files of a new case, examples, recent sessions, and untitled sessions left
+/// by a killed program.
 class StartPage : public QScrollArea {
   Q_OBJECT
 
  public:
-  /// As sessions::InputKind.
+  /// In the order of sessions::InputKind.
   enum Slot { kImage, kCamera, kMesh, kSeed };
   static constexpr int kSlotCount = sessions::kInputKinds;
 
   StartPage(SessionFiles& files, Document& document, QWidget* parent = nullptr);
 
-  /// Files, recent sessions and left work as they are now.
+  /// Updates files, recent sessions and left sessions.
   void refresh();
 
  private:

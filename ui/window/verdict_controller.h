@@ -19,8 +19,7 @@ class VerdictBar;
 class WindowDocks;
 class Workspaces;
 
-/// Keeps the verdict bar in step with all that it tells of, and does what its buttons, and those
-/// of the remedies, ask for.
+/// Updates the verdict bar, and performs the steps of its buttons and of the remedies' buttons.
 class VerdictController : public QObject {
   Q_OBJECT
 
@@ -36,15 +35,15 @@ class VerdictController : public QObject {
   VerdictController(const Links& links, VerdictBar& bar, QWidget& window);
 
   Situation situation() const;
-  /// The bar as things are now; changes of them come here by themselves, once per event loop.
+  /// Updates the bar; called automatically after changes, once per event loop.
   void update();
-  /// The undecided case after the shown one: in the queue's order while it is in sight, else in the
-  /// session's, round its end; empty when there is none.
+  /// The undecided case after the shown one: in the queue's order while the queue is visible, else
+  /// in the session's order, cyclically; empty when there is none.
   QString nextCase() const;
 
  public Q_SLOTS:
   void perform(boresight::ui::Step step);
-  /// Asks in the review of the shown case, which comes to the front.
+  /// Asks in the review of the shown case, which is brought to the front.
   void askForDecision(boresight::ui::ReviewController::Act act);
 
  Q_SIGNALS:

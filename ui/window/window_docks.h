@@ -36,12 +36,11 @@ class ReviewPanel;
 class SceneView;
 class StationSnapper;
 
-/// The panels of the window and the docks that they lie in; where these lie is the workspaces'
-/// affair. Each dock has an object name by which its place is remembered and by which pictures of
-/// it are asked for.
+/// The panels of the window and their docks; Workspaces places the docks. Each dock has an object
+/// name, by which its position is stored and by which pictures of it are requested.
 class WindowDocks {
  public:
-  /// `body` is to hold the docks; `window` owns what has no place in it.
+  /// `body` holds the docks; `window` owns objects that are not in `body`.
   WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& parts);
 
   ImagePanel& image;

@@ -24,8 +24,8 @@ class VerdictBar;
 class WindowDocks;
 class Workspaces;
 
-/// What is round the panels in every workspace: the strip of cases, the verdict bar, the canvas
-/// with the bar of the run, the job strip; the top bar comes with the menus.
+/// The widgets round the panels in every workspace: the strip of cases, the verdict bar, the canvas
+/// with the bar of the run, the job strip; takeMenus() adds the top bar.
 class WindowFrame : public QObject {
   Q_OBJECT
 
@@ -39,9 +39,9 @@ class WindowFrame : public QObject {
   CaseStrip& cases() { return *cases_; }
   StartPage& start() { return *start_; }
   TopBar& topBar() { return *top_bar_; }
-  /// The menus become a part of the top bar.
+  /// Creates the top bar with the menus.
   void takeMenus();
-  /// Parts that depend on the size of the window, on the workspace, or on whose run is shown.
+  /// Arranges the parts by the size of the window, the workspace, and the source of the shown run.
   void arrange();
 
  private:

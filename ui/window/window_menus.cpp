@@ -223,7 +223,7 @@ void WindowMenus::connectOnboard() {
   connect(onboard, &OnboardController::changed, this, &WindowMenus::update);
 }
 
-/// Where it cannot be asked for, the tip gives the reason.
+/// When the action is disabled, its tip gives the reason.
 void WindowMenus::updateTogether(bool idle) {
   const QString alone = parts_.cases.whyAlone();
   if (together_tip_.isEmpty()) together_tip_ = ui_.runTogether->statusTip();

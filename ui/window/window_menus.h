@@ -21,8 +21,8 @@ class SessionFiles;
 class WindowDocks;
 class Workspaces;
 
-/// Menus and keys: what a person can ask of the window, and when. Every action is in a
-/// menu, so that the sheet of keys can list it.
+/// Menus and keys: the actions of the window, and when they are enabled. Every action is in a menu,
+/// so that the sheet of keys can list it.
 class WindowMenus : public QObject {
   Q_OBJECT
 
@@ -30,12 +30,12 @@ class WindowMenus : public QObject {
   WindowMenus(QMainWindow& window, const WindowParts& parts, const WindowDocks& docks,
               Workspaces& workspaces, RunBar& run_bar, SessionFiles& files);
 
-  /// Enables what can be done now.
+  /// Enables the actions that are possible now.
   void update();
   PoseExport& poses() { return *poses_; }
 
  Q_SIGNALS:
-  /// The verdict bar's action, by its key.
+  /// The verdict bar's action was requested by its key.
   void verdictStepRequested();
   void stopRequested();
 
@@ -54,7 +54,7 @@ class WindowMenus : public QObject {
   void connectQueue();
   void fillLayersMenu();
   void connectHelp();
-  /// Of an edit of another case than the shown one: that case is shown, and said to be.
+  /// An edit of a case other than the shown one also shows that case, with a message.
   void undo();
   void redo();
   void showChange(const sessions::Session& before, const QString& told);
@@ -71,11 +71,11 @@ class WindowMenus : public QObject {
   SessionFiles& files_;
   Ui::WindowMenus ui_;
   PoseExport* poses_ = nullptr;
-  SequenceDialog* sequence_ = nullptr;  ///< nullptr until it is asked for
+  SequenceDialog* sequence_ = nullptr;  ///< nullptr until it is requested
   QList<QAction*> annotation_edits_;
   QString run_tip_;       ///< of "Run"
   QString together_tip_;  ///< of "Run with the other views"
-  QString shown_change_;  ///< what the status bar says of the last undo or redo
+  QString shown_change_;  ///< text in the status bar on the last undo or redo
   QList<QAction*> mask_actions_;
   QList<QAction*> annotation_actions_;
 };

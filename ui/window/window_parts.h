@@ -13,7 +13,7 @@ class SequenceRunner;
 class TaskRunner;
 class ViewState;
 
-/// What the pieces of the window have in common. The window owns all of it, and it outlives them.
+/// Objects shared by the parts of the window. The window owns them, and they outlive the parts.
 struct WindowParts {
   Document& document;
   ViewState& state;

@@ -8,11 +8,11 @@ class QVBoxLayout;
 
 namespace boresight::ui {
 
-/// Whose run the canvas shows.
+/// Source of the run that the canvas shows.
 enum class CanvasSource { kOnly, kOnboard, kGround };
 
-/// Round the canvas: where onboard and ground run are compared, a frame and a head that say which
-/// of them is shown. An onboard run has its frame in every workspace.
+/// Frame round the canvas: when onboard and ground run are compared, frame and head show which of
+/// them is displayed. An onboard run has its frame in every workspace.
 class CanvasFrame : public QFrame {
   Q_OBJECT
 

@@ -12,8 +12,8 @@ namespace boresight::ui {
 class CasesModel;
 class DecisionOrder;
 
-/// The cases as small pictures with a badge of their state, in every workspace. Names and errors
-/// are in the panel of the cases, which the button at the top opens.
+/// The cases as thumbnails with a badge of their state, in every workspace. Names and errors are in
+/// the panel of cases, which the button at the top opens.
 class CaseStrip : public QFrame {
   Q_OBJECT
 
@@ -21,10 +21,10 @@ class CaseStrip : public QFrame {
   explicit CaseStrip(CasesModel& model, QWidget* parent = nullptr);
 
   void setCurrent(const QString& id);
-  /// Pictures and names of a wide window, or smaller pictures.
+  /// Wide: pictures and names; narrow: smaller pictures only.
   void setNarrow(bool narrow);
-  /// As a reviewer goes through them: failed ones first, then those to decide on, then those that
-  /// have not run, then what is decided. Otherwise the order is the session's.
+  /// Sorts for review: failed cases first, then those to decide on, then those not run, then
+  /// decided ones. Otherwise the order is the session's.
   void setForDecisions(bool for_decisions);
   QListView& list() { return *list_; }
 
@@ -44,7 +44,7 @@ class CaseStrip : public QFrame {
   QToolButton* filter_ = nullptr;
   QListView* list_ = nullptr;
   QString current_;  ///< the case that the window shows
-  bool showing_ = false;  ///< the list follows the window, not the operator
+  bool showing_ = false;  ///< the list is being updated by the window, not the operator
 };
 
 }  // namespace boresight::ui

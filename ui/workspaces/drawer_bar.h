@@ -9,8 +9,8 @@ namespace boresight::ui {
 
 class Workspaces;
 
-/// Below the canvas of a narrow window: a button for each panel of the workspace that opens as a
-/// drawer.
+/// Bar below the canvas of a narrow window: a button for each panel of the workspace that opens as
+/// a drawer.
 class DrawerBar : public QFrame {
   Q_OBJECT
 

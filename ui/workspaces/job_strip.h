@@ -12,7 +12,7 @@ class QPushButton;
 
 namespace boresight::ui {
 
-/// What runs, or what has been done.
+/// The running job, or the last one.
 struct Job {
   QString name;    ///< "Running all cases", "Ready"
   QString detail;  ///< "bc-000035, iteration 2"
@@ -27,8 +27,8 @@ struct Job {
 /// "3 s", "2 min".
 QString durationText(double seconds);
 
-/// Below every workspace: what runs, how far it is, and one Stop; at the right the place under the
-/// pointer and whether the session is saved.
+/// Strip below every workspace: the running job, its progress, and a Stop button; at the right the
+/// position of the pointer and whether the session is saved.
 class JobStrip : public QFrame {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ class JobStrip : public QFrame {
 
   void setJob(const Job& job);
   const Job& job() const { return job_; }
-  /// A remark that passes; while it stands it takes the place of the detail.
+  /// Shows a temporary remark instead of the detail.
   void setNote(const QString& note);
   void setPlace(const QString& place);
   void setSaved(const QString& saved);

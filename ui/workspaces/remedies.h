@@ -12,27 +12,27 @@
 
 namespace boresight::ui {
 
-/// What may help a run that failed, and when.
+/// A remedy for a failed run, and its cause.
 struct Remedy {
   Step step;
-  const char* cause;   ///< what is seen, for the operator
-  bool tried = false;  ///< before the run, which failed all the same
+  const char* cause;   ///< observed cause, for the operator
+  bool tried = false;  ///< tried before the run, which still failed
 };
 
-/// The most likely first, those that were tried last; none for a run that converged or has not
-/// ended. `tried` adds to what the run itself shows to have been tried.
+/// Remedies, the most likely first, those already tried last; none for a run that converged or has
+/// not ended. `tried` adds to the remedies that the run itself shows.
 std::vector<Remedy> remediesFor(const sessions::LocalizationTrace& trace,
                                 const std::vector<Step>& tried = {});
 
 /// "wider search, nudged seed"; empty when nothing was tried.
 QString triedText(const std::vector<Remedy>& remedies);
 
-/// The remedies that were taken for each case since the window has its session.
+/// The remedies taken for each case since the session was opened.
 class RemedyMemory {
  public:
-  /// A remedy is taken for the failed run of this digest.
+  /// Records a remedy taken for the failed run of this digest.
   void note(const std::string& case_id, const std::string& digest, Step step);
-  /// What was taken for earlier runs than this one.
+  /// Remedies taken for runs before this one.
   std::vector<Step> before(const std::string& case_id, const std::string& digest) const;
   void clear() { taken_.clear(); }
 

@@ -14,8 +14,8 @@ namespace boresight::ui {
 class Banner;
 class ViewState;
 
-/// What may help the shown run, the most likely first: the cause as it is seen, and a button that
-/// does it.
+/// Remedies for the shown run, the most likely first: the observed cause, and a button that applies
+/// the remedy.
 class RemediesPanel : public QWidget {
   Q_OBJECT
 
@@ -23,7 +23,7 @@ class RemediesPanel : public QWidget {
   explicit RemediesPanel(ViewState& state, QWidget* parent = nullptr);
 
   const std::vector<Remedy>& remedies() const { return shown_; }
-  /// What was tried before the shown run.
+  /// Sets the remedies tried before the shown run.
   void setTried(const std::vector<Step>& tried);
 
  Q_SIGNALS:
@@ -36,7 +36,7 @@ class RemediesPanel : public QWidget {
   ViewState& state_;
   std::vector<Step> tried_;
   std::vector<Remedy> shown_;
-  Banner* status_ = nullptr;  ///< what was measured and needed, in full
+  Banner* status_ = nullptr;  ///< measured and required values, in full
   QVBoxLayout* rows_ = nullptr;
 };
 

@@ -12,7 +12,7 @@ namespace boresight::ui {
 class QualityController;
 class ViewState;
 
-/// A figure against its limit, as a bar with the limit as a tick. The numbers stand next to it.
+/// A figure against its limit, as a bar with the limit as a tick. The numbers are next to it.
 class LimitBar : public QWidget {
   Q_OBJECT
 
@@ -33,8 +33,8 @@ class LimitBar : public QWidget {
   bool passed_ = false;
 };
 
-/// What came out of the shown run: agreement of the edges, quality against the requirement, and the
-/// pose. A rejected pose is called so, and cannot be copied from here.
+/// Result of the shown run: agreement of the edges, quality against the requirement, and the pose.
+/// A rejected pose is labelled as such and cannot be copied from here.
 class ResultPanel : public QWidget {
   Q_OBJECT
 

@@ -17,8 +17,8 @@ namespace boresight::ui {
 class RunScrubber;
 class ViewState;
 
-/// How far each iteration of the shown run moved the pose: a line with a dot an iteration, on a
-/// logarithmic scale; the shown iteration's dot is filled.
+/// Corrections of the shown run's iterations: a line with a dot per iteration, on a logarithmic
+/// scale; the shown iteration's dot is filled.
 class CorrectionLine : public QWidget {
   Q_OBJECT
 
@@ -36,7 +36,7 @@ class CorrectionLine : public QWidget {
   ViewState& state_;
 };
 
-/// Below the canvas: buttons of the run, and the scrubber through its iterations and stages.
+/// Bar below the canvas: buttons of the run, and the scrubber through its iterations and stages.
 class RunBar : public QFrame {
   Q_OBJECT
 
@@ -44,7 +44,7 @@ class RunBar : public QFrame {
   explicit RunBar(ViewState& state, QWidget* parent = nullptr);
 
   RunScrubber& scrubber() { return *scrubber_; }
-  /// Of the menus; their icons and states are theirs.
+  /// Sets actions of the menus; the buttons show their icons and states.
   void setActions(const QList<QAction*>& actions);
   /// A narrow bar is lower, has icons without text, and no figures at its end.
   void setNarrow(bool narrow);

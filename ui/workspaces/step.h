@@ -7,7 +7,7 @@
 
 namespace boresight::ui {
 
-/// What can be done next, as a button of the verdict bar or of the remedies.
+/// A next step, as a button of the verdict bar or of the remedies.
 enum class Step {
   kNone,
   kChooseFiles,

@@ -19,7 +19,7 @@ class TopBar : public QWidget {
   explicit TopBar(QMenuBar& menus, QWidget* parent = nullptr);
 
   void setCurrent(Workspace workspace);
-  /// At the right end, after those that are there.
+  /// Adds a tool at the right end.
   void addTool(QWidget* tool);
 
  Q_SIGNALS:

@@ -11,7 +11,7 @@ class QDoubleSpinBox;
 
 namespace boresight::ui {
 
-/// How far the seed may be off: along and about each axis of the camera.
+/// Asks for the seed's uncertainty along and about each axis of the camera.
 class UncertaintyDialog : public QDialog {
   Q_OBJECT
 

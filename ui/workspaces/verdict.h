@@ -18,10 +18,10 @@
 
 namespace boresight::ui {
 
-/// The ground that a verdict stands on.
+/// The background colour of a verdict.
 enum class VerdictTone { kPlain, kGood, kBad, kCaution };
 
-/// Where the shown case stands: a state, a sentence, and what to do next.
+/// Status of the shown case: a state, a sentence, and the next step.
 struct Verdict {
   VerdictTone tone = VerdictTone::kPlain;
   Icon icon = Icon::kInfo;
@@ -29,11 +29,11 @@ struct Verdict {
   QString sentence;
   Step step = Step::kNone;
   std::vector<Step> others;  ///< the first of them has a button also in a narrow window
-  QString step_text;         ///< instead of the step's own, or empty
-  bool plain = false;        ///< the step only stops
+  QString step_text;         ///< replaces the step's own text, or empty
+  bool plain = false;        ///< the step only stops a job
 };
 
-/// Files on their way to a case.
+/// The files collected for a new case.
 struct FilesSituation {
   int added = 0;  ///< of four
   QString missing;
@@ -45,7 +45,7 @@ struct FilesSituation {
 struct AnnotationSituation {
   int pairs = 0;
   std::optional<double> rms_px;
-  QString bad_pair;  ///< the annotation that stands out, or empty
+  QString bad_pair;  ///< the outlier, or empty
   double bad_sigmas = 0.0;
   bool has_pose = false;
   QString concern;       ///< why the pose is not good enough, or empty
@@ -56,7 +56,7 @@ struct AnnotationSituation {
 };
 
 struct ReviewSituation {
-  bool current = false;  ///< the checks are of what is shown
+  bool current = false;  ///< the checks are of the shown state
   int failed = 0;
   bool testing = false;
   int seeds_done = 0;
@@ -64,26 +64,26 @@ struct ReviewSituation {
   bool tested = false;
   sessions::ReviewState state = sessions::ReviewState::kNew;
   QString decision;  ///< "by A. Operator, 09:02"; empty: none holds
-  QString outdated;  ///< why the validated run would be another one now, or empty
+  QString outdated;  ///< why the validated run would differ if repeated, or empty
   QString problem;   ///< why there is nothing to check, or empty
 };
 
-/// All that a verdict is made of.
+/// All inputs of a verdict.
 struct Situation {
   Workspace workspace = Workspace::kRun;
   FilesSituation files;
   bool has_case = false;
   bool has_seed = true;
   QString load_problem;
-  QString input_problem;  ///< what a run would refuse, or empty
-  QString input_step;     ///< by which it is put right: "Choose camera..."
+  QString input_problem;  ///< input that a run would reject, or empty
+  QString input_step;     ///< step that corrects it: "Choose camera..."
   QString file_problem;   ///< a missing or changed input file, or empty
   RunState run = RunState::kEmpty;
   bool in_batch = false;  ///< the batch is at the shown case
   std::shared_ptr<const sessions::LocalizationTrace> trace;
   std::vector<Step> tried;  ///< remedies of earlier runs
-  QString stale;            ///< what has changed since the run, or empty
-  /// Of the run's pose; nothing while it is measured.
+  QString stale;            ///< changes since the run, or empty
+  /// Quality of the run's pose; empty during its measurement.
   std::optional<sessions::PoseQuality> quality;
   AnnotationSituation annotation;
   ReviewSituation review;

@@ -14,8 +14,8 @@ class QToolButton;
 
 namespace boresight::ui {
 
-/// Above every workspace: where the shown case stands, in a sentence, and what to do next. Warnings
-/// of the inputs are a badge of it.
+/// Bar above every workspace: the status of the shown case in a sentence, and the next step.
+/// Warnings on the inputs are a badge of it.
 class VerdictBar : public QFrame {
   Q_OBJECT
 
@@ -26,7 +26,7 @@ class VerdictBar : public QFrame {
   const Verdict& verdict() const { return verdict_; }
   /// Sentences; empty hides the badge.
   void setWarnings(const QStringList& sentences);
-  /// As a screen reader says it: head and sentence.
+  /// Head and sentence, for screen readers.
   QString text() const;
   /// The action's button; hidden without one.
   QPushButton& action() { return *action_; }

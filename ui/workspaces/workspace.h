@@ -9,11 +9,11 @@
 
 namespace boresight::ui {
 
-/// The tasks that the window is arranged for, in the order of their tabs and keys (Ctrl+1 to 6).
+/// Workspaces of the window, one per task, in the order of their tabs and keys (Ctrl+1 to 6).
 enum class Workspace { kStart, kRun, kDiagnose, kAnnotate, kReview, kOnboard };
 inline constexpr int kWorkspaceCount = 6;
 
-/// A dock of a workspace as it is at first.
+/// Default placement of a dock in a workspace.
 struct PlacedDock {
   const char* dock;  ///< object name
   Qt::DockWidgetArea area;
@@ -28,19 +28,19 @@ struct WorkspaceInfo {
   bool has_canvas;
   std::vector<PlacedDock> wide;    ///< from kWideWindow pixels on
   std::vector<PlacedDock> narrow;  ///< below
-  /// Docks of which a narrow window shows one at a time.
+  /// Docks of which a narrow window shows only one at a time.
   std::vector<const char*> drawers;
-  /// Whether buttons below the canvas open them there; else the side pane's button does, and the
-  /// image has all the height.
+  /// Whether buttons below the canvas open the drawers; otherwise the side pane's button does, and
+  /// the image has the full height.
   bool handles = false;
 };
 
 const WorkspaceInfo& workspaceInfo(Workspace workspace);
 
-/// By its name, whatever the case of its letters.
+/// The workspace of this name, ignoring letter case.
 std::optional<Workspace> workspaceNamed(const QString& name);
 
-/// The workspace whose task a panel belongs to, where there is just one.
+/// The workspace that a panel belongs to, if there is exactly one.
 std::optional<Workspace> homeOf(const QString& dock);
 
 }  // namespace boresight::ui

@@ -16,7 +16,7 @@ class QSettings;
 
 namespace boresight::ui {
 
-/// Which workspace is in front, and how its panels lie: at first as `workspaceInfo` says, then as
+/// The current workspace and the layout of its panels: at first that of workspaceInfo(), then as
 /// the operator left them. Panels that a workspace does not place can be added to it.
 class Workspaces : public QObject {
   Q_OBJECT
@@ -29,12 +29,12 @@ class Workspaces : public QObject {
   void show(Workspace workspace);
   /// Brings a panel to the front, in the workspace of its task.
   void reveal(const QString& dock);
-  /// The panels of the current workspace as they are at first.
+  /// Restores the default layout of the current workspace.
   void arrange();
-  /// The window has another size: wide and narrow windows have arrangements of their own.
+  /// Call when the window's size has changed: wide and narrow windows have separate layouts.
   void windowResized();
   bool isNarrow() const { return narrow_; }
-  /// The panels at the right or at the bottom, all or none.
+  /// Shows or hides all panels at the right or at the bottom.
   void toggleArea(Qt::DockWidgetArea area);
   QDockWidget* dock(const QString& name) const;
 

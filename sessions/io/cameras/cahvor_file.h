@@ -24,7 +24,7 @@ struct CahvorFile {
   Eigen::MatrixXd internal_covariance;
 };
 
-/// Whether the name ends like that of such a file.
+/// Whether the file has one of these extensions.
 bool isCahvorFile(const std::filesystem::path& file);
 
 /// InputError with the line's key: a key that is missing or given twice, numbers that are not

@@ -326,10 +326,10 @@ struct BestFit {
   }
 };
 
-/// The best fits to growing fields, for each number of coefficients. Each goes on from the field
-/// before; with more coefficients than the polynomial's also from the polynomial, and in a wide
-/// field from what distorts like `equidistant` (a fitted Kannala-Brandt camera), where there is
-/// one.
+/// The best fits to growing fields, for each number of coefficients. Each starts from the fit of
+/// the field before; with more coefficients than the polynomial's also from the polynomial, and in
+/// a wide field from what distorts like `equidistant` (a fitted Kannala-Brandt camera), where there
+/// is one.
 std::vector<BestFit> fitGrowing(const Camera& start, const std::vector<Field>& fields,
                                 const std::vector<int>& counts, const FitCheck& check,
                                 const BestFit& equidistant) {

@@ -11,8 +11,8 @@
 
 namespace boresight::sessions {
 
-/// A camera of another model that sees nearly what the given one sees, in the same camera frame, so
-/// that poses keep their meaning; and what is lost by it.
+/// A camera of another model that approximates the given one in the same camera frame, so that
+/// poses remain valid; with the approximation error.
 struct FittedCamera {
   Camera camera;  ///< prepared
   /// Over pixels all across the image and along its whole border: between the pixel of the given
@@ -32,20 +32,19 @@ struct FittedCamera {
 /// Least squares over a grid of the image: fx fy cx cy and the coefficients of `model`
 /// (Brown-Conrady with k1 k2 p1 p2 k3, and with k4 k5 k6 where the worst error is smaller by it;
 /// Kannala-Brandt; or a pinhole, whose error is the whole distortion). A camera whose entrance
-/// pupil moves is like no other at every distance at once: the fit is for points `distance_m` from
+/// pupil moves has no equivalent for all distances at once: the fit is for points `distance_m` from
 /// the camera's centre, infinity for the rays alone. Fields of more than 120 deg are fitted from
 /// the inside out, from several starts; the smallest mean square wins, pixels that the fitted
 /// camera does not see counted as 20 px off. std::invalid_argument for a model of the CAHV family,
 /// whose vectors are exact as they are; std::runtime_error with a sentence when no such camera can
-/// stand in for it: a mirrored image, or a fit that fails.
+/// replace it: a mirrored image, or a fit that fails.
 FittedCamera fitCamera(const Camera& given, CameraModel model,
                        double distance_m = std::numeric_limits<double>::infinity());
 
-/// "worst error 0.83 px at (1023, 0), rms 0.21 px" and what is not seen.
+/// "worst error 0.83 px at (1023, 0), rms 0.21 px", and the counts of points not seen.
 std::string fitText(const FittedCamera& fitted);
 
-/// The fitted camera as camera.json, with what it was made of and its errors in `fitted_from`.
-/// OutputError.
+/// The fitted camera as camera.json, with its source and its errors in `fitted_from`. OutputError.
 void writeFittedCamera(const std::filesystem::path& file, const FittedCamera& fitted,
                        const Camera& given, const std::string& given_name, double distance_m);
 

@@ -30,7 +30,7 @@ int vectorComponents(CameraModel model);
 
 /// The covariance where the vectors are given in frame a; R and E are the same in every frame.
 CameraCovariance inFrame(const CameraCovariance& in_b, const Pose& a_from_b);
-/// That of a part of the image: H and V are (H + shift A) / scale.
+/// The covariance for a part of the image: H and V are (H + shift A) / scale.
 CameraCovariance ofSubframe(const CameraCovariance& whole, double shift_h_px, double shift_v_px,
                             double scale);
 
@@ -38,8 +38,8 @@ CameraCovariance ofSubframe(const CameraCovariance& whole, double shift_h_px, do
 CameraCovariance readCameraCovariance(const JsonReader& json, CameraModel model);
 nlohmann::ordered_json toJson(const CameraCovariance& covariance);
 
-/// A camera with one component of its vectors displaced, and where its frame then is. The frame of
-/// the camera that is not displaced stays where it is in the vectors' frame.
+/// A camera with one component of its vectors displaced, and the pose of its frame relative to the
+/// undisplaced camera's, which stays fixed in the vectors' frame.
 struct DisplacedCamera {
   Camera camera;
   Pose displaced_from_camera;

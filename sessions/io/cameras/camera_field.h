@@ -8,9 +8,9 @@
 
 namespace boresight::sessions {
 
-/// Why the distortion cannot be that of a lens that made an image of this size, one sentence; empty
-/// when it can. A distortion that folds back (the distance from the axis in the image shrinks as
-/// the angle grows) leaves all pixels beyond the fold without a ray. Up to a quarter of them are
+/// Why the distortion is implausible for an image of this size, as one sentence; empty when it is
+/// plausible. A distortion that folds back (the distance from the axis in the image shrinks as the
+/// angle grows) leaves all pixels beyond the fold without a ray. Up to a quarter of them are
 /// accepted, and any number beyond a fold at 80 deg or more: a fisheye's image is a circle.
 std::string fieldConcern(const Camera& camera);
 

@@ -35,7 +35,7 @@ CahvModel readVectors(CameraModel model, const JsonReader& json) {
   return cahv;
 }
 
-/// Vectors are those of the whole image: what of it the image at hand is.
+/// Cuts the camera to the sub-frame of the image: vectors are those of the whole image.
 void cutSubframe(const JsonReader& json, CameraFile& file) {
   Camera& camera = file.camera;
   const double scale = json.find("scale") ? json.at("scale").number(1e-3, 1e3) : 1.0;
@@ -82,7 +82,7 @@ bool coefficientCountFits(CameraModel model, std::size_t count) {
 
 void readDistortion(const JsonReader& json, Camera& camera) {
   if (camera.model == CameraModel::kPinhole) {
-    // Coefficients that would be ignored are refused; zeros change nothing.
+    // Coefficients that would be ignored are rejected; zeros change nothing.
     if (const auto dist = json.find("dist"))
       for (const JsonReader& coefficient : dist->elements())
         if (coefficient.number() != 0.0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well the mesh's scale and the camera's calibration are known: one image cannot tell either.
+// Uncertainty of mesh scale and camera calibration, which one image cannot determine.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@
 namespace boresight::sessions {
 
 /// One sigma of a mesh's scale (relative) where none is stated: 0.06 mm on a part of 0.3 m, or 9 K
-/// of aluminium. Good for a machined part and its drawing, not for a scan.
+/// of aluminium. Suitable for a machined part and its drawing, not for a scan.
 inline constexpr double kAssumedMeshScaleSigma = 2e-4;
 
-/// One sigma of a camera's calibration. The values are those assumed where none is stated: what a
-/// calibration from many pictures of a target reaches.
+/// One sigma of a camera's calibration. The defaults apply where none is stated; they are typical
+/// of a calibration from many images of a target.
 struct CalibrationSigma {
   double focal_relative = 2e-4;     ///< of fx and fy together, as a share of them
   double principal_point_px = 0.5;  ///< per axis
@@ -59,10 +59,10 @@ void forVectors(Cahv& cahv, const Visit& visit) {
   if (cahv.model == CameraModel::kCahvore) visit("E", cahv.e_m);
 }
 
-/// A frame of a vehicle or a site, as labels call it. Name and index (site, drive, pose ...)
+/// A frame of a vehicle or a site, as named in labels. Name and index (site, drive, pose ...)
 /// together identify it.
 struct FrameName {
-  std::string name;  ///< empty: not said
+  std::string name;  ///< empty: not stated
   std::vector<std::int64_t> index;
 
   bool operator==(const FrameName&) const = default;
@@ -74,7 +74,7 @@ std::string frameText(const FrameName& frame);
 FrameName readFrameName(const JsonReader& json);
 nlohmann::ordered_json toJson(const FrameName& frame);
 
-/// Where the vectors of a CAHV camera are given.
+/// The frame in which the vectors of a CAHV camera are given.
 struct CameraReference {
   Pose camera_from_reference;
   FrameName frame;
@@ -82,18 +82,18 @@ struct CameraReference {
   bool operator==(const CameraReference&) const = default;
 };
 
-/// A camera in its own frame and, of the CAHV family, where that is.
+/// A camera in its own frame and, for the CAHV family, the pose of that frame.
 struct CameraFile {
   Camera camera;
   std::optional<CameraReference> reference = std::nullopt;
   std::optional<CalibrationSigma> calibration_sigma = std::nullopt;  ///< where the file states it
-  /// Of the vectors in the camera's own frame, where the file states it; it then counts in place of
+  /// Of the vectors in the camera's own frame, where the file states it; it is then used instead of
   /// calibration_sigma.
   std::optional<CameraCovariance> covariance = std::nullopt;
 };
 
-/// The camera of vectors that are given in a frame without a name; nothing where it cannot project:
-/// then kVectorsCannotProject says why.
+/// The camera of vectors that are given in a frame without a name; empty where it cannot project;
+/// kVectorsCannotProject is the message.
 std::optional<CameraFile> cameraOfVectors(const CahvModel& cahv, int width, int height);
 inline constexpr const char* kVectorsCannotProject =
     "the camera cannot project with these vectors: A and O must have length 1 and lie within 60 "

@@ -14,7 +14,7 @@
 
 namespace boresight::sessions {
 
-/// Where the numbers of a transform come from.
+/// Source of a transform's numbers.
 enum class TransformSource { kUnstated, kTelemetry, kCalibration, kLabel, kCommanded };
 inline constexpr const char* kTransformSourceNames[] = {"unstated", "telemetry", "calibration",
                                                         "label", "commanded"};
@@ -30,7 +30,7 @@ struct FrameTransform {
   /// Over (rotation rad, translation m), left perturbation, target frame; nothing: exact.
   std::optional<Matrix6d> covariance = std::nullopt;
   TransformSource origin = TransformSource::kUnstated;
-  std::string comment;  ///< where it comes from, not empty; unless stated the name of its file
+  std::string comment;  ///< source, not empty; by default the name of its file
   std::filesystem::path file;
   std::string file_sha256;
 

@@ -50,7 +50,7 @@ class FrameTree {
   /// difference between them.
   explicit FrameTree(std::vector<FrameTransform> transforms);
 
-  /// Nothing when the frames are not joined.
+  /// Empty when the frames are not joined.
   std::optional<FrameChain> chain(const FrameName& a, const FrameName& b) const;
   /// All frames, in the order in which the transforms name them.
   std::vector<FrameName> frames() const;
@@ -60,21 +60,21 @@ class FrameTree {
   std::vector<FrameTransform> transforms_;
 };
 
-/// A frame of a tree below the frame that it hangs on.
+/// A frame of a tree and its parent.
 struct FrameRow {
   FrameName frame;
-  int parent = -1;  ///< row, before this one; -1: CAMERA, or a frame that nothing joins with it
-  /// That joins the two, in either direction; nothing at the top.
+  int parent = -1;  ///< index of the parent's row, before this one; -1: CAMERA, or a frame not
+                    ///< joined with it
+  /// The transform that joins the two, in either direction; empty without a parent.
   std::optional<FrameTransform> transform;
   Pose parent_from_frame;
   std::optional<Vector6d> sigma;  ///< (rad, m) per axis of the parent; nothing: exact
 };
 
-/// All frames of a tree: CAMERA and what hangs on it, then what is not joined with it. Parents come
-/// first.
+/// All frames of a tree: CAMERA and the frames joined with it, then the others. Parents come first.
 std::vector<FrameRow> frameRows(const FrameTree& tree);
 
-/// The tree of the transforms and of a camera model that is given in a named frame.
+/// The tree of the transforms and of the frame in which a camera model is given.
 FrameTree frameTree(const std::optional<CameraReference>& reference,
                     std::span<const FrameTransform> transforms);
 

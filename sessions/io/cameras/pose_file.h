@@ -26,10 +26,10 @@ struct DeclaredUncertainty {
   bool operator==(const DeclaredUncertainty&) const = default;
 };
 
-/// Of a validated_pose.json, whose pose can be a seed or a truth.
+/// Format of validated_pose.json, whose pose can be a seed or a truth.
 inline constexpr const char* kValidatedPoseFormat = "boresight-validated-pose";
 
-/// What a pose file (or a pose inside another file) states.
+/// Content of a pose file (or of a pose inside another file).
 struct PoseFile {
   Pose camera_from_station;
   /// |R'R - I| (Frobenius) of the matrix in the file, before it was projected to a rotation.
@@ -41,17 +41,17 @@ struct PoseFile {
   std::optional<FrameName> station_frame = std::nullopt;
 };
 
-/// What a pose in a named frame needs to be converted to the camera frame.
+/// Data to convert a pose in a named frame to the camera frame.
 struct PoseFrames {
   /// Of a camera of the CAHV family.
   std::optional<CameraReference> reference = std::nullopt;
-  /// By which frames are joined to the camera model's, or to the camera's.
+  /// Transforms that join frames to the camera model's or the camera's.
   std::vector<FrameTransform> transforms = {};
 };
 
 /// Reads pose.json (`boresight-pose`, version 1), or the pose and its covariance of a
-/// validated_pose.json, which may state NOT VALIDATED. `reference_from_station` may stand in place of
-/// `camera_from_station`: in the camera model's frame, or in the one that `reference_frame`
+/// validated_pose.json, which may state NOT VALIDATED. `reference_from_station` may replace
+/// `camera_from_station`: in the camera model's frame, or in the frame that `reference_frame`
 /// {name, index} names, which the transforms join to the camera model's or the camera's. A
 /// covariance or uncertainty is always stated in the camera frame. InputError.
 PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames = {});
@@ -59,11 +59,11 @@ PoseFile readPose(const std::filesystem::path& file, const PoseFrames& frames = 
 PoseFile readPose(const JsonReader& json, const PoseFrames& frames = {});
 
 /// A 4x4 rigid transform: last row 0 0 0 1, everything finite, and a rotation with
-/// |R'R - I| <= 1e-4, which is projected to the nearest one; refused otherwise.
+/// |R'R - I| <= 1e-4, which is projected to the nearest one; otherwise rejected.
 /// `rotation_deviation` may be nullptr.
 Pose readTransform(const JsonReader& json, double* rotation_deviation = nullptr);
 
-/// Whether a square matrix is symmetric and nowhere below 0 on its diagonal.
+/// Whether a square matrix is symmetric with no negative diagonal element.
 bool isCovariance(const Eigen::MatrixXd& matrix);
 inline constexpr const char* kNoCovariance =
     "not a covariance: not symmetric, or below 0 on its diagonal";
@@ -77,8 +77,8 @@ DeclaredUncertainty readUncertainty(const JsonReader& json);
 /// more than single precision explains), else empty.
 std::string projectionNote(double rotation_deviation);
 
-/// The uncertainty as the core takes it: radians, and the pivot in the seed camera's frame, which
-/// for `station` is the centre of the bounding box of the matched parts.
+/// The uncertainty in the core's form: radians, and the pivot in the seed camera's frame, which for
+/// `station` is the centre of the bounding box of the matched parts.
 SeedUncertainty seedUncertainty(const DeclaredUncertainty& declared,
                                 const Pose& camera_from_station_seed,
                                 const Eigen::Vector3d& matched_centre_in_station_m);

@@ -33,8 +33,8 @@ std::string translationText(const Pose& pose) {
 
 bool isWordPart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// The numbers that stand for themselves. A word is left out with the digits in it ("camera_0",
-/// "p1"), but for the e of an exponent.
+/// The numbers outside words. Words are left out with the digits in them ("camera_0", "p1"), except
+/// the e of an exponent.
 std::vector<double> numbersIn(std::string_view text) {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < text.size();) {

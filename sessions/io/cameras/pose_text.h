@@ -8,7 +8,7 @@
 
 namespace boresight::sessions {
 
-/// How a pose is written for operators and other programs.
+/// Forms of a pose as text, for operators and other programs.
 enum class PoseForm { kRotationVector, kQuaternion, kMatrix };
 enum class PoseDirection { kCameraFromStation, kStationFromCamera };
 enum class MatrixOrder { kRowMajor, kColumnMajor };
@@ -19,11 +19,11 @@ enum class LengthUnit { kMetre, kMillimetre };
 /// positive).
 Eigen::Quaterniond shownQuaternion(const Eigen::Quaterniond& rotation);
 
-/// The pose in one form, with names that say its direction, order and units, exact enough to be
+/// The pose in one form, with names that state its direction, order and units, exact enough to be
 /// read back to 1e-12. A matrix is 4x4, row-major, metres, as in pose files; the others give mm.
 std::string poseText(const Pose& camera_from_station, PoseForm form);
 
-/// What the numbers of a text mean: the operator chooses, as no text states it all.
+/// Meaning of the numbers of a text; chosen by the operator, as texts do not state all of it.
 struct PoseReading {
   PoseDirection direction = PoseDirection::kCameraFromStation;
   MatrixOrder matrix_order = MatrixOrder::kRowMajor;
@@ -31,10 +31,10 @@ struct PoseReading {
   LengthUnit unit = LengthUnit::kMetre;
 };
 
-/// What the text itself says (names, a last row of 0 0 0 1), for a dialog to begin with.
+/// Meaning indicated by the text itself (names, a last row of 0 0 0 1): the default of a dialog.
 PoseReading guessReading(std::string_view text);
 
-/// What came of a text.
+/// Result of reading a text.
 struct ParsedPose {
   bool valid = false;
   Pose camera_from_station;
@@ -45,9 +45,9 @@ struct ParsedPose {
 
 /// Reads 16 or 12 numbers (a matrix, with or without its last row), 7 (quaternion, then
 /// translation) or 6 (rotation vector in deg, then translation); words, brackets, commas and
-/// semicolons between them don't matter, numbers that belong to a name (p1) don't count. Refuses
-/// what is not a rotation to 1e-4, a last row other than 0 0 0 1, and a quaternion whose length is
-/// not 1 to 1e-4.
+/// semicolons between them, and numbers that belong to a name (p1), are ignored. Rejects a matrix
+/// that is not a rotation within 1e-4, a last row other than 0 0 0 1, and a quaternion whose length
+/// is not 1 to 1e-4.
 ParsedPose parsePose(std::string_view text, const PoseReading& reading);
 
 }  // namespace boresight::sessions

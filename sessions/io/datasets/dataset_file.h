@@ -19,13 +19,13 @@
 
 namespace boresight::sessions {
 
-/// Any turn about a line leaves the station as it is.
+/// A rotational symmetry: the station looks the same after any rotation about a line.
 struct AxisSymmetry {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();    ///< unit length, station frame
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< on the line, station frame
 };
 
-/// Which other poses of a station look the same. Each transform is station_from_station.
+/// Symmetries of a station: transforms station_from_station after which it looks the same.
 struct Symmetries {
   std::vector<Pose> discrete;  ///< without the identity
   std::vector<AxisSymmetry> continuous;
@@ -44,7 +44,7 @@ Symmetries readBopSymmetries(const JsonReader& model);
 /// The turn by `angle_rad` about a symmetry's line.
 Pose turnAbout(const AxisSymmetry& symmetry, double angle_rad);
 
-/// What a result must reach; judges what it names, and names at least one.
+/// Limits of the errors of a result; at least one is stated, the others are not judged.
 struct Requirement {
   std::optional<double> normal_mm;
   std::optional<double> lateral_mm;
@@ -72,7 +72,7 @@ struct Rig {
   bool operator==(const Rig&) const = default;
 };
 
-/// What a BOP dataset calls a case.
+/// Ids of a case in a BOP dataset.
 struct BopKey {
   int scene_id = 0;
   int image_id = 0;
@@ -94,8 +94,8 @@ struct Case {
   std::optional<Matrix6d> truth_covariance = std::nullopt;  ///< nothing: it is exact
   std::optional<Rig> rig;
   std::vector<std::string> tags;
-  /// What holds for the case: its own, else its seed's (uncertainty), its station's or the
-  /// dataset's (requirement).
+  /// Values in force for the case: its own, otherwise its seed's (uncertainty), its station's or
+  /// the dataset's (requirement).
   std::optional<DeclaredUncertainty> uncertainty;
   std::optional<Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;
@@ -108,7 +108,7 @@ struct Case {
 /// dataset.json (`boresight-dataset`, version 1), checked whole; images and meshes are read later.
 struct Dataset {
   std::filesystem::path file;
-  std::string sha256;  ///< of the file, or of what was chosen of a folder
+  std::string sha256;  ///< of the file, or of the selection of a folder
   std::optional<Requirement> requirement;
   std::map<std::string, Station> stations;
   std::map<std::string, Camera> cameras;
@@ -119,7 +119,7 @@ struct Dataset {
   std::vector<Case> cases;
   std::vector<std::string> notes;  ///< e.g. matrices that were projected to rotations
 
-  /// nullptr when there is none of this id.
+  /// nullptr when no case has this id.
   const Case* findCase(const std::string& id) const;
 };
 
@@ -127,8 +127,8 @@ struct Dataset {
 /// do not exist, ids given twice, a mesh without a unit.
 Dataset readDataset(const std::filesystem::path& file);
 
-/// InputError when an image, mask or mesh that the dataset names is not there: asked before hours
-/// of work rather than in their midst.
+/// InputError when an image, mask or mesh that the dataset names does not exist; called before a
+/// long run starts.
 void requireFiles(const Dataset& dataset);
 
 Requirement readRequirement(const JsonReader& json);
@@ -148,13 +148,13 @@ std::vector<PartSource> partsOf(const Dataset& dataset, const Case& dataset_case
 /// The scene of a case.
 SceneMesh readCaseScene(const Dataset& dataset, const Case& dataset_case);
 
-/// A change of a part's state, as changedState knows them.
+/// A change of a part's state; see changedState.
 struct PartChange {
   std::string part;  ///< its name
   std::string state;
 };
-/// The dataset with these changes in all cases whose station has the part. Its hash is another one:
-/// results of different states are not mixed. InputError.
+/// The dataset with these changes in all cases whose station has the part. Its hash changes, so
+/// that results of different states are not mixed. InputError.
 Dataset withPartStates(Dataset dataset, const std::vector<PartChange>& changes);
 
 }  // namespace boresight::sessions

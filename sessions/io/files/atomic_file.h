@@ -29,7 +29,7 @@ void moveIntoPlace(const std::filesystem::path& finished, const std::filesystem:
                    FileUse use = FileUse::kInput);
 
 /// Throws OutputError when `file` evidently cannot be written (its folder is missing or read-only,
-/// it is a folder): to be asked before long work, not instead of writing.
+/// it is a folder): called before long work; writing may still fail.
 void requireWritable(const std::filesystem::path& file, FileUse use = FileUse::kInput);
 
 /// Creates a folder with all its files or not at all: `write` fills a temporary folder next to it,

@@ -10,7 +10,7 @@
 
 namespace boresight::sessions {
 
-/// What is wrong with a file from outside; `what()` is one line for stderr.
+/// Error of an external file; `what()` is one line for stderr.
 class FileError : public std::runtime_error {
  public:
   const std::string& file() const { return file_; }

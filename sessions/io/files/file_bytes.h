@@ -12,11 +12,11 @@
 
 namespace boresight::sessions {
 
-/// What a file is read as, or written as. Files of all uses but the first two are kept up to date
-/// by the program itself: each may be replaced by a file of the same use.
+/// Purpose of a file that is read or written. Files of all uses but the first two are kept up to
+/// date by the program itself: each may be replaced by a file of the same use.
 enum class FileUse {
   kInput,
-  kFree,  ///< may be replaced: only looked at to see what it is, or written by this process
+  kFree,  ///< may be replaced: only its type was read, or this process wrote it
   kSession,
   kRun,
   kResults,
@@ -25,7 +25,7 @@ enum class FileUse {
 };
 
 /// Remembers that `file` was read, or that a file which was read names it as an input. A file with
-/// two uses counts as an input. Not for what is no regular file.
+/// two uses counts as an input. Files that are not regular are not remembered.
 void noteInput(const std::filesystem::path& file, FileUse use = FileUse::kInput);
 
 /// Remembers that this process has written `output`: it may do so again, also after reading it.
@@ -37,13 +37,13 @@ void requireNoInput(const std::filesystem::path& output, FileUse use = FileUse::
 
 inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
-/// The whole file, read once: what is hashed is what is parsed. InputError when it is missing, a
-/// folder, a pipe or a device, not readable, empty, or longer than `max_bytes`. From then on no
-/// output replaces it.
+/// The whole file, read once, so that the hashed bytes are the parsed bytes. InputError when it is
+/// missing, a folder, a pipe or a device, not readable, empty, or longer than `max_bytes`. From
+/// then on no output replaces it.
 std::vector<std::uint8_t> readFileBytes(const std::filesystem::path& file, std::size_t max_bytes,
                                         FileUse use = FileUse::kInput);
 
-/// At most the first `count` bytes of the file; refuses the same files.
+/// At most the first `count` bytes of the file; rejects the same files.
 std::vector<std::uint8_t> readBeginning(const std::filesystem::path& file, std::size_t count);
 
 std::string_view asText(std::span<const std::uint8_t> bytes);

@@ -8,7 +8,7 @@
 
 namespace boresight::sessions {
 
-/// Who has a session open.
+/// The process that has a session open.
 struct LockHolder {
   std::int64_t process = 0;
   std::string host;
@@ -22,10 +22,10 @@ struct LockHolder {
 };
 
 /// The right to write a session, held as long as the object lives: an exclusive flock on the lock
-/// file, which says who holds it. The kernel drops the flock when the holder dies, however it dies.
+/// file, which names the holder. The kernel drops the flock when the holder dies, however it dies.
 class FileLock {
  public:
-  /// Takes the lock, or leaves it with its holder. OutputError when the lock file cannot be
+  /// Takes the lock unless another process holds it. OutputError when the lock file cannot be
   /// written at all.
   explicit FileLock(const std::filesystem::path& lock_file);
   FileLock(const FileLock&) = delete;
@@ -33,9 +33,9 @@ class FileLock {
   ~FileLock();
 
   bool held() const { return descriptor_ >= 0; }
-  /// Who holds it instead; nothing when this object does, or when they have not said yet.
+  /// The other holder; empty when this object holds the lock, or the holder is not yet named.
   const std::optional<LockHolder>& other() const { return other_; }
-  /// Who held it before and ended without giving it back (it was killed); nothing as a rule.
+  /// The previous holder if it ended without releasing the lock (was killed); usually empty.
   const std::optional<LockHolder>& stale() const { return stale_; }
 
  private:
@@ -48,7 +48,7 @@ class FileLock {
   std::optional<LockHolder> stale_;
 };
 
-/// What a lock file says; nothing when it is missing, empty or not one.
+/// The holder named in a lock file; empty when the file is missing, empty or not a lock file.
 std::optional<LockHolder> readLockFile(const std::filesystem::path& lock_file);
 
 /// Whether the holder is known to have ended: its process is of this host and is no longer there.

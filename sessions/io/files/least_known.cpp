@@ -19,7 +19,7 @@ constexpr double kStandsOut = 5.0;
 constexpr double kLeast_rad = 0.5 * kDegree_rad;
 constexpr double kLeast_m = 1e-3;
 
-/// The direction of a covariance of three axes with the largest sigma, when it stands out.
+/// The direction of a covariance of three axes with the largest sigma, and whether it stands out.
 struct Principal {
   double sigma = 0.0;
   Eigen::Vector3d direction_in_camera = Eigen::Vector3d::Zero();

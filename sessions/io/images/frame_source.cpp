@@ -93,7 +93,7 @@ std::vector<fs::path> filesOfList(const fs::path& list) {
   return files;
 }
 
-/// Reads each image when it is asked for.
+/// Reads each image on request.
 class ImageFiles final : public FrameSource {
  public:
   ImageFiles(std::vector<fs::path> files, fs::path folder, const ImageReadOptions& options)

@@ -26,7 +26,7 @@ class FrameSource {
   virtual std::int64_t count() const = 0;
   /// The next frame; nothing after the last one.
   virtual std::optional<Frame> next() = 0;
-  /// Passes over the next frame without reading its image; nothing after the last one.
+  /// Skips the next frame without reading its image; does nothing after the last one.
   virtual void skip() = 0;
 };
 

@@ -37,9 +37,9 @@ struct DecodedImage {
 };
 
 /// Decodes a PNG, JPEG or TIFF with GDAL's drivers. Palettes become colours, fewer than 8 bits are
-/// spread over 8, and where 0 is white the values are inverted. InputError: what readImageHeader
-/// refuses, damaged pixels, samples other than unsigned integers of at most 8, or of 16 bits,
-/// colours other than gray and RGB.
+/// spread over 8, and where 0 is white the values are inverted. InputError: errors of
+/// readImageHeader, damaged pixels, samples other than unsigned integers of at most 8, or of 16
+/// bits, colours other than gray and RGB.
 DecodedImage decodeImage(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 }  // namespace boresight::sessions

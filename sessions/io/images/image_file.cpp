@@ -109,17 +109,19 @@ void convert(const std::filesystem::path& file, const cv::Mat& image,
 }
 
 /// The colour of an image that has any, in OpenCV's order. Samples beyond the table are not there:
-/// convert() refuses a gray value of more bits, and the largest colour is taken for others.
+/// convert() rejects a gray value of more bits, and the largest colour is taken for others.
 std::vector<std::uint8_t> colorOf(const cv::Mat& image, const std::vector<std::uint8_t>& table) {
   const int channels = image.channels();
   std::vector<std::uint8_t> color;
   if (channels < ColorView::kChannels) return color;
-  color.reserve(image.total() * ColorView::kChannels);
+  color.resize(image.total() * ColorView::kChannels);
+  std::uint8_t* to = color.data();
+  const std::size_t last = table.size() - 1;
   for (int y = 0; y < image.rows; ++y) {
     const auto* pixel = image.ptr<std::uint16_t>(y);
     for (int x = 0; x < image.cols; ++x, pixel += channels)
       for (int c = 0; c < ColorView::kChannels; ++c)
-        color.push_back(table[std::min<std::size_t>(pixel[c], table.size() - 1)]);
+        *to++ = table[std::min<std::size_t>(pixel[c], last)];
   }
   return color;
 }
@@ -197,7 +199,7 @@ int statedBits(const LabelSamples& labelled) {
 }
 
 /// Depth of the label, of its file where it states none, or, where a sample is beyond the label's,
-/// the least that holds them all: an image is not refused for a sloppy label.
+/// the least that holds them all: an image is not rejected because of an inaccurate label.
 void chooseDepth(const LabelSamples& labelled, const ImageReadOptions& options, GrayImage& gray) {
   const int stated = statedBits(labelled);
   gray.bit_depth_of_label = labelled.quantized;

@@ -22,7 +22,7 @@ inline constexpr std::size_t kMaxImageFileBytes = 1024 * kMegabyte;
 /// Sides are bounded by kMaxImageSide_px, so this also bounds memory (134 million pixels).
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 
-/// Samples that become 0 and 255; those between them linearly, those beyond as these two.
+/// Samples that are mapped to 0 and 255: linearly between them, clamped beyond.
 struct GrayLevels {
   int black = 0;  ///< less than white
   int white = 255;
@@ -33,12 +33,12 @@ struct GrayLevels {
 /// Colours of a mosaic's first two lines, two pixels each.
 enum class BayerPattern { kRggb, kBggr, kGrbg, kGbrg };
 inline constexpr const char* kBayerPatternNames[] = {"rggb", "bggr", "grbg", "gbrg"};
-/// By its name; nothing for another word.
+/// The pattern of this name; empty for an unknown name.
 std::optional<BayerPattern> bayerPatternNamed(std::string_view name);
 
 struct ImageReadOptions {
-  /// Bits that the samples use, 1 .. 16, from a label or asked for; without it, those of the file
-  /// (8 or 16).
+  /// Bits that the samples use, 1 .. 16, from a label or requested; by default those of the file (8
+  /// or 16).
   std::optional<int> bit_depth;
   /// Instead of the linear rule: the 8-bit value of every sample 0 .. 2^n - 1; empty: linear.
   std::vector<std::uint8_t> table = {};
@@ -50,7 +50,7 @@ struct ImageReadOptions {
   bool operator==(const ImageReadOptions&) const = default;
 };
 
-/// The 8-bit gray image that the core sees, and how it came about.
+/// The 8-bit gray image that the core uses, and its provenance.
 struct GrayImage {
   std::filesystem::path file;
   int width = 0;
@@ -63,7 +63,7 @@ struct GrayImage {
   int channels = 1;       ///< of the file: 1 gray, 2 gray + alpha, 3 colour, 4 colour + alpha
   int sample_bits = 8;    ///< of the decoded samples: 8 or 16
   int bit_depth = 8;      ///< n of the rule
-  bool bit_depth_stated = false;            ///< asked for, not taken from the file
+  bool bit_depth_stated = false;            ///< requested, not taken from the file
   bool bit_depth_of_label = false;          ///< stated by the file's label, or made by its rule
   std::string rule;                         ///< how samples became 8 bit, for provenance
   std::shared_ptr<const ImageLabel> label;  ///< of a VICAR, PDS3 or PDS4 image, else null
@@ -80,29 +80,29 @@ struct GrayImage {
 };
 
 /// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour, or an image with a VICAR, PDS3 or
-/// PDS4 label of any samples (label_samples.h says how they become 16 bits; the depth is then that
-/// of the label), whatever its name; alpha is dropped, an orientation tag is not applied
-/// (calibration belongs to the stored pixels). Rule: colour by luma (9798 R +
-/// 19235 G + 3735 B + 16384) >> 15 on the samples, then floor(v * 255 / (2^n - 1) + 0.5) or the
-/// given table; a sample above 2^n - 1 contradicts the stated depth and is refused. InputError when
-/// the file is missing, empty, truncated, damaged, of another format, or too large.
+/// PDS4 label of any samples (label_samples.h converts them to 16 bits; the depth is then that of
+/// the label), whatever its name; alpha is dropped, an orientation tag is not applied (calibration
+/// belongs to the stored pixels). Rule: colour by luma (9798 R + 19235 G + 3735 B + 16384) >> 15 on
+/// the samples, then floor(v * 255 / (2^n - 1) + 0.5) or the given table; a sample above 2^n - 1
+/// contradicts the stated depth and is rejected. InputError when the file is missing, empty,
+/// truncated, damaged, of another format, or too large.
 GrayImage readImage(const std::filesystem::path& file, const ImageReadOptions& options = {});
 
-/// The samples of an image before they become 8 bit, colour by the same luma: to look at, and to
-/// choose levels by. The core never sees them.
+/// The samples of an image before they become 8 bit, colour by the same luma: for display and for
+/// choosing levels. The core does not use them.
 struct ImageSamples {
   int width = 0;
   int height = 0;
   int sample_bits = 8;                ///< of the file: 8 or 16
   std::vector<std::uint16_t> values;  ///< row-major, width * height
-  /// The file's own value is offset + scale * value: other than 0 and 1 where numbers that are not
-  /// whole, or negative, became 16 bits.
+  /// The file's own value is offset + scale * value; not 0 and 1 where fractional or negative
+  /// numbers were converted to 16 bits.
   double offset = 0.0;
   double scale = 1.0;
   std::string file_sha256;
 };
 
-/// Reads what readImage reads and refuses what it refuses, but for the depth.
+/// Reads the same files as readImage, with the same errors except for the depth.
 ImageSamples readSamples(const std::filesystem::path& file,
                          const std::optional<BayerPattern>& bayer = {});
 
@@ -116,7 +116,7 @@ std::uint8_t toEightBit(std::uint32_t v, int n);
 /// InputError naming both when the image is not of the camera's size.
 void requireSameSize(const GrayImage& image, const Camera& camera);
 
-/// Pixels to ignore, packed as the core wants them.
+/// Pixels to ignore, packed as the core requires.
 struct IgnoreMask {
   std::filesystem::path file;
   int width = 0;
@@ -130,7 +130,7 @@ struct IgnoreMask {
 };
 
 /// Reads a mask image of width x height (PNG or TIFF): a pixel is ignored where any channel but
-/// alpha is not zero. A JPEG is refused, because its compression leaves nonzero pixels about.
+/// alpha is not zero. A JPEG is rejected, because its compression leaves stray nonzero pixels.
 /// InputError.
 IgnoreMask readIgnoreMask(const std::filesystem::path& file, int width, int height);
 

@@ -31,7 +31,7 @@ const char* profileNames();
 /// (core/record/parameter_table.h) with every option. InputError.
 Config readConfig(const std::filesystem::path& file);
 
-/// SHA-256 over every option, by name and value: whatever differs makes a run stale.
+/// SHA-256 over every option, by name and value: any difference makes a run stale.
 std::string optionsDigest(const LocalizerOptions& options);
 
 /// {name: value, ...}; a number that is not finite throws std::logic_error when written.

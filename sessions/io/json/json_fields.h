@@ -35,12 +35,12 @@ nlohmann::ordered_json exactPoseJson(const Pose& pose);
 Pose readExactPose(const JsonReader& json);
 /// 64 lower-case hexadecimal digits. InputError.
 std::string readSha256(const JsonReader& json);
-/// UTC, as `utcNowText` says it. InputError.
+/// UTC, in the format of utcNowText(). InputError.
 std::string readTime(const JsonReader& json);
 /// A text that localizationStatusText gives; InputError for any other.
 std::string readRunStatus(const JsonReader& json);
 
-/// How a member's value is written and read.
+/// Functions that write and read a member's value.
 template <class Write, class Read>
 struct Codec {
   Write write;
@@ -49,7 +49,7 @@ struct Codec {
 template <class Write, class Read>
 Codec(Write, Read) -> Codec<Write, Read>;
 
-/// Written as it is.
+/// Writes the value unchanged.
 template <class Read>
 constexpr auto plainCodec(Read read) {
   return Codec{[](const auto& value) { return nlohmann::ordered_json(value); }, read};
@@ -114,7 +114,7 @@ nlohmann::ordered_json fieldsJson(const T& value, const PathWriter* paths = null
 template <class T>
 T readFields(const JsonReader& json);
 
-/// Paths are written relative to the folder of the session, where there is such a path.
+/// Writes paths relative to the folder of the session, where possible.
 class PathWriter {
  public:
   /// `file` is the session's.
@@ -129,7 +129,7 @@ class PathWriter {
 class FieldWriter {
  public:
   static constexpr bool kReads = false;
-  /// `paths` may be nullptr for what has no paths.
+  /// `paths` may be nullptr for structs without paths.
   explicit FieldWriter(const PathWriter* paths) : paths_(paths) {}
   nlohmann::ordered_json take() { return std::move(json_); }
 
@@ -137,12 +137,12 @@ class FieldWriter {
   void field(const char* key, const T& value, const Form& codec) {
     json_[key] = codec.write(value);
   }
-  /// May be missing in a file; then the value stays as it is.
+  /// The member may be missing in a file; the value is then unchanged.
   template <class T, class Form>
   void defaulted(const char* key, const T& value, const Form& codec) {
     field(key, value, codec);
   }
-  /// Left out where there is no value, or the one that the type has by default.
+  /// Leaves the member out when there is no value, or the default of its type.
   template <class T, class Form>
   void optional(const char* key, const T& value, const Form& codec) {
     if (!(value == T())) json_[key] = codec.write(value);
@@ -157,7 +157,7 @@ class FieldWriter {
   void optionalPath(const char* key, const std::optional<std::filesystem::path>& value, FileUse) {
     if (value) path(key, *value);
   }
-  /// Of a struct with `fields` of its own, as are the others below.
+  /// Writes a struct with `fields` of its own, as do the functions below.
   template <class T>
   void object(const char* key, const T& value) {
     json_[key] = fieldsJson(value, paths_);
@@ -200,7 +200,7 @@ class FieldReader {
   void defaulted(const char* key, T& value, const Form& codec) {
     optional(key, value, codec);
   }
-  /// Absolute and without detours.
+  /// Reads a path as absolute and normalized.
   void path(const char* key, std::filesystem::path& value, FileUse use = FileUse::kInput) {
     value = std::filesystem::absolute(json_.at(key).path(use)).lexically_normal();
   }

@@ -22,12 +22,12 @@
 
 namespace boresight::sessions {
 
-/// The members of a document's objects that its reader asked for.
+/// Records which members of a document's objects its reader has accessed.
 class JsonUse {
  public:
   void note(const nlohmann::json& object, std::string_view key);
   void noteAll(const nlohmann::json& object);
-  /// "is not known ..." where a reader opened `object` and did not ask for `key`; else "".
+  /// "is not known ..." where a reader opened `object` and did not access `key`; else "".
   std::string refusal(const nlohmann::json& object, const std::string& key) const;
 
  private:
@@ -40,15 +40,15 @@ class JsonUse {
 };
 
 /// A value inside a JSON document together with its place, e.g. `cases[3].seed`. Every accessor
-/// throws InputError (file, place, reason) when the value is not what is asked for, so a reader
-/// states its format once and its errors follow. Points into the document, which must outlive it.
+/// throws InputError (file, place, reason) when the value is not of the requested kind, so that a
+/// reader needs no error handling of its own. Points into the document, which must outlive it.
 class JsonReader {
  public:
   JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place)
       : JsonReader(file, value, std::move(place), nullptr) {}
 
-  /// What `read` makes of this value. InputError for each member that `read` did not ask for: a
-  /// misspelt one would be ignored, and a program that writes the file again would lose it.
+  /// The result of `read` for this value. InputError for each member that `read` did not access: a
+  /// misspelt one would be ignored, and lost when the file is written again.
   template <class Read>
   auto whole(Read&& read) const {
     JsonUse use;
@@ -66,7 +66,7 @@ class JsonReader {
   [[noreturn]] void failMember(std::string_view key, const std::string& reason) const;
 
   bool has(std::string_view key) const { return find(key).has_value(); }
-  /// Member of an object; must be there.
+  /// Member of an object; must exist.
   JsonReader at(std::string_view key) const;
   /// Member of an object, or nothing. A null counts as absent.
   std::optional<JsonReader> find(std::string_view key) const;
@@ -123,7 +123,7 @@ class JsonReader {
       : file_(&file), value_(&value), place_(std::move(place)), use_(use) {}
   JsonReader member(std::string_view key, const nlohmann::json& value) const;
   JsonReader element(std::size_t index) const;
-  /// Refuses, here and below, members of opened objects that were not asked for.
+  /// Rejects, here and below, members of opened objects that were not accessed.
   void requireUsed() const;
   void requireObject() const;
   /// "not a number (a string)" and the like.
@@ -141,7 +141,7 @@ std::string numberText(double value);
 inline constexpr std::size_t kMaxJsonBytes = 64 * kMegabyte;
 inline constexpr std::size_t kMaxJsonDepth = 64;
 
-/// A parsed JSON file. Refused, each with the place in the file: anything that is not JSON or not
+/// A parsed JSON file. Rejected, each with the place in the file: anything that is not JSON or not
 /// UTF-8, a key given twice, NaN or infinity, numbers that do not fit a double, more than
 /// `kMaxJsonDepth` levels. Comments are not JSON.
 class JsonDocument {
@@ -151,10 +151,10 @@ class JsonDocument {
   /// Parses text; `file` only names it in messages.
   JsonDocument(const std::filesystem::path& file, std::string_view text);
 
-  /// The value at the top, of a format that others define; lives as long as the document.
+  /// The top-level value, for formats that others define; valid as long as the document.
   JsonReader root() const;
-  /// What `read` makes of the top, an object of this `format` and `version` without members that
-  /// `read` does not ask for. InputError.
+  /// The result of `read` for the top-level object, which must have this `format` and `version` and
+  /// no members that `read` does not access. InputError.
   template <class Read>
   auto read(std::string_view format, int version, Read&& read) const {
     return root().whole([&](const JsonReader& top) {

@@ -15,8 +15,8 @@ namespace boresight::sessions {
 /// Numbers are the shortest text that reads back as the same double.
 std::string prettyJson(const nlohmann::ordered_json& value);
 
-/// Writes `value` atomically; OutputError. A number that is not finite has no JSON: it is a fault
-/// of the program and throws std::logic_error rather than being written as null.
+/// Writes `value` atomically; OutputError. A number that is not finite is a program error: it
+/// throws std::logic_error and is not written as null.
 void writeJsonFile(const std::filesystem::path& file, const nlohmann::ordered_json& value);
 
 nlohmann::ordered_json toJson(const Eigen::Vector2d& vector);

@@ -136,7 +136,7 @@ void applyOptionText(Options& options, const std::string& name, std::string_view
              [text](const OptionDescription& option) { return parsedValue(option, text); });
 }
 
-/// What differs from `defaults`, in the order of declaration.
+/// The options that differ from `defaults`, in the order of declaration.
 template <class Options>
 OptionList changedOptions(const Options& options, const Options& defaults) {
   const std::vector<OptionDescription> after = listOptions(options);

@@ -33,7 +33,7 @@ MeshDeclaration checkStl(const std::filesystem::path& file, Bytes bytes) {
   const bool may_be_binary = bytes.size() >= kHeader;
   const std::uint64_t facets = may_be_binary ? readUnsigned(bytes, 80, 4, false) : 0;
   const bool fits_exactly = may_be_binary && bytes.size() == kHeader + facets * kFacet;
-  // A binary header may begin with "solid" too; then only the exact size tells.
+  // A binary header may begin with "solid" too; then only the exact size distinguishes them.
   if (text.starts_with("solid") && !fits_exactly) {
     if (text.find("endsolid") == std::string_view::npos) truncatedMesh(file, "STL");
     return declaration;
@@ -148,7 +148,7 @@ MeshDeclaration checkGlb(const std::filesystem::path& file, Bytes bytes) {
 
 namespace fs = std::filesystem;
 
-/// The file name of a URI, in which %20 and the like stand for characters.
+/// The file name of a URI, in which %20 and the like encode characters.
 std::string nameOf(const std::string& uri) {
   std::string name;
   for (std::size_t i = 0; i < uri.size(); ++i) {

@@ -27,24 +27,22 @@ MeshFormat meshFormatOf(const std::filesystem::path& file);
 std::optional<MeshFormat> knownMeshFormat(const std::filesystem::path& file);
 std::string unknownMeshFormat(const std::filesystem::path& file);
 
-/// glTF is in metres; the others say nothing of their unit.
+/// glTF is in metres; the other formats state no unit.
 bool carriesUnit(MeshFormat format);
 
-/// What a mesh file declares about its own size.
+/// Size that a mesh file declares.
 struct MeshDeclaration {
   std::optional<std::int64_t> vertex_count;
   std::optional<std::int64_t> polygon_count;
-  /// Where the data of a binary PLY begin, when their first byte looks like the end of a line.
+  /// Offset of the data of a binary PLY, when their first byte looks like a line end.
   std::optional<std::size_t> newline_as_data = {};
-  /// A PLY mesh with triangle strips, or with faces before vertices: importers read plainPly() of
-  /// it.
+  /// A PLY mesh with triangle strips, or with faces before vertices: importers read its plainPly().
   bool needs_plain_ply = false;
 };
 
 /// Checks that the bytes are of the format that the extension promises, and complete as far as the
-/// format allows to see it (PLY: every element is there; STL: the facets or `endsolid`; GLB: the
-/// stated length; a cut OBJ cannot be told from a short one). Importers accept cut files silently.
-/// InputError.
+/// format shows it (PLY: every element is present; STL: the facets or `endsolid`; GLB: the stated
+/// length; a truncated OBJ is not detected). Importers accept truncated files silently. InputError.
 MeshDeclaration checkMeshContainer(const std::filesystem::path& file,
                                    std::span<const std::uint8_t> bytes, MeshFormat format);
 
@@ -60,7 +58,7 @@ struct MeshBuffer {
   std::vector<std::uint8_t> bytes;
 };
 
-/// A mesh file and its buffers, each read once: no other file that the mesh may name.
+/// A mesh file and its buffers, each read once; other files named in the mesh are not read.
 struct MeshFiles {
   std::filesystem::path file;
   MeshFormat format = MeshFormat::kPly;
@@ -77,7 +75,7 @@ MeshFiles readMeshFiles(const std::filesystem::path& file);
 /// element that the header declares to its last value. InputError.
 MeshDeclaration checkPly(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
-/// Triangles of a mesh file as they come, before welding.
+/// Triangles of a mesh file before welding.
 struct ImportedMesh {
   std::vector<Eigen::Vector3f> vertices_m;
   std::vector<Face> faces;
@@ -88,12 +86,12 @@ struct ImportedMesh {
 };
 
 /// Reads files of which the first passed checkMeshContainer, places every mesh by the transforms of
-/// its nodes, scales to metres, and triangulates. Importer and damaged files: every index and
-/// coordinate is checked here. Opens no file. InputError.
+/// its nodes, scales to metres, and triangulates. Checks every index and coordinate, as the
+/// importer or the file may be faulty. Opens no file. InputError.
 ImportedMesh importMesh(const MeshFiles& files, const MeshDeclaration& declared,
                         double metres_per_unit);
 
-/// InputError when a mesh has more of something than can be handled.
+/// InputError when `count` of `what` exceeds `limit`.
 void requireAtMost(const std::filesystem::path& file, std::int64_t count, std::int64_t limit,
                    const char* what);
 

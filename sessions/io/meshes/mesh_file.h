@@ -55,9 +55,9 @@ std::optional<double> metresPerUnit(const std::string& unit);
 
 /// Reads PLY, OBJ, STL, glTF or GLB. `unit` ("" = not given) is required for formats that carry
 /// none; glTF is in metres unless a unit is stated. Node transforms of glTF are applied. InputError
-/// when the file is missing, truncated, not what its name says, has counts that it contradicts, no
-/// faces, an index out of range, coordinates that are not finite or beyond 1000 km, only slivers,
-/// or more than the limits above.
+/// when the file is missing, truncated, not of the format of its extension, has counts that
+/// contradict its data, no faces, an index out of range, coordinates that are not finite or beyond
+/// 1000 km, only slivers, or more than the limits above.
 Mesh readMesh(const std::filesystem::path& file, const std::string& unit);
 /// The same of files that are already read.
 Mesh readMesh(const MeshFiles& files, const std::string& unit);

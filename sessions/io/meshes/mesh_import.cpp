@@ -28,7 +28,7 @@
 #include "sessions/io/meshes/ply_header.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-// Importers of assimp leak when they refuse a file; our own leaks must still be seen.
+// Importers of assimp leak when they reject a file; our own leaks must still be reported.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }  // NOLINT
 #endif
 
@@ -37,7 +37,7 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 1e6;
 
-/// The files of a mesh, under the names by which an importer asks for them, and no others.
+/// The files of a mesh, under the names by which an importer opens them, and no others.
 class MemoryFiles final : public Assimp::IOSystem {
  public:
   MemoryFiles(const MeshFiles& files, std::span<const std::uint8_t> mesh) {

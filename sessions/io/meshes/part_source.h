@@ -16,7 +16,7 @@
 
 namespace boresight::sessions {
 
-/// What a part is to the localizer: matched in the image, rendered in front of other parts, or
+/// Role of a part for the localizer: matched in the image, rendered in front of other parts, or
 /// nothing.
 enum class PartRole { kMatched, kOccludes, kIgnored };
 inline constexpr const char* kPartRoleNames[] = {"matched", "occludes", "ignored"};
@@ -26,7 +26,7 @@ struct PartState {
   PartRole role = PartRole::kMatched;
   bool present = true;  ///< false: switched off, such as an open lid
 
-  /// Whether the core is given the part.
+  /// Whether the part is passed to the core.
   bool used() const { return present && role != PartRole::kIgnored; }
   bool matched() const { return present && role == PartRole::kMatched; }
 
@@ -37,7 +37,7 @@ struct PartState {
 std::string partStateText(const PartState& state);
 /// The state after "off", "on", or a role, which also switches the part on; nothing for other text.
 std::optional<PartState> changedState(const PartState& state, std::string_view change);
-/// The texts that changedState knows, for help and messages.
+/// The texts that changedState accepts, for help and messages.
 inline constexpr const char* kStateChanges = "off, on, matched, occludes, ignored";
 
 /// One part of a station; the mesh is read when the scene is.
@@ -73,12 +73,12 @@ struct PartConcern {
   std::string member;  ///< "frame" or "role"; "" without a concern
   std::string reason;
 };
-/// A frame that is joined to neither CAMERA nor STATION, or is equally near to both; a matched part
-/// that is fixed to the camera.
+/// Why a part cannot be placed: its frame is joined to neither CAMERA nor STATION, or equally near
+/// to both; or it is matched and fixed to the camera.
 PartConcern partConcern(const PartSource& part, const FrameTree& frames);
 
-/// The part in frame STATION or CAMERA: in that which fewer transforms join its frame to.
-/// InputError when there is a partConcern.
+/// The part in frame STATION or CAMERA, whichever fewer transforms join to its frame. InputError
+/// when there is a partConcern.
 PartSource placedPart(const PartSource& part, const FrameTree& frames);
 
 /// "CAMERA", or {"name", "index"} of a frame with an index.

@@ -36,13 +36,13 @@ struct PlyHeader {
 /// Reads the header of a file that begins with `ply`. InputError.
 PlyHeader readPlyHeader(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
-/// Bytes of a value; 0: no type of PLY.
+/// Bytes of a value; 0: not a PLY type.
 int plyTypeSize(std::string_view type);
 
 /// Takes the next word from the text; empty at its end.
 std::string_view takeWord(std::string_view& text);
 
-/// Whether the mesh has what importers cannot read: triangle strips, or faces before vertices.
+/// Whether importers cannot read the mesh: triangle strips, or faces before vertices.
 bool needsPlainPly(const PlyHeader& header);
 
 /// A mesh that passed checkPly as a binary file with vertices, then faces, and nothing else; strips

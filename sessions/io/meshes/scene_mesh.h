@@ -31,19 +31,19 @@ struct SceneMesh {
   MeshView view() const { return {vertices_in_station_m, faces, part_of_face, parts}; }
 };
 
-/// The scene without the parts that are fixed to the camera: what stays in place in the station
-/// frame. Points into `scene`.
+/// The scene without the parts that are fixed to the camera, all in the station frame. Points into
+/// `scene`.
 MeshView stationView(const SceneMesh& scene);
-/// The others alone: their vertices are in the camera frame.
+/// The parts fixed to the camera alone, with vertices in the camera frame.
 MeshView heldView(const SceneMesh& scene);
 
-/// Appends a mesh as a new part; `frame_from_mesh` leads to the station frame, or to the camera
-/// frame of a part that is fixed to the camera, after which no other part may follow. InputError
-/// beyond the limits of one mesh in all, or 65535 parts.
+/// Appends a mesh as a new part; `frame_from_mesh` maps to the station frame or, for a part fixed
+/// to the camera, to the camera frame; after such a part no other may follow. InputError when the
+/// whole scene exceeds the limits of one mesh, or 65535 parts.
 void addPart(SceneMesh& scene, const Mesh& mesh, const Pose& frame_from_mesh,
              const ScenePart& part, double albedo = 1.0);
 
-/// Throws to refuse a part (its index in the list), of whose files this is the SHA-256.
+/// Throws to reject a part, given its index in the list and the SHA-256 of its files.
 using PartCheck = std::function<void(std::size_t part, const std::string& sha256)>;
 
 /// Reads the parts that are used; `check`, if any, is called before a part is parsed. InputError,
@@ -51,12 +51,13 @@ using PartCheck = std::function<void(std::size_t part, const std::string& sha256
 SceneMesh readScene(std::span<const PartSource> parts, const FrameTree& frames = {},
                     const PartCheck& check = {});
 
-/// Vertices of the faces of matched parts, each once: what projection errors are averaged over.
+/// Vertices of the faces of matched parts, each once: the points over which projection errors are
+/// averaged.
 std::vector<Eigen::Vector3f> matchedVertices(const MeshView& mesh);
 
-/// Why a station of this size can hardly be what the camera looks at, or "". It is 20 m or more
-/// across and 100 times larger than its distance, or under 5 mm and 1/500 of it, as when its unit
-/// is wrong. (The distance is the larger one of those to the station's origin and to the box.)
+/// Why a station of this size is implausible at this pose, or "": it is 20 m or more across and 100
+/// times larger than its distance, or under 5 mm and 1/500 of it, as with a wrong unit. (The
+/// distance is the larger one of those to the station's origin and to the box.)
 std::string scaleConcern(const BoundingBox& bounds_in_station, const Pose& camera_from_station);
 
 /// InputError naming the first part's file when there is a scaleConcern.

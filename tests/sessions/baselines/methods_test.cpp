@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods beside WHS in the same loop, on images whose truth is known because the renderer made
+// Methods other than WHS in the same loop, on images whose truth is known because the renderer made
 // them: the shaded object before a noisy background.
 #include "sessions/baselines/methods.h"
 

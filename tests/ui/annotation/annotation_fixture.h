@@ -94,7 +94,7 @@ class AnnotationTest : public ::testing::Test {
     }
   }
 
-  /// Annotations a place exactly where the true pose shows it; its id.
+  /// Annotates a point exactly where the true pose projects it; returns its id.
   std::string annotatePair(const Eigen::Vector3d& place_m) {
     const std::string id = controller_.placeInImage(pixelOf(place_m));
     EXPECT_EQ(controller_.placeOnStation(place_m), id);

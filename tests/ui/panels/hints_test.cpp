@@ -99,6 +99,25 @@ TEST(ColumnFitter, HidesWhatCanBeDoneWithoutUntilAllFitsAndBringsItBack) {
   EXPECT_EQ(table.columnWidth(4), 100);
 }
 
+TEST(ColumnFitter, CountsOfTheStretchedLastColumnWhatItNeeds) {
+  const test::TemporaryFolder folder;
+  const test::OwnSettings settings(folder.path());
+  QStandardItemModel model(3, 3);
+  QTableView table;
+  table.setObjectName(QStringLiteral("stretchedTable"));
+  setUpTable(table, model);
+  for (int column = 0; column < 3; ++column) table.setColumnWidth(column, 100);
+  table.horizontalHeader()->setStretchLastSection(true);
+  new ColumnFitter(table, {1});
+  table.resize(600, 200);
+  table.show();
+  EXPECT_FALSE(table.isColumnHidden(1)) << "there is room, though the last column takes it";
+  table.resize(160, 200);
+  EXPECT_TRUE(table.isColumnHidden(1));
+  table.resize(600, 200);
+  EXPECT_FALSE(table.isColumnHidden(1));
+}
+
 TEST(Banner, HidesWithoutWarnings) {
   QWidget window;
   Banner banner(&window);

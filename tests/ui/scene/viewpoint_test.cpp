@@ -8,7 +8,7 @@
 namespace boresight::ui {
 namespace {
 
-const QSizeF kCanvas(640.0, 480.0);
+const QSizeF kViewport(640.0, 480.0);
 
 BoundingBox someBox() {
   BoundingBox box;
@@ -26,8 +26,8 @@ TEST(OrbitCamera, KeepsTheStationUprightHoweverItIsTurned) {
   OrbitCamera orbit;
   orbit.frame(someBox());
   for (int i = 0; i < 100; ++i) {
-    orbit.orbit({random.uniform(-300, 300), random.uniform(-300, 300)}, kCanvas.height());
-    const Viewpoint view = orbit.viewpoint(kCanvas);
+    orbit.orbit({random.uniform(-300, 300), random.uniform(-300, 300)}, kViewport.height());
+    const Viewpoint view = orbit.viewpoint(kViewport);
     const QPointF base = place(view, orbit.target_m());
     const QPointF above = place(view, orbit.target_m() + Eigen::Vector3d(0, 0, 0.05));
     EXPECT_NEAR(above.x(), base.x(), 1e-6);
@@ -39,11 +39,11 @@ TEST(OrbitCamera, KeepsTheStationUprightHoweverItIsTurned) {
 TEST(OrbitCamera, RollTurnsThePictureAboutItsMiddle) {
   OrbitCamera orbit;
   orbit.frame(someBox());
-  const QPointF middle = place(orbit.viewpoint(kCanvas), orbit.target_m());
+  const QPointF middle = place(orbit.viewpoint(kViewport), orbit.target_m());
   const QPointF above =
-      place(orbit.viewpoint(kCanvas), orbit.target_m() + Eigen::Vector3d(0, 0, 0.05)) - middle;
+      place(orbit.viewpoint(kViewport), orbit.target_m() + Eigen::Vector3d(0, 0, 0.05)) - middle;
   orbit.roll(1.5707963267948966);
-  const Viewpoint view = orbit.viewpoint(kCanvas);
+  const Viewpoint view = orbit.viewpoint(kViewport);
   EXPECT_LT((place(view, orbit.target_m()) - middle).manhattanLength(), 1e-6);
   const QPointF turned = place(view, orbit.target_m() + Eigen::Vector3d(0, 0, 0.05)) - middle;
   EXPECT_NEAR(turned.x(), -above.y(), 1e-6) << "clockwise";
@@ -76,7 +76,7 @@ TEST(OrbitCamera, LooksAlongTheAxesThatTheViewsName) {
   orbit.frame(someBox());
   const auto forward = [&](StandardView view) -> Eigen::Vector3d {
     orbit.lookFrom(view);
-    const Viewpoint viewpoint = orbit.viewpoint(kCanvas);
+    const Viewpoint viewpoint = orbit.viewpoint(kViewport);
     return viewpoint.view_from_station.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   };
   EXPECT_TRUE(forward(StandardView::kTop).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
@@ -91,9 +91,9 @@ TEST(OrbitCamera, PansSoThatTheTargetFollowsTheMouse) {
   OrbitCamera orbit;
   orbit.frame(someBox());
   const Eigen::Vector3d before_m = orbit.target_m();
-  const QPointF was = place(orbit.viewpoint(kCanvas), before_m);
-  orbit.pan({37.0, -21.0}, kCanvas.height());
-  const QPointF is = place(orbit.viewpoint(kCanvas), before_m);
+  const QPointF was = place(orbit.viewpoint(kViewport), before_m);
+  orbit.pan({37.0, -21.0}, kViewport.height());
+  const QPointF is = place(orbit.viewpoint(kViewport), before_m);
   EXPECT_NEAR(is.x() - was.x(), 37.0, 1e-6);
   EXPECT_NEAR(is.y() - was.y(), -21.0, 1e-6);
 }
@@ -102,8 +102,8 @@ TEST(Viewpoint, SendsRaysThroughWhatItProjects) {
   Random random = test::randomFor("SendsRays");
   OrbitCamera orbit;
   orbit.frame(someBox());
-  orbit.orbit({100.0, 40.0}, kCanvas.height());
-  const Viewpoint view = orbit.viewpoint(kCanvas);
+  orbit.orbit({100.0, 40.0}, kViewport.height());
+  const Viewpoint view = orbit.viewpoint(kViewport);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d at_m = someBox().centre() + test::randomVector(random, 0.1);
     const double depth_m = (view.view_from_station * at_m).z();
@@ -117,9 +117,9 @@ TEST(ThroughCamera, PutsEveryPointWhereTheImageHasIt) {
   Camera camera = test::randomCamera(random, CameraModel::kPinhole);  // principal point off centre
   const Pose pose = test::randomCameraFromStation(random, 0.5);
   ViewTransform image;
-  image.fit(QSizeF(camera.width, camera.height), kCanvas);
+  image.fit(QSizeF(camera.width, camera.height), kViewport);
   image.zoomAt({100.0, 60.0}, 1.7 * image.scale());
-  const Viewpoint view = throughCamera(camera, pose, image, kCanvas);
+  const Viewpoint view = throughCamera(camera, pose, image, kViewport);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d at_m = test::randomVector(random, 0.05);
     Eigen::Vector2d pixel;

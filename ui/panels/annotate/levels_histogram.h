@@ -11,8 +11,7 @@ namespace boresight::ui {
 
 class DisplayImage;
 
-/// How often each gray level occurs, and below it black and white of the display as handles to
-/// drag.
+/// Histogram of gray levels, and below it black and white of the display as handles to drag.
 class LevelsHistogram : public QWidget {
   Q_OBJECT
 
@@ -20,7 +19,7 @@ class LevelsHistogram : public QWidget {
   explicit LevelsHistogram(DisplayImage& display, QWidget* parent = nullptr);
 
   QSize sizeHint() const override { return {240, 96}; }
-  /// Of a sample, on the widget.
+  /// Position of a gray level on the widget.
   double xOf(int level) const;
 
  protected:

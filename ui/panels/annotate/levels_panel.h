@@ -12,21 +12,21 @@
 
 namespace boresight::ui {
 
-/// Gray levels: how the image is shown, which changes no run, and apart from it how the file's
-/// samples become the 8 bits that the core is given, which is an edit of the document.
+/// Gray levels: the display of the image, which changes no run, and the conversion of the file's
+/// samples to the 8 bits of the core, which is an edit of the document.
 class LevelsPanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit LevelsPanel(DisplayImage& display, QWidget* parent = nullptr);
 
-  /// nullptr: no conversion can be edited. `image` is the case's as it was read: its rule and depth
-  /// are those that hold now, which a label may have stated.
+  /// nullptr: no conversion can be edited. `image` is the case's image as read, with the rule and
+  /// depth in force, which a label may have stated.
   void setCase(const sessions::SessionCase* session_case, const sessions::GrayImage* image,
                int cases_of_camera);
 
  Q_SIGNALS:
-  /// For this case, or for all cases of its camera.
+  /// A conversion of this case's image, or of all images of its camera.
   void conversionRequested(const boresight::sessions::ImageReadOptions& eight_bit,
                            bool whole_camera);
 
@@ -41,7 +41,7 @@ class LevelsPanel : public QWidget {
 
   DisplayImage& display_;
   std::optional<sessions::ImageReadOptions> current_;
-  int current_bits_ = 8;        ///< of the rule that holds now
+  int current_bits_ = 8;        ///< of the rule in force
   bool bits_of_label_ = false;  ///< only the image's label states them
   int cases_of_camera_ = 0;
   int shown_bits_ = 0;  ///< of the samples that the conversion was shown for

@@ -13,8 +13,8 @@
 namespace boresight::ui {
 
 /// The ignore mask of the case: tools to draw on the image, pixels above a level, and the strokes
-/// made so far, which can be named, copied to the camera's other cases, and taken away. It only
-/// asks for edits; the document makes them.
+/// made so far, which can be named, copied to the camera's other cases, and removed. It only
+/// requests edits; the document makes them.
 class MaskPanel : public QWidget {
   Q_OBJECT
 
@@ -33,7 +33,7 @@ class MaskPanel : public QWidget {
 
  Q_SIGNALS:
   void strokeRequested(const boresight::sessions::MaskStroke& stroke);
-  /// All strokes of the case as they shall be; the text says what was done.
+  /// The new strokes of the case; the text describes the edit.
   void strokesRequested(const boresight::sessions::MaskStrokes& strokes, const QString& text);
   void copyRequested(int stroke);
 

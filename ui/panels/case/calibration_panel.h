@@ -16,8 +16,8 @@ class Document;
 class TaskRunner;
 class ViewState;
 
-/// Calibrates the shown case's camera from all cases that have it; the result can become the
-/// camera of these cases.
+/// Calibrates the shown case's camera from all cases that have it; the result can be applied to
+/// these cases.
 class CalibrationPanel : public QWidget {
   Q_OBJECT
 
@@ -36,7 +36,7 @@ class CalibrationPanel : public QWidget {
   ViewState& state_;
   TaskRunner& tasks_;
   std::optional<sessions::CameraCalibration> calibration_;
-  std::string case_id_;  ///< whose camera it is
+  std::string case_id_;  ///< case of the calibrated camera
   Ui::CalibrationPanel ui_;
 };
 

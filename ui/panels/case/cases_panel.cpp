@@ -94,8 +94,8 @@ constexpr int kThumbnail_px = 40;
 constexpr int kUsualName = 20;      ///< letters
 constexpr int kMeasuredRows = 100;  ///< of a list of thousands, for the widths of columns
 
-/// A case's name with its state below it: both stay in sight in a narrow list. Names of one dataset
-/// begin alike and end in what tells them apart.
+/// A case's name with its state below it: both stay visible in a narrow list. Names of one dataset
+/// begin alike and differ at their end.
 class NameAndState final : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
@@ -175,8 +175,8 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
   setCurrent(current_);
 }
 
-/// States are told whole; a usual name may push all errors but the first out of sight, a longer one
-/// none (the tooltip has it whole).
+/// States are shown in full; a usual name may hide all error columns but the first, a longer one
+/// none (the tooltip has it in full).
 void CasesPanel::fitCaseColumn() {
   const QFontMetrics metrics = ui_.cases->fontMetrics();
   int state = 0;

@@ -18,7 +18,7 @@ namespace boresight::ui {
 
 class EmptyHint;
 
-/// In the order of sessions::ReviewState, which does not know of runs under way.
+/// In the order of sessions::ReviewState, with a state for runs under way in addition.
 enum class CaseState { kNew, kConverged, kFailed, kAnnotated, kValidated, kRejected, kRunning };
 inline constexpr int kCaseStateCount = 7;
 
@@ -36,7 +36,7 @@ struct CaseRow {
   CaseState state = CaseState::kNew;
   bool stale = false;  ///< outdated: its last run was made with other inputs or options
   QString detail;      ///< e.g. why it failed, for the tooltip
-  /// Against the truth, where it is known and a pose came out.
+  /// Errors against the truth, if it is known and the run has a pose.
   std::optional<double> normal_mm;
   std::optional<double> lateral_mm;
   std::optional<double> rotation_deg;
@@ -44,7 +44,7 @@ struct CaseRow {
   bool operator==(const CaseRow&) const = default;
 };
 
-/// The images of a session. New rows of the same ids change in place, so that selections stay.
+/// The cases of a session. New rows with the same ids change in place, so that selections stay.
 class CasesModel : public RowsModel<CaseRow> {
   Q_OBJECT
 
@@ -54,16 +54,16 @@ class CasesModel : public RowsModel<CaseRow> {
   explicit CasesModel(QObject* parent = nullptr);
 
   void setRows(std::vector<CaseRow> rows);
-  /// -1 where there is none.
+  /// -1 when there is none.
   int rowOf(const QString& id) const;
-  /// A word with a sign of its own shape before it.
+  /// A word after a sign whose shape is unique to the state.
   static QString stateText(CaseState state);
 
  protected:
   QVariant look(const CaseRow& row, int column, int role) const override;
 };
 
-/// The images of the session: filter, sort, open, run one, run those that are listed.
+/// The cases of the session: filter, sort, open, run one, run all that are listed.
 class CasesPanel : public QWidget {
   Q_OBJECT
 
@@ -71,7 +71,7 @@ class CasesPanel : public QWidget {
   explicit CasesPanel(QWidget* parent = nullptr);
 
   void setRows(std::vector<CaseRow> rows);
-  /// The case that is open; shows it without asking for it.
+  /// Shows the open case as chosen without requesting it.
   void setCurrent(const QString& id);
   /// Whether runs can be started now.
   void setRunnable(bool runnable);
@@ -102,9 +102,9 @@ class CasesPanel : public QWidget {
   RowsFilter filter_;
   EmptyHint* hint_ = nullptr;
   QString current_;
-  int whole_case_ = 0;  ///< width in which the longest name would be shown whole, 0 before any
+  int whole_case_ = 0;  ///< width that the longest name needs, 0 without rows
   bool runnable_ = true;
-  bool showing_ = false;  ///< the table follows the window, not a person
+  bool showing_ = false;  ///< the table is being updated by the window, not the operator
   Ui::CasesPanel ui_;
 };
 

@@ -15,8 +15,8 @@ namespace boresight::ui {
 
 class ViewState;
 
-/// The tree of the case's frames, each below the one that it hangs on, with place, sigmas and
-/// source of the transform between them.
+/// The tree of the case's frames, each below its parent, with pose, sigmas and source of the
+/// transform between them.
 class FramesPanel : public QWidget {
   Q_OBJECT
 
@@ -30,7 +30,7 @@ class FramesPanel : public QWidget {
  private:
   void showCase();
   void showChosen();
-  /// The chosen row's transform where it is the case's own; the camera model's is not.
+  /// The chosen row's transform if it belongs to the case; the camera model's does not.
   std::optional<sessions::FrameTransform> removable() const;
 
   ViewState& state_;

@@ -10,7 +10,7 @@ namespace boresight::ui {
 class Document;
 
 /// The edits of the session since it was opened, the newest last; a click goes back or forward to
-/// that state. What is undone is gray.
+/// that state. Undone edits are gray.
 class HistoryPanel : public QWidget {
   Q_OBJECT
 

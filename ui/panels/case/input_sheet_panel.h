@@ -15,8 +15,8 @@
 
 namespace boresight::ui {
 
-/// Asks how well the mesh's scale and the camera's calibration are known, which one image cannot
-/// tell. What is not stated is assumed, and the boxes show with which values.
+/// Asks for the uncertainty of the mesh's scale and the camera's calibration, which one image
+/// cannot determine. Values that are not stated are assumed; the boxes show the assumed ones.
 class InputSigmasDialog : public QDialog {
   Q_OBJECT
 
@@ -28,20 +28,20 @@ class InputSigmasDialog : public QDialog {
 
  private:
   Ui::InputSigmasDialog ui_;
-  bool by_covariance_ = false;  ///< the camera's covariance counts
+  bool by_covariance_ = false;  ///< the camera's covariance is used
   std::optional<sessions::CalibrationSigma> former_calibration_;
 };
 
-/// Asks where a pose is judged and what errors it may have.
+/// Asks for the point at which a pose is judged, and for its allowed errors.
 class JudgementDialog : public QDialog {
   Q_OBJECT
 
  public:
   JudgementDialog(const sessions::SessionCase& session_case, QWidget* parent);
 
-  /// With the orientation that it had; nothing: poses are judged at the camera.
+  /// With its former orientation; nothing: poses are judged at the camera.
   std::optional<Pose> cameraFromEndEffector() const;
-  /// A requirement in pixels stays.
+  /// A requirement in pixels is kept.
   std::optional<sessions::Requirement> requirement() const;
 
  private:
@@ -50,8 +50,8 @@ class JudgementDialog : public QDialog {
   Ui::JudgementDialog ui_;
 };
 
-/// What the inputs of the case are, in figures with units; what is probably wrong comes first, in
-/// plain sentences. Ctrl+C copies the chosen lines. A button asks for what no image tells.
+/// Figures of the case's inputs with units; probable errors come first, as sentences. Ctrl+C copies
+/// the chosen lines. A button asks for data that no image shows.
 class InputSheetPanel : public QWidget {
   Q_OBJECT
 

@@ -12,7 +12,7 @@ namespace boresight::ui {
 class Document;
 class ViewState;
 
-/// The state of the shown case's station: which parts are there, and what each is to the
+/// The state of the shown case's station: which parts are present, and the role of each for the
 /// localizer. Every change is an edit.
 class PartsPanel : public QWidget {
   Q_OBJECT
@@ -21,7 +21,7 @@ class PartsPanel : public QWidget {
   PartsPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
 
  Q_SIGNALS:
-  /// A state that cannot be; one sentence.
+  /// A state that is not allowed; one sentence.
   void failed(const QString& message);
 
  private:

@@ -13,7 +13,7 @@
 
 namespace boresight::ui {
 
-/// Every parameter of the next run. Says so when the run that is shown was made with other ones.
+/// All parameters of the next run. States when the shown run was made with other values.
 class ConfigurationPanel : public QWidget {
   Q_OBJECT
 
@@ -22,7 +22,7 @@ class ConfigurationPanel : public QWidget {
 
   /// From the document; emits nothing. An unknown profile is replaced by the default one.
   void setOptions(const QString& profile, const LocalizerOptions& options);
-  /// What a case is run with where the options leave the feature size at 0.
+  /// The feature size that the case is run with when the option is 0.
   void setCaseFeatureSize(double feature_size_m);
   const LocalizerOptions& options() const { return options_; }
 
@@ -30,7 +30,7 @@ class ConfigurationPanel : public QWidget {
   QStringList differences() const;
 
  Q_SIGNALS:
-  /// A person has changed an option or the profile.
+  /// The operator has changed an option or the profile.
   void optionsEdited(const QString& profile, const boresight::LocalizerOptions& options);
   void runAgainRequested();
 

@@ -11,8 +11,8 @@ class QTableView;
 
 namespace boresight::ui {
 
-/// The poses that a run compared with those that it went on with, one row each: competing
-/// poses first, then compared poses, then rolled hypotheses by iteration.
+/// The poses that a run compared with those with which it continued, one row each: competing poses
+/// first, then compared poses, then rolled hypotheses by iteration.
 class AlternativesModel : public RowsModel<sessions::Alternative> {
   Q_OBJECT
 
@@ -40,9 +40,9 @@ class AlternativesModel : public RowsModel<sessions::Alternative> {
   QVariant look(const sessions::Alternative& row, int column, int role) const override;
 };
 
-/// What else a run compared: poses that compete with its result, compared poses, rolled hypotheses.
-/// The chosen one is drawn on the image with the pose that the run went on with; one that belongs
-/// to an iteration takes the cursor there.
+/// Other poses that a run compared: competing poses, compared poses, rolled hypotheses. The chosen
+/// one is drawn on the image together with the pose with which the run continued; if it belongs to
+/// an iteration, the cursor moves there.
 class HypothesesPanel : public QWidget {
   Q_OBJECT
 
@@ -62,7 +62,7 @@ class HypothesesPanel : public QWidget {
   ViewState& view_;
   AlternativesModel model_;
   QTableView* table_ = nullptr;
-  bool showing_ = false;  ///< the table follows the view state, not the operator
+  bool showing_ = false;  ///< the table is being updated by the view state, not the operator
 };
 
 }  // namespace boresight::ui

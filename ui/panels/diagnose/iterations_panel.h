@@ -25,13 +25,13 @@ namespace boresight::ui {
 class DoublePlot;
 class EmptyHint;
 
-/// The stages of an iteration that can be looked at, as far as it came.
+/// The stages of an iteration that can be shown, up to the one that it reached.
 std::vector<Stage> stagesOf(const sessions::IterationTrace& iteration);
 
-/// Which of `stages` the cursor's stage shows: the last one not after it, or 0.
+/// Index of the stage shown for the cursor: the last one not after it, or 0.
 int shownStage(const std::vector<Stage>& stages, Stage cursor);
 
-/// The cursor some stages on or (negative) back, across iterations; at the ends it stays. The last
+/// The cursor moved by `steps` stages (negative: back), across iterations, up to the ends. The last
 /// stage of an iteration is kFinished, so that a cursor there follows an iteration under way.
 RunCursor stageFrom(const sessions::LocalizationTrace& run, const RunCursor& cursor, int steps);
 
@@ -64,15 +64,15 @@ class RunScrubber : public QWidget {
   Ui::RunScrubber ui_;
 };
 
-/// The seed, or an iteration as its run tells of it.
+/// A row: the seed or an iteration.
 struct IterationRow {
   QString name;                                           ///< "2.3", or "seed"
   std::shared_ptr<const sessions::IterationTrace> trace;  ///< nullptr: the seed
   QString status;
 };
 
-/// A run as a table: the seed, then one row per iteration. A snapshot that continues the one
-/// before appends rows and keeps selections.
+/// A run as a table: the seed, then one row per iteration. A snapshot that continues the former one
+/// appends rows and keeps selections.
 class IterationsModel : public RowsModel<IterationRow> {
   Q_OBJECT
 
@@ -108,7 +108,7 @@ class IterationsModel : public RowsModel<IterationRow> {
   static int iterationOf(int row) { return row - 1; }
   /// "2.3": the third iteration of the second attempt; "seed" for -1.
   QString iterationName(int iteration) const;
-  /// A cell's number as it is, unrounded; NaN where there is none.
+  /// A cell's number, unrounded; NaN when there is none.
   double number(int iteration, Column column) const;
 
  protected:
@@ -118,7 +118,7 @@ class IterationsModel : public RowsModel<IterationRow> {
   SnapshotPtr snapshot_;
 };
 
-/// The run as it went: a table and plots. Both show the cursor and move it.
+/// The course of the run as a table and plots. Both show the cursor and move it.
 class IterationsPanel : public QWidget {
   Q_OBJECT
 
@@ -141,7 +141,7 @@ class IterationsPanel : public QWidget {
   EmptyHint* hint_ = nullptr;
   DoublePlot* corrections_ = nullptr;
   DoublePlot* fit_ = nullptr;
-  bool showing_ = false;  ///< the table follows the cursor, not a person
+  bool showing_ = false;  ///< the table is being updated by the cursor, not the operator
   Ui::IterationsPanel ui_;
 };
 

@@ -14,8 +14,8 @@ namespace boresight::ui {
 
 class HistogramPlot;
 
-/// The templates of the iteration under the cursor in a table, and the story of the chosen one; of
-/// a refinement, what was found along the edges. Shows and changes the view state's template.
+/// The templates of the iteration under the cursor in a table, and the details of the chosen one;
+/// for a refinement, statistics of the edges found. Shows and changes the view state's template.
 class MatchInspectorPanel : public QWidget {
   Q_OBJECT
 
@@ -37,7 +37,7 @@ class MatchInspectorPanel : public QWidget {
   RowsFilter filter_;
   std::shared_ptr<const sessions::IterationTrace> iteration_;
   HistogramPlot* histogram_ = nullptr;  ///< of a refinement
-  bool showing_ = false;                ///< the table follows the view state, not a person
+  bool showing_ = false;                ///< the table is being updated by the view state
   Ui::MatchInspectorPanel ui_;
 };
 

@@ -15,7 +15,7 @@
 
 namespace boresight::ui {
 
-/// The templates of one iteration and what became of them, one row each, in their order.
+/// The templates of one iteration and their results, one row each, in their order.
 class TemplatesModel : public RowsModel<sessions::MatchDetails> {
   Q_OBJECT
 
@@ -36,7 +36,7 @@ class TemplatesModel : public RowsModel<sessions::MatchDetails> {
     kVerdict,
     kBorder,
   };
-  /// Which templates a list shows.
+  /// Filter of the listed templates.
   enum class Show { kAll, kInliers, kOutliers, kLowMargin, kAtBorder, kNotSearched };
 
   explicit TemplatesModel(QObject* parent = nullptr);
@@ -56,7 +56,7 @@ class TemplatesModel : public RowsModel<sessions::MatchDetails> {
   bool reached_match_ = false;
 };
 
-/// The story of one match: its template, what was found, where they agree, the scores around, and
+/// Details of one match: its template, the image found, their agreement, the scores around it, and
 /// the figures.
 class MatchView : public QWidget {
   Q_OBJECT
@@ -64,12 +64,12 @@ class MatchView : public QWidget {
  public:
   explicit MatchView(QWidget* parent = nullptr);
 
-  /// The iteration must hold the template. Its score map is computed off the UI's thread.
+  /// The iteration must hold the template. Its score map is computed on a worker thread.
   void showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
                  std::shared_ptr<const sessions::IterationTrace> iteration, int template_index);
-  /// Whether the score map is still to come.
+  /// Whether the score map is still being computed.
   bool isComputing() const { return runner_.isBusy(); }
-  /// A sentence instead.
+  /// Shows a sentence instead.
   void showNote(const QString& note);
 
  private:
@@ -79,7 +79,7 @@ class MatchView : public QWidget {
                    const sessions::MatchDetails& details);
 
   Ui::MatchView ui_;
-  TaskRunner runner_;  ///< the newest template counts
+  TaskRunner runner_;  ///< only the newest template is used
 };
 
 }  // namespace boresight::ui

@@ -66,7 +66,7 @@ bool isSwitch(const OptionRow& row, int column) {
 constexpr int kLowest = std::numeric_limits<int>::min();
 constexpr int kHighest = std::numeric_limits<int>::max();
 
-/// Arrows and wheel stay in range; typed numbers may leave it, so that they are refused with a
+/// Arrows and wheel stay in range; typed numbers may leave it, so that they are rejected with a
 /// message instead of being changed silently.
 class IntegerBox : public QSpinBox {
  public:

@@ -32,7 +32,7 @@ class OptionsModel : public RowsModel<OptionRow> {
   void setOptions(const std::vector<sessions::OptionDescription>& current,
                   const std::vector<sessions::OptionDescription>& by_default);
   int changedCount() const;
-  /// Asks for the default of a row; nothing where it is the value already.
+  /// Requests the default of a row, unless that is its value already.
   void reset(int row);
   /// "0 .. 1", "true, false", or the choices.
   static QString rangeText(const sessions::OptionDescription& option);
@@ -48,8 +48,8 @@ class OptionsModel : public RowsModel<OptionRow> {
   QVariant look(const OptionRow& row, int column, int role) const override;
 };
 
-/// Options to read and edit: a list for choices, a spin box for integers, a line for other numbers.
-/// The Delete key and a click on "reset" ask for the default.
+/// Table to view and edit options: a list for choices, a spin box for integers, a line for other
+/// numbers. The Delete key and a click on "reset" request the default.
 class OptionsTable : public QTableView {
   Q_OBJECT
 
@@ -59,12 +59,12 @@ class OptionsTable : public QTableView {
   OptionsModel& options() { return model_; }
   void setOptions(const std::vector<sessions::OptionDescription>& current,
                   const std::vector<sessions::OptionDescription>& by_default);
-  /// Shows the options whose name or help holds every word; all of them, or those that differ from
-  /// their default.
+  /// Shows the options whose name or help holds every word; all of these, or only those that differ
+  /// from their default.
   void setFilter(const QString& words, bool changed_only);
 
  Q_SIGNALS:
-  /// What the chosen option does; empty when none is chosen.
+  /// Help on the chosen option; empty when none is chosen.
   void helpChanged(const QString& help);
 
  private:

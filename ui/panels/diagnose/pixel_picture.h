@@ -22,7 +22,7 @@ struct PatchPlace {
   int side_px = 0;
 };
 
-/// Fixed, on a dark ground whatever the palette: they differ in lightness as well as in colour.
+/// Fixed colours on a dark background in every palette; they also differ in lightness.
 namespace patch_colors {
 inline constexpr QRgb kGround = qRgb(24, 24, 28);
 inline constexpr QRgb kMask = qRgb(74, 74, 86);
@@ -33,15 +33,15 @@ inline constexpr QRgb kOnlySeen = qRgb(70, 150, 255);
 
 /// Rendered edges over the mask.
 QImage templatePicture(const BitImage& edges, const BitImage& mask, const PatchPlace& place);
-/// Edges of the image; what lies outside it is ground.
+/// Edges of the image; the background outside it.
 QImage seenPicture(const BitImage& test_edges, const PatchPlace& place);
-/// The template laid over where it was found: edges of both, of the render alone, and of the image
-/// alone (inside the mask, where they count).
+/// The template over the position where it was found: edges of both, of the render alone, and of
+/// the image alone (inside the mask, where they count).
 QImage agreementPicture(const BitImage& edges, const BitImage& mask, const PatchPlace& rendered,
                         const BitImage& test_edges, const PatchPlace& found);
 
-/// Where a small picture is drawn inside `room`: centred, as large as fits; from three device
-/// pixels a pixel on every one is a square of the same whole number of them.
+/// Rectangle of a small picture inside `room`: centred, as large as possible. From three device
+/// pixels per pixel on, the scale is an integer.
 QRectF pixelPlace(const QSize& picture, const QRectF& room, double device_pixel_ratio);
 
 /// A sample of a colour with its meaning, as HTML for a note.
@@ -64,7 +64,7 @@ class PixelPicture : public QWidget {
   QSize minimumSizeHint() const override { return {110, 130}; }
 
  protected:
-  /// Where the picture is drawn.
+  /// Rectangle of the picture.
   QRectF place() const;
   /// Room that a scale takes at the right of the picture.
   virtual double marginRight() const { return 0.0; }
@@ -97,7 +97,7 @@ class ScoreMapView : public PixelPicture {
   void setNote(const QString& note);
   const MapPtr& map() const { return map_; }
 
-  /// Where a place of the window is on the widget (its pixel's centre).
+  /// Position on the widget of a pixel's centre in the window.
   QPointF toWidget(double x, double y) const;
   /// Offset and score at a place of the widget; empty outside the map.
   QString textAt(const QPointF& widget) const;

@@ -16,7 +16,7 @@ namespace boresight::ui {
 class ImagePanel;
 class ViewState;
 
-/// A magnified part of the canvas's image with its lines. A click shows the place on the canvas.
+/// A magnified part of the canvas's image with its lines. A click shows the position on the canvas.
 class CloseUpView : public QWidget {
   Q_OBJECT
 

@@ -18,12 +18,12 @@ class QKeyEvent;
 
 namespace boresight::ui {
 
-/// Along and about whose axes a pose is nudged.
+/// The frame whose axes nudges refer to.
 enum class NudgeAxes { kCamera, kStation };
-/// What stays where it is while the pose is turned.
+/// The fixed point of rotations.
 enum class NudgePivot { kStationCentre, kCameraCentre };
 
-/// How nudges are meant; `centre_in_station_m` is the centre of the matched parts.
+/// Reference of nudges; `centre_in_station_m` is the centre of the matched parts.
 struct NudgeFrame {
   NudgeAxes axes = NudgeAxes::kCamera;
   NudgePivot pivot = NudgePivot::kStationCentre;
@@ -45,8 +45,8 @@ struct NudgeStep {
   double rotation_rad = 0.0034906585039886592;  ///< 0.2 deg
 };
 
-/// Moves the nudged pose of the view state, by keys and by values, and tells where one gesture
-/// ends: what a person does in one go is undone in one go.
+/// Moves the nudged pose of the view state, by keys and by values, and reports the end of each
+/// gesture: one gesture is one step of Undo.
 ///
 /// Keys, on whatever widget the controller is installed: the arrows move along x and y, Page Up and
 /// Page Down along z (up is away); with Ctrl they turn about y, x and z. Shift makes steps ten
@@ -57,7 +57,8 @@ class NudgeController : public QObject {
  public:
   static constexpr double kCoarse = 10.0;
   static constexpr double kFine = 0.1;
-  static constexpr int kPause_ms = 600;  ///< a gesture without a visible end is over after this
+  static constexpr int kPause_ms = 600;  ///< a gesture without an explicit end is over after this
+                                         ///< time
 
   explicit NudgeController(ViewState& state, QObject* parent = nullptr);
 
@@ -67,27 +68,27 @@ class NudgeController : public QObject {
   const NudgeStep& step() const { return step_; }
   void setStep(const NudgeStep& step) { step_ = step; }
 
-  /// The pose that offsets count from: where nudging began.
+  /// The pose from which offsets are measured: the start of nudging.
   Pose base() const;
   /// From the base to the nudged pose (rotation rad, translation m); zero while nothing is nudged.
   Vector6d offset() const;
 
-  /// Moves by steps (of rotation, then translation) from where the pose is.
+  /// Moves by steps (of rotation, then translation) from the present pose.
   void nudgeBy(const Vector6d& steps);
   /// Moves to this offset from the base.
   void setOffset(const Vector6d& offset);
-  /// One value of the offset; the others stay.
+  /// Sets one value of the offset; the others stay.
   void setOffset(int axis, double value);
   /// Part of the gesture under way.
   void moveTo(const Pose& camera_from_station) { move(camera_from_station); }
-  /// As a whole gesture: a pose that was pasted.
+  /// Sets a pasted pose, as a whole gesture.
   void setPose(const Pose& camera_from_station);
-  /// As a whole gesture: the nudged pose becomes what it was nudged from.
+  /// Returns to the pose that was nudged, as a whole gesture.
   void backToEstimate();
-  /// As a whole gesture: nothing is nudged any more.
+  /// Removes the nudged pose, as a whole gesture.
   void drop();
 
-  /// True when the key nudges; installed as an event filter it takes such keys.
+  /// Whether the key nudges; the event filter consumes such keys.
   bool takes(const QKeyEvent& event) const;
   /// Ends the gesture under way, if any.
   void finishGesture();
@@ -97,7 +98,7 @@ class NudgeController : public QObject {
  Q_SIGNALS:
   /// The base, the offset or the frame has changed.
   void changed();
-  /// Something was moved, from the first key press or value to the release.
+  /// A gesture has ended: from the first key press or value to the release.
   void gestureFinished(const boresight::Pose& before, const boresight::Pose& after);
 
  private:
@@ -114,8 +115,8 @@ class NudgeController : public QObject {
   QTimer pause_;
 };
 
-/// The controls of a nudge: six values, the axes and the pivot they are meant in, the size of a
-/// step, and a field that takes the keys while it has the focus.
+/// The controls of nudging: six values, their axes and pivot, the size of a step, and a field that
+/// takes the keys while it has the focus.
 class NudgeBox : public QWidget {
   Q_OBJECT
 

@@ -44,7 +44,7 @@ class NudgeGizmo : public QObject {
  private:
   enum class Part { kNone, kInside, kRing, kHandle };
 
-  /// The nudged pose, else the seed: a rejected pose is no beginning.
+  /// The nudged pose, else the seed: a rejected pose is not a start.
   Pose pose() const;
   /// Of the station's middle, on the widget; nothing where it is behind the camera.
   std::optional<QPointF> centre() const;

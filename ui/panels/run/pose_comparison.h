@@ -21,26 +21,26 @@ using Poses = std::array<std::optional<Pose>, kPoseRoles>;  ///< by role
 /// "seed", "current", "nudged", "truth", "annotated".
 QString poseRoleName(PoseRole role);
 
-/// What poses are judged by.
+/// Data by which poses are judged.
 struct PoseJudgement {
   std::optional<sessions::Requirement> requirement;
   std::optional<Pose> camera_from_end_effector;   ///< where translations are judged
-  std::optional<Matrix6d> truth_covariance = {};  ///< of a truth that annotations gave
+  std::optional<Matrix6d> truth_covariance = {};  ///< of a truth from annotations
 };
 
-/// The covariance of what the state shows: the run's own at its end, else the iteration's. Nothing
-/// where there is none.
+/// The covariance of the shown pose: the run's own at its end, else the iteration's. Empty when
+/// there is none.
 std::optional<Matrix6d> shownCovariance(const ViewState& state);
 
-/// Rows of an HTML table: one sigma of a pose along and across the axis, and of its turn, each
-/// against the requirement where there is one; then along and about each axis.
+/// Rows of an HTML table: one sigma of a pose along and across the axis, and of its rotation, each
+/// against the requirement if there is one; then along and about each axis.
 QVector<QStringList> sigmaRows(const sessions::PoseSigma& sigma,
                                const std::optional<sessions::Requirement>& requirement);
 /// A row of three values with their unit.
 QStringList axesRow(const QString& name, const Eigen::Vector3d& values, const QString& unit);
 
-/// How sure the shown pose is, and how far any two poses are apart, each figure against the
-/// requirement where it names one.
+/// Uncertainty of the shown pose, and distance between any two poses, each figure against its limit
+/// in the requirement, if any.
 class PoseComparison : public QWidget {
   Q_OBJECT
 

@@ -18,8 +18,8 @@ class QPushButton;
 
 namespace boresight::ui {
 
-/// Takes a pose as text and asks what the text does not say: direction, order, unit. What will be
-/// taken, or why nothing can be, is shown while it is typed.
+/// Takes a pose as text and asks for data that the text does not state: direction, order, unit.
+/// Shows the resulting pose, or the problem, during input.
 class PastePoseDialog : public QDialog {
   Q_OBJECT
 
@@ -38,8 +38,8 @@ class PastePoseDialog : public QDialog {
   Ui::PastePoseDialog ui_;
 };
 
-/// The poses of the case side by side, to read, copy and paste; how sure the current one is; how
-/// far any two are apart; and the nudging of one in six degrees of freedom.
+/// The poses of the case side by side, to copy and paste; the uncertainty of the current one; the
+/// distance between any two; and nudging in six degrees of freedom.
 class PosePanel : public QWidget {
   Q_OBJECT
 
@@ -51,9 +51,9 @@ class PosePanel : public QWidget {
   /// For other widgets that take the nudging keys: install it on them as an event filter.
   NudgeController& nudgeController() { return controller_; }
 
-  /// To the clipboard; nothing when there is no such pose.
+  /// Copies a pose to the clipboard, if it exists.
   void copyPose(PoseRole role, sessions::PoseForm form);
-  /// Asks what the clipboard's text means and nudges to it.
+  /// Asks how to read the clipboard's text and nudges to that pose.
   void pastePose();
 
  Q_SIGNALS:

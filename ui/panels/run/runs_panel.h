@@ -16,7 +16,7 @@ class Document;
 class ViewState;
 
 /// The runs of the shown case, pinned ones first, then the newest: each can be opened in every view
-/// or compared with the shown one. Pins are kept on this machine.
+/// or compared with the shown one. Pins are stored in the program's settings.
 class RunsPanel : public QWidget {
   Q_OBJECT
 

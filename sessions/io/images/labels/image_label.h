@@ -20,14 +20,14 @@ struct LabelItem {
   bool operator==(const LabelItem&) const = default;
 };
 
-/// A frame whose pose a label states. It is shown; nothing is converted by it.
+/// A frame whose pose a label states. For display only.
 struct LabelFrame {
   FrameName frame;
   FrameName reference;
   Pose reference_from_frame;
 };
 
-/// Which part of the detector an image holds.
+/// The part of the detector that an image holds.
 struct LabelSubframe {
   int first_sample = 0;  ///< of the detector, counted from 0
   int first_line = 0;
@@ -41,7 +41,7 @@ struct LabelSubframe {
   }
 };
 
-/// What the label of a planetary image says that Boresight uses or shows.
+/// The data of a planetary image's label that Boresight uses or shows.
 struct ImageLabel {
   std::string format;  ///< "VICAR", "PDS3" or "PDS4"
   /// Mission, instrument, product, time and the like, in this order, as far as the label has them.
@@ -49,7 +49,7 @@ struct ImageLabel {
   int width = 0;  ///< of the image, px
   int height = 0;
   /// The camera of the image as it is stored: sub-frame and down-sampling applied, pixels counted
-  /// from the centre of the top-left one. None where `camera_remark` says why.
+  /// from the centre of the top-left one. Empty with the reason in `camera_remark`.
   std::optional<CameraFile> camera;
   /// One sentence: the label has no camera model, or one that does not fit the image.
   std::string camera_remark;
@@ -57,7 +57,7 @@ struct ImageLabel {
   std::vector<LabelItem> camera_items;
   std::optional<LabelSubframe> subframe;  ///< as stated by the label
   std::optional<int> bit_depth;           ///< bits that the samples use, as the label states them
-  std::string bayer_pattern;              ///< of a mosaic that is not yet colours; else empty
+  std::string bayer_pattern;              ///< of a mosaic not yet converted to colours; else empty
   std::vector<LabelFrame> frames;
   std::vector<std::string> flags;  ///< for the operator, a sentence each
 };

@@ -14,7 +14,7 @@
 
 namespace boresight::sessions {
 
-/// What is known of a mission's labels and of the instrument that took an image.
+/// Known facts on a mission's labels and on the instrument of an image.
 struct LabelDetector {
   /// Labels state the model of the image as it was cut and averaged: the mission's own programs
   /// read it without an offset (planetary.md names the evidence).
@@ -25,7 +25,7 @@ struct LabelDetector {
 
 LabelDetector detectorOf(const std::vector<LabelItem>& identifiers);
 
-/// The camera model of a label as it stands there, or why there is none.
+/// The camera model as stated in a label, or why there is none.
 struct StatedCamera {
   std::optional<CahvModel> cahv;
   FrameName frame;
@@ -35,19 +35,19 @@ struct StatedCamera {
 };
 
 /// Of a VICAR or PDS3 label: the group GEOMETRIC_CAMERA_MODEL, GEOMETRIC_CAMERA_MODEL_PARMS or
-/// CAMERA_MODEL; components by their names or letters, never by place alone; models that differ are
-/// none. Of a PDS4 label: Camera_Model_Parameters with its CAHV_Model, CAHVOR_Model or
+/// CAMERA_MODEL; components by their names or letters, never by order alone; contradictory models
+/// count as none. Of a PDS4 label: Camera_Model_Parameters with its CAHV_Model, CAHVOR_Model or
 /// CAHVORE_Model.
 StatedCamera statedCamera(LabelFormat format, const nlohmann::json& label);
 
 /// The groups of VICAR and PDS3 labels with a camera model.
 bool isCameraGroup(std::string_view name);
 
-/// Whether two labels state one model in one frame, as far as their digits go.
+/// Whether two labels state one model in one frame, within their stated digits.
 bool sameModel(const StatedCamera& a, const StatedCamera& b);
 
-/// A frame by its name and index in a group of a VICAR or PDS3 label. One whose index is not of
-/// whole numbers could be taken for another: it stays without a name, with a sentence in `flags`.
+/// A frame by its name and index in a group of a VICAR or PDS3 label. A frame whose index is not
+/// integral could be confused with another: it gets no name, and a sentence in `flags`.
 FrameName groupFrame(const nlohmann::json& group, std::string_view name, std::string_view index,
                      std::vector<std::string>& flags);
 
@@ -56,13 +56,13 @@ FrameName indexedFrame(const nlohmann::json& space, std::vector<std::string>& fl
 
 /// The frames whose pose the label states: groups NAME_COORDINATE_SYSTEM of VICAR and PDS3,
 /// Coordinate_Space_Definition of PDS4. Quaternions are scalar first and, with the offset, map a
-/// frame's vectors into its reference. What cannot be read is left out with a sentence in `flags`.
+/// frame's vectors into its reference. Unreadable frames are left out with a sentence in `flags`.
 std::vector<LabelFrame> labelFrames(LabelFormat format, const nlohmann::json& label,
                                     std::vector<std::string>& flags);
 
-/// What is wrong with the model for an image of this size and sub-frame: one sentence, or nothing.
-/// Where it is not known that labels of this mission state the model of the sub-frame, a cut
-/// image's model must show it by itself.
+/// Why the model does not fit an image of this size and sub-frame: one sentence, or "". Unless
+/// labels of this mission are known to state the model of the sub-frame, a cut image's model must
+/// itself prove it.
 std::string cameraMisfit(const CahvModel& cahv, int width, int height,
                          const std::optional<LabelSubframe>& subframe,
                          const LabelDetector& detector);

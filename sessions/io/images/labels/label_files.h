@@ -27,16 +27,16 @@ std::optional<std::int64_t> statedInteger(std::string_view label, std::string_vi
 
 /// A file that an image with a label consists of, read once.
 struct LabelPart {
-  std::string name;  ///< in the label; the label itself has a name of our own
+  std::string name;  ///< as in the label; the label itself has an internal name
   std::vector<std::uint8_t> bytes;
 };
 
-/// The label's file and, where the pixels lie in another file, that file: no other that the label
-/// may name.
+/// The label's file and, where the pixels lie in another file, that file; other files named in the
+/// label are not read.
 struct LabelFiles {
   std::filesystem::path file;  ///< the label
   LabelFormat format = LabelFormat::kVicar;
-  std::vector<LabelPart> parts;  ///< as they were, the label first
+  std::vector<LabelPart> parts;  ///< unchanged, the label first
   std::string sha256;            ///< of all parts, one after the other
   /// The label as GDAL needs it, where that differs from the first part; else empty.
   std::vector<std::uint8_t> rewritten;
@@ -74,7 +74,7 @@ inline constexpr int kMostLabelBands = 64;
 std::optional<std::filesystem::path> labelFileOf(const std::filesystem::path& file);
 
 /// Reads the label and the file of its pixels, which must be in the same folder. InputError:
-/// unreadable, no label, pixels that are missing or in another folder, sizes that no image has.
+/// unreadable, no label, pixels that are missing or in another folder, impossible sizes.
 LabelFiles readLabelFiles(const std::filesystem::path& label_file);
 /// The same of bytes that are already read.
 LabelFiles readLabelFiles(const std::filesystem::path& label_file,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a label's camera model is that of the image it stands in.
+// Whether a label's camera model fits the image of the label.
 #include <algorithm>
 #include <cmath>
 

@@ -108,8 +108,8 @@ void takeImageToTheTop(LabelRaster& raster) {
         "the label has " + std::to_string(images) + " objects IMAGE; the first is read";
 }
 
-// What labels state of the layout of their pixels: GDAL does not know all of it, and takes the
-// first statement of a key, the tree the last.
+// The layout of pixels as stated in labels: GDAL does not read all of it, and uses the first
+// statement of a key, the tree the last.
 
 std::int64_t integerOf(const json* group, const char* key) {
   return labelInteger(labelMember(group, key)).value_or(0);

@@ -11,7 +11,7 @@
 
 namespace boresight::sessions {
 
-/// How the file stores a sample.
+/// Storage type of a sample in the file.
 struct SampleType {
   int bits = 8;
   bool floating = false;
@@ -20,7 +20,7 @@ struct SampleType {
   std::string name() const;  ///< "16-bit signed integers"
 };
 
-/// The pixels by their header.
+/// Layout of the pixels according to their header.
 struct LabelPicture {
   int width = 0;
   int height = 0;
@@ -41,7 +41,7 @@ struct LabelRaster {
 };
 
 /// `files` must outlive the result. InputError: a damaged label, sizes out of bounds, missing
-/// pixels, or samples that GDAL would read otherwise than the label states.
+/// pixels, or samples that GDAL would interpret differently from the label.
 LabelRaster openLabelRaster(const LabelFiles& files);
 
 }  // namespace boresight::sessions

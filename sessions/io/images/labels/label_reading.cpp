@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The label's tree, and where things stand in it.
+/// The label's tree, with access to its items.
 struct Source {
   LabelFormat format;
   const json& tree;
@@ -41,7 +41,7 @@ struct Source {
     const json* found = labelMember(&tree, key);
     return found != nullptr ? found : labelItem(format, tree, {"IDENTIFICATION"}, key);
   }
-  /// Of PDS4: below Imaging, but not what was only asked for.
+  /// Of PDS4: below Imaging, except commanded parameters.
   const json* imaging(std::string_view group, std::string_view key) const {
     for (const json* imaging : elementsNamed(tree, "Imaging", "Commanded_Parameters"))
       if (const json* found = labelPath(imaging, {group, key})) return found;

@@ -11,14 +11,14 @@
 
 namespace boresight::sessions {
 
-/// What Boresight uses of a label.
+/// The data of a label that Boresight uses.
 struct LabelReading {
   ImageLabel label;
-  std::vector<InvalidValue> invalid;  ///< samples that stand for no measurement
-  std::string derived_type;           ///< what a product is that is not a picture, e.g. "XYZ_MAP"
+  std::vector<InvalidValue> invalid;  ///< values of samples without a measurement
+  std::string derived_type;           ///< type of a product that is not an image, e.g. "XYZ_MAP"
 };
 
-/// Reads the trees of LabelRaster. Never fails: what is missing or wrong is absent, with a flag
+/// Reads the trees of LabelRaster. Never fails: missing or invalid data is absent, with a flag
 /// where the operator should know.
 LabelReading readLabelTree(LabelFormat format, const nlohmann::json& label,
                            const nlohmann::json& vicar_label, const LabelPicture& picture);

@@ -130,7 +130,7 @@ std::uint16_t quantized(double sample, const Range& range) {
       std::clamp(std::floor(share * kLargestWhole + 0.5), 0.0, kLargestWhole));
 }
 
-/// Valid samples at equal steps, enough to know between which values nearly all lie.
+/// Valid samples at equal steps, enough for the range of nearly all values.
 std::vector<double> someSamples(const LabelRaster& raster, const Validity& valid) {
   const std::int64_t all =
       std::int64_t{raster.picture.width} * raster.picture.height * raster.picture.bands;

@@ -13,7 +13,7 @@
 
 namespace boresight::sessions {
 
-/// Samples within `tolerance` of `value` stand for no measurement.
+/// Samples within `tolerance` of `value` are without a measurement.
 struct InvalidValue {
   double value = 0.0;
   double tolerance = 0.0;
@@ -21,9 +21,8 @@ struct InvalidValue {
 
 /// Adds the constant that a label states, or each of a list: a number, or the bits of one as
 /// 16#FF7FFFFB#, 0xFF7FFFFB or 2#...#. Up to 32 bits of a floating-point number are those of a
-/// 32-bit one; whole numbers may be of either sign. From 10^30 on, where no measurement lies, a
-/// number is one of its written digits (-3.402823e+38 for the lowest of 32 bits); smaller ones are
-/// exact. At most 32.
+/// 32-bit one; integers may have either sign. From 10^30 on a number is compared to its written
+/// digits (-3.402823e+38 for the lowest 32-bit number); smaller ones are exact. At most 32 values.
 void addInvalidValues(const nlohmann::json* stated, bool floating, int sample_bits,
                       std::vector<InvalidValue>& values);
 
@@ -47,9 +46,9 @@ struct LabelSamples {
 };
 
 /// Whole numbers of 0 .. 65535 stay as they are. All others are quantized: the lowest valid sample
-/// becomes 0, the highest 65535, those between them linearly. Samples that the label calls missing
-/// or invalid, and those that are no numbers, become 0 and are counted. InputError: other than 1 or
-/// 3 bands, a product that is no picture, no valid sample at all.
+/// becomes 0, the highest 65535, those between them linearly. Samples that the label declares
+/// missing or invalid, and NaN samples, become 0 and are counted. InputError: other than 1 or 3
+/// bands, a product that is not an image, no valid sample at all.
 LabelSamples readLabelSamples(const LabelFiles& files);
 
 }  // namespace boresight::sessions

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of labels as they were written: with units, blanks, line ends inside texts,
-// numbers as texts, and words for what is not there.
+// Values of labels as they were written: with units, blanks, line ends inside texts, numbers as
+// texts, and words for missing values.
 #pragma once
 
 #include <cstdint>
@@ -22,29 +22,29 @@ namespace boresight::sessions {
 
 /// Blanks, tabs and line ends.
 inline bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-/// What follows the blanks.
+/// The text after its leading blanks.
 inline std::string_view skipBlanks(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   return text;
 }
 
-/// A member of an object; null when there is none, or no object.
+/// A member of an object; nullptr when either is missing.
 const nlohmann::json* labelMember(const nlohmann::json* object, std::string_view key);
-/// The first of several keys that is there.
+/// The member of the first of these keys that exists.
 const nlohmann::json* labelMember(const nlohmann::json* object,
                                   std::initializer_list<std::string_view> keys);
-/// Members within members.
+/// A nested member, by the keys from the outside inwards.
 const nlohmann::json* labelPath(const nlohmann::json* object,
                                 std::initializer_list<std::string_view> keys);
 
-/// The text on one line without blanks around it; nothing for "", N/A, NULL, UNK, UNKNOWN, NONE is
-/// kept. Numbers as they would be written.
+/// The text on one line without blanks around it; empty for "", N/A, NULL, UNK and UNKNOWN; NONE is
+/// kept. Numbers become text.
 std::optional<std::string> labelText(const nlohmann::json* value);
 /// Every text of a list, "" where one is absent; a single value is a list of one.
 std::vector<std::string> labelTexts(const nlohmann::json* value);
 /// A finite number, also one written as a text, with a unit, or with D for E.
 std::optional<double> labelNumber(const nlohmann::json* value);
-/// All of a list; empty when one of them is no number. A single value is a list of one.
+/// All numbers of a list; empty when an element is not a number. A single value is a list of one.
 std::vector<double> labelNumbers(const nlohmann::json* value);
 std::optional<std::int64_t> labelInteger(const nlohmann::json* value);
 /// Three numbers.
@@ -63,7 +63,7 @@ std::optional<BitPattern> bitPattern(std::string_view text);
 std::string joined(const std::vector<std::string>& texts);
 
 /// Groups of a VICAR label (its properties) or a PDS3 label (groups and objects) by name; a name
-/// may come twice. Nothing for PDS4.
+/// may occur twice. Empty for PDS4.
 std::vector<std::pair<std::string, const nlohmann::json*>> labelGroups(LabelFormat format,
                                                                        const nlohmann::json& label);
 /// The first group of one of these names, or null.
@@ -74,7 +74,7 @@ const nlohmann::json* labelItem(LabelFormat format, const nlohmann::json& label,
                                 std::initializer_list<std::string_view> groups,
                                 std::string_view key);
 
-/// Elements of this name anywhere in a PDS4 label but under `except`, in order; at most 1000.
+/// Elements of this name anywhere in a PDS4 label except under `except`, in order; at most 1000.
 std::vector<const nlohmann::json*> elementsNamed(const nlohmann::json& label, std::string_view name,
                                                  std::string_view except = {});
 
