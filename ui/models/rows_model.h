@@ -35,7 +35,7 @@ struct TableColumn {
   Value sort;    ///< sort key, if it is not the value
 };
 
-/// Numbers to the right, texts to the left.
+/// Of cells and heads: numbers to the right, texts to the left.
 QVariant columnAlignment(int decimals);
 
 /// A table of rows of one type, whose columns are functions of a row.
@@ -75,6 +75,7 @@ class RowsModel : public QAbstractTableModel {
     if (orientation != Qt::Horizontal || section < 0 || section >= columnCount()) return {};
     const TableColumn<Row>& column = columns_[static_cast<std::size_t>(section)];
     if (role == Qt::DisplayRole) return column.title;
+    if (role == Qt::TextAlignmentRole) return columnAlignment(column.decimals);
     return role == Qt::ToolTipRole ? column.help : QVariant();
   }
 

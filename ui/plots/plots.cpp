@@ -11,7 +11,6 @@
 #include <QMouseEvent>
 #include <QVBoxLayout>
 
-#include <qwt_legend.h>
 #include <qwt_plot.h>
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
@@ -23,6 +22,7 @@
 #include <qwt_scale_engine.h>
 #include <qwt_symbol.h>
 #include <qwt_text.h>
+#include <qwt_text_label.h>
 
 namespace boresight::ui {
 
@@ -42,6 +42,7 @@ class NamedScale : public QwtScaleDraw {
 namespace {
 
 constexpr double kSmallest = 1e-6;
+constexpr int kMostTicks = 3;  // more overprint each other in a drawer
 
 QVector<QwtIntervalSample> samplesOf(double radius, const QVector<int>& counts) {
   QVector<QwtIntervalSample> samples;
@@ -81,6 +82,17 @@ void Plot::applyPalette() {
   plot_->replot();
 }
 
+void Plot::nameQuantities(const Quantity& first, const Quantity& second) {
+  const auto html = [](const Quantity& quantity) {
+    return QStringLiteral("<span style='color:%1'>%2 %3</span>")
+        .arg(quantity.color.name(), quantity.sign, quantity.name.toHtmlEscaped());
+  };
+  QwtText title(html(first) + QStringLiteral("&nbsp;&nbsp;&nbsp;") + html(second),
+                QwtText::RichText);
+  plot_->titleLabel()->setFont(font());  // Qwt's own is large and bold
+  plot_->setTitle(title);
+}
+
 void Plot::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) applyPalette();
@@ -107,6 +119,7 @@ void DoublePlot::addCurve(Curve& curve, const Series& series, int axis) {
   curve.curve->setAxes(QwtPlot::xBottom, axis);
   curve.curve->attach(plot_);
   plot_->enableAxis(axis);
+  plot_->setAxisMaxMajor(axis, kMostTicks);
   if (series.logarithmic) plot_->setAxisScaleEngine(axis, new QwtLogScaleEngine);
 }
 
@@ -162,13 +175,9 @@ QPoint DoublePlot::canvasPoint(int place) const {
           canvas()->height() / 2};
 }
 
-/// The title has the curve's sign and colour, so that no legend takes room.
-void DoublePlot::titleAxis(const Curve& curve, const QColor& color) {
-  const bool left = curve.axis == QwtPlot::yLeft;
-  QwtText title((left ? QStringLiteral("● ") : QStringLiteral("◆ ")) + curve.series.title);
-  title.setFont(font());
-  title.setColor(color);
-  plot_->setAxisTitle(curve.axis, title);
+void DoublePlot::showTitle(const PlotColors& colors) {
+  nameQuantities({QStringLiteral("●"), left_.series.title, colors.first},
+                 {QStringLiteral("◆"), right_.series.title, colors.second});
 }
 
 void DoublePlot::applyColors(const PlotColors& colors) {
@@ -179,8 +188,7 @@ void DoublePlot::applyColors(const PlotColors& colors) {
   right_.curve->setPen(colors.second, 1.5, Qt::DashLine);
   right_.curve->setSymbol(
       new QwtSymbol(QwtSymbol::Diamond, colors.second, QPen(colors.second), QSize(10, 10)));
-  titleAxis(left_, colors.first);
-  titleAxis(right_, colors.second);
+  showTitle(colors);
 }
 
 bool DoublePlot::eventFilter(QObject* watched, QEvent* event) {
@@ -204,7 +212,6 @@ HistogramPlot::HistogramPlot(const QString& axis_title, const QString& all_title
       all_(new QwtPlotHistogram(all_title)),
       part_(new QwtPlotHistogram(part_title)),
       axis_title_(axis_title) {
-  plot_->insertLegend(new QwtLegend, QwtPlot::TopLegend);
   all_->attach(plot_);
   part_->attach(plot_);
   marker_->setXValue(0.0);
@@ -225,6 +232,8 @@ void HistogramPlot::applyColors(const PlotColors& colors) {
   all_->setBrush(QBrush(colors.second, Qt::BDiagPattern));
   part_->setPen(QPen(Qt::NoPen));
   part_->setBrush(colors.first);
+  nameQuantities({QStringLiteral("□"), all_->title().text(), colors.second},
+                 {QStringLiteral("■"), part_->title().text(), colors.first});
   QwtText title(axis_title_);
   title.setFont(font());
   plot_->setAxisTitle(QwtPlot::xBottom, title);

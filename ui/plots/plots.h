@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include <QColor>
 #include <QPointF>
 #include <QString>
 #include <QVector>
@@ -31,6 +32,14 @@ class Plot : public QWidget {
   virtual void applyColors(const PlotColors& colors) = 0;
   /// Applies all colours and fonts. To be called once by the constructor of the derived class.
   void applyPalette();
+  struct Quantity {
+    QString sign;
+    QString name;
+    QColor color;
+  };
+  /// Above the plot, in the colours and with the signs that they are drawn with. Along a low axis
+  /// the names would be cut, and a legend would take room.
+  void nameQuantities(const Quantity& first, const Quantity& second);
   void changeEvent(QEvent* event) override;
 
   QwtPlot* plot_;
@@ -80,7 +89,7 @@ class DoublePlot : public Plot {
   void addCurve(Curve& curve, const Series& series, int axis);
   void fill(Curve& curve, const QVector<QPointF>& points);
   void nameIterations();
-  void titleAxis(const Curve& curve, const QColor& color);
+  void showTitle(const PlotColors& colors);
 
   Curve left_;
   Curve right_;

@@ -83,8 +83,6 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
     connect(button, &QPushButton::clicked, this, [this, chosen = act] { decide(chosen, false); });
   }
   connect(ui_.validateNext, &QPushButton::clicked, this, [this] { decide(Act::kValidate, true); });
-  for (QPushButton* each : {ui_.validate, ui_.validateNext, ui_.approve, ui_.reject, ui_.takeBack})
-    each->setMinimumWidth(fontMetrics().horizontalAdvance(each->text()) + 16);
   for (QLineEdit* each : {ui_.decisionName, ui_.decisionComment}) {
     each->installEventFilter(this);
     connect(each, &QLineEdit::textChanged, this, &DecisionForm::showWhatIsPossible);
@@ -129,15 +127,14 @@ void DecisionForm::ask(Act act) {
     return endQuestion();
   }
   question_ = {act, controller_.caseId()};
-  ui_.decisionComment->setPlaceholderText(act == Act::kReject
-                                              ? tr("Why do you reject this result?")
-                                              : tr("Why do you validate this pose?"));
+  ui_.decisionComment->setPlaceholderText(act == Act::kReject ? tr("Why reject this result?")
+                                                              : tr("Why validate this pose?"));
   missing->setFocus();
 }
 
 void DecisionForm::endQuestion() {
   question_.reset();
-  ui_.decisionComment->setPlaceholderText(tr("Why do you validate this pose?"));
+  ui_.decisionComment->setPlaceholderText(tr("Why validate this pose?"));
   Q_EMIT questionEnded();
 }
 
@@ -178,6 +175,12 @@ ReviewController::Act DecisionForm::nextStep() const {
   return status.holds() ? Act::kTakeBack : Act::kValidate;
 }
 
+/// Whether a decision on the case holds, which can be withdrawn.
+bool DecisionForm::isDecided() const {
+  const auto history = controller_.history();  // the newest first
+  return !history.empty() && history.front()->verdict != Verdict::kReopened;
+}
+
 void DecisionForm::showWhatIsPossible() {
   refusal_.clear();
   const sessions::Signature who = signature();
@@ -189,9 +192,11 @@ void DecisionForm::showWhatIsPossible() {
                          : tr("%1. Not available: %2").arg(tips_[act], sentence(reason)));
   }
   ui_.validateNext->setEnabled(ui_.validate->isEnabled());
-  ui_.validateNext->setVisible(controller_.hasOtherCases());
-  // A second approval is offered only where the session requires it.
-  buttons_[Act::kApprove]->setVisible(controller_.settings().second_person);
+  // A row of whole words has room for what can be decided now, and not for all that ever can.
+  const bool decided = isDecided();
+  ui_.validateNext->setVisible(!decided && controller_.hasOtherCases());
+  ui_.takeBack->setVisible(decided);
+  ui_.approve->setVisible(decided && controller_.settings().second_person);
   const bool told = nextStep() != Act::kTakeBack;
   obstacle_ = told ? sentence(controller_.obstacle(nextStep(), who)) : QString();
   showReading();

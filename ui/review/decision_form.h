@@ -60,6 +60,7 @@ class DecisionForm : public QWidget {
   void decide(Act act, bool then_next);
   void endQuestion();
   void followCase();
+  bool isDecided() const;
   void showWhatIsPossible();
   void showReading();
   QString nextCase() const { return next_ ? next_() : QString(); }

@@ -11,6 +11,7 @@
 
 #include "ui/models/text.h"
 #include "ui/panels/case/cases_panel.h"
+#include "ui/style/icons.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
@@ -197,7 +198,7 @@ QString QueueModel::reviewStatusText(const QueueRow& row) {
 QVariant QueueModel::look(const QueueEntry& entry, int column, int role) const {
   if (role == Qt::ToolTipRole) return tooltipOf(entry, column);
   if (role != Qt::DecorationRole || column != kCase || entry.thumbnail.isNull()) return {};
-  return QIcon(QPixmap::fromImage(entry.thumbnail));
+  return pictureIcon(entry.thumbnail);
 }
 
 QueueFilter::QueueFilter(QueueModel& model, QObject* parent) : RowsFilter(parent), model_(model) {

@@ -60,8 +60,9 @@ constexpr const char* kPaths[] = {
     "M 4.5 4.5 L 11.5 4.5 L 11.5 11.5 L 4.5 11.5 Z M 6.5 2 L 6.5 4.5 M 9.5 2 L 9.5 4.5 M 6.5 11.5 "
     "L 6.5 14 M 9.5 11.5 L 9.5 14 M 2 6.5 L 4.5 6.5 M 2 9.5 L 4.5 9.5 M 11.5 6.5 L 14 6.5 "
     "M 11.5 9.5 L 14 9.5",
+    "M 3 5.5 L 10.5 5.5 L 10.5 13 L 3 13 Z M 6 5.5 L 6 2.5 L 13.5 2.5 L 13.5 10 L 10.5 10",
 };
-static_assert(std::size(kPaths) == static_cast<std::size_t>(Icon::kAlgorithm) + 1);
+static_assert(std::size(kPaths) == static_cast<std::size_t>(Icon::kFloat) + 1);
 
 QPainterPath pathOf(const char* text) {
   QPainterPath path;
@@ -122,6 +123,13 @@ class LineIcon final : public QIconEngine {
 
 QIcon iconOf(Icon icon, QRgb Theme::*color) {
   return icon == Icon::kNone ? QIcon() : QIcon(new LineIcon(icon, color));
+}
+
+QIcon pictureIcon(const QImage& picture) {
+  const QPixmap pixmap = QPixmap::fromImage(picture);
+  QIcon icon(pixmap);
+  icon.addPixmap(pixmap, QIcon::Selected);
+  return icon;
 }
 
 QIcon overlayIcon(Icon icon) { return QIcon(new LineIcon(icon, nullptr)); }

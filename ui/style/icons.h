@@ -50,6 +50,7 @@ enum class Icon {
   kLayers,
   kSideBySide,
   kAlgorithm,
+  kFloat,
 };
 
 /// Size of an icon next to a text, with room between the two.
@@ -57,6 +58,8 @@ inline constexpr QSize kButtonIcon(kIcon + 6, kIcon);
 
 /// An icon in a colour of the theme in use when it is drawn; disabled: the colour of hints.
 QIcon iconOf(Icon icon, QRgb Theme::*color = &Theme::text);
+/// A picture of a list; the style would tint it where its row is chosen.
+QIcon pictureIcon(const QImage& picture);
 /// An icon for the overlay on the image, which is dark in every theme.
 QIcon overlayIcon(Icon icon);
 

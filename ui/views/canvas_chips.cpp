@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/views/canvas_chips.h"
 
+#include <algorithm>
+
 #include <QtWidgets>
 
 #include "ui/style/tokens.h"
@@ -94,7 +96,9 @@ void CanvasChips::showZoom() {
 }
 
 void CanvasChips::arrange() {
-  tools_->adjustSize();
+  // Where the view is too low, the strip itself offers what has no room.
+  const int most = std::max(tools_->iconSize().height(), view_.height() - 2 * kMargin);
+  tools_->resize(tools_->sizeHint().boundedTo({tools_->sizeHint().width(), most}));
   tools_->move(kMargin, kMargin);
   for (QLabel* label : {shown_, zoom_}) label->adjustSize();
   const int right = view_.width() - kMargin;

@@ -103,6 +103,7 @@ void styleTable(QTableView& table) {
   table.verticalHeader()->hide();
   table.verticalHeader()->setDefaultSectionSize(table.fontMetrics().height() + 6);
   table.horizontalHeader()->setHighlightSections(false);
+  table.horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table.horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
   QObject::connect(table.horizontalHeader(), &QWidget::customContextMenuRequested, &table,
                    [&table](const QPoint& at) { showColumnsMenu(table, at); });
@@ -125,8 +126,11 @@ void addRow(QTableWidget& table, const QStringList& texts) {
   table.setRowCount(row + 1);
   for (int column = 0; column < texts.size(); ++column) {
     auto* item = new QTableWidgetItem(texts[column]);
-    item->setTextAlignment((column > 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    const Qt::Alignment side = column > 0 ? Qt::AlignRight : Qt::AlignLeft;
+    item->setTextAlignment(side | Qt::AlignVCenter);
     table.setItem(row, column, item);
+    if (QTableWidgetItem* head = table.horizontalHeaderItem(column))
+      head->setTextAlignment(side | Qt::AlignVCenter);
   }
 }
 

@@ -20,6 +20,7 @@
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_canvas.h"
+#include "ui/style/icons.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/window/image_share.h"
@@ -30,10 +31,39 @@
 namespace boresight::ui {
 namespace {
 
-/// Fusion draws the frame of an empty box in a shade that a dark ground swallows.
-class VisibleBoxes : public QProxyStyle {
+/// Fusion with the icons of the program. Fusion draws the frame of an empty box in a shade that a
+/// dark ground swallows.
+class ProgramStyle : public QProxyStyle {
  public:
-  VisibleBoxes() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
+  ProgramStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
+
+  /// Message boxes and heads of panels have the icons of the bars, in the colours of the theme.
+  QIcon standardIcon(StandardPixmap which, const QStyleOption* option,
+                     const QWidget* widget) const override {
+    switch (which) {
+      case SP_MessageBoxInformation:
+        return iconOf(Icon::kInfo, &Theme::accent);
+      case SP_MessageBoxQuestion:
+        return iconOf(Icon::kHelp, &Theme::accent);
+      case SP_MessageBoxWarning:
+        return iconOf(Icon::kWarning, &Theme::warning_text);
+      case SP_MessageBoxCritical:
+        return iconOf(Icon::kCross, &Theme::failure_text);
+      case SP_TitleBarCloseButton:
+        return iconOf(Icon::kCross, &Theme::text2);
+      case SP_TitleBarNormalButton:
+        return iconOf(Icon::kFloat, &Theme::text2);
+      default:
+        return QProxyStyle::standardIcon(which, option, widget);
+    }
+  }
+
+  /// Buttons of dialogs are words, as everywhere else.
+  int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                QStyleHintReturn* details) const override {
+    if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;
+    return QProxyStyle::styleHint(hint, option, widget, details);
+  }
 
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override {
@@ -128,7 +158,7 @@ void nameApplication(QApplication& application) {
   // icon.
   QGuiApplication::setDesktopFileName(QStringLiteral("boresight"));
   QApplication::setWindowIcon(QIcon::fromTheme(QStringLiteral("boresight")));
-  application.setStyle(new VisibleBoxes);
+  application.setStyle(new ProgramStyle);
 }
 
 int runSelfTest(std::ostream& output) {

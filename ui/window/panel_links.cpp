@@ -33,6 +33,15 @@
 #include "ui/window/window_docks.h"
 
 namespace boresight::ui {
+namespace {
+
+QDockWidget* dockOf(const QWidget& panel) {
+  for (QWidget* each = panel.parentWidget(); each; each = each->parentWidget())
+    if (auto* dock = qobject_cast<QDockWidget*>(each)) return dock;
+  return nullptr;
+}
+
+}  // namespace
 
 QueueLinks::QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObject* parent)
     : QObject(parent), parts_(parts) {
@@ -40,8 +49,8 @@ QueueLinks::QueueLinks(const WindowParts& parts, const WindowDocks& docks, QObje
           [this](const QString& id, const QString& digest, int iteration) {
             open({id, digest.toStdString(), iteration});
           });
-  auto* dock = qobject_cast<QDockWidget*>(docks.queue.parentWidget());
-  connect(dock, &QDockWidget::visibilityChanged, &docks.queue, &QueuePanel::setInSight);
+  connect(dockOf(docks.queue), &QDockWidget::visibilityChanged, &docks.queue,
+          &QueuePanel::setInSight);
   parts_.state.onChange(ViewChange::kSnapshot, this, &QueueLinks::goThere);
   connect(&parts_.cases, &CaseController::caseChosen, this, [this](const QString& id) {
     if (wanted_ && wanted_->case_id != id) wanted_.reset();  // the operator went elsewhere

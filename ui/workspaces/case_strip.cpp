@@ -175,7 +175,6 @@ CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
       list_(named(new QListView, "stripList")) {
   setObjectName(QStringLiteral("caseStrip"));
   filter_->setIcon(iconOf(Icon::kFilter, &Theme::text2));
-  filter_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   filter_->setFixedHeight(kVerdictHeight);
   filter_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   list_->setModel(order_);
@@ -200,8 +199,7 @@ CaseStrip::CaseStrip(CasesModel& model, QWidget* parent)
   connect(add, &QToolButton::clicked, this, &CaseStrip::addRequested);
   connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this,
           [this](const QModelIndex& current) {
-            if (!showing_ && current.isValid())
-              Q_EMIT caseRequested(idAt(current));
+            if (!showing_ && current.isValid()) Q_EMIT caseRequested(idAt(current));
           });
   list_->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(list_, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
@@ -230,6 +228,7 @@ void CaseStrip::setForDecisions(bool for_decisions) {
 
 void CaseStrip::setNarrow(bool narrow) {
   static_cast<CaseTile*>(list_->itemDelegate())->setNarrow(narrow);
+  filter_->setToolButtonStyle(narrow ? Qt::ToolButtonTextUnderIcon : Qt::ToolButtonTextBesideIcon);
   setFixedWidth((narrow ? kNarrow : kWide).strip_width);
   list_->doItemsLayout();
 }

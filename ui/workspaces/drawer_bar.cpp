@@ -33,7 +33,7 @@ void DrawerBar::showWorkspace() {
     auto* button = new QToolButton;
     button->setDefaultAction(dock->toggleViewAction());
     button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    button->setFixedHeight(kDrawerHandleHeight);
+    button->setFixedHeight(kDrawerHandleHeight - 1);  // below the line of the bar
     row_->addWidget(button);
   }
   row_->addStretch(1);

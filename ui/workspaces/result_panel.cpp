@@ -57,6 +57,8 @@ ResultPanel::ResultPanel(ViewState& state, QualityController& quality, QWidget* 
   pose_->setSelectionMode(QAbstractItemView::NoSelection);
   pose_->setFocusPolicy(Qt::NoFocus);
   pose_->setHorizontalHeaderLabels({QString(), tr("x"), tr("y"), tr("z")});
+  for (int column = 1; column < pose_->columnCount(); ++column)
+    pose_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
   pose_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   pose_->horizontalHeader()->setStretchLastSection(true);
   pose_->setMinimumWidth(kNarrow.run_side - 24);  // of whole numbers

@@ -30,7 +30,7 @@ std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
        true,
        {{"scene", kRight, kWide.run_side, nullptr, 3},
         {"closeUps", kRight, kWide.run_side, nullptr, 3},
-        {"result", kRight, kWide.run_side, nullptr, 2}},
+        {"result", kRight, kWide.run_side, nullptr, 3}},
        {},
        {"scene", "closeUps", "result"}},
       {QT_TRANSLATE_NOOP("Workspace", "Diagnose"),

@@ -41,6 +41,16 @@ TEST(RowsModels, EveryColumnSaysWhatItMeans) {
   }
 }
 
+TEST(RowsModels, HeadsStandAboveTheirFigures) {
+  IterationsModel iterations;
+  iterations.setSnapshot(std::make_shared<sessions::LocalizationTrace>());
+  ASSERT_EQ(iterations.rowCount(), 1);
+  for (int column = 0; column < iterations.columnCount(); ++column)
+    EXPECT_EQ(iterations.headerData(column, Qt::Horizontal, Qt::TextAlignmentRole),
+              iterations.index(0, column).data(Qt::TextAlignmentRole))
+        << iterations.headerData(column, Qt::Horizontal).toString().toStdString();
+}
+
 TEST(NumberText, RoundsUpToOneTwoOrFiveTimesAPowerOfTen) {
   const double pairs[][2] = {{0.0011, 0.002}, {0.03, 0.05}, {0.3, 0.5}, {1.0, 1.0},  {1.1, 2.0},
                              {2.0, 2.0},      {2.1, 5.0},   {5.0, 5.0}, {6.0, 10.0}, {700.0, 1e3}};

@@ -5,6 +5,8 @@
 #include <QtTest>
 #include <QtWidgets>
 
+#include "ui/plots/plot_colors.h"
+
 namespace boresight::ui {
 namespace {
 
@@ -25,6 +27,24 @@ TEST(DoublePlot, NamesOfAScaleThatStaysTheSameAreNew) {
   name = QStringLiteral("1.1");
   plot.setPoints(1, {}, {});
   EXPECT_NE(axisOf(plot), before);
+}
+
+/// Along the axes of a low plot names of quantities are cut.
+TEST(DoublePlot, NamesOfTheQuantitiesStandAboveThePlot) {
+  DoublePlot plot({QStringLiteral("moved, mm"), true}, {QStringLiteral("turned, deg"), true});
+  plot.resize(260, 100);
+  plot.show();
+  const QImage head = plot.grab().toImage().copy(0, 0, 260, 20);
+  const PlotColors colors = plotColors(plot.palette());
+  int first = 0;
+  int second = 0;
+  for (int y = 0; y < head.height(); ++y)
+    for (int x = 0; x < head.width(); ++x) {
+      first += head.pixelColor(x, y) == colors.first;
+      second += head.pixelColor(x, y) == colors.second;
+    }
+  EXPECT_GT(first, 10);
+  EXPECT_GT(second, 10);
 }
 
 }  // namespace

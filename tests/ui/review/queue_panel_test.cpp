@@ -113,6 +113,9 @@ TEST_F(QueuePanelTest, Queue_IsFilledInTheBackgroundWorstFirst) {
   const QModelIndex first = table_->model()->index(0, 0);
   EXPECT_TRUE(test::has(first.siblingAtColumn(QueueModel::kTrouble).data().toString(), "100"));
   EXPECT_FALSE(first.data(Qt::DecorationRole).isNull()) << "a picture";
+  const auto picture = first.data(Qt::DecorationRole).value<QIcon>();
+  EXPECT_EQ(picture.pixmap(64, QIcon::Selected).toImage(), picture.pixmap(64).toImage())
+      << "a chosen row does not tint it";
   const QModelIndex second = table_->model()->index(1, 0);
   EXPECT_FALSE(second.siblingAtColumn(QueueModel::kMargin).data().toString().isEmpty());
   EXPECT_FALSE(second.siblingAtColumn(QueueModel::kFromSeed).data().toString().isEmpty());

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/review/review_panel.h"
 
+#include <algorithm>
+#include <string>
+
 #include <QtWidgets>
 
 #include "sessions/checks/pose_quality.h"
@@ -15,6 +18,7 @@
 #include "ui/panels/diagnose/options_table.h"
 #include "ui/review/pose_export.h"
 #include "ui/state/document.h"
+#include "ui/style/tokens.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/verdict_bar.h"
@@ -221,6 +225,28 @@ TEST_F(ReviewPanelTest, OneCaseAlone_OffersNoNext) {
   document_.edit(sessions::withoutCase(document_.session(), RunExample::get().session.cases[1]->id),
                  QStringLiteral("Remove"));
   EXPECT_FALSE(hands().button("validateNext")->isVisible());
+}
+
+TEST_F(ReviewPanelTest, ButtonsAreWholeInASidePane) {
+  openRun();
+  const auto expectWhole = [this](std::initializer_list<const char*> shown) {
+    for (const char* name : {"validate", "validateNext", "approve", "reject", "takeBack"}) {
+      const QPushButton* button = hands().button(name);
+      const bool expected = std::find_if(shown.begin(), shown.end(), [name](const char* each) {
+                              return std::string(each) == name;
+                            }) != shown.end();
+      EXPECT_EQ(button->isVisible(), expected) << name;
+      if (expected) EXPECT_GE(button->width(), button->sizeHint().width()) << name;
+    }
+  };
+  panel_->resize(kNarrow.review_side, 600);
+  QApplication::processEvents();
+  expectWhole({"validate", "validateNext", "reject"});
+  controller().setSecondPerson(true);
+  validateAs(QStringLiteral("Ada"));
+  QApplication::processEvents();
+  expectWhole({"validate", "approve", "reject", "takeBack"});
+  EXPECT_EQ(panel_->width(), kNarrow.review_side);
 }
 
 TEST_F(ReviewPanelTest, Approval_NeedsAnotherPerson) {

@@ -2,6 +2,8 @@
 #include "ui/style/theme.h"
 
 #include "tests/ui/window_test.h"
+#include "ui/style/icons.h"
+#include "ui/window/application.h"
 
 namespace boresight::ui {
 namespace {
@@ -39,6 +41,18 @@ TEST(Theme, StyleSheetKnowsEveryName) {
     EXPECT_FALSE(qApp->styleSheet().contains(QLatin1Char('@')));
   }
   qApp->setStyleSheet({});
+}
+
+/// Those of Fusion are pictures in colours of another age, on the buttons too.
+TEST(Theme, MessageBoxesHaveTheIconsOfTheProgram) {
+  nameApplication(*qApp);
+  const QMessageBox box(QMessageBox::Question, {}, QStringLiteral("Save?"),
+                        QMessageBox::Save | QMessageBox::Cancel);
+  const QImage shown = box.iconPixmap().toImage();
+  const QImage own = iconOf(Icon::kHelp, &Theme::accent).pixmap(box.iconPixmap().size()).toImage();
+  EXPECT_EQ(shown, own);
+  EXPECT_TRUE(box.button(QMessageBox::Save)->icon().isNull());
+  qApp->setStyle(QStringLiteral("fusion"));
 }
 
 class ThemeSwitchTest : public test::WindowTest {};

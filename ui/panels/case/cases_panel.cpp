@@ -9,6 +9,7 @@
 #include <QPixmap>
 #include <QtWidgets>
 
+#include "ui/style/icons.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
@@ -84,7 +85,7 @@ QString CasesModel::stateText(CaseState state) {
 QVariant CasesModel::look(const CaseRow& row, int column, int role) const {
   if (role == Qt::ToolTipRole) return tooltipOf(row);
   if (role != Qt::DecorationRole || column != kCase || row.thumbnail.isNull()) return {};
-  return QIcon(QPixmap::fromImage(row.thumbnail));  // drawn in the view's size
+  return pictureIcon(row.thumbnail);  // drawn in the view's size
 }
 
 namespace {
@@ -169,7 +170,7 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
     ui_.cases->setColumnWidth(error,
                               std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
                                        metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
-                                  8);
+                                  14);
   fitCaseColumn();
   setCurrent(current_);
 }

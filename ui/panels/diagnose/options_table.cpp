@@ -24,11 +24,20 @@ QString plainText(const OptionDescription& option) {
   return fromText(sessions::valueText(bare, option.value));
 }
 
+/// Rounded to what an operator compares; tool tip and editor have the whole value.
+QString shownText(const OptionDescription& option) {
+  constexpr int kDigits = 6;
+  const QString whole = plainText(option);
+  const auto* real = std::get_if<double>(&option.value);
+  const QString rounded = real ? QString::number(*real, 'g', kDigits) : whole;
+  return rounded.size() < whole.size() ? rounded : whole;
+}
+
 QString helpText(const OptionRow& row) {
   const QString unit = row.now.unit.empty() ? QString() : QLatin1Char(' ') + fromText(row.now.unit);
-  return OptionsModel::tr("%1: %2 Range %3%4; default %5%4.")
+  return OptionsModel::tr("%1: %2 Value %6%4; range %3%4; default %5%4.")
       .arg(fromText(row.now.name), fromText(row.now.help), OptionsModel::rangeText(row.now), unit,
-           plainText(row.by_default));
+           plainText(row.by_default), plainText(row.now));
 }
 
 std::vector<TableColumn<OptionRow>> optionColumns() {
@@ -38,13 +47,13 @@ std::vector<TableColumn<OptionRow>> optionColumns() {
       {tr("Option"), tr("Name of the option, as in its file and on the command line."), -1,
        [](Row row) { return fromText(row.now.name); }},
       {tr("Value"), tr("Value in use; bold where it differs from the default."), -1,
-       [](Row row) { return plainText(row.now); }},
+       [](Row row) { return shownText(row.now); }},
       {tr("Reset"), tr("Click to restore the default."), -1,
        [](Row row) { return row.isChanged() ? OptionsModel::tr("↺ reset") : QString(); }},
       {tr("Unit"), tr("Unit of the value; none for counts, shares and choices."), -1,
        [](Row row) { return fromText(row.now.unit); }},
       {tr("Default"), tr("Value in the chosen profile or preset."), -1,
-       [](Row row) { return plainText(row.by_default); }},
+       [](Row row) { return shownText(row.by_default); }},
       {tr("Range"), tr("Allowed values; others are refused."), -1,
        [](Row row) { return OptionsModel::rangeText(row.now); }},
   };
@@ -139,7 +148,7 @@ QString OptionsModel::rangeText(const OptionDescription& option) {
 QVariant OptionsModel::look(const OptionRow& row, int column, int role) const {
   switch (role) {
     case Qt::EditRole:
-      return valueOf(row, column);
+      return column == kValue ? plainText(row.now) : valueOf(row, column);
     case Qt::ToolTipRole:
       return helpText(row);
     case Qt::CheckStateRole:
@@ -200,10 +209,10 @@ void OptionsTable::setOptions(const std::vector<OptionDescription>& current,
   showHelp();
   if (fitted) return;
   resizeColumnsToContents();
-  // One long number must not push the rest out of sight; tooltip and editor show it whole.
-  const int most = fontMetrics().horizontalAdvance(QStringLiteral("0.123456789"));
+  // Values that are typed later find the columns wide enough.
+  const int least = fontMetrics().horizontalAdvance(QStringLiteral("0.00123456")) + 16;
   for (const int column : {OptionsModel::kValue, OptionsModel::kDefault})
-    setColumnWidth(column, std::min(columnWidth(column), most));
+    setColumnWidth(column, std::max(columnWidth(column), least));
   setColumnWidth(OptionsModel::kReset,
                  fontMetrics().horizontalAdvance(OptionsModel::tr("↺ reset")) + 16);
 }

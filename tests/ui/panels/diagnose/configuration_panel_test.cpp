@@ -231,6 +231,18 @@ TEST_F(OptionsModelTest, ReportsValuesOfEveryKindAndKeepsItsOwn) {
   EXPECT_EQ(edits_.size(), 3u) << "the same value is no edit";
 }
 
+TEST_F(OptionsModelTest, LongValues_AreRoundedForReadingAndWholeForEditing) {
+  LocalizerOptions options;
+  options.loop.inlier_threshold_px = 1.23456789012;
+  show(options);
+  const QModelIndex value = find("loop.inlier_threshold_px");
+  EXPECT_EQ(value.data().toString(), QStringLiteral("1.23457"));
+  EXPECT_EQ(value.data(Qt::EditRole).toString(), QStringLiteral("1.23456789012"));
+  EXPECT_TRUE(value.data(Qt::ToolTipRole).toString().contains(QStringLiteral("1.23456789012")));
+  EXPECT_TRUE(model_.setData(value, value.data(Qt::EditRole)));
+  EXPECT_TRUE(edits_.empty()) << "an editor that is opened and closed changes nothing";
+}
+
 TEST_F(OptionsModelTest, MarksAndResetsWhatDiffersFromTheDefault) {
   LocalizerOptions options;
   options.loop.max_iterations = 7;
