@@ -41,13 +41,18 @@ int ColumnFitter::widthOf(int column) const {
 }
 
 void ColumnFitter::show(int column, bool shown) {
-  if (shown == hidden_.contains(column)) {
-    if (shown)
-      hidden_.erase(column);
-    else
-      hidden_[column] = widthOf(column);
-    header_.setSectionHidden(column, !shown);
+  const auto hidden = hidden_.find(column);
+  if (shown == (hidden == hidden_.end())) return;
+  if (!shown) {
+    hidden_[column] = widthOf(column);
+    header_.setSectionHidden(column, true);
+    return;
   }
+  const int width = hidden->second;
+  hidden_.erase(hidden);
+  header_.setSectionHidden(column, false);
+  // A view that fits columns to their contents takes hidden ones for empty.
+  header_.resizeSection(column, std::max(width, header_.sectionSize(column)));
 }
 
 void ColumnFitter::fit() {

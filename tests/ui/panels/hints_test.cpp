@@ -94,6 +94,7 @@ TEST(ColumnFitter, HidesWhatCanBeDoneWithoutUntilAllFitsAndBringsItBack) {
   EXPECT_EQ(hidden(), (std::vector<int>{2, 4}));
   table.resize(120, 200);
   EXPECT_EQ(hidden(), (std::vector<int>{2, 3, 4})) << "0 and 1 always stay";
+  table.resizeColumnToContents(4);
   table.resize(600, 200);
   EXPECT_EQ(hidden(), std::vector<int>{});
   EXPECT_EQ(table.columnWidth(4), 100);

@@ -236,7 +236,8 @@ TEST_F(ReviewPanelTest, ButtonsAreWholeInASidePane) {
                               return std::string(each) == name;
                             }) != shown.end();
       EXPECT_EQ(button->isVisible(), expected) << name;
-      if (expected) EXPECT_GE(button->width(), button->sizeHint().width()) << name;
+      if (!expected) continue;
+      EXPECT_GE(button->width(), button->sizeHint().width()) << name;
     }
   };
   panel_->resize(kNarrow.review_side, 600);

@@ -56,6 +56,7 @@ CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRun
   styleTable(*ui_.parameters);
   ui_.parameters->setObjectName(QStringLiteral("calibrationParameters"));
   ui_.parameters->horizontalHeader()->setStretchLastSection(true);
+  ui_.parameters->resizeColumnsToContents();  // whole heads, also before there are values
   connect(ui_.calibrate, &QPushButton::clicked, this, &CalibrationPanel::calibrate);
   connect(ui_.use, &QPushButton::clicked, this, &CalibrationPanel::use);
   state_.onChange(ViewChange::kCase, this, [this] {

@@ -170,7 +170,7 @@ void CasesPanel::setRows(std::vector<CaseRow> rows) {
     ui_.cases->setColumnWidth(error,
                               std::max(metrics.horizontalAdvance(QStringLiteral("Normal,")),
                                        metrics.horizontalAdvance(QStringLiteral("-00.000"))) +
-                                  14);
+                                  13);
   fitCaseColumn();
   setCurrent(current_);
 }
