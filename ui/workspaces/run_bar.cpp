@@ -114,9 +114,26 @@ void RunBar::setNarrow(bool narrow) {
   showCursor();
 }
 
+int RunBar::widthOfCorrections() const {
+  return correction_->sizeHint().width() + corrections_->sizeHint().width() +
+         2 * layout()->spacing();
+}
+
+QSize RunBar::minimumSizeHint() const {
+  QSize least = QFrame::minimumSizeHint();
+  if (correction_->isVisibleTo(this)) least.rwidth() -= widthOfCorrections();
+  return least;
+}
+
+void RunBar::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  showCursor();
+}
+
 void RunBar::showCursor() {
   correction_->setText(correctionText(state_));
-  correction_->setVisible(!narrow_ && !correction_->text().isEmpty());
+  const bool room = width() >= minimumSizeHint().width() + widthOfCorrections();
+  correction_->setVisible(!narrow_ && room && !correction_->text().isEmpty());
   corrections_->setVisible(correction_->isVisibleTo(this));
 }
 

@@ -46,11 +46,17 @@ class RunBar : public QFrame {
   RunScrubber& scrubber() { return *scrubber_; }
   /// Sets actions of the menus; the buttons show their icons and states.
   void setActions(const QList<QAction*>& actions);
-  /// A narrow bar is lower, has icons without text, and no figures at its end.
+  /// A narrow bar is lower, has icons without text, and no corrections at its end.
   void setNarrow(bool narrow);
+  /// Without the corrections, which are shown where there is room.
+  QSize minimumSizeHint() const override;
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void showCursor();
+  int widthOfCorrections() const;
 
   ViewState& state_;
   QHBoxLayout* buttons_ = nullptr;

@@ -108,6 +108,8 @@ class Inspector {
   }
 
   void inspectSize(const QWidget& widget, const QLayout& layout) {
+    // A scroll bar has no text to cut: it may be shorter than its style asks for.
+    if (widget.inherits("QAbstractScrollAreaScrollBarContainer")) return;
     const QSize least = layout.totalMinimumSize();
     if (layout.sizeConstraint() == QLayout::SetNoConstraint) return;
     if (widget.width() < least.width() || widget.height() < least.height())

@@ -55,8 +55,7 @@ CalibrationPanel::CalibrationPanel(Document& document, ViewState& state, TaskRun
   ui_.setupUi(this);
   styleTable(*ui_.parameters);
   ui_.parameters->setObjectName(QStringLiteral("calibrationParameters"));
-  ui_.parameters->horizontalHeader()->setStretchLastSection(true);
-  ui_.parameters->resizeColumnsToContents();  // whole heads, also before there are values
+  ui_.parameters->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   connect(ui_.calibrate, &QPushButton::clicked, this, &CalibrationPanel::calibrate);
   connect(ui_.use, &QPushButton::clicked, this, &CalibrationPanel::use);
   state_.onChange(ViewChange::kCase, this, [this] {
@@ -105,7 +104,6 @@ void CalibrationPanel::take(const std::string& case_id, const Camera& before,
   calibration_ = calibration;
   case_id_ = case_id;
   for (const sessions::CalibratedValue& value : values) addRow(*ui_.parameters, rowOf(value));
-  ui_.parameters->resizeColumnsToContents();
   ui_.use->setEnabled(calibration.undetermined.empty());
 }
 
