@@ -109,7 +109,7 @@ class Inspector {
 
   void inspectSize(const QWidget& widget, const QLayout& layout) {
     // A scroll bar has no text to cut: it may be shorter than its style asks for.
-    if (widget.inherits("QAbstractScrollAreaScrollBarContainer")) return;
+    if (widget.objectName().startsWith(QLatin1String("qt_scrollarea_"))) return;
     const QSize least = layout.totalMinimumSize();
     if (layout.sizeConstraint() == QLayout::SetNoConstraint) return;
     if (widget.width() < least.width() || widget.height() < least.height())
