@@ -69,12 +69,12 @@ LocalizerOptions paperProfile() {
   options.loop.halved_size_px = 16384;
   options.loop.max_rolled_hypotheses = 1;
   options.loop.max_attempts = 1;
-  options.loop.correction_point = CorrectionPoint::kCamera;
   options.loop.converged_image_px = 0.0;
   options.loop.enough_inliers = 2.0;
   options.loop.render_again_px = 0.0;
   options.loop.anchored = false;
-  options.loop.leave_factor = 1.0;
+  // The pose is known to 75 mm (Sec. I); the search area begins with 30 mm (Sec. III-A).
+  options.loop.leave_factor = 2.5;
   options.loop.subpixel_matches = false;
   options.refinement.enabled = false;
   options.support.gate = false;

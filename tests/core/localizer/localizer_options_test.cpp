@@ -145,8 +145,8 @@ TEST(LocalizerOptions, PaperProfileIsAsPublished) {
   EXPECT_EQ(paper.loop.converged_translation_m, 0.0005);
   EXPECT_NEAR(paper.loop.converged_rotation_rad, 0.5 * 3.14159265358979 / 180.0, 1e-12);
   EXPECT_EQ(paper.loop.converged_iterations, 2);
-  EXPECT_EQ(paper.loop.leave_factor, 1.0);
-  EXPECT_EQ(paper.loop.correction_point, CorrectionPoint::kCamera);
+  EXPECT_EQ(paper.loop.leave_factor, 75.0 / 30.0);
+  EXPECT_EQ(paper.loop.correction_point, CorrectionPoint::kStation);
   EXPECT_EQ(paper.pnp.sampler, PnpSampler::kEpnp);
   EXPECT_FALSE(paper.loop.subpixel_matches);
   EXPECT_FALSE(paper.refinement.enabled);
