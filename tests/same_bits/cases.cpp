@@ -67,7 +67,7 @@ std::vector<SameBitsCase> allCases() {
        "bc",
        fisheye,
        offset(0.5, 0.5, -0.5, 4.0, 3.0, 5.0),
-       {"--profile", "paper"}},
+       {"--profile", "paper", "--set", "loop.max_iterations=3"}},
       {"os_rational", "os", rational, offset(1.0, 1.2, -0.8, 6.0, -5.0, 4.0)},
       {"os_fisheye",
        "os",
