@@ -226,7 +226,7 @@ TEST_F(CanvasToolsTest, AClickOnATemplateRaisesTheMatchInspector) {
   QCoreApplication::processEvents();
   Q_EMIT view().itemClicked(LayerId::kMatches, 0);
   QCoreApplication::processEvents();
-  EXPECT_FALSE(window_.dock(QStringLiteral("inspector"))->widget()->visibleRegion().isEmpty());
+  EXPECT_FALSE(window_.dock(QStringLiteral("inspector"))->visibleRegion().isEmpty());
 }
 
 }  // namespace
