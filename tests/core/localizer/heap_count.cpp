@@ -3,24 +3,12 @@
 
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <new>
 
 namespace {
 
 std::atomic<int> allocations{0};
-std::atomic<std::int64_t> live_blocks{0};  // of `new`
-
-void* counted(void* block) {
-  if (block != nullptr) ++live_blocks;
-  return block;
-}
-
-void giveBack(void* block) {
-  if (block != nullptr) --live_blocks;
-  std::free(block);
-}
 
 }  // namespace
 
@@ -59,16 +47,16 @@ int __wrap_posix_memalign(void** block, std::size_t alignment, std::size_t size)
 void* operator new(std::size_t size) {
   void* block = std::malloc(size > 0 ? size : 1);
   if (block == nullptr) std::abort();
-  return counted(block);
+  return block;
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto unit = static_cast<std::size_t>(alignment);
   void* block = std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
   if (block == nullptr) std::abort();
-  return counted(block);
+  return block;
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return counted(std::malloc(size > 0 ? size : 1));
+  return std::malloc(size > 0 ? size : 1);
 }
 void* operator new[](std::size_t size) { return operator new(size); }
 void* operator new[](std::size_t size, const std::nothrow_t& none) noexcept {
@@ -77,19 +65,17 @@ void* operator new[](std::size_t size, const std::nothrow_t& none) noexcept {
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   return operator new(size, alignment);
 }
-void operator delete(void* block) noexcept { giveBack(block); }
-void operator delete(void* block, std::size_t) noexcept { giveBack(block); }
-void operator delete(void* block, std::align_val_t) noexcept { giveBack(block); }
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept { giveBack(block); }
-void operator delete[](void* block) noexcept { giveBack(block); }
-void operator delete[](void* block, std::size_t) noexcept { giveBack(block); }
-void operator delete[](void* block, std::align_val_t) noexcept { giveBack(block); }
-void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { giveBack(block); }
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+void operator delete[](void* block) noexcept { std::free(block); }
+void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
+void operator delete[](void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
 
 namespace boresight::test {
 
 int heapAllocations() { return allocations; }
-
-std::int64_t liveBlocks() { return live_blocks; }
 
 }  // namespace boresight::test

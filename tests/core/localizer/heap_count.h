@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-
 namespace boresight::test {
 
 /// How often this program has taken memory from the heap so far: by `new`, or by a call to the
 /// malloc family from any code that is linked in (the linker redirects it), Eigen's included.
 int heapAllocations();
-
-/// Blocks that `new` has given and `delete` has not taken back, in the whole process: the
-/// libraries' C++ code, too.
-std::int64_t liveBlocks();
 
 }  // namespace boresight::test
