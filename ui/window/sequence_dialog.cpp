@@ -32,8 +32,8 @@ struct FramePicture {
   QString problem;  ///< why there is no image
 };
 
-/// Of sequenceColumns(), those that a narrow table does without, the first one first.
-const std::vector<int> kDispensable = {6, 5, 4, 3};
+/// In the order of sequenceColumns().
+enum Column { kFrame, kImage, kState, kProbability, kMoved_mm, kTurned_deg, kTime_ms, kReason };
 
 std::vector<TableColumn<sessions::SequenceRow>> sequenceColumns() {
   using Row = const sessions::SequenceRow&;
@@ -179,7 +179,7 @@ QWidget* SequenceDialog::buildForm() {
 QWidget* SequenceDialog::buildFrames() {
   setUpTable(*table_, *model_);
   table_->horizontalHeader()->setStretchLastSection(true);
-  new ColumnFitter(*table_, kDispensable);
+  new ColumnFitter(*table_, {kTime_ms, kTurned_deg, kMoved_mm, kProbability});
   (new EmptyHint(*table_))->setText(tr("Choose the images, then Run: one row per frame."));
   auto* split = new QSplitter;
   split->addWidget(table_);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/window_docks.h"
 
-#include <algorithm>
-#include <utility>
-
 #include <QtWidgets>
 
 #include "ui/annotation/ambiguity_view.h"
@@ -31,12 +28,12 @@
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_view.h"
-#include "ui/style/tokens.h"
 #include "ui/views/compare_view.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/views/layers_panel.h"
 #include "ui/views/mask_editor.h"
+#include "ui/widgets/panel_area.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/workspaces/canvas_frame.h"
@@ -47,61 +44,6 @@ namespace boresight::ui {
 namespace {
 
 QString windowText(const char* text) { return QMainWindow::tr(text); }
-
-/// A panel that scrolls in a low dock. Docks that insist on the height of their panels squeeze each
-/// other, or make the window larger than the screen.
-class PanelArea final : public QScrollArea {
- public:
-  explicit PanelArea(QWidget* panel) {
-    setFrameShape(QFrame::NoFrame);
-    setFocusPolicy(Qt::NoFocus);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    setWidget(panel);
-  }
-
-  QSize sizeHint() const override { return widget()->sizeHint(); }
-  QSize minimumSizeHint() const override {
-    const int bar = scrolls_ ? verticalScrollBar()->sizeHint().width() : 0;
-    return {leastOfPanel().width() + bar, std::min(leastOfPanel().height(), kLeastHeight)};
-  }
-
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    const bool done = QScrollArea::eventFilter(watched, event);
-    if (watched == widget() && event->type() == QEvent::LayoutRequest) {
-      followPanel();
-      updateGeometry();
-    }
-    return done;
-  }
-  void resizeEvent(QResizeEvent* event) override {
-    QScrollArea::resizeEvent(event);
-    followPanel();
-  }
-
- private:
-  static constexpr int kLeastHeight = 160 - kPanelHeadHeight;
-
-  QSize leastOfPanel() const {
-    return widget()->minimumSizeHint().expandedTo(widget()->minimumSize());
-  }
-  /// With all lines of its texts at this width.
-  int leastHeight(int width) const {
-    const QLayout* layout = widget()->layout();
-    const bool wraps = layout && layout->hasHeightForWidth();
-    return std::max(leastOfPanel().height(), wraps ? layout->minimumHeightForWidth(width) : 0);
-  }
-  /// The panel fills the area, and is never lower than it can be.
-  void followPanel() {
-    const int bar = verticalScrollBar()->sizeHint().width();
-    const bool scrolled = std::exchange(scrolls_, height() < leastHeight(width()));
-    const int width = this->width() - (scrolls_ ? bar : 0);
-    widget()->resize(width, std::max(height(), leastHeight(width)));
-    if (scrolled != scrolls_) updateGeometry();
-  }
-
-  bool scrolls_ = false;
-};
 
 }  // namespace
 
