@@ -144,7 +144,7 @@ StepReport Localizer::accepted(LocalizationStatus status, const StepReport& repo
       withUndetermined(attempt_.covariance(), pass_.outcome().weak, problem().uncertainty);
   if (!searches() || !options().support.gate) return finish(status, report);
   status = judgeGap(workspace(), options());
-  if (status != LocalizationStatus::kConverged) return finish(status, report);
+  if (status != LocalizationStatus::kConverged) return conclude(status, report);
   phase_ = Phase::kCompare;
   comparison_kind_ = PassKind::kCompare;
   return report;
@@ -157,9 +157,15 @@ StepReport Localizer::compared(const StepReport& report) {
       judgeCompetingPoses(workspace().competing_poses, seed, options());
   const std::optional<PassKind> next = comparisonAfter(comparison_kind_, workspace().probability,
                                                        seed, attempt_.camera_from_station());
-  if (status != LocalizationStatus::kConverged || !next) return finish(status, report);
+  if (status != LocalizationStatus::kConverged || !next) return conclude(status, report);
   comparison_kind_ = *next;
   return report;
+}
+
+/// The end, unless the pose is ambiguous among the search's first candidates: others wait.
+StepReport Localizer::conclude(LocalizationStatus status, const StepReport& report) {
+  const bool goes_on = status != LocalizationStatus::kConverged && pass_.searchIsSuspended();
+  return goes_on ? searchAll(report) : finish(status, report);
 }
 
 /// After a failure: the next start, another attempt, or the end.
@@ -173,9 +179,10 @@ StepReport Localizer::fail(const Ruling& ruling) {
   return report;
 }
 
-/// The whole object is searched next, as the seed alone does not convince.
+/// The whole object is searched next, or on, as the seed or the first candidate does not convince.
 StepReport Localizer::searchAll(const StepReport& report) {
   attempt_ = Attempt(attempt_.index() + 1, seedOf(problem()));
+  pass_.workspace().competing_poses = {};  // of a pose that did not convince
   phase_ = Phase::kSearch;
   return report;
 }

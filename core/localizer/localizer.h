@@ -121,6 +121,7 @@ class Localizer {
   StepReport weighed();
   StepReport accepted(LocalizationStatus status, const StepReport& report);
   StepReport compared(const StepReport& report);
+  StepReport conclude(LocalizationStatus status, const StepReport& report);
   StepReport fail(const Ruling& ruling);
   StepReport searchAll(const StepReport& report);
   StepReport follow(PoseComparison::Next next, LocalizationStatus status, const StepReport& report);

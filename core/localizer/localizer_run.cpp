@@ -67,8 +67,13 @@ bool Localizer::startsNear() const {
 /// The attempt of the refined seed, or of the search's first candidate.
 void Localizer::startComparison() {
   const bool is_near = attempt_.index() == 0 && startsNear();
-  comparison_ = is_near ? PoseComparison::ofNearSeed(workspace().candidates, seedOf(problem()))
-                        : PoseComparison(workspace().candidates, seedOf(problem()));
+  const Seed seed = seedOf(problem());
+  if (is_near)
+    comparison_ = PoseComparison::ofNearSeed(workspace().candidates, seed);
+  else if (pass_.searchIsSuspended())
+    comparison_ = PoseComparison::ofFirst(workspace().candidates, seed);
+  else
+    comparison_ = PoseComparison(workspace().candidates, seed);
   noteHypotheses();
   iterate(comparison_.next(attempt_.index(), pass_.context()));
 }

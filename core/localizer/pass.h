@@ -106,6 +106,8 @@ class Pass {
   RunContext context() const {
     return {options_, problem_.camera, scene_, levels_, problem_.end_effector_in_camera_m};
   }
+  /// Whether candidates of the search wait to be refined; the next pass of its kind goes on.
+  bool searchIsSuspended() const { return memory_.search.isSuspended(); }
   /// The problem of the run.
   const LocalizationProblem& problem() const { return problem_; }
   /// The options of the run.
@@ -141,6 +143,7 @@ class Pass {
 
   StepReport stepEdges();
   StepReport stepSearch();
+  bool beginSearch();
   StepReport stepRender();
   StepReport stepTemplates();
   StepReport stepMatch();

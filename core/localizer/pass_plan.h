@@ -21,7 +21,7 @@ namespace boresight {
 enum class PassKind : std::uint8_t {
   kEdges = 0,   ///< detects the edges of the image; once per run
   kNearSearch,  ///< refines the seed as a candidate of the search
-  kSearch,      ///< searches the whole object over the seed's uncertainty
+  kSearch,      ///< searches the whole object over the seed's uncertainty, or goes on with it
   kMatch,       ///< renders, selects templates, matches them, solves for the pose
   kRefine,      ///< renders, refines the pose on the edges of the image
   kEvidence,    ///< measures the image's evidence for the pose of the record

@@ -49,14 +49,18 @@ StepReport Pass::stepEdges() {
 /// Yields no candidate when the scene is outside the image.
 StepReport Pass::stepSearch() {
   PoseSearch& search = memory_.search;
-  const bool works = stage_begun_ || (plan_.kind == PassKind::kNearSearch
-                                          ? search.beginAtSeed(searched_, memory_.renderer)
-                                          : search.begin(searched_, memory_.renderer));
+  const bool works = stage_begun_ || beginSearch();
   stage_begun_ = true;
   if (works && !search.step()) return StepReport::of(Stage::kSearch, false);
   workspace_.candidates = search.candidates();
   digestCandidates(workspace_.candidates, digest_);
   return end(Stage::kSearch);
+}
+
+bool Pass::beginSearch() {
+  PoseSearch& search = memory_.search;
+  if (plan_.kind == PassKind::kNearSearch) return search.beginAtSeed(searched_, memory_.renderer);
+  return search.isSuspended() ? search.resume() : search.begin(searched_, memory_.renderer);
 }
 
 StepReport Pass::stepRender() {
@@ -110,8 +114,11 @@ StepReport Pass::stepTemplates() {
   const double feature_size_m = options_.templates.feature_size_m > 0.0
                                     ? options_.templates.feature_size_m
                                     : scene_.diagonal() / 8.0;
-  const int side_px = templateSide(options_.templates, plan_.template_factor * feature_size_m,
-                                   depth_m, iteration.render.camera);
+  const Camera& camera = iteration.render.camera;
+  const int first_px = templateSide(options_.templates, feature_size_m, depth_m, camera);
+  // A further attempt is not held by the least side, but by the largest one.
+  const int largest_px = templateSide(options_.templates, 1e3, depth_m, camera);
+  const int side_px = std::min(static_cast<int>(plan_.template_factor * first_px), largest_px);
   const Status status = memory_.selector.select(iteration.render, side_px, problem_.ignore,
                                                 iteration.level, iteration.templates);
   digestTemplates(iteration.templates, digest_);
@@ -346,7 +353,7 @@ StepReport Pass::stepSearchAgain() {
                                              : widerSearch(searched_),
                                    memory_.renderer);
   stage_begun_ = true;
-  if (works && !search.step()) return StepReport::of(Stage::kSupport, false);
+  if (works && (!search.step() || search.resume())) return StepReport::of(Stage::kSupport, false);
   if (is_mirror)
     takeMirrorImage(search.candidates());
   else

@@ -43,7 +43,7 @@ bool isNear(const Seed& seed, const RunContext& run) {
 }
 
 bool PoseComparison::convinces(const Pose& camera_from_station, double probability) const {
-  return source_ != Source::kNearSeed ||
+  return !searches_on_ ||
          (probability >= kUndoubted && !leftUncertainty(seed_, camera_from_station, 1.0));
 }
 
@@ -60,6 +60,12 @@ SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& se
   return uncertainty;
 }
 
+/// Whether the best pose so far needs no further search.
+bool PoseComparison::isUndoubted() const {
+  return hasPose() && convinces(hypotheses_[best_index_].camera_from_station,
+                                hypotheses_[best_index_].probability);
+}
+
 /// Whether the source has a further start.
 bool PoseComparison::offers(Source source, const RunContext& run) const {
   switch (source) {
@@ -71,10 +77,12 @@ bool PoseComparison::offers(Source source, const RunContext& run) const {
       return next_ == 0 && !candidates_.empty() && run.options.refinement.enabled &&
              !isWithinReach(candidates_.front(), run.levels.fine);
     case Source::kSeed:
-      return next_ == 0 && (!hasPose() || hypotheses_[best_index_].probability <
-                                              run.options.support.min_probability);
+      return next_ == 0 && !searches_on_ &&
+             (!hasPose() ||
+              hypotheses_[best_index_].probability < run.options.support.min_probability);
     case Source::kRestarts:
-      return next_ < kRestarts && hasPose() && (next_ > 0 ? restarted_ : weak_).known;
+      return next_ < kRestarts && hasPose() && isUndoubted() &&
+             (next_ > 0 ? restarted_ : weak_).known;
     case Source::kNone:
       break;
   }
@@ -189,9 +197,9 @@ PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,
 }
 
 PoseComparison::Next PoseComparison::takeFailure(const RunContext& run) {
-  if (source_ == Source::kNearSeed) return Next::kSearch;
-  if (returns_) return Next::kConclude;
+  if (returns_) return searches_on_ ? Next::kSearch : Next::kConclude;
   if (findNext(run)) return Next::kTry;
+  if (searches_on_ && !isUndoubted()) return Next::kSearch;
   return hasPose() ? Next::kReturn : Next::kConclude;
 }
 

@@ -47,7 +47,13 @@ class PoseComparison {
   static PoseComparison ofNearSeed(std::span<const PoseCandidate> candidates, const Seed& seed) {
     PoseComparison comparison(candidates, seed);
     comparison.source_ = Source::kNearSeed;
-    comparison.returns_ = true;
+    comparison.returns_ = comparison.searches_on_ = true;
+    return comparison;
+  }
+  /// The comparison of the candidates of a suspended search, which goes on if they do not convince.
+  static PoseComparison ofFirst(std::span<const PoseCandidate> candidates, const Seed& seed) {
+    PoseComparison comparison(candidates, seed);
+    comparison.searches_on_ = true;
     return comparison;
   }
 
@@ -61,8 +67,8 @@ class PoseComparison {
   /// An attempt has failed, left the seed's uncertainty, reached a known hypothesis, or does not
   /// convince.
   Next takeFailure(const RunContext& run);
-  /// Whether the final pose, of this probability, needs no further search: after a search always;
-  /// without one if its probability is kUndoubted and it lies within the stated uncertainty.
+  /// Whether the final pose, of this probability, needs no further search: after a whole one
+  /// always, else if its probability is kUndoubted and it lies within the stated uncertainty.
   bool convinces(const Pose& camera_from_station, double probability) const;
   /// Whether there is a hypothesis.
   bool hasPose() const { return hypotheses_.size() > 0; }
@@ -92,6 +98,7 @@ class PoseComparison {
 
   int firstCandidateFrom(int index) const;
   bool findNext(const RunContext& run);
+  bool isUndoubted() const;
   bool offers(Source source, const RunContext& run) const;
   Attempt start(int attempt, const RunContext& run);
   Attempt restart(int attempt, const RunContext& run);
@@ -102,6 +109,7 @@ class PoseComparison {
   int next_ = 0;            ///< of the source
   PoseHypothesis current_;  ///< origin and number of the attempt under way
   bool returns_ = false;
+  bool searches_on_ = false;  ///< where no pose convinces
 
   FixedList<PoseHypothesis, kMostHypotheses> hypotheses_;
   int best_index_ = -1;

@@ -29,17 +29,19 @@ constexpr int kFinest = static_cast<int>(kLevels.size()) - 1;
 struct Round {
   int first_level = 0;
   int last_level = 0;
-  int most = 0;   ///< poses
-  int least = 0;  ///< poses that are kept regardless of their evidence
+  int at_first = 0;  ///< poses before the search is suspended
+  int most = 0;      ///< poses
+  int least = 0;     ///< poses that are kept regardless of their evidence
   double behind_nats =
       0.0;  ///< other poses whose evidence is lower than the best by more are left out
 };
 constexpr std::array<Round, 4> kRounds = {{
-    {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
-    {1, 1, 10, 8, 0.5},
-    {2, kFinest, PoseSearch::kMaxCandidates, 5, 0.7},
-    {1, kFinest, 1, 1, 0.0},  // of the seed alone
+    {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
+    {1, 1, 4, 10, 8, 0.5},
+    {2, kFinest, 1, PoseSearch::kMaxCandidates, 5, 0.7},
+    {1, kFinest, 1, 1, 1, 0.0},  // of the seed alone
 }};
+constexpr int kSuspendedRound = 1;  ///< the first one that leaves poses to resume()
 constexpr int kLastRound = 2;
 constexpr int kSeedRound = 3;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
@@ -52,6 +54,8 @@ constexpr double kRemaining_px = 1.5;
 
 Status PoseSearch::create(int channels, Arena& arena) {
   constexpr auto kPixels = static_cast<std::size_t>(kLongestView_px) * kLongestView_px;
+  phase_ = Phase::kDone;
+  left_ = 0;
   // The edges are complete when something is rendered.
   const std::size_t after_edges = view_edges_.create(kLongestView_px, channels, arena);
   const std::size_t end_of_view = arena.mark();
@@ -74,7 +78,8 @@ bool PoseSearch::begin(const SearchProblem& problem, EdgeRenderer& renderer) {
   problem_ = problem;
   renderer_ = &renderer;
   waiting_count_ = kept_count_ = 0;
-  rendering_ = false;
+  left_ = 0;
+  rendering_ = resumed_ = false;
   phase_ = Phase::kSearch;
   if (search_.begin(problem_, view_edges_, renderer, render_)) return true;
   phase_ = Phase::kDone;
@@ -87,7 +92,8 @@ bool PoseSearch::beginAtSeed(const SearchProblem& problem, EdgeRenderer& rendere
   waiting_[0] = {};
   waiting_[0].camera_from_station = problem.camera_from_station_seed;
   waiting_count_ = 1;
-  kept_count_ = 0;
+  kept_count_ = left_ = 0;
+  resumed_ = false;
   round_ = kSeedRound;
   next_ = 0;
   return beginNext();
@@ -130,17 +136,36 @@ void PoseSearch::takeFound() {
   round_ = next_ = 0;
 }
 
+bool PoseSearch::resume() {
+  if (!isSuspended()) return false;
+  resumed_ = true;
+  left_ = 0;
+  waiting_ = first_;
+  waiting_count_ = first_count_;
+  kept_count_ = 0;
+  round_ = kSuspendedRound;
+  next_ = 0;
+  return beginNext();
+}
+
+/// Poses of the round that are refined, unless their evidence is too low.
+int PoseSearch::most() const {
+  const Round& round = kRounds[static_cast<std::size_t>(round_)];
+  return std::min(waiting_count_, resumed_ ? round.most : round.at_first);
+}
+
 /// Starts the next waiting pose; false when none is left and all rounds are over.
 bool PoseSearch::beginNext() {
   do {
     const Round& round = kRounds[static_cast<std::size_t>(round_)];
-    while (next_ < std::min(waiting_count_, round.most)) {
+    while (next_ < most()) {
       current_ = waiting_[static_cast<std::size_t>(next_++)];
       if (next_ > round.least && current_.rank_nats() < waiting_[0].rank_nats() - round.behind_nats)
         break;
       level_ = round.first_level;
       if (beginLevel()) return true;
     }
+    left_ += waiting_count_ - most();
   } while (beginRound());
   phase_ = Phase::kDone;
   return false;
@@ -153,6 +178,10 @@ bool PoseSearch::beginRound() {
   waiting_ = kept_;
   waiting_count_ = kept_count_;
   kept_count_ = 0;
+  if (round_ == kSuspendedRound) {
+    first_ = waiting_;
+    first_count_ = waiting_count_;
+  }
   return true;
 }
 

@@ -28,7 +28,8 @@ struct PoseCandidate {
 /// Finds candidate poses of the whole object: searches the seed's uncertainty (ObjectSearch),
 /// refines the poses on directed edges (OutlineRefinement), first at the search's scale, and
 /// measures their evidence. Each round refines fewer poses, those with most evidence, at finer
-/// scales.
+/// scales. At first few poses are refined, and one at the finest scale; resume() refines as many as
+/// may be the right one, for a caller whom the first one does not convince.
 class PoseSearch {
  public:
   static constexpr int kMaxCandidates = 6;      ///< that are refined at the finest scale
@@ -44,6 +45,10 @@ class PoseSearch {
   [[nodiscard]] bool beginAtSeed(const SearchProblem& problem, EdgeRenderer& renderer);
   /// One bounded slice; true when candidates() is complete.
   [[nodiscard]] bool step();
+  /// Whether the search is over but has left poses to resume().
+  bool isSuspended() const { return phase_ == Phase::kDone && !resumed_ && left_ > 0; }
+  /// Refines again, with the poses that were left; false when there is none.
+  [[nodiscard]] bool resume();
 
   /// The candidates by descending evidence; empty until complete.
   std::span<const PoseCandidate> candidates() const {
@@ -59,6 +64,7 @@ class PoseSearch {
   void takeFound();
   bool beginNext();
   bool beginRound();
+  int most() const;
   bool keep();
   bool beginLevel();
   bool stepRender();
@@ -79,6 +85,10 @@ class PoseSearch {
   std::array<PoseCandidate, CandidateList::kCapacity> waiting_, kept_;
   int waiting_count_ = 0;
   int kept_count_ = 0;
+  /// Poses of the round that resume() begins with.
+  std::array<PoseCandidate, CandidateList::kCapacity> first_;
+  int first_count_ = 0;
+  int left_ = 0;  ///< to resume()
 
   Phase phase_ = Phase::kDone;
   int round_ = 0;
@@ -86,6 +96,7 @@ class PoseSearch {
   int level_ = 0;  ///< of the refinement: 0 the search's
   int pass_ = 0;   ///< of the level
   bool rendering_ = false;
+  bool resumed_ = false;
   PoseCandidate current_;
   Pose view_from_station_;
 };

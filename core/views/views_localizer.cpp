@@ -217,7 +217,7 @@ StepReport ViewsLocalizer::prepareView(std::size_t index) {
   const StepReport report = view.pass.step();
   if (view.pass.running()) return report;
   if (view.pass.outcome().fault != Status::kOk) return finishFault(index);
-  view.is_prepared = view.has_edges || !view.pass.searches();
+  view.is_prepared = (view.has_edges && !view.pass.searchIsSuspended()) || !view.pass.searches();
   view.has_edges = true;
   if (views_.back().is_prepared) startAttempts();
   return report;

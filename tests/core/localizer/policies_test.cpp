@@ -297,6 +297,31 @@ TEST_F(PoseComparisonTest, NearSeed_IsTakenIfItConvincesAndSearchedForOtherwise)
   EXPECT_TRUE(comparison.convinces(pose, 0.1)) << "after a search";
 }
 
+TEST_F(PoseComparisonTest, FirstCandidate_ThatDoesNotConvince_IsFollowedByTheOthers) {
+  offer(1);
+  comparison = PoseComparison::ofFirst(candidates, seed);
+  const Attempt attempt = comparison.next(0, pass.context());
+  EXPECT_EQ(planOf(attempt).kind, PassKind::kRefine);
+  EXPECT_NE(planOf(attempt).most_samples, 0) << "a draft";
+  EXPECT_EQ(take(attempt, 5.0, 0.8, true), ComparisonNext::kSearch) << "without restarts";
+}
+
+TEST_F(PoseComparisonTest, FirstCandidate_ThatConvinces_IsRestartedAndReturns) {
+  offer(1);
+  comparison = PoseComparison::ofFirst(candidates, seed);
+  EXPECT_EQ(take(comparison.next(0, pass.context()), 5.0, 0.95, true), ComparisonNext::kTry);
+  for (int i = 1; i <= PoseComparison::kRestarts; ++i) {
+    (void)comparison.next(i, pass.context());
+    EXPECT_EQ(comparison.takeFailure(pass.context()),
+              i < PoseComparison::kRestarts ? ComparisonNext::kTry : ComparisonNext::kReturn);
+  }
+  const Attempt back = comparison.best(5, pass.options);
+  EXPECT_TRUE(comparison.convinces(back.camera_from_station(), 0.95));
+  EXPECT_FALSE(comparison.convinces(back.camera_from_station(), 0.8));
+  EXPECT_EQ(comparison.takeFailure(pass.context()), ComparisonNext::kSearch)
+      << "the final pose was not accepted";
+}
+
 TEST_F(PoseComparisonTest, NearSeedWithoutACandidate_IsRefinedFromTheCoarseLevelOn) {
   comparison = PoseComparison::ofNearSeed({}, seed);
   const PassPlan plan = planOf(comparison.next(0, pass.context()));

@@ -43,8 +43,15 @@ class SearchRun {
   std::span<const PoseCandidate> run(const SearchProblem& problem) {
     int steps = 0;
     if (search_.begin(problem, renderer_))
-      while (!search_.step() && steps < 1000000) ++steps;
+      while ((!search_.step() || search_.resume()) && steps < 1000000) ++steps;
     EXPECT_LT(steps, 1000000);
+    return search_.candidates();
+  }
+  /// Before the search is resumed.
+  std::span<const PoseCandidate> runFirst() {
+    if (search_.begin(problem_, renderer_))
+      while (!search_.step()) {
+      }
     return search_.candidates();
   }
   std::span<const PoseCandidate> runAtSeed() {
@@ -81,6 +88,36 @@ TEST(PoseSearch, AnywhereInTheUncertainty_FindsTheTruth) {
       EXPECT_GT(candidates[0].evidence.strongest_nats(), 0.5);
       EXPECT_LE(candidates.size(), static_cast<std::size_t>(PoseSearch::kMaxCandidates));
     }
+}
+
+TEST(PoseSearch, SuspendedSearch_HasOneCandidateOfThoseOfTheWholeSearch) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Case scene = test::stationCase(seed);
+    scene.uncertainty.rotation_rad.z() = kPi;
+    SearchRun run(scene);
+    const auto first = run.runFirst();
+    ASSERT_EQ(first.size(), 1u);
+    EXPECT_TRUE(run.search().isSuspended());
+    const Pose pose = first[0].camera_from_station;
+    EXPECT_LT(run.error_px(pose), 2.0);
+    const auto all = run.run();
+    EXPECT_FALSE(run.search().isSuspended());
+    EXPECT_FALSE(run.search().resume());
+    EXPECT_GT(all.size(), 1u);
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const PoseCandidate& candidate) {
+      return candidate.camera_from_station == pose;
+    }));
+  }
+}
+
+TEST(PoseSearch, SearchAtTheSeed_LeavesNothingToResume) {
+  const test::Case scene = test::stationCase(1);
+  SearchRun run(scene);
+  (void)run.runFirst();
+  ASSERT_FALSE(run.runAtSeed().empty());
+  EXPECT_FALSE(run.search().isSuspended());
+  EXPECT_FALSE(run.search().resume());
 }
 
 /// 4 mm along and 0.8 deg about each axis: 16 px.
