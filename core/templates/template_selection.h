@@ -66,7 +66,7 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
 /// `ignore` (full resolution, may be nullptr) belongs to the image at `level` 0.
 class TemplateSelector {
  public:
-  static constexpr int kMinSide_px = 16;   ///< smaller squares hold too few edge pixels
+  static constexpr int kMinSide_px = 64;   ///< smaller squares match in many places
   static constexpr int kMaxSide_px = 256;  ///< larger squares take long to match
   static constexpr int kMinCount = 6;      ///< the default number of inliers that a pose needs
   /// Least number of edge pixels in a template: fewer match anywhere.
