@@ -80,7 +80,7 @@ void AnnotationTool::showMode() {
 
 AimRules AnnotationTool::rules() const {
   return {.snaps = snaps_ && (modifiers_ & Qt::AltModifier) == 0,
-          .line = annotationsLines(),
+          .line = drawsLines(),
           .radius_px = snapRadius_px(view_.transform().scale()),
           .turn = turn_};
 }
@@ -122,7 +122,7 @@ void AnnotationTool::updateAim() {
 
 /// The chosen pair waits for its place in the image.
 bool AnnotationTool::lacksImageSide() const {
-  if (annotationsLines()) {
+  if (drawsLines()) {
     const sessions::LinePair* line = controller_.selectedLine();
     return line && line->edge && !line->line;
   }
@@ -137,7 +137,7 @@ double AnnotationTool::screenDistance(const Eigen::Vector2d& pixel, const QPoint
 
 /// The nearest within reach. While a chosen pair waits for its place, a click is that place.
 const sessions::Proposal* AnnotationTool::proposalUnder(const QPointF& place) const {
-  if (annotationsLines() || lacksImageSide()) return nullptr;
+  if (drawsLines() || lacksImageSide()) return nullptr;
   if (!view_.layer(LayerId::kProposals).style.visible) return nullptr;
   const sessions::Proposal* found = nullptr;
   double nearest = kReach;
@@ -317,12 +317,12 @@ void AnnotationTool::place() {
   turn_ = 0;
   if (aim_.side == AimSide::kImage) {
     placeImage();
-  } else if (aim_.side == AimSide::kStation && annotationsLines()) {
+  } else if (aim_.side == AimSide::kStation && drawsLines()) {
     controller_.placeEdgeOnStation(*aim_.edge);
   } else if (aim_.side == AimSide::kStation) {
     controller_.placeOnStation(*aim_.point_in_station_m);
   } else if ((modifiers_ & Qt::ControlModifier) != 0) {
-    Q_EMIT controller_.told(annotationsLines()
+    Q_EMIT controller_.told(drawsLines()
                                 ? tr("No edge of the station is near the pointer; point at a drawn "
                                      "edge with Ctrl held.")
                                 : tr("The station is not under the pointer; point at its drawn "
@@ -336,7 +336,7 @@ void AnnotationTool::placeImage() {
     Q_EMIT controller_.told(tr("This position is outside the image."));
     return;
   }
-  if (!annotationsLines()) {
+  if (!drawsLines()) {
     controller_.placeInImage(aim_.pixel);
   } else if (!line_start_) {
     if (!lacksImageSide()) controller_.select({});  // the line that is begun is another annotation

@@ -64,7 +64,7 @@ class AnnotationTool : public QObject {
   };
 
   bool active() const { return controller_.mode() != PlaceMode::kOff; }
-  bool annotationsLines() const { return controller_.mode() == PlaceMode::kLine; }
+  bool drawsLines() const { return controller_.mode() == PlaceMode::kLine; }
   bool mouseEvent(QEvent::Type type, const QMouseEvent& event);
   bool press(const QMouseEvent& event, const QPointF& place);
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);

@@ -17,9 +17,13 @@ constexpr int kSample = 30;
 constexpr int kKeySide = 18;
 constexpr int kSpace = 8;
 
-/// Layers that are shown automatically while there is something to compare.
+/// Layers that are listed while there is something to compare, even hidden ones.
 constexpr LayerId kOnDemand[] = {LayerId::kHypothesisEdges, LayerId::kChosenEdges,
-                                 LayerId::kNudgedEdges};
+                                 LayerId::kNudgedEdges, LayerId::kAnnotationEdges};
+
+bool isOnDemand(LayerId id) {
+  return std::find(std::begin(kOnDemand), std::end(kOnDemand), id) != std::end(kOnDemand);
+}
 
 }  // namespace
 
@@ -125,12 +129,16 @@ void LayerLegend::setLayers(const std::vector<LayerId>& layers) {
   update();
 }
 
+/// The layers of the workspace, and all others that are drawn.
 std::vector<LayerId> LayerLegend::shown() const {
   std::vector<LayerId> result = layers_;
-  for (const LayerId id : kOnDemand)
-    if (!image_.view().layer(id).empty() &&
-        std::find(result.begin(), result.end(), id) == result.end())
+  for (int i = 0; i < kLayerCount; ++i) {
+    const auto id = static_cast<LayerId>(i);
+    const Layer& layer = image_.view().layer(id);
+    const bool is_drawn = !layer.empty() && (layer.style.visible || isOnDemand(id));
+    if (is_drawn && std::find(result.begin(), result.end(), id) == result.end())
       result.push_back(id);
+  }
   return result;
 }
 
