@@ -49,12 +49,19 @@ void TerminalLine::erase() const {
   if (on_terminal_) std::clog << "\r\033[K" << std::flush;
 }
 
+/// As a shell reads it; a quote inside ends the quotes, stands alone, and begins them again.
+std::string inQuotes(const std::string& word) {
+  std::string text = "'";
+  for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return text + "'";
+}
+
 std::string typedCommand() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
   std::string text;
   for (std::string word; std::getline(stream, word, '\0');) {
     const bool plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?") == std::string::npos;
-    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+    text += (text.empty() ? "" : " ") + (plain ? word : inQuotes(word));
   }
   return text;
 }

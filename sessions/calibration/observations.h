@@ -30,10 +30,11 @@ struct CalibrationView {
 /// Source of a case's observations.
 enum class ObservationSource { kAnnotations, kRuns };
 
+/// Fewest observations of a view.
+inline constexpr std::size_t kFewestPoints = 6;
 /// One view for each case with at least `kFewestPoints` observations: enabled point annotations, or
 /// edge places of the last refinement of the last converged run. InputError when a run cannot be
 /// read.
-inline constexpr std::size_t kFewestPoints = 6;
 std::vector<CalibrationView> observationsOf(const Session& session, ObservationSource source);
 
 }  // namespace boresight::sessions

@@ -52,8 +52,9 @@ ConvergenceResult convergenceTest(
     const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
     const std::function<void(const ConvergenceResult&)>& after_each = {});
 
-/// Checks of the convergence test: enough seeds return to the pose, and none converges to another.
+/// Whether the check is one of the convergence test.
 bool isConvergenceCheck(const std::string& check_id);
+/// Checks of the convergence test: enough seeds return to the pose, and none converges to another.
 void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
                           const CheckLimits& limits, std::vector<Check>& checks);
 

@@ -21,9 +21,9 @@ std::string joined(bool passed, const std::string& found, const std::string& rem
   return passed || remedy.empty() ? found : found + " " + remedy;
 }
 
-const char* annotation(CheckState state) {
-  constexpr const char* kAnnotations[] = {"pass  ", "FAIL  ", "  -   "};
-  return kAnnotations[static_cast<std::size_t>(state)];
+const char* prefixOf(CheckState state) {
+  constexpr const char* kPrefixes[] = {"pass  ", "FAIL  ", "  -   "};
+  return kPrefixes[static_cast<std::size_t>(state)];
 }
 
 std::string padded(std::string text, std::size_t width) {
@@ -118,7 +118,7 @@ std::string checksText(std::span<const Check> checks, bool all_sentences) {
   for (const Check& check : checks) {
     const std::string figure = figureText(check);
     const bool plain = figure.empty();
-    text += annotation(check.state);
+    text += prefixOf(check.state);
     text += plain ? check.title : padded(check.title, width) + "  " + figure;
     text += "\n";
     if (all_sentences || check.state != CheckState::kPassed)

@@ -38,12 +38,11 @@ struct HandedPose {
 /// annotations).
 HandedPose handedPose(const Session& session, const std::string& case_id);
 
-/// The same for several cases (all of them when none is named), in the order of the session; cases
-/// without a pose are listed in `notes`.
 struct HandedPoses {
   std::vector<HandedPose> poses;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;  ///< cases without a pose
 };
+/// The same for several cases (all of them when none is named), in the order of the session.
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids);
 
 struct MeasuredPose {
@@ -124,6 +123,11 @@ struct VerifyReport {
   bool good() const;
 };
 
+/// Where to look for what a validated_pose.json names.
+struct VerifyPlaces {
+  std::optional<std::filesystem::path> folder = std::nullopt;
+  std::optional<std::filesystem::path> signers = std::nullopt;
+};
 /// Checks a validated_pose.json: its signature, the files that it names by their hashes, whether
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
 /// the run is repeated (the annotations are solved again), and its digest, pose, covariance,
@@ -131,10 +135,6 @@ struct VerifyReport {
 /// convergence test, too. Files that are not where the document names them are looked for below
 /// `places.folder`, by their hashes; with `places.signers` those who decided must have signed the
 /// file with their keys (key_signature.h). InputError when the file is not a validated_pose.json.
-struct VerifyPlaces {
-  std::optional<std::filesystem::path> folder = std::nullopt;
-  std::optional<std::filesystem::path> signers = std::nullopt;
-};
 VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,
                         bool convergence_again = false, const VerifyPlaces& places = {});
 

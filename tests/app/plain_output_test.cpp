@@ -81,7 +81,7 @@ TEST_F(PlainOutput, OfSessionsIsText) {
   runWhs({"new", "--dataset", file("dataset.json"), "--out", session}, 0);
   run({"run", session});
   run({"check", session, "--case", case_, "--convergence-test", "0", "--sentences"}, 0);
-  run({"decide", session, "--case", case_, "--validate", "--convergence-test", "1", "--by",
+  run({"decide", session, "--case", case_, "--validate", "--convergence-test", "0", "--by",
        hostile("Ada"), "--comment", hostile("right")});
   run({"info", session});
   run({"queue", session, "--csv", file("q.csv")});
