@@ -18,6 +18,13 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void onInterrupt(int) { interrupted = 1; }
 
+/// As a shell reads it; quotes inside stand between two quoted texts.
+std::string inQuotes(const std::string& word) {
+  std::string text = "'";
+  for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return text + "'";
+}
+
 }  // namespace
 
 InterruptWatch::InterruptWatch(const std::stop_source& source) {
@@ -47,13 +54,6 @@ void TerminalLine::show(const std::string& text) const {
 /// By std::clog, which is stderr too: std::cerr lets no escape sequence pass.
 void TerminalLine::erase() const {
   if (on_terminal_) std::clog << "\r\033[K" << std::flush;
-}
-
-/// As a shell reads it; a quote inside ends the quotes, stands alone, and begins them again.
-std::string inQuotes(const std::string& word) {
-  std::string text = "'";
-  for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);
-  return text + "'";
 }
 
 std::string typedCommand() {

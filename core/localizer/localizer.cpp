@@ -162,7 +162,8 @@ StepReport Localizer::compared(const StepReport& report) {
   return report;
 }
 
-/// The end, unless the pose is ambiguous among the search's first candidates: others wait.
+/// Ends the run, or goes on with the search: a pose that is ambiguous is not the last word while
+/// candidates wait.
 StepReport Localizer::conclude(LocalizationStatus status, const StepReport& report) {
   const bool goes_on = status != LocalizationStatus::kConverged && pass_.searchIsSuspended();
   return goes_on ? searchAll(report) : finish(status, report);

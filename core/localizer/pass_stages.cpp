@@ -114,11 +114,8 @@ StepReport Pass::stepTemplates() {
   const double feature_size_m = options_.templates.feature_size_m > 0.0
                                     ? options_.templates.feature_size_m
                                     : scene_.diagonal() / 8.0;
-  const Camera& camera = iteration.render.camera;
-  const int first_px = templateSide(options_.templates, feature_size_m, depth_m, camera);
-  // A further attempt is not held by the least side, but by the largest one.
-  const int largest_px = templateSide(options_.templates, 1e3, depth_m, camera);
-  const int side_px = std::min(static_cast<int>(plan_.template_factor * first_px), largest_px);
+  const int side_px = templateSide(options_.templates, feature_size_m, depth_m,
+                                   iteration.render.camera, plan_.template_factor);
   const Status status = memory_.selector.select(iteration.render, side_px, problem_.ignore,
                                                 iteration.level, iteration.templates);
   digestTemplates(iteration.templates, digest_);

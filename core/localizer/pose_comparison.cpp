@@ -61,7 +61,7 @@ SeedUncertainty uncertaintyAbout(const Pose& camera_from_station, const Seed& se
 }
 
 /// Whether the best pose so far needs no further search.
-bool PoseComparison::isUndoubted() const {
+bool PoseComparison::bestConvinces() const {
   return hasPose() && convinces(hypotheses_[best_index_].camera_from_station,
                                 hypotheses_[best_index_].probability);
 }
@@ -81,8 +81,7 @@ bool PoseComparison::offers(Source source, const RunContext& run) const {
              (!hasPose() ||
               hypotheses_[best_index_].probability < run.options.support.min_probability);
     case Source::kRestarts:
-      return next_ < kRestarts && hasPose() && isUndoubted() &&
-             (next_ > 0 ? restarted_ : weak_).known;
+      return next_ < kRestarts && bestConvinces() && (next_ > 0 ? restarted_ : weak_).known;
     case Source::kNone:
       break;
   }
@@ -199,7 +198,7 @@ PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,
 PoseComparison::Next PoseComparison::takeFailure(const RunContext& run) {
   if (returns_) return searches_on_ ? Next::kSearch : Next::kConclude;
   if (findNext(run)) return Next::kTry;
-  if (searches_on_ && !isUndoubted()) return Next::kSearch;
+  if (searches_on_ && !bestConvinces()) return Next::kSearch;
   return hasPose() ? Next::kReturn : Next::kConclude;
 }
 

@@ -98,7 +98,7 @@ class PoseComparison {
 
   int firstCandidateFrom(int index) const;
   bool findNext(const RunContext& run);
-  bool isUndoubted() const;
+  bool bestConvinces() const;
   bool offers(Source source, const RunContext& run) const;
   Attempt start(int attempt, const RunContext& run);
   Attempt restart(int attempt, const RunContext& run);

@@ -38,7 +38,7 @@ int countBits(const BitImage& image, int x_begin, int y_begin, int x_end, int y_
 }  // namespace
 
 int templateSide(const TemplateOptions& options, double feature_size_m, double depth_m,
-                 const Camera& camera) {
+                 const Camera& camera, double attempt_factor) {
   const double focal_px = 0.5 * (camera.fx + std::abs(camera.fy));
   const double wanted_px =
       options.size_factor * feature_size_m * focal_px / std::max(depth_m, 1e-6);
@@ -50,7 +50,8 @@ int templateSide(const TemplateOptions& options, double feature_size_m, double d
          (side < TemplateSelector::kMinSide_px || wanted_px > side * 1.4142135623730951)) {
     side *= 2;
   }
-  return side;
+  const auto most = static_cast<int>(std::bit_floor(static_cast<unsigned>(largest)));
+  return std::min(static_cast<int>(attempt_factor * side), std::max(most, side));
 }
 
 TemplateSet createTemplateSet(const TemplateOptions& options, Arena& arena) {

@@ -53,10 +53,11 @@ struct TemplateSet {
   std::int32_t side_px = 0;       ///< of their square, px at the level
 };
 
-/// The power of two nearest (in ratio) to the projected size of a feature at a depth, from
-/// TemplateSelector::kMinSide_px to kMaxSide_px, and at most a quarter of the image's smaller side.
+/// The power of two nearest (in ratio) to the projected size of a feature at a depth, at least
+/// TemplateSelector::kMinSide_px, times a further attempt's factor (a power of two); at most
+/// kMaxSide_px, and a quarter of the image's smaller side.
 int templateSide(const TemplateOptions& options, double feature_size_m, double depth_m,
-                 const Camera& camera);
+                 const Camera& camera, double attempt_factor);
 
 /// Picks places where edges of more than one direction meet (a straight edge slides along itself):
 /// in every cell of a square grid over the render, the edge pixel whose surrounding square has the
@@ -113,7 +114,7 @@ class TemplateSelector {
                   int level);
 
   TemplateOptions options_;
-  std::span<Scatter> sums_;  ///< summed-area table over blocks, modulo 2^32: the rows held
+  std::span<Scatter> sums_;         ///< summed-area table over blocks, modulo 2^32: the rows held
   std::span<std::uint16_t> cells_;  ///< per cell its index in best_, or kUnoccupied
   std::span<Best> best_;            ///< one for each occupied cell
   int summed_rows_ = 0;             ///< of the table, so far

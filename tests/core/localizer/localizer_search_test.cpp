@@ -228,6 +228,25 @@ TEST(LocalizerSearch, Candidates_AreOrderedByEvidenceAndTheFirstIsTheResult) {
   EXPECT_GT(workspace.probability, 0.9);
 }
 
+/// One whose roll is not known has several candidates, one on a rail without ends another of the
+/// same evidence.
+TEST(LocalizerSearch, OtherCandidates_AreRefinedOnlyWhereTheFirstDoesNotConvince) {
+  const auto searchesOf = [](const Case& scene, LocalizationStatus end) {
+    OwnedRun run(scene.problem(), defaultProfile());
+    int searches = 0;
+    run.finish([&](const StepReport& report) {
+      searches += report.stage == Stage::kSearch && report.stage_complete ? 1 : 0;
+    });
+    EXPECT_EQ(run.localizer.workspace().status, end);
+    return searches;
+  };
+  Case convincing = stationCase(3);
+  convincing.uncertainty.rotation_rad.z() = kPi;
+  EXPECT_EQ(searchesOf(convincing, LocalizationStatus::kConverged), 1);
+  const Case rail = railCase(Ends::kOutside, 0.5, 1.7, 3);
+  EXPECT_EQ(searchesOf(rail, LocalizationStatus::kAmbiguous), 2);
+}
+
 TEST(LocalizerSearch, ResultIsTheHypothesisWithTheBestScore) {
   for (const std::uint64_t seed : {3U, 5U}) {
     const Case scene = stationCase(seed);

@@ -112,9 +112,11 @@ TEST(PoseSearch, SuspendedSearch_HasOneCandidateOfThoseOfTheWholeSearch) {
 }
 
 TEST(PoseSearch, SearchAtTheSeed_LeavesNothingToResume) {
-  const test::Case scene = test::stationCase(1);
+  test::Case scene = test::stationCase(1);
+  scene.uncertainty.rotation_rad.z() = kPi;
   SearchRun run(scene);
   (void)run.runFirst();
+  ASSERT_TRUE(run.search().isSuspended());
   ASSERT_FALSE(run.runAtSeed().empty());
   EXPECT_FALSE(run.search().isSuspended());
   EXPECT_FALSE(run.search().resume());

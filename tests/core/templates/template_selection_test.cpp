@@ -312,25 +312,37 @@ TEST(TemplateSide, IsThePowerOfTwoNearestToTheProjectedFeature) {
   camera.fx = camera.fy = 3000.0;
   TemplateOptions options;
   options.size_factor = 1.0;
-  EXPECT_EQ(templateSide(options, 0.0128, 0.3, camera), 128);
-  EXPECT_EQ(templateSide(options, 0.0128 * 1.40, 0.3, camera), 128);
-  EXPECT_EQ(templateSide(options, 0.0128 * 1.43, 0.3, camera), 256);
-  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera), TemplateSelector::kMinSide_px);
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), TemplateSelector::kMaxSide_px);
-  EXPECT_EQ(templateSide(options, 0.0128, 0.0, camera), TemplateSelector::kMaxSide_px);
+  EXPECT_EQ(templateSide(options, 0.0128, 0.3, camera, 1.0), 128);
+  EXPECT_EQ(templateSide(options, 0.0128 * 1.40, 0.3, camera, 1.0), 128);
+  EXPECT_EQ(templateSide(options, 0.0128 * 1.43, 0.3, camera, 1.0), 256);
+  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera, 1.0), TemplateSelector::kMinSide_px);
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), TemplateSelector::kMaxSide_px);
+  EXPECT_EQ(templateSide(options, 0.0128, 0.0, camera, 1.0), TemplateSelector::kMaxSide_px);
   options.size_factor = 2.0;
-  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera), 128);
+  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera, 1.0), 128);
   // The focal length is the mean of both, whatever the sign of the second.
   camera.fx = 5000.0;
   camera.fy = -1000.0;
-  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera), 128);
+  EXPECT_EQ(templateSide(options, 0.0064, 0.3, camera, 1.0), 128);
   // At most a quarter of the image's smaller side.
   camera.height = 256;
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), 64);
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), 64);
   camera.height = 255;
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), 32);
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), 32);
   camera.height = 40;
-  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera), 8);
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 1.0), 8);
+}
+
+TEST(TemplateSide, FurtherAttempt_IsNotHeldByTheLeastSideButByTheLargestOne) {
+  Camera camera;
+  camera.width = camera.height = 512;
+  camera.fx = camera.fy = 750.0;
+  const TemplateOptions options;
+  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera, 0.5), 32);
+  EXPECT_EQ(templateSide(options, 0.0001, 0.3, camera, 2.0), 128);
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 2.0), 128) << "a quarter of the image";
+  camera.height = 500;
+  EXPECT_EQ(templateSide(options, 1.0, 0.3, camera, 2.0), 64);
 }
 
 }  // namespace

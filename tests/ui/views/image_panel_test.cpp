@@ -155,6 +155,22 @@ TEST_F(ImagePanelTest, LegendListsAHypothesisOnlyWhileItIsShown) {
   EXPECT_FALSE(lists(LayerId::kHypothesisEdges));
 }
 
+TEST_F(ImagePanelTest, LegendListsWhatIsDrawn) {
+  state_.setSnapshot(test::runWithHypotheses());
+  const auto lists = [this](LayerId id) {
+    const std::vector<LayerId> shown = panel_.legend().shown();
+    return std::find(shown.begin(), shown.end(), id) != shown.end();
+  };
+  EXPECT_FALSE(lists(LayerId::kTestEdges));
+  LayerStyle style = panel_.style(LayerId::kTestEdges);
+  style.visible = true;
+  panel_.setStyle(LayerId::kTestEdges, style);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return lists(LayerId::kTestEdges); }, kPatienceMs));
+  style.visible = false;
+  panel_.setStyle(LayerId::kTestEdges, style);
+  EXPECT_FALSE(lists(LayerId::kTestEdges));
+}
+
 TEST_F(ImagePanelTest, ALegendRowTogglesItsLayer) {
   auto* row = panel_.legend().findChild<QAbstractButton*>(
       QStringLiteral("legend%1").arg(static_cast<int>(LayerId::kTruthEdges)));
