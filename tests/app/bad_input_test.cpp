@@ -191,9 +191,8 @@ TEST_F(BadInput, NamesAnOptionWhoseNumberIsNotFiniteOrOutOfRange) {
   };
   for (const std::string value : {"nan", "1e999", "-1"}) {
     expectUsage(localizeArguments({{"--feature-size", value}}), "--feature-size", value);
-    Arguments uncertain = localizeArguments();
-    uncertain.insert(uncertain.end(), {"--uncertainty", value, "0.01", "0.01", "1", "1", "1"});
-    expectUsage(uncertain, "--uncertainty", value);
+    expectUsage(with(localizeArguments(), {"--uncertainty", value, "0.01", "0.01", "1", "1", "1"}),
+                "--uncertainty", value);
     for (const std::string option : {"--feature-size", "--mesh-scale-sigma"})
       expectUsage({"new", "--image", "i.png", option, value, "--out", "s.json"}, option, value);
     expectUsage({"camera", example_ / "camera.json", "--as", "pinhole", "--distance", value},
@@ -207,9 +206,8 @@ TEST_F(BadInput, NamesAnOptionWhoseNumberIsNotFiniteOrOutOfRange) {
                 value == "1e999" ? "templates.feature_size_m" : value);
     expectUsage(localizeArguments({{"--threads", value}}), "--threads", value);
   }
-  Arguments turned = localizeArguments();
-  turned.insert(turned.end(), {"--uncertainty", "0.01", "0.01", "0.01", "1", "1", "181"});
-  expectUsage(turned, "--uncertainty", "180 deg");
+  expectUsage(with(localizeArguments(), {"--uncertainty", "0.01", "0.01", "0.01", "1", "1", "181"}),
+              "--uncertainty", "180 deg");
   EXPECT_EQ(outputs_.fileCount(), 0u);
 }
 
@@ -263,7 +261,9 @@ class Overwrite : public testing::Test {
   }
   std::string newSession() const {
     const std::string session = file("s.boresight.json");
-    runWhs({"new", "--dataset", file("stations/dataset.json"), "--out", session}, 0);
+    runWhs(
+        {"new", "--dataset", file("stations/dataset.json"), "--out", session, "--set", kNoSearch},
+        0);
     return session;
   }
 
@@ -295,9 +295,8 @@ TEST_F(Overwrite, OfInputsByOtherCommandsIsRefused) {
   expectRefused({"render", "--camera", camera, "--mesh", mesh, "--mesh-unit", "m", "--pose", seed,
                  "--out", seed},
                 {"--pose", "--out"});
-  Arguments problem = localizing("", "");
+  Arguments problem = with(localizing("", ""), {"--out", file("p.bin"), "--image-out", mesh});
   problem[0] = "problem";
-  problem.insert(problem.end(), {"--out", file("p.bin"), "--image-out", mesh});
   expectRefused(problem, {"--image-out", "--mesh"});
   expectRefused({"evaluate", "--dataset", dataset, "--out", file("r.sqlite"), "--jsonl", dataset},
                 {"--dataset", "--jsonl"});
@@ -321,17 +320,16 @@ TEST_F(Overwrite, OfAnnotationsBySolveIsRefused) {
 }
 
 TEST_F(Overwrite, OfASessionAndItsInputsIsRefused) {
-  const std::string session = newSession(), mesh = file("stations/os/model.ply");
-  const std::string image = file("stations/os/image.png");
+  const std::string session = newSession();
   runWhs({"run", session, "--case", kOsCase}, 0);
-  for (const std::string& input : {session, mesh, image}) {
+  for (const std::string& input : {session, file("stations/os/image.png")}) {
     expectRefused({"queue", session, "--csv", input}, {"--csv", input});
     expectRefused({"check", session, "--case", kOsCase, "--json", input}, {"--json", input});
     expectRefused({"report", session, "--case", kOsCase, "--out", input}, {"--out", input});
     expectRefused({"export", session, "--case", kOsCase, "--pose", input}, {"--pose", input});
-    expectRefused({"pack", session, "--out", input}, {"--out", input});
   }
-  expectRefused({"queue", session, "--csv", session}, {"session and --csv"});
+  expectRefused({"pack", session, "--out", session}, {"session and --out"});
+  expectRefused({"pack", session, "--out", file("stations/os/model.ply")}, {"--out", "model.ply"});
 }
 
 TEST_F(Overwrite, OfAnnotationsAndRunsOfASessionIsRefused) {
@@ -345,8 +343,7 @@ TEST_F(Overwrite, OfAnnotationsAndRunsOfASessionIsRefused) {
 
 TEST_F(Overwrite, OfResultsByTablesIsRefused) {
   const std::string results = file("r.sqlite");
-  runWhs({"evaluate", "--dataset", file("stations/dataset.json"), "--out", results, "--set",
-          "loop.max_iterations=1"},
+  runWhs(with({"evaluate", "--dataset", file("stations/dataset.json"), "--out", results}, kQuick),
          0);
   expectRefused({"tables", results, "--out", results}, {"RESULTS and --out"});
 }
@@ -362,8 +359,9 @@ TEST_F(Overwrite, OfWhatACommandKeepsUpToDateGoesOn) {
   const std::string session = newSession(), results = file("r.sqlite");
   runWhs({"run", session, "--case", kOsCase}, 0);
   EXPECT_EQ(runWhs({"run", session, "--case", kOsCase}).exit_code, 0) << "the same run again";
-  const Arguments evaluate = {
-      "evaluate", "--dataset", file("stations/dataset.json"), "--station", "os", "--out", results};
+  const Arguments evaluate = with(
+      {"evaluate", "--dataset", file("stations/dataset.json"), "--station", "os", "--out", results},
+      kQuick);
   runWhs(evaluate, 0);
   runWhs(evaluate, 0);
   runWhs({"merge", results, results}, 0);

@@ -34,6 +34,7 @@ class Calibrate : public testing::Test {
                                 const Pose& camera_from_end_effector,
                                 const Pose& arm_from_station) const {
     Session session = sessionOf(static_cast<int>(camera_from_station.size()));
+    session.options = {{"search.enabled", false}};
     sessions::LocalizationTrace run = sessions::runCase(session, "c0");
     EXPECT_TRUE(run.converged());
     for (std::size_t i = 0; i < camera_from_station.size(); ++i) {

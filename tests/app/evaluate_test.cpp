@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,8 +24,7 @@ class WhsEvaluate : public testing::Test {
   Arguments evaluateArguments(const std::filesystem::path& dataset, const Arguments& more) const {
     Arguments arguments = {"evaluate",           "--dataset", dataset.string(),   "--out",
                            folder_ / "r.sqlite", "--jsonl",   folder_ / "r.jsonl"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return with(arguments, more);
   }
   std::vector<nlohmann::json> lines() const { return jsonLines(folder_.read("r.jsonl")); }
 
@@ -43,9 +44,7 @@ TEST_F(WhsEvaluate, SumsUpTheExample) {
 }
 
 TEST_F(WhsEvaluate, DrawsFurtherSeeds) {
-  runWhs(evaluateArguments(dataset_,
-                           {"--station", "os", "--reseed", "2", "--set", "loop.max_iterations=1"}),
-         0);
+  runWhs(evaluateArguments(dataset_, with({"--station", "os", "--reseed", "2"}, kQuick)), 0);
   const auto results = lines();
   ASSERT_EQ(results.size(), 3u);
   EXPECT_EQ(results[2]["reseed"], 2);
@@ -77,11 +76,10 @@ TEST_F(WhsEvaluate, StateOfAPart_IsListedAndChanged) {
               AllOf(HasSubstr("part model: matched, fixed to STATION\n"),
                     HasSubstr("part gripper: occludes, fixed to CAMERA, off")));
 
-  const Arguments few = {"--station", "os", "--set", "loop.max_iterations=1"};
+  const Arguments few = with({"--station", "os"}, kQuick);
   runWhs(evaluateArguments(file, few), 0);
   const std::string off = lines().at(0)["digest"];
-  Arguments on = few;
-  on.insert(on.end(), {"--part", "gripper=on"});
+  const Arguments on = with(few, {"--part", "gripper=on"});
   EXPECT_THAT(runWhs(evaluateArguments(file, on), 3).err, HasSubstr("belong to another dataset"))
       << "results of two states are not mixed";
   std::filesystem::remove(folder_ / "r.sqlite");
@@ -108,9 +106,7 @@ TEST_F(WhsEvaluate, ReportsABadCaseAndGoesOn) {
                         std::filesystem::copy_options::recursive);
   std::filesystem::remove(folder_ / "data/bc/image.png");
   const ProgramRun run =
-      runWhs(evaluateArguments(folder_ / "data/dataset.json",
-                               {"--reseed", "1", "--set", "loop.max_iterations=1"}),
-             3);
+      runWhs(evaluateArguments(folder_ / "data/dataset.json", with({"--reseed", "1"}, kQuick)), 3);
   EXPECT_EQ(run.errorLines(), 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr("bc/image.png"));
   const auto results = lines();
@@ -120,8 +116,8 @@ TEST_F(WhsEvaluate, ReportsABadCaseAndGoesOn) {
 }
 
 TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
-  const Arguments options = {"--reseed", "5", "--jobs", "2", "--set", "loop.max_iterations=1"};
-  const Arguments arguments = evaluateArguments(dataset_, options);
+  const Arguments arguments =
+      evaluateArguments(dataset_, with({"--reseed", "5", "--jobs", "2"}, kQuick));
   int held = 0;
   int kills = 0;
   for (int at = 2; at <= 8; at += 3, ++kills) {
@@ -151,27 +147,26 @@ TEST_F(WhsEvaluate, KilledEvaluation_ContinuesWithoutLossOrRepetition) {
 }
 
 TEST_F(WhsEvaluate, RefusesToGoOnWithOtherOptions) {
-  const Arguments quick = {"--set", "loop.max_iterations=1"};
-  runWhs(evaluateArguments(dataset_, quick), 0);
+  runWhs(evaluateArguments(dataset_, kQuick), 0);
   const std::string before = folder_.read("r.sqlite");
   const ProgramRun other =
-      runWhs(evaluateArguments(dataset_, {"--set", "loop.max_iterations=2"}), 3);
+      runWhs(evaluateArguments(dataset_, with(kQuick, {"loop.max_iterations=2"})), 3);
   EXPECT_EQ(other.errorLines(), 1) << other.err;
   EXPECT_THAT(other.err, HasSubstr("loop.max_iterations 1, not 2; name another file"));
   EXPECT_EQ(folder_.read("r.sqlite"), before);
-  EXPECT_THAT(runWhs(evaluateArguments(dataset_, quick), 0).err, HasSubstr("2 of 2 runs are done"));
+  EXPECT_THAT(runWhs(evaluateArguments(dataset_, kQuick), 0).err,
+              HasSubstr("2 of 2 runs are done"));
 }
 
 TEST_F(WhsEvaluate, MergesShardsToWhatOneRunGives) {
-  const Arguments quick = {"--reseed", "1", "--set", "loop.max_iterations=1"};
+  const Arguments quick = with({"--reseed", "1"}, kQuick);
   runWhs(evaluateArguments(dataset_, quick), 0);
   Arguments merge = {"merge", folder_ / "merged.sqlite"};
   for (const std::string shard : {"2/2", "1/2"}) {
-    Arguments arguments = {"evaluate", "--dataset", dataset_.string(), "--shard", shard, "--out"};
-    arguments.push_back((folder_ / ("shard" + shard.substr(0, 1) + ".sqlite")).string());
-    arguments.insert(arguments.end(), quick.begin(), quick.end());
-    runWhs(arguments, 0);
-    merge.push_back(arguments[6]);
+    merge.push_back((folder_ / ("shard" + shard.substr(0, 1) + ".sqlite")).string());
+    runWhs(
+        with({"evaluate", "--dataset", dataset_, "--shard", shard, "--out", merge.back()}, quick),
+        0);
   }
   const ProgramRun merged = runWhs(merge, 0);
   EXPECT_THAT(merged.out, HasSubstr("4 runs"));
@@ -194,7 +189,9 @@ TEST_F(WhsEvaluate, RefusesWhatItCannotRun) {
 }
 
 TEST_F(WhsEvaluate, SeveralMethodsAreRunSideBySide) {
-  runWhs(evaluateArguments(dataset_, {"--station", "os", "--method", "whs", "--method", "orb"}), 0);
+  runWhs(evaluateArguments(dataset_, {"--station", "os", "--method", "whs", "--method", "orb",
+                                      "--set", kNoSearch}),
+         0);
   const auto results = lines();
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[0]["method"], "orb") << "by name, of the same case and seed";
@@ -204,9 +201,9 @@ TEST_F(WhsEvaluate, SeveralMethodsAreRunSideBySide) {
 
 TEST_F(WhsEvaluate, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
   for (const char* what : {"die", "babble"}) {
-    runWhs(evaluateArguments(
-               dataset_, {"--station", "os", "--method", "external", "--method", "whs", "--reseed",
-                          "1", "--matcher", std::string(BORESIGHT_TEST_MATCHER " ") + what}),
+    runWhs(evaluateArguments(dataset_, {"--station", "os", "--method", "external", "--method",
+                                        "whs", "--reseed", "1", "--set", kNoSearch, "--matcher",
+                                        std::string(BORESIGHT_TEST_MATCHER " ") + what}),
            0);
     const auto results = lines();
     ASSERT_EQ(results.size(), 4u);
@@ -223,22 +220,27 @@ TEST_F(WhsEvaluate, AMatcherThatFailsCostsItsCaseAndNotTheRun) {
   }
 }
 
-/// Results of the example, quick and good.
+/// Results of the example, evaluated once: converged runs, and runs that end early.
 class WhsTables : public testing::Test {
  protected:
-  void evaluate(const std::string& name, const std::string& iterations) const {
-    runWhs({"evaluate", "--dataset", (exampleFolder() / "dataset.json").string(), "--out",
-            (folder_ / name).string(), "--set", "loop.max_iterations=" + iterations},
-           0);
+  static void SetUpTestSuite() {
+    made_ = std::make_unique<TemporaryFolder>();
+    const Arguments evaluate = {"evaluate", "--dataset", exampleFolder() / "dataset.json", "--out"};
+    runWhs(with(evaluate, {*made_ / "good.sqlite", "--set", kNoSearch}), 0);
+    runWhs(with(with(evaluate, {*made_ / "bad.sqlite"}), kQuick), 0);
   }
+  static void TearDownTestSuite() { made_.reset(); }
+  WhsTables() { std::filesystem::copy(made_->path(), folder_.path()); }
+
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  static std::unique_ptr<TemporaryFolder> made_;
   const TemporaryFolder folder_;
 };
+std::unique_ptr<TemporaryFolder> WhsTables::made_;
 
 TEST_F(WhsTables, MakesTablesAndFigures) {
-  evaluate("r.sqlite", "10");
   EXPECT_THAT(
-      runWhs({"tables", file("r.sqlite"), "--paper", "--figures", file("figures"),
+      runWhs({"tables", file("good.sqlite"), "--paper", "--figures", file("figures"),
               "--figure-format", "pdf", "png", "svg"},
              0)
           .out,
@@ -248,33 +250,31 @@ TEST_F(WhsTables, MakesTablesAndFigures) {
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "figures"))
     figures += std::filesystem::file_size(entry.path()) > 2000 ? 1 : 0;
   EXPECT_EQ(figures, 15u) << "five figures in three formats";
-  const ProgramRun csv = runWhs({"tables", file("r.sqlite"), "--table", "errors", "--station", "os",
-                                 "--format", "csv", "--out", file("t.csv")},
+  const ProgramRun csv = runWhs({"tables", file("good.sqlite"), "--table", "errors", "--station",
+                                 "os", "--format", "csv", "--out", file("t.csv")},
                                 0);
   EXPECT_EQ(csv.out, "");
   EXPECT_THAT(folder_.read("t.csv"),
               AllOf(HasSubstr("normal mm mean,normal mm std"), HasSubstr("os,near,whs,1,1,100,"),
                     HasSubstr("iterations mean,"), Not(HasSubstr("bc"))));
   EXPECT_THAT(
-      runWhs({"tables", file("r.sqlite"), "--table", "errors", "--demonstrate", "95"}, 0).out,
+      runWhs({"tables", file("good.sqlite"), "--table", "errors", "--demonstrate", "95"}, 0).out,
       AllOf(HasSubstr("at least"), HasSubstr("Success rate that the runs demonstrate"),
             HasSubstr("runs missing")));
   folder_.write("counts.json",
                 R"({"format": "boresight-instructions", "version": 1, "runs": [{"method": "whs",
                 "station": "bc", "case": "bc-1", "initialization": 0, "search": 0, "rendering": 0,
                 "matching": 12e9, "pose": 0, "refinement": 0}]})");
-  EXPECT_THAT(runWhs({"tables", file("r.sqlite"), "--table", "errors", "--paper", "--instructions",
-                      file("counts.json")},
+  EXPECT_THAT(runWhs({"tables", file("good.sqlite"), "--table", "errors", "--paper",
+                      "--instructions", file("counts.json")},
                      0)
                   .out,
               AllOf(HasSubstr("Minutes at 200 MHz"), HasSubstr("1.000"), HasSubstr("21.330")));
-  EXPECT_THAT(runWhs({"tables", file("r.sqlite"), "--format", "latex"}).out,
+  EXPECT_THAT(runWhs({"tables", file("good.sqlite"), "--format", "latex"}).out,
               HasSubstr("\\begin{tabular}"));
 }
 
 TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
-  evaluate("good.sqlite", "10");
-  evaluate("bad.sqlite", "1");
   const ProgramRun worse =
       runWhs({"tables", file("good.sqlite"), "--against", file("bad.sqlite")}, 6);
   EXPECT_THAT(worse.out, HasSubstr("2 runs in both: 0 better, 2 worse"));
@@ -284,9 +284,8 @@ TEST_F(WhsTables, ComparesTwoResultsRunByRun) {
 }
 
 TEST_F(WhsTables, AreOfRunsThatASessionRepeatsAndItsQueueLists) {
-  evaluate("r.sqlite", "1");
   EXPECT_THAT(
-      runWhs({"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")}, 0).out,
+      runWhs({"new", "--results", file("bad.sqlite"), "--out", file("q.boresight.json")}, 0).out,
       HasSubstr("2 cases"));
   EXPECT_THAT(folder_.read("q.boresight.json"), HasSubstr("loop.max_iterations"));
   EXPECT_THAT(runWhs({"queue", file("q.boresight.json")}).out,
@@ -299,18 +298,16 @@ TEST_F(WhsTables, WithATriggerOrAViewAreRefusedByEveryCommand) {
        {"CREATE TRIGGER stop BEFORE INSERT ON run BEGIN SELECT RAISE(IGNORE); END",
         "DROP TABLE tag; CREATE VIEW tag AS WITH RECURSIVE n(run) AS (SELECT 1 UNION ALL SELECT "
         "run FROM n) SELECT run, 'a' AS tag FROM n"}) {
-    evaluate("good.sqlite", "1");
-    std::filesystem::copy(file("good.sqlite"), file("r.sqlite"),
+    std::filesystem::copy(file("bad.sqlite"), file("r.sqlite"),
                           std::filesystem::copy_options::overwrite_existing);
     sessions::SqlDatabase(file("r.sqlite"), sessions::SqlAccess::kWrite).execute(object);
     for (const Arguments& arguments :
          {Arguments{"tables", file("r.sqlite")},
-          Arguments{"tables", file("good.sqlite"), "--against", file("r.sqlite")},
-          Arguments{"merge", file("m.sqlite"), file("good.sqlite"), file("r.sqlite")},
-          Arguments{"merge", file("r.sqlite"), file("good.sqlite")},
+          Arguments{"tables", file("bad.sqlite"), "--against", file("r.sqlite")},
+          Arguments{"merge", file("m.sqlite"), file("bad.sqlite"), file("r.sqlite")},
+          Arguments{"merge", file("r.sqlite"), file("bad.sqlite")},
           Arguments{"new", "--results", file("r.sqlite"), "--out", file("q.boresight.json")},
-          Arguments{"evaluate", "--dataset", dataset, "--out", file("r.sqlite"), "--set",
-                    "loop.max_iterations=1"}}) {
+          with({"evaluate", "--dataset", dataset, "--out", file("r.sqlite")}, kQuick)}) {
       const ProgramRun run = runWhs(arguments);
       EXPECT_EQ(run.exit_code, 3) << arguments[0] << run.out;
       EXPECT_EQ(run.errorLines(), 1) << run.err;

@@ -19,19 +19,31 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
+/// The recommended settings, with every output: run once.
+struct WholeRun {
+  TemporaryFolder folder;
+  ProgramRun run =
       runWhs(localizeArguments({{"--truth", (exampleFolder() / "os" / "truth.json").string()},
                                 {"--out", folder / "result.json"},
                                 {"--trace", folder / "run.trace"},
-                                {"--overlay", folder / "overlay.png"}}),
+                                {"--record", folder / "run.whsr"},
+                                {"--overlay", folder / "overlay.png"}},
+                               true),
              0);
+  nlohmann::json result = nlohmann::json::parse(folder.read("result.json"));
+  sessions::LocalizationTrace trace = sessions::loadTrace(folder / "run.trace");
+
+  static const WholeRun& get() {
+    static const WholeRun whole;
+    return whole;
+  }
+};
+
+TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
+  const auto& [folder, run, result, trace] = WholeRun::get();
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, AllOf(HasSubstr("iteration"), HasSubstr("inliers"), HasSubstr("converged"),
                              HasSubstr("1 sigma"), HasSubstr("against the truth")));
-
-  const auto result = nlohmann::json::parse(folder.read("result.json"));
   EXPECT_EQ(result["format"], "boresight-result");
   EXPECT_EQ(result["status"], "converged");
   EXPECT_LT(result["error"]["projection_px"].get<double>(), 0.5);
@@ -39,8 +51,6 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
   EXPECT_NE(result["provenance"]["image"]["sha256"],
             result["provenance"]["image"]["pixels_sha256"]);
   EXPECT_EQ(result["provenance"]["options"], nlohmann::json({{"templates.feature_size_m", 0.018}}));
-
-  const sessions::LocalizationTrace trace = sessions::loadTrace(folder / "run.trace");
   EXPECT_EQ(trace.digest, result["provenance"]["digest"]);
   EXPECT_THAT(run.out, HasSubstr(trace.digest));
   EXPECT_EQ(trace.iterations.size(), result["iterations"]);
@@ -48,11 +58,7 @@ TEST(WhsLocalize, PrintsIterationsAndPoseAndWritesWhatIsAsked) {
 }
 
 TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
-  const TemporaryFolder folder;
-  const ProgramRun run = runWhs(
-      localizeArguments({{"--out", folder / "result.json"}, {"--trace", folder / "run.trace"}}), 0);
-  const sessions::LocalizationTrace trace = sessions::loadTrace(folder / "run.trace");
-  const auto result = nlohmann::json::parse(folder.read("result.json"));
+  const auto& [folder, run, result, trace] = WholeRun::get();
   const nlohmann::json& acceptance = result["acceptance"];
   EXPECT_EQ(acceptance["probability"], trace.probability);
   EXPECT_EQ(acceptance["evidence_nats"], trace.evidence.strongest_nats());
@@ -76,19 +82,17 @@ TEST(WhsLocalize, ResultHasProbabilityCandidatesAndCompetingPosesOfTheRun) {
     EXPECT_EQ(result["competing_poses"][i]["margin_nats"], trace.competing_poses[i].margin_nats);
   EXPECT_GT(result["image_quality"]["contrast_gray"], 10.0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("The probability that the pose is right is"),
-                             HasSubstr(" and comes from "),
-                             HasSubstr("image at the seed: noise")));
+                             HasSubstr(" and comes from "), HasSubstr("image at the seed: noise")));
 }
 
+/// Other numbers of threads, and with a search: SameBits.Threads and SameBits.Kernels.
 TEST(WhsLocalize, GivesTheSameDigestByAllKernelsAndThreadsAndWithRecording) {
   const TemporaryFolder folder;
   const std::string plain = digestOf(runWhs(localizeArguments(), 0));
   EXPECT_EQ(plain.size(), std::string("digest ").size() + 64);
   using Option = std::pair<const std::string, std::string>;
-  std::vector<Option> options = {
-      {"--kernels", "portable"}, {"--kernels", "best"}, {"--trace", folder / "t"}};
-  for (const char* threads : {"0", "1", "2", "3", "8"}) options.emplace_back("--threads", threads);
-  for (const Option& option : options)
+  for (const Option& option : {Option{"--kernels", "portable"}, Option{"--trace", folder / "t"},
+                               Option{"--threads", "0"}, Option{"--threads", "3"}})
     EXPECT_EQ(digestOf(runWhs(localizeArguments({option}))), plain)
         << option.first << " " << option.second;
   EXPECT_NE(digestOf(runWhs(localizeArguments({{"--set", "pnp.seed=2"}}))), plain);
@@ -98,8 +102,7 @@ TEST(WhsLocalize, GivesTheSameDigestByAllKernelsAndThreadsAndWithRecording) {
 }
 
 TEST(WhsLocalize, WritesTheOnboardRecord) {
-  const TemporaryFolder folder;
-  const ProgramRun run = runWhs(localizeArguments({{"--record", folder / "run.whsr"}}), 0);
+  const auto& [folder, run, result, trace] = WholeRun::get();
   const sessions::OnboardRecord record = sessions::readRecord(folder / "run.whsr");
   EXPECT_TRUE(record.whole());
   ASSERT_TRUE(record.end && record.inputs);
@@ -130,21 +133,12 @@ TEST(WhsCompare, SaysByItsExitCodeWhetherTwoRunsWereTheSame) {
 }
 
 TEST(WhsLocalize, GivesTheSameDigestInTheMemoryOfFlight) {
-  for (const std::string station : {"os", "bc"}) {
-    const std::filesystem::path folder = exampleFolder() / station;
-    std::map<std::string, std::string> inputs;
-    for (const auto& [name, file] :
-         {std::pair{"--image", "image.png"}, std::pair{"--camera", "camera.json"},
-          std::pair{"--mesh", "model.ply"}, std::pair{"--seed", "seed.json"}})
-      inputs[name] = (folder / file).string();
-    const ProgramRun plain = runWhs(localizeArguments(inputs));
-    inputs["--profile"] = "flight";
-    const ProgramRun flight = runWhs(localizeArguments(inputs), 0);
-    EXPECT_EQ(digestOf(flight), digestOf(plain));
-    EXPECT_THAT(flight.out, AllOf(HasSubstr("high water"), HasSubstr("refine"),
-                                  HasSubstr("bytes of 10000000")));
-    EXPECT_THAT(plain.out, Not(HasSubstr("high water")));
-  }
+  const ProgramRun& plain = WholeRun::get().run;
+  const ProgramRun flight = runWhs(localizeArguments({{"--profile", "flight"}}, true), 0);
+  EXPECT_EQ(digestOf(flight), digestOf(plain));
+  EXPECT_THAT(flight.out,
+              AllOf(HasSubstr("high water"), HasSubstr("refine"), HasSubstr("bytes of 10000000")));
+  EXPECT_THAT(plain.out, Not(HasSubstr("high water")));
 }
 
 TEST(WhsLocalize, RefusesOptionsThatAskForMoreMemoryThanFlightHas) {
@@ -261,8 +255,7 @@ class WhsProblem : public testing::Test {
   Arguments arguments(const std::map<std::string, std::string>& replaced = {}) const {
     Arguments arguments = localizeArguments(replaced);
     arguments[0] = "problem";
-    arguments.insert(arguments.end(), {"--out", problem_, "--image-out", image_});
-    return arguments;
+    return with(arguments, {"--out", problem_, "--image-out", image_});
   }
 
   ProgramRun drive() const { return runProgram(BORESIGHT_FLIGHT_DRIVER, {problem_, image_}); }
@@ -288,6 +281,7 @@ TEST_F(WhsProblem, HoldsWhatLocalizeRuns) {
 
   LocalizerOptions options;
   options.templates.feature_size_m = 0.018;
+  options.search.enabled = false;
   std::vector<std::uint8_t> expected(encodeProblem(example.problem(), options, {}));
   encodeProblem(example.problem(), options, expected);
   EXPECT_TRUE(folder_.read("problem.bin") == std::string(expected.begin(), expected.end()));
@@ -301,12 +295,11 @@ TEST_F(WhsProblem, Driver_WithLostOutput_Fails) {
 }
 
 TEST_F(WhsProblem, IsTheSameFromADataset) {
-  Arguments files = arguments();
-  files.insert(files.end(), {"--end-effector", "0", "0", "0.37"});  // as the dataset states it
-  runWhs(files, 0);
+  // The end effector as the dataset states it.
+  runWhs(with(arguments(), {"--end-effector", "0", "0", "0.37"}), 0);
   const std::string problem = folder_.read("problem.bin");
   runWhs({"problem", "--dataset", exampleFolder() / "dataset.json", "--case", kOsCase, "--out",
-          problem_, "--image-out", image_},
+          problem_, "--image-out", image_, "--set", kNoSearch},
          0);
   EXPECT_TRUE(folder_.read("problem.bin") == problem);
 }
@@ -318,9 +311,7 @@ TEST_F(WhsProblem, RefusesWhatItCannotWriteOrRead) {
                      3)
                   .err,
               AllOf(StartsWith(dataset), HasSubstr("none")));
-  Arguments both = arguments();
-  both.insert(both.end(), {"--dataset", dataset, "--case", kOsCase});
-  runWhs(both, 2);
+  runWhs(with(arguments(), {"--dataset", dataset, "--case", kOsCase}), 2);
   runWhs({"problem", "--out", problem_, "--image-out", image_}, 2);
   runWhs(arguments({{"--seed", ""}}), 2);
   runWhs(arguments({{"--camera", "/no/such/camera.json"}}), 3);

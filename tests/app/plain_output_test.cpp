@@ -78,14 +78,13 @@ class PlainOutput : public testing::Test {
 TEST_F(PlainOutput, OfSessionsIsText) {
   const std::string session = file("s.boresight.json");
   run({"info", file("dataset.json")});
-  runWhs({"new", "--dataset", file("dataset.json"), "--out", session}, 0);
+  runWhs({"new", "--dataset", file("dataset.json"), "--out", session, "--set", kNoSearch}, 0);
   run({"run", session});
   run({"check", session, "--case", case_, "--convergence-test", "0", "--sentences"}, 0);
   run({"decide", session, "--case", case_, "--validate", "--convergence-test", "0", "--by",
        hostile("Ada"), "--comment", hostile("right")});
   run({"info", session});
   run({"queue", session, "--csv", file("q.csv")});
-  run({"run", session, "--case", case_});
   run({"queue", session, "--differences"});
   run({"report", session, "--case", case_, "--out", file("r.pdf")});
   run({"export", session, "--case", case_, "--pose", file("p.json")});
@@ -96,8 +95,7 @@ TEST_F(PlainOutput, OfSessionsIsText) {
 
 TEST_F(PlainOutput, OfResultsIsText) {
   const std::string results = file("r.sqlite");
-  run({"evaluate", "--dataset", file("dataset.json"), "--out", results, "--set",
-       "loop.max_iterations=1"});
+  run(with({"evaluate", "--dataset", file("dataset.json"), "--out", results}, kQuick));
   run({"tables", results});
   run({"tables", results, "--against", results, "--all"});
   run({"problem", "--dataset", file("dataset.json"), "--case", hostile("none"), "--out",

@@ -28,7 +28,9 @@ const std::filesystem::path kDataset = exampleFolder() / "dataset.json";
 TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
   const TemporaryFolder folder;
   const std::string file = folder / "two.boresight.json";
-  sessions::writeSessionFile(file, sessionOfTwoViews(folder.path()));
+  Session two = sessionOfTwoViews(folder.path());
+  two.options = {{"search.enabled", false}};
+  sessions::writeSessionFile(file, two);
   const ProgramRun run = runWhs({"run", file, "--views"}, 0);
   const Session session = sessions::readSessionFile(file).session;
   ASSERT_EQ(session.runs.size(), 2u) << "the rig was run once";
@@ -52,8 +54,10 @@ TEST(WhsRun, TheImagesOfARigTogetherAreOneRunThatIsRepeated) {
 TEST(WhsRun, EndEffectorAndRequirementAreStatedAsAnEdit) {
   const TemporaryFolder folder;
   const std::string file = folder / "one.boresight.json";
-  sessions::writeSessionFile(file, sessions::makeSession(kDataset));
-  const std::string id = sessions::readSessionFile(file).session.cases[0]->id;
+  Session one = sessions::makeSession(kDataset);
+  one.options = {{"search.enabled", false}};
+  sessions::writeSessionFile(file, one);
+  const std::string id = one.cases[0]->id;
   runWhs({"run", file, "--case", id, "--end-effector", "0", "0.01", "0.4", "--requirement", "0.5",
           "0.6", "0.3"},
          0);
@@ -121,7 +125,7 @@ TEST(WhsRun, RecordsTheRunOfLocalizeAndInfoTellsIt) {
                     HasSubstr("field of view: "), HasSubstr("seed: "), Not(HasSubstr("outdated"))));
   {
     SessionDocument document = SessionDocument::open(file);
-    LocalizerOptions options = defaultProfile();
+    LocalizerOptions options = sessionOptions(document.session(), file);
     options.pnp.seed += 1;
     document.apply(withOptions(document.session(), "default", options), "Another seed");
     document.save();
