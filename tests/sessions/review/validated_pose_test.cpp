@@ -42,7 +42,8 @@ void overwrite(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The example's OS station, run and annotated, in a folder of its own with its files.
+/// The example's OS station, run without a search and annotated, in a folder of its own with its
+/// files.
 class ValidatedPose : public testing::Test {
  protected:
   void SetUp() override {
@@ -50,16 +51,18 @@ class ValidatedPose : public testing::Test {
     const Session both = sessions::makeSession(folder_ / "stations" / "dataset.json");
     id_ = caseOfStation(both, "os");
     session_ = withoutCase(both, caseOfStation(both, "bc"));
+    session_.options = {{"search.enabled", false}};
+    static const std::vector<SeenCorner> corners = spreadCorners(osExample(), 8);
     Random random = randomFor("ValidatedPose");
-    session_ = withAnnotations(session_, id_,
-                               annotationsOf(spreadCorners(ExampleCase("os"), 8), 0.1, random));
+    session_ = withAnnotations(session_, id_, annotationsOf(corners, 0.1, random));
     sessions::SessionCase session_case = *session_.findCase(id_);
     session_case.camera_from_end_effector = randomPose(random);
     session_ = withCase(session_, session_case);
   }
 
+  /// Whatever folder its files are in, the run is the same.
   void run() {
-    const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
+    static const auto trace = runCase(session_, id_, sessions::RecordLevel::kFull);
     ASSERT_TRUE(trace.converged());
     session_ = withRun(session_, storeRun(session_, id_, trace, folder_ / "s.boresight.json"));
   }

@@ -20,9 +20,11 @@ using sessions::SessionCase;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+/// Station "os", which runs without a search.
 Session sessionOfOs(const std::filesystem::path& stations) {
   const Session all = sessions::makeSession(stations / "dataset.json");
   Session os;
+  os.options = {{"search.enabled", false}};
   for (const auto& session_case : all.cases)
     if (session_case->station == "os") os.cases.push_back(session_case);
   return os;
@@ -134,6 +136,7 @@ TEST(CaseRun, StoredRun_IsNamedByItsDigestAndInputs) {
   const ExampleCase example("os");
   LocalizerOptions options = defaultProfile();
   options.templates.feature_size_m = session.cases[0]->feature_size_m.value();
+  options.search.enabled = false;
   EXPECT_EQ(trace.digest,
             sessions::localize(example.problem(), options, sessions::RecordLevel::kSummary).digest);
   EXPECT_TRUE(trace.converged());
@@ -156,7 +159,7 @@ TEST(CaseRun, StoredRun_IsNamedByItsDigestAndInputs) {
   SessionCase nudged = *ran.cases[0];
   nudged.camera_from_station_seed.translation_m.x() += 1e-6;
   EXPECT_TRUE(sessions::stalenessOf(run, withCase(ran, nudged), file).inputs_changed);
-  LocalizerOptions other = defaultProfile();
+  LocalizerOptions other = sessionOptions(ran, file);
   other.pnp.seed += 1;
   const sessions::Staleness options_changed =
       sessions::stalenessOf(run, withOptions(ran, "default", other), file);
@@ -199,6 +202,7 @@ TEST(SessionPack, OpensAndRunsElsewhereWithTheSameDigest) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
   Session session = sessions::makeSession(stations / "dataset.json");
+  session.options = sessionOfOs(stations).options;
   const std::string id = sessionOfOs(stations).cases[0]->id;
   const std::filesystem::path file = folder / "here/s.boresight.json";
   std::filesystem::create_directories(folder / "here");

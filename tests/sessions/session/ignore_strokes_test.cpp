@@ -159,7 +159,8 @@ TEST(MaskEdits, ClearedIgnoresNothingOfAMaskImageEither) {
 }
 
 TEST(MaskEdits, AnEditedCaseIsReloadedAsItWouldBeLoaded) {
-  const Session session = exampleSession();
+  Session session = exampleSession();
+  session.options = {{"search.enabled", false}};
   sessions::SessionCase session_case = *session.cases.front();
   const auto before = sessions::loadCase(session_case);
   session_case.ignore_strokes = {polygon("")};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/views_run.h"
 
+#include <map>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,23 +24,42 @@ using sessions::SessionCase;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+/// Two views that run without a search, and what their runs give: run once for each leader.
+class TwoViews {
+ public:
+  static const TwoViews& get() {
+    static const TwoViews views;
+    return views;
+  }
+  const Session& session() const { return session_; }
+  const std::vector<LocalizationTrace>& run(const std::string& leader) const {
+    static std::map<std::string, std::vector<LocalizationTrace>> runs;
+    if (!runs.contains(leader)) runs[leader] = sessions::runViews(session_, leader);
+    return runs[leader];
+  }
+
+ private:
+  TwoViews() { session_.options = {{"search.enabled", false}}; }
+  const TemporaryFolder folder_;
+  Session session_ = sessionOfTwoViews(folder_.path());
+};
+
 class ViewsRunTest : public testing::Test {
  protected:
-  ViewsRunTest() : session_(sessionOfTwoViews(folder_.path())) {}
-
   const std::string& first() const { return session_.cases[0]->id; }
   const std::string& second() const { return session_.cases[1]->id; }
   std::filesystem::path file() const { return folder_ / "s.boresight.json"; }
 
   /// Run and noted.
-  void run(const std::string& leader) {
-    views_ = sessions::runViews(session_, leader);
+  void run(const std::string& leader) { note(TwoViews::get().run(leader)); }
+  void note(const std::vector<LocalizationTrace>& views) {
+    views_ = views;
     for (const RunRecord& item : sessions::storeViews(session_, views_, file()))
       session_ = withRun(session_, item);
   }
 
   TemporaryFolder folder_;
-  Session session_;
+  Session session_ = TwoViews::get().session();
   std::vector<LocalizationTrace> views_;
 };
 
@@ -60,6 +81,7 @@ TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   problem.uncertainty = example.problem().uncertainty;
   LocalizerOptions options = defaultProfile();
   options.templates.feature_size_m = session_case.feature_size_m.value();
+  options.search.enabled = false;
   std::size_t bytes = 0;
   ASSERT_EQ(ViewsLocalizer::requiredBytes(problem, options, 1, Kernels::kPortable, bytes),
             Status::kOk);
@@ -70,7 +92,7 @@ TEST_F(ViewsRunTest, IsWhatTheCoreMakesOfBothImages) {
   }
   ASSERT_EQ(expected->result().status, LocalizationStatus::kConverged);
 
-  views_ = sessions::runViews(session_, first());
+  views_ = TwoViews::get().run(first());
   ASSERT_EQ(views_.size(), 2u);
   for (std::size_t v = 0; v < 2; ++v) {
     const ViewReport& report = expected->result().views[v];
@@ -136,15 +158,11 @@ TEST_F(ViewsRunTest, WhatAnotherViewDependsOnMakesItStale) {
 }
 
 TEST_F(ViewsRunTest, ABlackViewIsLeftOutAndSaysWhy) {
-  LocalizerOptions of_seed = sessionOptions(session_, file());
-  of_seed.search.enabled = false;
-  session_ = withOptions(session_, "default", of_seed);
-  const std::string alone = sessions::runCase(session_, first()).digest;
-  const Pose pose = sessions::runCase(session_, first()).camera_from_station;
+  const LocalizationTrace alone = sessions::runCase(session_, first());
   session_ = withBlackSecond(session_, folder_.path());
-  run(first());
-  EXPECT_EQ(views_[0].camera_from_station, pose);
-  EXPECT_NE(session_.runs[0].digest, alone) << "it says that there was another";
+  note(sessions::runViews(session_, first()));
+  EXPECT_EQ(views_[0].camera_from_station, alone.camera_from_station);
+  EXPECT_NE(session_.runs[0].digest, alone.digest) << "it says that there was another";
   EXPECT_EQ(session_.runs[1].status, "too_few_matches");
   EXPECT_THAT(sessions::togetherText(session_.runs[0].together->views, first()),
               HasSubstr("left out: too few of its templates match edges"));
