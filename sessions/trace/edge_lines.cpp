@@ -282,4 +282,17 @@ EdgeLines edgeLines(const RenderTrace& render, int level) {
   return lines;
 }
 
+double lengthWithin(const EdgeLines& lines, const Eigen::AlignedBox2d& box_px) {
+  double length = 0.0;
+  for (const EdgeLine& line : lines) {
+    if (!box_px.intersects(line.box_px)) continue;
+    for (std::size_t i = 1; i < line.places_px.size(); ++i) {
+      Eigen::AlignedBox2d segment(line.places_px[i - 1]);
+      segment.extend(line.places_px[i]);
+      if (box_px.intersects(segment)) length += segment.intersection(box_px).diagonal().norm();
+    }
+  }
+  return length;
+}
+
 }  // namespace boresight::sessions

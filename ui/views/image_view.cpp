@@ -22,6 +22,8 @@ constexpr double kSwipeReach = 6.0;
 constexpr double kFaded = 0.25;
 constexpr double kCursorSize = 12.0;
 constexpr int kToolMargin = 56;  ///< of texts next to the tool strip
+constexpr int kMostBands = 16;
+constexpr double kWorkAtOnce = 40e3;  ///< length of lines on the screen, about 1.5 us a pixel
 const QColor kSwipeColor(255, 255, 255);
 
 }  // namespace
@@ -154,8 +156,9 @@ std::optional<ImageView::Pick> ImageView::pickAt(const QPointF& widget) const {
 }
 
 QRect ImageView::visiblePixels() const {
-  const QPointF first = transform_.toPixel(QPointF(0.0, 0.0));
-  const QPointF last = transform_.toPixel(QPointF(width(), height()));
+  const ViewTransform& transform = drawing_->ground.transform;
+  const QPointF first = transform.toPixel(QPointF(0.0, 0.0));
+  const QPointF last = transform.toPixel(QPointF(width(), height()));
   const QRect seen(
       QPoint(static_cast<int>(std::floor(first.x())), static_cast<int>(std::floor(first.y()))),
       QPoint(static_cast<int>(std::ceil(last.x())), static_cast<int>(std::ceil(last.y()))));
@@ -164,13 +167,11 @@ QRect ImageView::visiblePixels() const {
 
 /// Image and layers are kept as drawn: what follows the pointer lies above them and moves often.
 void ImageView::paintEvent(QPaintEvent*) {
-  const QRgb canvas = canvasColor();
-  if (ground_.isNull() || ground_.size() != (QSizeF(size()) * devicePixelRatioF()).toSize() ||
-      ground_canvas_ != canvas)
-    drawGround(canvas);
+  updateGround();
   QPainter painter(this);
-  painter.drawPixmap(0, 0, ground_);
+  paintGround(painter);
   if (image_.isNull()) return;
+  if (swipe_) paintSwipe(painter);
   paintTool(painter);
   if (linked_cursor_) paintLinkedCursor(painter);
   for (const auto& [owner, overlay] : overlays_) overlay(painter);
@@ -181,12 +182,83 @@ QRgb ImageView::canvasColor() const {
   return (dark ? kDarkTheme : kLightTheme).canvas;
 }
 
-void ImageView::drawGround(QRgb canvas) {
-  ground_canvas_ = canvas;
-  ground_ = QPixmap((QSizeF(size()) * devicePixelRatioF()).toSize());
-  ground_.setDevicePixelRatio(devicePixelRatioF());
-  ground_.fill(QColor(canvas));
-  QPainter painter(&ground_);
+QSize ImageView::deviceSize() const { return (QSizeF(size()) * devicePixelRatioF()).toSize(); }
+
+/// Little work is done at once; of much work one step, as an event of its own does the next.
+void ImageView::updateGround() {
+  const Ground& newest = drawing_ ? drawing_->ground : ground_;
+  if (newest.picture.size() != deviceSize() || newest.canvas != canvasColor()) {
+    drawing_.reset();
+    outdated_ = true;
+  }
+  if (!outdated_) return;
+  if (!drawing_) beginDrawing();
+  const bool nothing_to_show = ground_.picture.isNull();
+  do {
+    draw();
+  } while (drawing_ && (nothing_to_show || drawing_->bands == 1));
+  if (outdated_) update();
+}
+
+void ImageView::beginDrawing() {
+  drawing_.emplace();
+  Ground& ground = drawing_->ground;
+  ground.transform = transform_;
+  ground.canvas = canvasColor();
+  ground.picture = QPixmap(deviceSize());
+  ground.picture.setDevicePixelRatio(devicePixelRatioF());
+  ground.picture.fill(QColor(ground.canvas));
+  drawing_->bands = std::min(kMostBands, 1 + static_cast<int>(workToDraw() / kWorkAtOnce));
+}
+
+/// One step.
+void ImageView::draw() {
+  if (prepareBits()) return;
+  const double band_height =
+      std::ceil(deviceSize().height() / static_cast<double>(drawing_->bands)) / devicePixelRatioF();
+  drawBand(QRectF(0.0, drawing_->next * band_height, width(), band_height));
+  if (++drawing_->next < drawing_->bands) return;
+  ground_ = std::move(drawing_->ground);
+  outdated_ = drawing_->superseded;
+  drawing_.reset();
+}
+
+/// Makes the picture of one bit image that has none; false when all have theirs.
+bool ImageView::prepareBits() {
+  if (layers_hidden_) return false;
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    const Layer& layer = layers_[i];
+    std::vector<BitPixmaps>& pixmaps = drawn_[i].pixmaps;
+    if (!layer.isShown() || pixmaps.size() == layer.bits.size()) continue;
+    const LayerBits& bits = layer.bits[pixmaps.size()];
+    pixmaps.emplace_back(bits.bits, bits.color.isValid() ? bits.color : layer.style.color);
+    return true;
+  }
+  return false;
+}
+
+/// As a length of lines on the screen; pictures of bits that are to be made count, too.
+double ImageView::workToDraw() const {
+  constexpr double kWorkOfABit = 2e-3;
+  if (layers_hidden_) return 0.0;
+  const QRectF seen = QRectF(visiblePixels());
+  const Eigen::AlignedBox2d box(Eigen::Vector2d(seen.left(), seen.top()),
+                                Eigen::Vector2d(seen.right(), seen.bottom()));
+  double work = 0.0;
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    const Layer& layer = layers_[i];
+    if (!layer.isShown()) continue;
+    for (std::size_t j = drawn_[i].pixmaps.size(); j < layer.bits.size(); ++j)
+      work += kWorkOfABit * layer.bits[j].bits.width * layer.bits[j].bits.height;
+    if (layer.lines)
+      work += drawing_->ground.transform.scale() * sessions::lengthWithin(*layer.lines, box);
+  }
+  return work;
+}
+
+void ImageView::drawBand(const QRectF& band) {
+  const ViewTransform& transform = drawing_->ground.transform;
+  QPainter painter(&drawing_->ground.picture);
   painter.setFont(font());
   if (image_.isNull()) {
     painter.setPen(QColor(kOverlayText));
@@ -194,21 +266,34 @@ void ImageView::drawGround(QRgb canvas) {
                      Qt::AlignCenter | Qt::TextWordWrap, hint_);
     return;
   }
+  painter.setClipRect(band);
   paintImage(painter);
   if (!layers_hidden_) {
     painter.save();
-    if (swipe_) painter.setClipRect(QRectF(0.0, 0.0, *swipe_ * width(), height()));
+    if (swipe_)
+      painter.setClipRect(QRectF(0.0, 0.0, *swipe_ * width(), height()), Qt::IntersectClip);
     for (std::size_t i = 0; i < layers_.size(); ++i) paintLayer(painter, i);
     painter.restore();
   }
-  if (swipe_) paintSwipe(painter);
-  if (transform_.scale() >= kGridScale) paintGrid(painter);
-  if (transform_.scale() >= kValueScale) paintValues(painter);
+  if (transform.scale() >= kGridScale) paintGrid(painter);
+  if (transform.scale() >= kValueScale) paintValues(painter);
 }
 
-/// Image or layers are no longer as drawn.
+/// While another ground is drawn, the former one lies where its pixels are now.
+void ImageView::paintGround(QPainter& painter) const {
+  if (!outdated_) return painter.drawPixmap(0, 0, ground_.picture);
+  painter.fillRect(rect(), QColor(canvasColor()));
+  const double scale = transform_.scale() / ground_.transform.scale();
+  const QPointF place = transform_.toWidget(ground_.transform.toPixel(QPointF(0.0, 0.0)));
+  const QSizeF size = QSizeF(ground_.picture.size()) / ground_.picture.devicePixelRatio();
+  painter.drawPixmap(QRectF(place, scale * size), ground_.picture, QRectF(ground_.picture.rect()));
+}
+
+/// Image or layers are no longer as drawn. A ground that is being drawn is finished: dragging does
+/// not put it off again and again.
 void ImageView::redraw() {
-  ground_ = QPixmap();
+  if (drawing_) drawing_->superseded = true;
+  outdated_ = true;
   update();
 }
 
@@ -259,71 +344,72 @@ void ImageView::paintTool(QPainter& painter) const {
 }
 
 void ImageView::paintImage(QPainter& painter) const {
+  const ViewTransform& transform = drawing_->ground.transform;
   int step = 0;
-  const double device_scale = transform_.scale() * devicePixelRatioF();
+  const double device_scale = transform.scale() * devicePixelRatioF();
   const QImage& picture = image_.at(1.0 / device_scale, step);
   const double factor = static_cast<double>(1 << step);
   painter.setRenderHint(QPainter::SmoothPixmapTransform, device_scale < 1.0);
   // A pixel of the picture covers `factor` pixels of the image, the last one perhaps fewer.
   const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
-  painter.drawImage(transform_.toWidget(covered), picture);
+  painter.drawImage(transform.toWidget(covered), picture);
 }
 
 void ImageView::paintLayer(QPainter& painter, std::size_t index) {
+  const ViewTransform& transform = drawing_->ground.transform;
   const Layer& layer = layers_[index];
-  if (!layer.style.visible || layer.style.opacity <= 0.0) return;
+  if (!layer.isShown()) return;
   painter.setOpacity(layer.faded ? kFaded * layer.style.opacity : layer.style.opacity);
   paintBits(painter, layer, drawn_[index]);
   painter.setRenderHint(QPainter::Antialiasing, true);
   if (layer.lines)
-    paintLines(painter, transform_, *layer.lines, lineOf(layer),
-               painter.hasClipping() ? painter.clipBoundingRect() : QRectF(rect()));
-  for (const Mark& mark : layer.marks) paintMark(painter, transform_, mark, layer.style.color);
+    paintLines(painter, transform, *layer.lines, lineOf(layer), painter.clipBoundingRect());
+  for (const Mark& mark : layer.marks) paintMark(painter, transform, mark, layer.style.color);
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setOpacity(1.0);
 }
 
 void ImageView::paintBits(QPainter& painter, const Layer& layer, DrawnLayer& drawn) const {
+  const ViewTransform& transform = drawing_->ground.transform;
   painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
   for (std::size_t i = 0; i < layer.bits.size(); ++i) {
-    const LayerBits& bits = layer.bits[i];
-    if (drawn.pixmaps.size() <= i)
-      drawn.pixmaps.emplace_back(bits.bits, bits.color.isValid() ? bits.color : layer.style.color);
-    const double level_px = static_cast<double>(1 << bits.level);
+    const double level_px = static_cast<double>(1 << layer.bits[i].level);
     int step = 0;
-    const double per_device = 1.0 / (transform_.scale() * devicePixelRatioF() * level_px);
+    const double per_device = 1.0 / (transform.scale() * devicePixelRatioF() * level_px);
     const QImage& picture = drawn.pixmaps[i].at(per_device, step);
     const double factor = level_px * static_cast<double>(1 << step);
     const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
-    painter.drawImage(transform_.toWidget(covered), picture);
+    painter.drawImage(transform.toWidget(covered), picture);
   }
 }
 
 void ImageView::paintGrid(QPainter& painter) const {
+  const ViewTransform& transform = drawing_->ground.transform;
   const QRect seen = visiblePixels();
   painter.setPen(QColor(128, 128, 128, 70));
   for (int x = seen.left(); x <= seen.right() + 1; ++x) {
-    const double at = transform_.toWidget(QPointF(x - 0.5, 0.0)).x();
+    const double at = transform.toWidget(QPointF(x - 0.5, 0.0)).x();
     painter.drawLine(QPointF(at, 0.0), QPointF(at, height()));
   }
   for (int y = seen.top(); y <= seen.bottom() + 1; ++y) {
-    const double at = transform_.toWidget(QPointF(0.0, y - 0.5)).y();
+    const double at = transform.toWidget(QPointF(0.0, y - 0.5)).y();
     painter.drawLine(QPointF(0.0, at), QPointF(width(), at));
   }
 }
 
 void ImageView::paintValues(QPainter& painter) const {
+  const ViewTransform& transform = drawing_->ground.transform;
   if (values_.isNull()) return;
   const QRect seen = visiblePixels();
   QFont small = font();
-  small.setPixelSize(static_cast<int>(std::clamp(0.36 * transform_.scale(), 9.0, 22.0)));
+  small.setPixelSize(static_cast<int>(std::clamp(0.36 * transform.scale(), 9.0, 22.0)));
   painter.setFont(small);
   for (int y = seen.top(); y <= seen.bottom(); ++y) {
     for (int x = seen.left(); x <= seen.right(); ++x) {
       const int gray = values_.constScanLine(y)[x];
       const int shown = image_.full().constScanLine(y)[x];  // perhaps stretched
       painter.setPen(shown < 128 ? QColor(255, 255, 255, 190) : QColor(0, 0, 0, 190));
-      painter.drawText(transform_.toWidget(QRectF(x - 0.5, y - 0.5, 1.0, 1.0)), Qt::AlignCenter,
+      painter.drawText(transform.toWidget(QRectF(x - 0.5, y - 0.5, 1.0, 1.0)), Qt::AlignCenter,
                        QString::number(gray));
     }
   }

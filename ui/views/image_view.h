@@ -51,6 +51,9 @@ class ImageView : public QWidget {
   /// Sets the position of another view's pointer, drawn as a cross. Nothing: none.
   void setLinkedCursor(const std::optional<QPointF>& pixel);
   const std::optional<QPointF>& linkedCursor() const { return linked_cursor_; }
+  /// Whether what is on the screen shows the image and layers as they are now. Where they take long
+  /// to draw, several events draw them, and meanwhile the former picture is shown in its new place.
+  bool isDrawn() const { return !outdated_ || !isVisible(); }
   /// Hides all layers temporarily (blinking).
   void setLayersHidden(bool hidden);
   bool layersHidden() const { return layers_hidden_; }
@@ -114,9 +117,29 @@ class ImageView : public QWidget {
   struct DrawnLayer {
     std::vector<BitPixmaps> pixmaps;  ///< one per LayerBits, made when first drawn
   };
+  /// Image and layers as drawn with a transform.
+  struct Ground {
+    QPixmap picture;
+    ViewTransform transform;
+    QRgb canvas = 0;
+  };
+  /// A ground that is being drawn from top to bottom.
+  struct Drawing {
+    Ground ground;
+    int bands = 1;
+    int next = 0;
+    bool superseded = false;  ///< another is to be drawn after it
+  };
 
   QRgb canvasColor() const;
-  void drawGround(QRgb canvas);
+  QSize deviceSize() const;
+  void updateGround();
+  void beginDrawing();
+  void draw();
+  bool prepareBits();
+  void drawBand(const QRectF& band);
+  void paintGround(QPainter& painter) const;
+  double workToDraw() const;
   void redraw();
   void paintImage(QPainter& painter) const;
   void paintLayer(QPainter& painter, std::size_t index);
@@ -151,8 +174,9 @@ class ImageView : public QWidget {
   std::vector<ToolPreview> tool_previews_;
   std::map<const QObject*, Overlay> overlays_;
   std::optional<QPointF> linked_cursor_;
-  QPixmap ground_;  ///< image and layers as drawn last; null: to be drawn
-  QRgb ground_canvas_ = 0;
+  Ground ground_;                   ///< as drawn last
+  std::optional<Drawing> drawing_;  ///< in place of `ground_`
+  bool outdated_ = true;            ///< `ground_` is of another image, transform or layers
   bool swiping_ = false;
 };
 

@@ -127,6 +127,7 @@ struct Layer {
   QString name;                   ///< name of its present content, instead of the layer's name
   bool faded = false;             ///< drawn faintly while other layers are compared
 
+  bool isShown() const { return style.visible && style.opacity > 0.0; }
   bool empty() const { return bits.empty() && marks.empty() && (!lines || lines->empty()); }
   /// With the colour of the style, unless `line` replaces it.
   LineToken shownLine() const;

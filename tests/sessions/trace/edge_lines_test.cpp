@@ -137,6 +137,19 @@ TEST(EdgeLines, BoxesHoldTheirLines) {
   }
 }
 
+TEST(EdgeLines, LengthWithin_CountsTheSegmentsOfABox) {
+  EdgeLine line;
+  line.places_px = {{0.0, 0.0}, {3.0, 4.0}, {3.0, 14.0}, {30.0, 14.0}};
+  for (const Eigen::Vector2d& place : line.places_px) line.box_px.extend(place);
+  const auto within = [&](double last) {
+    return lengthWithin(
+        {line}, Eigen::AlignedBox2d(Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(last, last)));
+  };
+  EXPECT_DOUBLE_EQ(within(100.0), 5.0 + 10.0 + 27.0);
+  EXPECT_DOUBLE_EQ(within(5.0), 5.0 + 1.0) << "the second segment leaves it, the last is outside";
+  EXPECT_DOUBLE_EQ(within(-0.5), 0.0);
+}
+
 TEST(EdgeLines, OfNothingAreNone) { EXPECT_TRUE(edgeLines(RenderTrace(), 0).empty()); }
 
 }  // namespace

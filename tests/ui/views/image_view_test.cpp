@@ -164,6 +164,46 @@ class EdgeLinesOnImage : public ImageViewTest {
   }
 };
 
+/// Zigzags over the whole image, so many that they are not drawn at once.
+LinesPtr manyLines() {
+  sessions::EdgeLines lines;
+  for (int row = 0; row < kSide; ++row) {
+    sessions::EdgeLine& line = lines.emplace_back();
+    for (int i = 0; i < 1'000; ++i) {
+      const Eigen::Vector2d place(kSide * i / 1'000.0, row + 0.4 * (i % 2));
+      line.places_px.push_back(place);
+      line.box_px.extend(place);
+    }
+  }
+  return std::make_shared<const sessions::EdgeLines>(lines);
+}
+
+TEST_F(EdgeLinesOnImage, ManyLinesAreDrawnInStepsWhileTheFormerPictureIsShown) {
+  show(LayerId::kTruthEdges, manyLines());
+  ASSERT_TRUE(QTest::qWaitFor([this] { return view_.isDrawn(); }));
+  const QColor middle = at({32.0, 32.2});
+  wheel({320.0, 320.0}, 2);
+  view_.repaint();
+  EXPECT_FALSE(view_.isDrawn()) << "one event does not draw all";
+  EXPECT_EQ(at({32.0, 32.2}), middle) << "the former picture lies where its pixels are now";
+  ASSERT_TRUE(QTest::qWaitFor([this] { return view_.isDrawn(); }));
+  const QImage in_steps = view_.grab().toImage();
+  ImageView other;  // which has nothing to show meanwhile, and draws at once
+  other.resize(view_.size());
+  other.setImage(grayImage());
+  for (int i = 0; i < kLayerCount; ++i)
+    other.setStyle(static_cast<LayerId>(i), {false, Qt::red, 1.0});
+  other.setLayer(view_.layer(LayerId::kTruthEdges));
+  other.setTransform(view_.transform());
+  const QImage at_once = other.grab().toImage();
+  ASSERT_EQ(in_steps.size(), at_once.size());
+  int differ = 0;
+  for (int y = 0; y < at_once.height(); ++y)
+    for (int x = 0; x < at_once.width(); ++x)
+      if (std::abs(qGray(in_steps.pixel(x, y)) - qGray(at_once.pixel(x, y))) > 8) ++differ;
+  EXPECT_EQ(differ, 0);
+}
+
 /// At ten times, where the line's own colour is strongest across it.
 TEST_F(EdgeLinesOnImage, AtTenTimesTheyLieWithinATenthOfAPixel) {
   for (const double y : {20.0, 20.13, 20.5, 20.77}) {
@@ -268,8 +308,12 @@ TEST_F(ImageViewTest, PictureIsThatOfAViewThatIsDrawnForTheFirstTime) {
       [](ImageView& view) { view.resize(500, 400); },
       [](ImageView& view) { view.setImage(grayImage()); },
       [&](ImageView& view) { view.setLayer(layerOf(LayerId::kTestEdges, {bit.bits})); },
-      [](ImageView& view) { view.setStyle(LayerId::kTestEdges, {true, Qt::green, 0.5}); },
-      [](ImageView& view) { view.centreOn({20.0, 30.0}, 40.0); },
+      [](ImageView& view) {
+        view.setStyle(LayerId::kTestEdges, {true, Qt::green, 0.5});
+      },
+      [](ImageView& view) {
+        view.centreOn({20.0, 30.0}, 40.0);
+      },
       [](ImageView& view) { view.setLinkedCursor(QPointF(21.0, 31.0)); },
       [](ImageView& view) { view.setSwipe(0.5); },
       [](ImageView& view) { view.setSwipe(std::nullopt); },

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Longest time that the window is blocked: event_gaps DATASET CASE opens a case, runs it to the
-// end, walks through its iterations, runs a batch, runs it again and stops it at once. It prints the longest
-// times that the event loop was kept by one event, and how soon a stop was answered.
+// end, walks through its iterations, zooms with all layers shown, runs a batch, runs it again and
+// stops it at once. It prints the longest times that the event loop was kept by one event, and how
+// soon a stop was answered.
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -11,6 +13,8 @@
 #include <QtWidgets>
 
 #include "sessions/session/session_maker.h"
+#include "ui/views/image_panel.h"
+#include "ui/views/image_view.h"
 #include "ui/window/main_window.h"
 #include "ui/workspaces/workspaces.h"
 
@@ -23,8 +27,15 @@ namespace fs = std::filesystem;
 /// How long the event loop was kept by one event, and by what.
 struct EventGap {
   double ms = 0.0;
+  double cpu_ms = 0.0;  ///< of this thread: what remains on a machine that does nothing else
   QString where;
 };
+
+double cpuTime_ms() {
+  std::timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
 /// An application that times every event that its loop delivers. While an event is handled the
 /// window is blocked: the longest gap is the longest freeze.
@@ -50,9 +61,10 @@ class EventClock : public QApplication {
     ++depth_;
     QElapsedTimer clock;
     clock.start();
+    const double cpu_before_ms = cpuTime_ms();
     const bool taken = QApplication::notify(receiver, event);
     --depth_;
-    note({static_cast<double>(clock.nsecsElapsed()) * 1e-6, where});
+    note({static_cast<double>(clock.nsecsElapsed()) * 1e-6, cpuTime_ms() - cpu_before_ms, where});
     return taken;
   }
 
@@ -88,7 +100,7 @@ void waitFor(const std::function<bool()>& holds) {
 void print(EventClock& clock, const char* what) {
   std::printf("%s\n", what);
   for (const EventGap& gap : clock.longest(5))
-    std::printf("  %7.1f ms  %s\n", gap.ms, qPrintable(gap.where));
+    std::printf("  %7.1f ms, CPU %6.1f ms  %s\n", gap.ms, gap.cpu_ms, qPrintable(gap.where));
   clock.begin();
 }
 
@@ -132,6 +144,32 @@ class Walk {
       waitFor([this] { return rests(); });
     }
     print(clock_, "going through the iterations");
+  }
+
+  /// All layers of the first iteration, which has templates and matches: shown, then zoomed.
+  void zoom() {
+    window_.state().setCursor({0, Stage::kFinished});
+    waitFor([this] { return rests(); });
+    clock_.begin();
+    ui::ImagePanel& image = window_.image();
+    for (int i = 0; i < ui::kLayerCount; ++i) {
+      const auto id = static_cast<ui::LayerId>(i);
+      ui::LayerStyle style = image.style(id);
+      style.visible = true;
+      image.setStyle(id, style);
+    }
+    waitFor([this] { return rests(); });
+    print(clock_, "showing all layers");
+    for (int i = 0; i < 24; ++i) {
+      const QPointF place(0.4 * image.view().width(), 0.4 * image.view().height());
+      const QPoint turn(0, i < 12 ? 120 : -120);
+      auto* wheel = new QWheelEvent(place, image.view().mapToGlobal(place.toPoint()), QPoint(),
+                                    turn, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+      QCoreApplication::postEvent(&image.view(), wheel);
+      QCoreApplication::processEvents();
+      waitFor([&] { return rests() && image.view().isDrawn(); });
+    }
+    print(clock_, "zooming with all layers");
   }
 
   /// Further cases in the background, as other seeds of the same image.
@@ -204,6 +242,7 @@ int main(int argc, char** argv) {
   for (const char* dock : {"iterations", "inspector", "scene", "review", "queue"})
     walk.runInFrontOf(QLatin1String(dock));
   walk.scrub();
+  walk.zoom();
   walk.batch();
   walk.stop();
   return 0;
