@@ -10,7 +10,9 @@
 
 #include "sessions/checks/checks.h"
 #include "sessions/evaluation/pose_error.h"
+#include "sessions/io/files/errors.h"
 #include "sessions/io/json/option_value.h"
+#include "sessions/io/meshes/scene_mesh.h"
 #include "sessions/record/onboard_record.h"
 #include "sessions/text/plain_text.h"
 #include "sessions/text/text_table.h"
@@ -73,18 +75,6 @@ std::vector<CheckChange> changedChecks(const std::vector<Check>& before,
     if (found != after.end() && found->state != check.state)
       changed.push_back({check.title, check.state, found->state});
   }
-  return changed;
-}
-
-std::vector<OptionChangeText> changedOptions(const LocalizerOptions& before,
-                                             const LocalizerOptions& after) {
-  const auto value = listOptions(before);
-  const auto other = listOptions(after);
-  std::vector<OptionChangeText> changed;
-  for (std::size_t i = 0; i < value.size(); ++i)
-    if (!(value[i].value == other[i].value))
-      changed.push_back({value[i].name, valueText(value[i], value[i].value),
-                         valueText(other[i], other[i].value)});
   return changed;
 }
 
@@ -158,6 +148,71 @@ std::string sentence(std::string clause) {
 
 }  // namespace
 
+std::vector<OptionChangeText> optionChanges(const LocalizerOptions& before,
+                                            const LocalizerOptions& after) {
+  const auto value = listOptions(before);
+  const auto other = listOptions(after);
+  std::vector<OptionChangeText> changed;
+  for (std::size_t i = 0; i < value.size(); ++i)
+    if (!(value[i].value == other[i].value))
+      changed.push_back({value[i].name, valueText(value[i], value[i].value),
+                         valueText(other[i], other[i].value)});
+  return changed;
+}
+
+std::string optionChangesText(std::span<const OptionChangeText> changes) {
+  constexpr std::size_t kMostNamed = 3;
+  const std::size_t named = changes.size() <= kMostNamed ? changes.size() : kMostNamed - 1;
+  std::string text;
+  for (const OptionChangeText& change : changes.first(named))
+    text += (text.empty() ? "" : ", ") + change.name + " " + change.before + " -> " + change.after;
+  if (named < changes.size())
+    text += " and " + std::to_string(changes.size() - named) + " other options";
+  return text;
+}
+
+PoseDistance poseDistance(const LoadedCase& loaded, const Pose& camera_from_station,
+                          const Pose& other_camera_from_station) {
+  const SessionCase& session_case = loaded.source;
+  const PoseError error = poseError(camera_from_station, other_camera_from_station,
+                                    session_case.camera_from_end_effector);
+  return {std::hypot(error.normal_mm, error.lateral_mm), error.geodesic_mrad / kMradPerDegree,
+          projectionError(session_case.camera, camera_from_station, other_camera_from_station,
+                          matchedVertices(loaded.scene.view()))};
+}
+
+std::string poseDistanceText(const PoseDistance& distance) {
+  std::string text = fixedText(distance.translation_mm, 2) + " mm, " +
+                     fixedText(distance.rotation_deg, 3) + " deg";
+  if (distance.projection_px) text += ", " + fixedText(*distance.projection_px, 1) + " px";
+  return text;
+}
+
+std::vector<RunListLine> runListLines(std::span<const RunRecord> runs, const LoadedCase& loaded,
+                                      const std::stop_token& stop) {
+  std::vector<RunListLine> lines(runs.size());
+  std::optional<LocalizationTrace> before;
+  for (std::size_t i = 0; i < runs.size() && !stop.stop_requested(); ++i) {
+    std::optional<LocalizationTrace> after;
+    try {
+      after = loadRun(runs[i]);
+    } catch (const InputError&) {
+      // Its lines stay empty.
+    }
+    RunListLine& line = lines[i];
+    if (i > 0 && runs[i - 1].inputs_sha256 != runs[i].inputs_sha256) line.changed = "inputs";
+    if (before && after) {
+      const std::string options =
+          optionChangesText(optionChanges(before->lastOptions(), after->lastOptions()));
+      line.changed += (line.changed.empty() || options.empty() ? "" : ", ") + options;
+      if (before->converged() && after->converged())
+        line.moved = poseDistance(loaded, before->lastPose(), after->lastPose());
+    }
+    before = std::move(after);
+  }
+  return lines;
+}
+
 const char* runChangeText(RunChange change) {
   constexpr const char* kTexts[] = {"better", "worse", "same"};
   return kTexts[static_cast<std::size_t>(change)];
@@ -194,7 +249,7 @@ RunDifference compareRuns(const Session& session, const std::string& before_dige
   run_difference.before = sideOf(before);
   run_difference.after = sideOf(after);
   run_difference.inputs_differ = before.record->inputs_sha256 != after.record->inputs_sha256;
-  run_difference.options = changedOptions(before.subject.run->options, after.subject.run->options);
+  run_difference.options = optionChanges(before.subject.run->options, after.subject.run->options);
   run_difference.checks = changedChecks(before.checks, after.checks);
   run_difference.comparison = compareRecords(recordOfRun(before), recordOfRun(after));
   judgeChange(run_difference);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,32 @@ struct OptionChangeText {
   std::string before;  ///< with its unit
   std::string after;
 };
+
+/// Of the options in force at the end of two runs, in their order.
+std::vector<OptionChangeText> optionChanges(const LocalizerOptions& before,
+                                            const LocalizerOptions& after);
+/// "pnp.min_inliers 12 -> 100"; more than three are counted.
+std::string optionChangesText(std::span<const OptionChangeText> changes);
+
+/// How far apart two poses of a case are.
+struct PoseDistance {
+  double translation_mm = 0.0;          ///< at the end effector, else at the camera
+  double rotation_deg = 0.0;            ///< whole angle
+  std::optional<double> projection_px;  ///< as PoseError's, over the vertices that runs match
+};
+PoseDistance poseDistance(const LoadedCase& loaded, const Pose& camera_from_station,
+                          const Pose& other_camera_from_station);
+/// "0.12 mm, 0.034 deg, 0.8 px".
+std::string poseDistanceText(const PoseDistance& distance);
+
+/// A run of a list, next to the run before it.
+struct RunListLine {
+  std::string changed;  ///< "inputs, pnp.min_inliers 12 -> 100"; empty: nothing, or the first run
+  std::optional<PoseDistance> moved;  ///< empty unless both runs converged
+};
+/// In the order of the runs of one case. Lines of a trace that cannot be read are empty.
+std::vector<RunListLine> runListLines(std::span<const RunRecord> runs, const LoadedCase& loaded,
+                                      const std::stop_token& stop = {});
 
 enum class RunChange { kBetter, kWorse, kSame };
 /// "better", "worse", "same".

@@ -15,6 +15,10 @@ QString numberText(double value, int decimals) {
   return QString::number(value, 'f', decimals);  // never the locale's comma
 }
 
+QString timeText(const std::string& utc) {
+  return fromText(utc).replace(QLatin1Char('T'), QLatin1Char(' ')).remove(QLatin1Char('Z'));
+}
+
 QString probabilityCell(double probability) {
   return std::isnan(probability) ? QString() : fromText(sessions::probabilityPercent(probability));
 }

@@ -23,6 +23,9 @@ double roundedUp(double value);
 /// A core or session text in UTF-8.
 inline QString fromText(const std::string& text) { return QString::fromStdString(text); }
 
+/// "2026-11-28 02:11:45" of a time in ISO 8601, UTC.
+QString timeText(const std::string& utc);
+
 /// An HTML table; its cells are HTML. Numbers are aligned to the right, and the last cell of a row
 /// that is shorter than others spans the rest.
 QString htmlTable(const QVector<QStringList>& rows);

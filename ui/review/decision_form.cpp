@@ -23,12 +23,10 @@ QString sentence(QString clause) {
   return ended ? clause : clause + QLatin1Char('.');
 }
 
-QString entry(const QString& time, const QString& what, const std::string& by,
+QString entry(const std::string& time, const QString& what, const std::string& by,
               const std::string& comment) {
-  QString when = time;
-  when.replace(QLatin1Char('T'), QLatin1Char(' ')).remove(QLatin1Char('Z'));
   return DecisionForm::tr("<b>%1 by %2</b> · %3 UTC<br>%4")
-      .arg(what, fromText(by).toHtmlEscaped(), when, fromText(comment).toHtmlEscaped());
+      .arg(what, fromText(by).toHtmlEscaped(), timeText(time), fromText(comment).toHtmlEscaped());
 }
 
 QString verdictText(const Decision& decision) {
@@ -50,10 +48,9 @@ QString waiversHtml(const Decision& decision) {
 
 QString decisionHtml(const Decision& decision) {
   if (decision.approval)
-    return entry(fromText(decision.approval->time), DecisionForm::tr("★ Approved"),
-                 decision.approval->by, decision.approval->comment);
-  QString html =
-      entry(fromText(decision.time), verdictText(decision), decision.by, decision.comment);
+    return entry(decision.approval->time, DecisionForm::tr("★ Approved"), decision.approval->by,
+                 decision.approval->comment);
+  QString html = entry(decision.time, verdictText(decision), decision.by, decision.comment);
   if (!decision.digest.empty())
     html += DecisionForm::tr(" (run %1)").arg(fromText(decision.digest).left(kDigestDigits));
   else if (decision.pose)

@@ -6,6 +6,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/review/run_difference.h"
 #include "sessions/session/case_run.h"
 #include "sessions/session/rig_links.h"
 #include "sessions/trace/scene_render.h"
@@ -15,6 +16,7 @@
 #include "ui/views/display_image.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {
 namespace {
@@ -22,6 +24,25 @@ namespace {
 constexpr int kBoxMargin = 8;
 
 QString taskKey() { return QStringLiteral("compare"); }
+
+/// How far a pose is from the shown run's, the seed's without one.
+QString apartText(const sessions::LoadedCase& loaded, const sessions::LocalizationTrace* shown_run,
+                  const Pose& other) {
+  const Pose& shown = shown_run ? shown_run->lastPose() : loaded.source.camera_from_station_seed;
+  const QString apart = fromText(poseDistanceText(poseDistance(loaded, shown, other)));
+  return shown_run ? CompareView::tr("%1 from the shown run").arg(apart)
+                   : CompareView::tr("%1 from the seed").arg(apart);
+}
+
+QStringList optionsText(const sessions::LocalizationTrace& shown_run,
+                        const sessions::LocalizationTrace& other_run) {
+  QStringList lines;
+  for (const sessions::OptionChangeText& option :
+       sessions::optionChanges(shown_run.lastOptions(), other_run.lastOptions()))
+    lines << CompareView::tr("%1: %2, here %3")
+                 .arg(fromText(option.name), fromText(option.before), fromText(option.after));
+  return lines;
+}
 
 }  // namespace
 
@@ -36,6 +57,7 @@ CompareView::CompareView(ImagePanel& image, Document& document, ViewState& state
   box_->setToolTip(tr("What the second canvas shows"));
   view_->setObjectName(QStringLiteral("compareView"));
   view_->setHint(tr("Reading ..."));
+  view_->setOverlay(this, [this](QPainter& painter) { paintDifference(painter); });
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(view_);
@@ -102,7 +124,7 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
   const auto& runs = document_.session().runs;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run)
     if (run->case_id == shown->id)
-      choices.push_back({tr("Run of %1: %2").arg(fromText(run->time), fromText(run->status)),
+      choices.push_back({tr("Run of %1: %2").arg(timeText(run->time), fromText(run->status)),
                          run->status == "converged" ? kPoseLine : kRejectedLine,
                          std::nullopt,
                          *run,
@@ -156,12 +178,16 @@ void CompareView::order() {
   if (other) other_case = *other;
   tasks_.start(
       taskKey(),
-      [shown, choice = choices_[index], other_case,
-       pose = state_.shownPose()](const std::stop_token&) {
-        Picture picture{shown, pose, nullptr, choice.line};
+      [shown, choice = choices_[index], other_case, pose = state_.shownPose(),
+       shown_run = state_.snapshot()](const std::stop_token&) {
+        Picture picture{shown, pose, nullptr, choice.line, {}};
+        std::optional<sessions::LocalizationTrace> run;
         if (choice.camera_from_station) picture.camera_from_station = *choice.camera_from_station;
-        if (choice.run)
-          picture.camera_from_station = sessions::loadRun(*choice.run).lastPose();
+        if (choice.run) run = sessions::loadRun(*choice.run);
+        if (run) picture.camera_from_station = run->lastPose();
+        if (choice.case_id.empty())
+          picture.difference << apartText(*shown, shown_run.get(), picture.camera_from_station);
+        if (run && shown_run) picture.difference << optionsText(*shown_run, *run);
         if (other_case) {
           picture.loaded_case = sessions::loadCase(*other_case);
           picture.camera_from_station = *sessions::linkOfRig(shown->source, *other_case) * pose;
@@ -203,6 +229,22 @@ void CompareView::follow(ImageView& follower, const ImageView& leader) {
       follower.size());
   follower.setTransform(transform);
   following_ = false;
+}
+
+/// In the lower left corner; options without room are counted.
+void CompareView::paintDifference(QPainter& painter) const {
+  QStringList lines = picture_.difference;
+  constexpr int kMost = 6;
+  if (lines.size() > kMost) {
+    const auto more = lines.size() - kMost + 1;
+    lines = lines.mid(0, kMost - 1) << tr("and %1 other options").arg(more);
+  }
+  double bottom = view_->height() - kBoxMargin;
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    const double top = bottom - noteSize(painter, *line).height();
+    paintNote(painter, {static_cast<double>(kBoxMargin), top}, *line);
+    bottom = top - 2.0;
+  }
 }
 
 void CompareView::pointAt(const QPointF& pixel) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <QStringList>
 #include <QWidget>
 
 #include "sessions/session/run_record.h"
@@ -31,6 +32,9 @@ class CompareView : public QWidget {
   ImageView& view() { return *view_; }
   /// Names of the choices, in the order of the box.
   QStringList choices() const;
+  /// How far the second canvas' pose is from the shown one, and the options in which their runs
+  /// differ, a line each.
+  const QStringList& difference() const { return picture_.difference; }
   /// Shows the canvas with this run of the case.
   void showRun(const std::string& digest);
   /// Sets the onboard run of the case; nullptr: none.
@@ -62,6 +66,7 @@ class CompareView : public QWidget {
     Pose camera_from_station;
     LinesPtr lines;
     LineToken line = kPoseLine;
+    QStringList difference;
   };
 
   std::vector<Choice> choicesNow() const;
@@ -72,6 +77,7 @@ class CompareView : public QWidget {
   void take(const Picture& picture);
   void follow(ImageView& follower, const ImageView& leader);
   void pointAt(const QPointF& pixel);
+  void paintDifference(QPainter& painter) const;
 
   ImagePanel& image_;
   Document& document_;

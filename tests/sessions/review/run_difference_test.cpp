@@ -115,6 +115,40 @@ TEST_F(RunDifferenceTest, NamesTheOptionTheFirstDifferenceAndWhoIsBetter) {
   EXPECT_THAT(changeText(run_difference), ::testing::StartsWith("Worse"));
 }
 
+TEST_F(RunDifferenceTest, RunListLines_OfAnotherSeedAndOption_NameBothAndTheDistance) {
+  run({});
+  const auto loaded = loadCase(*session_.findCase(id_));
+  session_ = withChanged(session_, id_, [](SessionCase& changed) {
+    changed.camera_from_station_seed.translation_m.x() += 1e-3;
+  });
+  run({{"pnp.min_inliers", std::int64_t{13}}});
+  std::vector<RunListLine> lines = runListLines(session_.runs, *loaded);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].changed, "") << "no run is before it";
+  EXPECT_THAT(lines[1].changed, ::testing::MatchesRegex("inputs, pnp\\.min_inliers .+ -> 13"));
+  ASSERT_TRUE(lines[1].moved);
+  const Pose first = loadRun(session_.runs[0]).camera_from_station;
+  const Pose second = loadRun(session_.runs[1]).camera_from_station;
+  EXPECT_NEAR(lines[1].moved->rotation_deg,
+              first.rotation.angularDistance(second.rotation) / kDegree_rad, 1e-9);
+  EXPECT_TRUE(lines[1].moved->projection_px);
+  std::filesystem::remove(session_.runs[0].file);
+  lines = runListLines(session_.runs, *loaded);
+  EXPECT_FALSE(lines[1].moved);
+  EXPECT_EQ(lines[1].changed, "inputs");
+}
+
+TEST_F(RunDifferenceTest, PoseDistanceText_GivesMillimetresDegreesAndPixels) {
+  const auto loaded = loadCase(*session_.findCase(id_));
+  Pose moved = *loaded->source.camera_from_station_truth;
+  moved.translation_m.z() += 2e-3;
+  const PoseDistance distance =
+      poseDistance(*loaded, *loaded->source.camera_from_station_truth, moved);
+  EXPECT_NEAR(distance.translation_mm, 2.0, 1e-9);
+  EXPECT_EQ(poseDistanceText({2.0, 0.0, std::nullopt}), "2.00 mm, 0.000 deg");
+  EXPECT_EQ(poseDistanceText({0.12, 0.034, 0.84}), "0.12 mm, 0.034 deg, 0.8 px");
+}
+
 TEST_F(RunDifferenceTest, ATruthThatIsCoarserThanTheRequirementDoesNotJudge) {
   run({});
   run({{"loop.max_iterations", std::int64_t{30}}});

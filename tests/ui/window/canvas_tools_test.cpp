@@ -118,6 +118,34 @@ TEST_F(CanvasToolsTest, GizmoRingRollsAndWheelChangesTheDistance) {
   EXPECT_NEAR((middleAt(nearer) - middleAt(rolled)).manhattanLength(), 0.0, 1e-6);
 }
 
+TEST_F(CanvasToolsTest, GizmoTilt_TurnsAboutTheImagesAxesAndShowsTheOffset) {
+  openExample();
+  const Pose seed = edited().camera_from_station_seed;
+  QTest::keyClick(&window_, Qt::Key_N);
+  auto& gizmo = *window_.findChild<NudgeGizmo*>();
+  EXPECT_EQ(gizmo.offsetText().toStdString(),
+            "From the seed: x 0.00, y 0.00, z 0.00 mm; tilt 0.00, 0.00 deg, roll 0.00 deg.");
+  const QPointF handle = view().transform().toWidget(middleAt(seed)) +
+                         QPointF(0.0, NudgeGizmo::kRing + NudgeGizmo::kHandle);
+  drag(handle, handle + QPointF(0.1 * NudgeGizmo::kRing, 0.0));
+  const Pose tilted = window_.state().nudgedPose().value();
+  const Eigen::AngleAxisd turn(tilted.rotation * seed.rotation.conjugate());
+  EXPECT_NEAR(turn.angle(), 0.1, 0.5 / NudgeGizmo::kRing);
+  EXPECT_NEAR(turn.axis().y(), -1.0, 1e-9) << "its near side follows the pointer to the right";
+  EXPECT_LT((tilted * middle() - seed * middle()).norm(), 1e-9);
+  EXPECT_TRUE(test::has(gizmo.offsetText(), "tilt 0.00, -5.7"));
+  // With Ctrl the keys turn too, all about the same middle.
+  for (const auto key : {Qt::Key_Up, Qt::Key_PageUp})
+    QTest::keyClick(&view(), key, Qt::ControlModifier | Qt::ShiftModifier);
+  const Pose turned = window_.state().nudgedPose().value();
+  EXPECT_LT((turned * middle() - seed * middle()).norm(), 1e-9);
+  EXPECT_TRUE(test::has(gizmo.offsetText(), "x 0.00, y 0.00, z 0.00 mm"));
+  EXPECT_TRUE(test::has(gizmo.offsetText(), "roll +2."));
+  QTest::keyClick(&view(), Qt::Key_PageUp);
+  EXPECT_NEAR((window_.state().nudgedPose().value() * middle()).z(), 1.01 * (seed * middle()).z(),
+              1e-6);
+}
+
 TEST_F(CanvasToolsTest, GizmoEnterUsesThePoseAsSeedAndEscapeEndsTheTool) {
   openExample();
   QTest::keyClick(&window_, Qt::Key_N);
@@ -187,12 +215,21 @@ TEST_F(CanvasToolsTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
   ASSERT_TRUE(runToTheEnd(2));
   auto& list = find<QTreeWidget>("runs");
   ASSERT_EQ(list.topLevelItemCount(), 2);
+  window_.workspaces().reveal(QStringLiteral("runs"));
+  constexpr int kChanged = 3;
+  constexpr int kMoved = 4;
+  ASSERT_TRUE(
+      wait([&] { return list.topLevelItem(0)->text(kChanged) == QStringLiteral("inputs"); }));
+  EXPECT_TRUE(test::has(list.topLevelItem(0)->text(kMoved), " mm, "));
+  EXPECT_EQ(list.topLevelItem(1)->text(kChanged), QString());
   window_.cases().showRun(first);
   ASSERT_TRUE(wait([&] { return window_.state().snapshot()->digest == first; }));
   auto& compare = *window_.findChild<CompareView*>();
   compare.showRun(window_.document().session().runs[1].digest);
   EXPECT_TRUE(compare.isVisible());
   ASSERT_TRUE(wait([&] { return !compare.view().layer(LayerId::kIterationEdges).empty(); }));
+  ASSERT_EQ(compare.difference().size(), 1) << "no option differs";
+  EXPECT_TRUE(test::has(compare.difference()[0], " px from the shown run"));
   view().centreOn({200.0, 150.0}, 3.0);
   EXPECT_NEAR(compare.view().transform().scale(), view().transform().scale(), 1e-9);
   const auto centreOf = [](const ImageView& each) {

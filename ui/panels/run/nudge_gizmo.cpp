@@ -9,6 +9,8 @@
 #include <QPainter>
 #include <QWheelEvent>
 
+#include "core/base/math.h"
+#include "ui/models/text.h"
 #include "ui/panels/run/nudge_box.h"
 #include "ui/state/view_state.h"
 #include "ui/style/icons.h"
@@ -24,6 +26,7 @@ constexpr double kReach = 9.0;
 constexpr double kArrow = 22.0;
 constexpr double kWheelFactor = 1.01;    ///< of the distance, per notch
 constexpr double kHandleFactor = 1.002;  ///< per pixel that the handle is dragged
+constexpr double kNotesTop = 44.0;       ///< below the canvas' title
 constexpr LineToken kGizmoLine = {0xE69F00, 2.4, 0, 0, true, 0x000000, 2.0};
 
 double angleOf(const QPointF& from, const QPointF& to) {
@@ -31,6 +34,35 @@ double angleOf(const QPointF& from, const QPointF& to) {
 }
 
 double length(const QPointF& way) { return std::hypot(way.x(), way.y()); }
+
+/// From the ring's middle to the handle of the distance; the one of tilts lies opposite.
+QPointF handleOffset() { return {0.0, -(NudgeGizmo::kRing + NudgeGizmo::kHandle)}; }
+
+/// The way of a key along the camera's x (right), y (down) and z (away); zero of other keys.
+Eigen::Vector3d wayOf(int key) {
+  switch (key) {
+    case Qt::Key_Left:
+      return -Eigen::Vector3d::UnitX();
+    case Qt::Key_Right:
+      return Eigen::Vector3d::UnitX();
+    case Qt::Key_Up:
+      return -Eigen::Vector3d::UnitY();
+    case Qt::Key_Down:
+      return Eigen::Vector3d::UnitY();
+    case Qt::Key_PageUp:
+      return Eigen::Vector3d::UnitZ();
+    case Qt::Key_PageDown:
+      return -Eigen::Vector3d::UnitZ();
+    default:
+      return Eigen::Vector3d::Zero();
+  }
+}
+
+/// "+1.20"; "0.00" without a sign.
+QString signedText(double value) {
+  const double rounded = std::round(100.0 * value) / 100.0 + 0.0;
+  return QLatin1String(rounded > 0.0 ? "+" : "") + numberText(rounded, 2);
+}
 
 }  // namespace
 
@@ -87,8 +119,8 @@ std::optional<QPointF> NudgeGizmo::centre() const {
 NudgeGizmo::Part NudgeGizmo::partAt(const QPointF& place) const {
   const auto middle = centre();
   if (!middle) return Part::kNone;
-  if (length(place - (*middle - QPointF(0.0, kRing + kHandle))) <= kReach + 4.0)
-    return Part::kHandle;
+  if (length(place - (*middle + handleOffset())) <= kReach + 4.0) return Part::kDistance;
+  if (length(place - (*middle - handleOffset())) <= kReach + 4.0) return Part::kTilt;
   const double away = length(place - *middle);
   if (std::abs(away - kRing) <= kReach) return Part::kRing;
   return away < kRing ? Part::kInside : Part::kNone;
@@ -116,14 +148,17 @@ void NudgeGizmo::dragTo(const QPointF& pixel) {
     case Part::kInside:
       movePixels((place - before) / view_.transform().scale());
       break;
-    case Part::kRing: {
-      Vector6d turn = Vector6d::Zero();
-      turn[2] =
-          std::remainder(angleOf(*middle, place) - angleOf(*middle, before), 2.0 * std::acos(-1.0));
-      apply(turn);
+    case Part::kRing:
+      turn(0.0, 0.0,
+           std::remainder(angleOf(*middle, place) - angleOf(*middle, before),
+                          2.0 * std::acos(-1.0)));
+      break;
+    case Part::kTilt: {  // the near side of a ball as large as the ring follows the pointer
+      const QPointF angles = (place - before) / kRing;
+      turn(angles.y(), -angles.x(), 0.0);
       break;
     }
-    case Part::kHandle:
+    case Part::kDistance:
       scaleDistance(std::pow(kHandleFactor, before.y() - place.y()));
       break;
   }
@@ -153,6 +188,13 @@ void NudgeGizmo::scaleDistance(double factor) {
   apply(move);
 }
 
+/// About the station's middle, along the camera's axes.
+void NudgeGizmo::turn(double x_rad, double y_rad, double z_rad) {
+  Vector6d displacement = Vector6d::Zero();
+  displacement.head<3>() = Eigen::Vector3d(x_rad, y_rad, z_rad);
+  apply(displacement);
+}
+
 void NudgeGizmo::apply(const Vector6d& displacement) {
   NudgeFrame frame = nudge_.frame();
   frame.axes = NudgeAxes::kCamera;
@@ -161,22 +203,24 @@ void NudgeGizmo::apply(const Vector6d& displacement) {
 }
 
 bool NudgeGizmo::pressKey(const QKeyEvent& event) {
-  const double step_px = (event.modifiers() & Qt::ShiftModifier) != 0 ? 10.0
-                         : (event.modifiers() & Qt::AltModifier) != 0 ? 0.1
-                                                                      : 1.0;
+  const double factor = (event.modifiers() & Qt::ShiftModifier) != 0 ? NudgeController::kCoarse
+                        : (event.modifiers() & Qt::AltModifier) != 0 ? NudgeController::kFine
+                                                                     : 1.0;
+  const Eigen::Vector3d way = factor * wayOf(event.key());
+  if (!way.isZero() && (event.modifiers() & Qt::ControlModifier) != 0) {
+    const double step_rad = nudge_.step().rotation_rad;
+    turn(step_rad * way.y(), -step_rad * way.x(), step_rad * way.z());
+    return true;
+  }
+  if (way.z() != 0.0) {
+    scaleDistance(std::pow(kWheelFactor, way.z()));
+    return true;
+  }
+  if (!way.isZero()) {
+    movePixels({way.x(), way.y()});
+    return true;
+  }
   switch (event.key()) {
-    case Qt::Key_Left:
-      movePixels({-step_px, 0.0});
-      return true;
-    case Qt::Key_Right:
-      movePixels({step_px, 0.0});
-      return true;
-    case Qt::Key_Up:
-      movePixels({0.0, -step_px});
-      return true;
-    case Qt::Key_Down:
-      movePixels({0.0, step_px});
-      return true;
     case Qt::Key_Return:
     case Qt::Key_Enter:
       nudge_.finishGesture();
@@ -202,8 +246,7 @@ bool NudgeGizmo::eventFilter(QObject* watched, QEvent* event) {
     }
     case QEvent::ShortcutOverride: {
       const int key = static_cast<QKeyEvent*>(event)->key();
-      const bool own = key == Qt::Key_Left || key == Qt::Key_Right || key == Qt::Key_Up ||
-                       key == Qt::Key_Down || key == Qt::Key_Escape || key == Qt::Key_Return;
+      const bool own = !wayOf(key).isZero() || key == Qt::Key_Escape || key == Qt::Key_Return;
       if (own) event->accept();
       return own;
     }
@@ -214,12 +257,24 @@ bool NudgeGizmo::eventFilter(QObject* watched, QEvent* event) {
   }
 }
 
+QString NudgeGizmo::offsetText() const {
+  const auto& loaded_case = state_.currentCase();
+  if (!loaded_case) return {};
+  const NudgeFrame frame = {.centre_in_station_m = nudge_.frame().centre_in_station_m};
+  const Vector6d offset = nudgeBetween(loaded_case->source.camera_from_station_seed, pose(), frame);
+  const auto millimetres = [&](int axis) { return signedText(1e3 * offset[axis]); };
+  const auto degrees = [&](int axis) { return signedText(offset[axis] / kDegree_rad); };
+  return tr("From the seed: x %1, y %2, z %3 mm; tilt %4, %5 deg, roll %6 deg.")
+      .arg(millimetres(3), millimetres(4), millimetres(5), degrees(0), degrees(1), degrees(2));
+}
+
 void NudgeGizmo::paint(QPainter& painter) const {
   const auto middle = active_ ? centre() : std::nullopt;
   if (!middle) return;
   painter.setRenderHint(QPainter::Antialiasing, true);
   painter.setBrush(Qt::NoBrush);
-  const QPointF handle = *middle - QPointF(0.0, kRing + kHandle);
+  const QPointF distance = *middle + handleOffset();
+  const QPointF tilt = *middle - handleOffset();
   for (const QPen& pen : {haloPen(kGizmoLine), linePen(kGizmoLine)}) {
     painter.setPen(pen);
     painter.drawEllipse(*middle, kRing, kRing);
@@ -231,12 +286,19 @@ void NudgeGizmo::paint(QPainter& painter) const {
       painter.drawLine(tip, tip - 6.0 * way + 4.0 * across);
       painter.drawLine(tip, tip - 6.0 * way - 4.0 * across);
     }
-    painter.drawLine(*middle - QPointF(0.0, kRing), handle + QPointF(0.0, 7.0));
-    painter.drawPolygon(diamond(handle, 7.0));
+    painter.drawLine(*middle - QPointF(0.0, kRing), distance + QPointF(0.0, 7.0));
+    painter.drawPolygon(diamond(distance, 7.0));
+    painter.drawLine(*middle + QPointF(0.0, kRing), tilt - QPointF(0.0, 7.0));
+    painter.drawEllipse(tilt, 7.0, 7.0);
   }
-  const QString text =
-      tr("Drag: move. Ring: roll. Handle or wheel: distance. Enter: use as seed. Esc: drop.");
-  paintNote(painter, {0.5 * (view_.width() - noteSize(painter, text).width()), 8.0}, text);
+  double top = kNotesTop;
+  for (const QString& text :
+       {offsetText(), tr("Drag: move. Ring: roll. Circle: tilt. Diamond or wheel: distance."),
+        tr("Arrows, Page Up, Page Down: move; with Ctrl: turn. Enter: use as seed. Esc: drop.")}) {
+    const QSizeF size = noteSize(painter, text);
+    paintNote(painter, {0.5 * (view_.width() - size.width()), top}, text);
+    top += size.height() + 2.0;
+  }
   painter.setRenderHint(QPainter::Antialiasing, false);
 }
 

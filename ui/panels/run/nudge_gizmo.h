@@ -5,6 +5,7 @@
 
 #include <QObject>
 #include <QPointF>
+#include <QString>
 
 #include "core/geometry/pose.h"
 
@@ -18,16 +19,18 @@ class ImageView;
 class NudgeController;
 class ViewState;
 
-/// Moves the seed on the image: a drag inside the ring moves it in the image plane, a drag on the
-/// ring rolls it about the view axis, one on the handle above the ring and the wheel change its
-/// distance. Arrows move it by a pixel, with Shift by ten, with Alt by a tenth. Enter uses the pose
-/// as seed, Escape drops it, then the tool. One drag is one step of Undo.
+/// Moves the seed on the image in six degrees of freedom: a drag inside the ring moves it in the
+/// image plane, one on the ring rolls it about the view axis, one on the circle below the ring
+/// tilts it, one on the diamond above the ring and the wheel change its distance. Arrows move it by
+/// a pixel and Page Up and Down by a hundredth of the distance; with Ctrl they turn it by a step.
+/// Shift: ten times as far, Alt: a tenth. Enter uses the pose as seed, Escape drops it, then the
+/// tool. One drag is one step of Undo. The distance from the seed is shown while it changes.
 class NudgeGizmo : public QObject {
   Q_OBJECT
 
  public:
   static constexpr double kRing = 96.0;    ///< of the ring, on the screen
-  static constexpr double kHandle = 40.0;  ///< from the ring to the handle of the distance
+  static constexpr double kHandle = 40.0;  ///< from the ring to each handle
 
   NudgeGizmo(ImageView& view, NudgeController& nudge, ViewState& state, QObject* parent = nullptr);
 
@@ -35,6 +38,8 @@ class NudgeGizmo : public QObject {
   void setActive(bool active);
   /// The tool for menus and strips; its key is N.
   QAction& action() { return *action_; }
+  /// "From the seed: x +12.40, y -3.00, z 0.00 mm; tilt +1.20, 0.00 deg, roll -3.10 deg."
+  QString offsetText() const;
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -42,7 +47,7 @@ class NudgeGizmo : public QObject {
   void useAsSeedRequested(const boresight::Pose& camera_from_station);
 
  private:
-  enum class Part { kNone, kInside, kRing, kHandle };
+  enum class Part { kNone, kInside, kRing, kDistance, kTilt };
 
   /// The nudged pose, else the seed: a rejected pose is not a start.
   Pose pose() const;
@@ -54,6 +59,7 @@ class NudgeGizmo : public QObject {
   void release();
   void movePixels(const QPointF& by_px);
   void scaleDistance(double factor);
+  void turn(double x_rad, double y_rad, double z_rad);
   bool pressKey(const QKeyEvent& event);
   void apply(const Vector6d& displacement);
   void paint(QPainter& painter) const;

@@ -15,7 +15,9 @@ namespace {
 constexpr int kDigest = Qt::UserRole;
 constexpr const char* kPinnedKey = "pinnedRuns";
 
-enum Column { kPin, kTime, kStatus, kKind, kColumns };
+enum Column { kPin, kTime, kStatus, kChanged, kMoved, kColumns };
+
+QString taskKey() { return QStringLiteral("run list"); }
 
 /// What makes the run differ from a plain one.
 QString kindOf(const sessions::RunRecord& run) {
@@ -34,7 +36,12 @@ RunsPanel::RunsPanel(Document& document, ViewState& state, QWidget* parent)
   column->addWidget(list_);
   list_->setObjectName(QStringLiteral("runs"));
   list_->setColumnCount(kColumns);
-  list_->setHeaderLabels({tr("Pin"), tr("Ended, UTC"), tr("Status"), tr("Kind")});
+  list_->setHeaderLabels({tr("Pin"), tr("Ended, UTC"), tr("Status"), tr("Changed"), tr("Moved")});
+  list_->headerItem()->setToolTip(kChanged, tr("Inputs and options that changed since the run "
+                                               "before it"));
+  list_->headerItem()->setToolTip(kMoved, tr("Distance of its pose from the run before it, at the "
+                                             "end effector, else at the camera; px: mean over the "
+                                             "station"));
   list_->setRootIsDecorated(false);
   list_->setFrameShape(QFrame::NoFrame);
   list_->setContextMenuPolicy(Qt::CustomContextMenu);
@@ -56,8 +63,13 @@ void RunsPanel::fill() {
   list_->clear();
   const std::string shown_case = shownCaseId(document_, state_);
   std::vector<const sessions::RunRecord*> runs;
+  std::vector<sessions::RunRecord> in_order;
   for (const sessions::RunRecord& run : document_.session().runs)
-    if (run.case_id == shown_case) runs.push_back(&run);
+    if (run.case_id == shown_case) {
+      runs.push_back(&run);
+      in_order.push_back(run);
+    }
+  askForLines(in_order);
   std::reverse(runs.begin(), runs.end());
   const auto is_pinned = [this](const sessions::RunRecord* run) {
     return pinned_.contains(fromText(run->digest));
@@ -66,9 +78,9 @@ void RunsPanel::fill() {
   for (const sessions::RunRecord* run : runs) {
     auto* item = new QTreeWidgetItem(list_);
     item->setText(kPin, is_pinned(run) ? QStringLiteral("\u25C6") : QString());
-    item->setText(kTime, fromText(run->time));
-    item->setText(kStatus, fromText(run->status));
-    item->setText(kKind, kindOf(*run));
+    item->setText(kTime, timeText(run->time));
+    item->setText(kStatus, fromText(run->status).replace(QLatin1Char('_'), QLatin1Char(' ')));
+    item->setText(kChanged, kindOf(*run));
     item->setData(kTime, kDigest, fromText(run->digest));
     if (!state_.snapshot() || state_.snapshot()->digest != run->digest) continue;
     QFont bold = font();
@@ -76,7 +88,44 @@ void RunsPanel::fill() {
     for (int i = 0; i < kColumns; ++i) item->setFont(i, bold);
     list_->setCurrentItem(item);
   }
+  showLines();
+}
+
+/// Traces are read: once for a list of runs, while it is looked at.
+void RunsPanel::askForLines(const std::vector<sessions::RunRecord>& runs) {
+  if (runs == read_ || !isVisible() || !state_.currentCase()) return;
+  read_ = runs;
+  lines_.clear();
+  reader_.start(
+      taskKey(),
+      [runs, loaded = state_.currentCase()](const std::stop_token& stop) {
+        return sessions::runListLines(runs, *loaded, stop);
+      },
+      [this](std::vector<sessions::RunListLine> lines) {
+        lines_ = std::move(lines);
+        showLines();
+      });
+}
+
+void RunsPanel::showLines() {
+  for (int row = 0; row < list_->topLevelItemCount(); ++row) {
+    QTreeWidgetItem& item = *list_->topLevelItem(row);
+    const std::string digest = item.data(kTime, kDigest).toString().toStdString();
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (read_[i].digest != digest) continue;
+      QStringList changed = {kindOf(read_[i]), fromText(lines_[i].changed)};
+      changed.removeAll(QString());
+      item.setText(kChanged, changed.join(QStringLiteral(", ")));
+      item.setToolTip(kChanged, item.text(kChanged));
+      if (lines_[i].moved) item.setText(kMoved, fromText(poseDistanceText(*lines_[i].moved)));
+    }
+  }
   for (int i = 0; i < kColumns; ++i) list_->resizeColumnToContents(i);
+}
+
+void RunsPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  fill();
 }
 
 void RunsPanel::pin(const std::string& digest) {

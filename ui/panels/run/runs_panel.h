@@ -7,6 +7,9 @@
 #include <QStringList>
 #include <QWidget>
 
+#include "sessions/review/run_difference.h"
+#include "ui/run/task_runner.h"
+
 class QTreeWidget;
 class QTreeWidgetItem;
 
@@ -15,20 +18,29 @@ namespace boresight::ui {
 class Document;
 class ViewState;
 
-/// The runs of the shown case, pinned ones first, then the newest: each can be opened in every view
-/// or compared with the shown one. Pins are stored in the program's settings.
+/// The runs of the shown case, pinned ones first, then the newest, each with what changed since the
+/// run before it. Each can be opened in every view or compared with the shown one. Pins are stored
+/// in the program's settings.
 class RunsPanel : public QWidget {
   Q_OBJECT
 
  public:
   RunsPanel(Document& document, ViewState& state, QWidget* parent = nullptr);
 
+  /// Whether the runs are still being compared.
+  bool isBusy() const { return reader_.isBusy(); }
+
  Q_SIGNALS:
   void openRequested(const std::string& digest);
   void compareRequested(const std::string& digest);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   void fill();
+  void askForLines(const std::vector<sessions::RunRecord>& runs);
+  void showLines();
   void pin(const std::string& digest);
   void showMenu(const QPoint& at);
   std::string chosen() const;
@@ -36,7 +48,10 @@ class RunsPanel : public QWidget {
   Document& document_;
   ViewState& state_;
   QTreeWidget* list_;
-  QStringList pinned_;  ///< digests
+  QStringList pinned_;                        ///< digests
+  std::vector<sessions::RunRecord> read_;     ///< runs of the lines, in the order of the session
+  std::vector<sessions::RunListLine> lines_;  ///< of `read_`; empty until they are read
+  TaskRunner reader_;                         ///< only the newest list is used
 };
 
 }  // namespace boresight::ui
