@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "sessions/run/runner.h"
+#include "sessions/trace/run_headline.h"
+#include "ui/models/text.h"
 
 namespace boresight::ui {
 namespace {
@@ -12,11 +14,19 @@ QString taskKey() { return QStringLiteral("batch"); }
 
 }  // namespace
 
+int BatchSummary::count() const {
+  int cases = 0;
+  for (const auto& [end, number] : ends) cases += number;
+  return cases;
+}
+
 Batch::Batch(QObject* parent) : QObject(parent) {}
 
 void Batch::start(const QStringList& ids) {
   waiting_ = ids;
   progress_ = BatchProgress{0, static_cast<int>(ids.size()), {}, 0, std::nullopt};
+  ends_.clear();
+  summary_.reset();
   watch_.start();
   Q_EMIT changed();
 }
@@ -39,9 +49,10 @@ void Batch::run(const sessions::Session& session, const QString& id) {
     try {
       const auto loaded = sessions::loadCase(sessions::knownCase(session, id.toStdString()));
       sessions::requireRunnable(*loaded);
-      sessions::Runner run(loaded->problem(),
-                           sessions::RunPlan{sessions::caseOptions(session, loaded->source, "session")},
-                           {.level = sessions::RecordLevel::kFull});
+      sessions::Runner run(
+          loaded->problem(),
+          sessions::RunPlan{sessions::caseOptions(session, loaded->source, "session")},
+          {.level = sessions::RecordLevel::kFull});
       while (!run.finished() && !stop.stop_requested()) {
         run.advance(sessions::StepUntil::kIteration, stop);
         const auto iterations = static_cast<int>(run.trace().iterations.size());
@@ -50,12 +61,12 @@ void Batch::run(const sessions::Session& session, const QString& id) {
       if (!run.finished()) return;
       auto trace = std::make_shared<const sessions::LocalizationTrace>(run.trace());
       report([this, id, trace] {
-        caseDone();
+        caseDone(fromText(sessions::runHeadline(*trace).head).toLower());
         Q_EMIT caseEnded(id, trace);
       });
     } catch (const std::exception& error) {
       report([this, id, message = QString::fromUtf8(error.what())] {
-        caseDone();
+        caseDone(tr("could not be run"));
         Q_EMIT caseFailed(id, message);
       });
     }
@@ -65,7 +76,14 @@ void Batch::run(const sessions::Session& session, const QString& id) {
 void Batch::stop() {
   waiting_.clear();
   runner_.cancel(taskKey());
-  if (std::exchange(progress_, std::nullopt)) Q_EMIT changed();
+  if (const auto ended = std::exchange(progress_, std::nullopt)) {
+    summary_ = {ended->of, std::exchange(ends_, {}), 1e-3 * static_cast<double>(watch_.elapsed())};
+    Q_EMIT changed();
+  }
+}
+
+void Batch::dropSummary() {
+  if (std::exchange(summary_, std::nullopt)) Q_EMIT changed();
 }
 
 void Batch::count(int iteration) {
@@ -75,8 +93,9 @@ void Batch::count(int iteration) {
 }
 
 /// Cases take about the same time each.
-void Batch::caseDone() {
+void Batch::caseDone(const QString& end) {
   if (!progress_) return;
+  ++ends_[end];
   ++progress_->done;
   progress_->case_id.clear();
   const double each_s = 1e-3 * static_cast<double>(watch_.elapsed()) / progress_->done;

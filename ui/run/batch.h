@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,9 +20,18 @@ namespace boresight::ui {
 struct BatchProgress {
   int done = 0;
   int of = 0;
-  QString case_id;    ///< under way, or empty between two cases
-  int iteration = 0;  ///< of that case, from 1; 0: before the first
+  QString case_id;                     ///< under way, or empty between two cases
+  int iteration = 0;                   ///< of that case, from 1; 0: before the first
   std::optional<double> seconds_left;  ///< from the second case on
+};
+
+/// How a batch ended, or was stopped.
+struct BatchSummary {
+  int of = 0;                   ///< cases that were to be run
+  std::map<QString, int> ends;  ///< number of cases by the end of their run: "converged"
+  double seconds = 0.0;
+
+  int count() const;  ///< of the cases that were run
 };
 
 /// Runs cases in the background, whatever case the views show: inputs are read, run and recorded
@@ -37,6 +47,9 @@ class Batch : public QObject {
 
   bool isActive() const { return progress_.has_value(); }
   const std::optional<BatchProgress>& progress() const { return progress_; }
+  /// Of the last batch, until another begins or it is dropped.
+  const std::optional<BatchSummary>& summary() const { return summary_; }
+  void dropSummary();
 
   void start(const QStringList& ids);
   /// Takes the next waiting case; empty when there is none and the batch has ended.
@@ -52,11 +65,13 @@ class Batch : public QObject {
 
  private:
   void count(int iteration);
-  void caseDone();
+  void caseDone(const QString& end);
 
   TaskRunner runner_;
   QStringList waiting_;
   std::optional<BatchProgress> progress_;
+  std::map<QString, int> ends_;
+  std::optional<BatchSummary> summary_;
   QElapsedTimer watch_;
 };
 

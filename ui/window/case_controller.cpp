@@ -62,6 +62,7 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
 void CaseController::documentOpened() {
   case_id_.clear();
   endBatch();
+  batch_.dropSummary();
   unstored_.clear();
   const sessions::Session& session = document_.session();
   QString first = QString::fromStdString(session.view.case_id);
@@ -240,6 +241,7 @@ void CaseController::start(const std::function<void()>& prepare, StepUntil until
     Q_EMIT failed(QString::fromUtf8(error.what()));
     return;
   }
+  batch_.dropSummary();
   run_.advance(until);
 }
 
@@ -406,6 +408,20 @@ void CaseController::runAll(const QStringList& ids) {
   batch_failures_.clear();
   batch_.start(ids);
   runNext();
+}
+
+void CaseController::runRest() {
+  const sessions::Session& session = document_.session();
+  QStringList ids;
+  for (const auto& each : session.cases) {
+    const sessions::RunRecord* run = session.lastRunOf(each->id);
+    if (!run || sessions::stalenessOf(*run, session, document_.file()).stale())
+      ids << fromText(each->id);
+  }
+  if (ids.isEmpty())
+    Q_EMIT failed(tr("Every case has a run with its present inputs and options."));
+  else
+    runAll(ids);
 }
 
 void CaseController::endBatch() {

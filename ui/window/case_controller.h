@@ -44,6 +44,8 @@ class CaseController : public QObject {
   QString whyAlone() const;
   /// The batch under way, from reading its first case to storing its last run; else nothing.
   const std::optional<BatchProgress>& batch() const { return batch_.progress(); }
+  /// How the last batch ended; empty while one runs, and from the next run on.
+  const std::optional<BatchSummary>& lastBatch() const { return batch_.summary(); }
   /// Input that a run of the shown case would reject; nothing while that is not known.
   const std::optional<sessions::InputConcern>& inputConcern() const { return input_concern_; }
   /// Why the shown case cannot be run, or empty.
@@ -66,6 +68,8 @@ class CaseController : public QObject {
   void reset();
   /// Runs cases in the background: the shown case stays, and its run is shown when it has ended.
   void runAll(const QStringList& ids);
+  /// Runs the cases that have no run with their present inputs and options.
+  void runRest();
   /// Runs the case to its end together with the other views of its rig, as one pose; each gets a
   /// run of its own.
   void runTogether();
@@ -104,7 +108,7 @@ class CaseController : public QObject {
     sessions::Session session;  ///< from which it was run
     std::string case_id;
     ViewState::SnapshotPtr snapshot;
-    std::string continued;  ///< digest of the run that it continues, or empty
+    std::string continued;                      ///< digest of the run that it continues, or empty
     std::vector<ViewState::SnapshotPtr> views;  ///< of several that were solved as one
     bool of_batch = false;
   };

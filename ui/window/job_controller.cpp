@@ -14,6 +14,25 @@
 
 namespace boresight::ui {
 
+namespace {
+
+/// "51 run in 65 s: 50 converged, 1 rejected", with the way to them; of a stopped batch to the
+/// rest.
+Job endedJob(const BatchSummary& batch) {
+  QStringList ends;
+  for (const auto& [end, count] : batch.ends) ends << QStringLiteral("%1 %2").arg(count).arg(end);
+  const bool whole = batch.count() == batch.of;
+  Job job;
+  job.name = whole
+                 ? JobController::tr("%1 run in %2").arg(batch.of).arg(durationText(batch.seconds))
+                 : JobController::tr("Stopped after %1 of %2").arg(batch.count()).arg(batch.of);
+  job.detail = ends.join(QStringLiteral(", "));
+  job.step = whole ? Step::kShowBatch : Step::kRunRest;
+  return job;
+}
+
+}  // namespace
+
 JobController::JobController(const WindowParts& parts, ReviewController& review, JobStrip& strip,
                              QObject* parent)
     : QObject(parent),
@@ -48,6 +67,8 @@ Job JobController::runJob() const {
   } else if (parts_.run.state() == RunState::kHalted) {
     const auto complete = trace ? trace->complete() : 0;
     job.name = complete > 0 ? tr("Paused after iteration %1").arg(complete) : tr("Paused");
+  } else if (const auto& batch = parts_.cases.lastBatch()) {
+    return endedJob(*batch);
   } else if (parts_.run.state() == RunState::kFinished && trace) {
     job.name = tr("Finished");
     job.detail = tr("%1: %2 iterations, %3 s")

@@ -99,6 +99,7 @@ void MainWindow::connectAll() {
     step == Step::kReport ? menus_->poses().askForReport() : menus_->poses().askForPose();
   });
   connectDecisions(*verdicts);
+  connect(&frame_->jobs(), &JobStrip::stepRequested, verdicts, &VerdictController::perform);
   auto* jobs = new JobController(parts_, docks_->review.controller(), frame_->jobs(), this);
   connect(menus_, &WindowMenus::stopRequested, jobs, &JobController::stop);
   connect(&document_, &Document::opened, this, &MainWindow::showFittingWorkspace);

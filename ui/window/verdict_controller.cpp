@@ -193,6 +193,10 @@ void VerdictController::perform(Step step) {
     case Step::kRunAgain:
       cases.reset();
       return cases.advance(sessions::StepUntil::kEnd);
+    case Step::kRunRest:
+      return cases.runRest();
+    case Step::kShowBatch:
+      return workspaces_.reveal(QStringLiteral("queue"));
     case Step::kStop:
       return cases.stop();
     case Step::kReview:

@@ -194,6 +194,7 @@ void WindowMenus::connectRun() {
       ids << QString::fromStdString(session_case->id);
     parts_.cases.runAll(ids);
   });
+  on(ui_.runRest, cases, &CaseController::runRest);
   on(ui_.runSequence, this, &WindowMenus::showSequence);
   connect(&parts_.sequence, &SequenceRunner::changed, this, &WindowMenus::update);
   connect(&parts_.cases, &CaseController::stalenessChanged, this, &WindowMenus::update);
@@ -425,7 +426,8 @@ void WindowMenus::update() {
   ui_.firstDifference->setEnabled(parts_.onboard.comparison() &&
                                   parts_.onboard.comparison()->first.has_value());
   ui_.rerunFromHere->setEnabled(ui_.rerunFromHere->isEnabled() && !replayed);
-  ui_.runAll->setEnabled(open && !working && !document.session().cases.empty());
+  for (QAction* each : {ui_.runAll, ui_.runRest})
+    each->setEnabled(open && !working && !document.session().cases.empty());
   ui_.runSequence->setEnabled(has_case || parts_.sequence.isRunning());
 }
 

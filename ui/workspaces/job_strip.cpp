@@ -23,6 +23,7 @@ JobStrip::JobStrip(QWidget* parent)
       left_(named(new QLabel, "jobLeft")),
       stop_(named(new QPushButton(iconOf(Icon::kStop), tr("Stop")), "jobStop",
                   tr("Stop what runs, also between two cases of a batch (Esc, F8)"))),
+      step_(named(new QPushButton, "jobStep")),
       detail_(named(new QLabel, "jobDetail")),
       place_(named(new QLabel, "place")),
       saved_(named(new QLabel, "savedState")) {
@@ -31,7 +32,7 @@ JobStrip::JobStrip(QWidget* parent)
   progress_->setTextVisible(false);
   progress_->setFixedWidth(120);
   progress_->setFixedHeight(6);
-  stop_->setFixedHeight(kJobStripHeight - 6);
+  for (QPushButton* each : {stop_, step_}) each->setFixedHeight(kJobStripHeight - 6);
   detail_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(12, 0, 12, 0);
@@ -39,9 +40,11 @@ JobStrip::JobStrip(QWidget* parent)
   for (QWidget* each : std::initializer_list<QWidget*>{name_, progress_, count_, left_, stop_})
     row->addWidget(each);
   row->addWidget(detail_, 1);
+  row->addWidget(step_);
   row->addWidget(place_);
   row->addWidget(saved_);
   connect(stop_, &QPushButton::clicked, this, &JobStrip::stopRequested);
+  connect(step_, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(job_.step); });
   setJob({tr("Ready"), {}, 0, 0, std::nullopt, false});
 }
 
@@ -56,6 +59,11 @@ void JobStrip::setJob(const Job& job) {
   left_->setVisible(job.runs && job.seconds_left.has_value());
   left_->setText(job.seconds_left ? tr("%1 left").arg(durationText(*job.seconds_left)) : QString());
   stop_->setVisible(job.runs);
+  const StepInfo& info = stepInfo(job.step);
+  step_->setText(QCoreApplication::translate("Step", info.text));
+  step_->setToolTip(QCoreApplication::translate("Step", info.help));
+  step_->setIcon(iconOf(info.icon));
+  step_->setVisible(job.step != Step::kNone);
   showDetail();
 }
 

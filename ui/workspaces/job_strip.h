@@ -6,6 +6,8 @@
 #include <QFrame>
 #include <QString>
 
+#include "ui/workspaces/step.h"
+
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -20,6 +22,7 @@ struct Job {
   int of = 0;  ///< 0: nothing to count
   std::optional<double> seconds_left;
   bool runs = false;
+  Step step = Step::kNone;  ///< offered while nothing runs
 
   bool operator==(const Job&) const = default;
 };
@@ -45,6 +48,7 @@ class JobStrip : public QFrame {
 
  Q_SIGNALS:
   void stopRequested();
+  void stepRequested(boresight::ui::Step step);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -59,6 +63,7 @@ class JobStrip : public QFrame {
   QLabel* count_ = nullptr;
   QLabel* left_ = nullptr;
   QPushButton* stop_ = nullptr;
+  QPushButton* step_ = nullptr;
   QLabel* detail_ = nullptr;
   QLabel* place_ = nullptr;
   QLabel* saved_ = nullptr;

@@ -17,6 +17,8 @@ enum class Step {
   kStop,
   kGoOn,
   kRunAgain,
+  kRunRest,
+  kShowBatch,
   kReview,
   kWiderSearch,
   kNudgeSeed,

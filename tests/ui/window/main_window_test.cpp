@@ -137,6 +137,10 @@ TEST_F(MainWindowTest, AllCasesAreRunAndCountedWhileTheShownCaseStays) {
   ASSERT_NE(window_.state().snapshot(), nullptr) << "the shown case has its run";
   EXPECT_EQ(window_.state().snapshot()->digest,
             window_.document().session().lastRunOf(shown.toStdString())->digest);
+  EXPECT_TRUE(test::has(runState(), "2 run in "));
+  EXPECT_TRUE(test::has(find<QLabel>("jobDetail").toolTip(), " converged"));
+  find<QPushButton>("jobStep").click();
+  EXPECT_TRUE(window_.dock(QStringLiteral("queue"))->isVisible());
 }
 
 TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
@@ -153,18 +157,24 @@ TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
 /// Between two cases, when one is stored and the next one read, no run is under way.
 TEST_F(MainWindowTest, StopEndsRunAllBetweenTwoCases) {
   openExample();
-  QObject::connect(
-      &window_.document(), &Document::changed, &window_,
-      [&] {
-        EXPECT_FALSE(key("Ctrl+F5")->isEnabled()) << "all are being run already";
-        find<QPushButton>("jobStop").click();
-      });
+  const auto stops = QObject::connect(&window_.document(), &Document::changed, &window_, [&] {
+    EXPECT_FALSE(key("Ctrl+F5")->isEnabled()) << "all are being run already";
+    find<QPushButton>("jobStop").click();
+  });
   key("Ctrl+F5")->trigger();
   ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
   QTest::qWait(100);
   EXPECT_TRUE(wait([&] { return resting(); }));
   EXPECT_EQ(window_.document().session().runs.size(), 1u) << "the second case is not run";
   EXPECT_TRUE(key("Ctrl+F5")->isEnabled());
+  QObject::disconnect(stops);
+  EXPECT_EQ(runState(), QStringLiteral("Stopped after 1 of 2"));
+  find<QPushButton>("jobStep").click();  // the rest alone
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  ASSERT_EQ(window_.document().session().runs.size(), 2u);
+  EXPECT_NE(window_.document().session().runs[0].case_id,
+            window_.document().session().runs[1].case_id);
+  EXPECT_TRUE(test::has(runState(), "1 run in "));
 }
 
 TEST_F(MainWindowTest, StopEndsRunAllDuringACase) {
