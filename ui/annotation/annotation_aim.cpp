@@ -11,6 +11,7 @@
 
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/trace/surface_point.h"
+#include "ui/models/text.h"
 #include "ui/views/overlay_painters.h"
 
 namespace boresight::ui {
@@ -27,6 +28,11 @@ constexpr double kRims = 3.0;  ///< an ellipse's rim may be this many radii away
 constexpr double kLeastRim_px = 16.0;
 
 QString aimText(const char* text) { return QCoreApplication::translate("MarkAim", text); }
+
+/// "circle centre, z -10.00 mm": which of two that lie one behind the other.
+QString atHeight(const QString& text, const Eigen::Vector3d& point_in_station_m) {
+  return aimText("%1, z %2 mm").arg(text, numberText(1e3 * point_in_station_m.z(), 2));
+}
 
 constexpr std::array<const char*, 3> kImageSnapNames = {"corner", "ellipse centre", "edge"};
 constexpr std::array<const char*, 3> kMeshSnapNames = {"vertex", "model edge", "circle centre"};
@@ -81,7 +87,8 @@ AnnotationAim aimAtStation(const sessions::LoadedCase& loaded_case, const Pose& 
     aim.edge = snap.edge;
     if (snap.edge)
       aim.edge_on_image = sessions::edgeOnImage(camera, camera_from_station, *snap.edge);
-    aim.text = aimText(kMeshSnapNames[static_cast<std::size_t>(snap.kind)]);
+    aim.text = atHeight(aimText(kMeshSnapNames[static_cast<std::size_t>(snap.kind)]),
+                        snap.point_in_station_m);
     return aim;
   }
   if (rules.line) return aim;
@@ -91,7 +98,7 @@ AnnotationAim aimAtStation(const sessions::LoadedCase& loaded_case, const Pose& 
   aim.side = AimSide::kStation;
   aim.pixel = pointer;
   aim.point_in_station_m = surface->in_station_m;
-  aim.text = aimText("surface");
+  aim.text = atHeight(aimText("surface"), surface->in_station_m);
   return aim;
 }
 

@@ -50,6 +50,18 @@ TEST(CloseUps, ShowTheCornersAndHowFarTheirEdgesAreOff) {
   EXPECT_NEAR(close_ups[3].distance_px, 0.7, 1e-12);
 }
 
+TEST(CloseUps, FoundShareIsThatOfThePatch) {
+  RefinementTrace refinement = rectangle();
+  for (const CloseUp& close_up : closeUps(cameraOver(), refinement, kSide_px))
+    EXPECT_EQ(close_up.found_share, 1.0) << close_up.name;
+  for (std::size_t i = 0; i < refinement.samples.size(); ++i)
+    if (i / 2 % 4 != 0) refinement.samples[i].gradient = 0.0;
+  const auto close_ups = closeUps(cameraOver(), refinement, kSide_px);
+  ASSERT_EQ(close_ups.size(), 4u);
+  for (const CloseUp& close_up : close_ups)
+    EXPECT_NEAR(close_up.found_share, 0.25, 0.1) << close_up.name;
+}
+
 TEST(CloseUps, LeaveOutWhatWasNotFound) {
   RefinementTrace refinement = rectangle();
   for (EdgeSample& sample : refinement.samples) sample.gradient = 0.0;

@@ -212,6 +212,18 @@ TEST_F(AnnotationToolTest, PairsAreMadeInBothOrders) {
   EXPECT_LT((*annotations().points[1].pixel - pixelOf(corners[3])).norm(), screenPixel_px());
 }
 
+/// A hole's rim and its bottom have circles one behind the other.
+TEST_F(AnnotationToolTest, StationAim_IsNamedWithItsHeight) {
+  sessions::MeshSnap bottom;
+  bottom.kind = sessions::MeshSnapKind::kCircle;
+  bottom.point_in_station_m = {0.002, 0.003, -0.01};
+  AimRules rules;
+  rules.snaps = true;
+  const AnnotationAim aim =
+      aimAtStation(*state_.currentCase(), truth(), {1.0, 1.0}, {bottom}, rules);
+  EXPECT_EQ(aim.text, QStringLiteral("circle centre, z -10.00 mm"));
+}
+
 TEST_F(AnnotationToolTest, WithoutSnappingTheStationsSurfaceIsAnnotated) {
   state_.setNudgedPose(truth());
   const auto corners = corners_m(3);

@@ -31,13 +31,24 @@ CloseUpView::CloseUpView(ImagePanel& image) : image_(image) {
           QOverload<>::of(&QWidget::update));
 }
 
-void CloseUpView::setPlace(const std::optional<sessions::CloseUp>& place) {
+void CloseUpView::setPlace(const std::optional<sessions::CloseUp>& place, bool rejected) {
   place_ = place;
-  setToolTip(place_ ? tr("%1: the edges of model and image are %2 px apart (median). Click to show "
-                         "the place on the canvas.")
-                          .arg(fromText(place_->name), numberText(place_->distance_px, 2))
-                    : QString());
+  rejected_ = rejected;
+  setToolTip(!place_ ? QString()
+             : rejected
+                 ? tr("%1: the image has edges at %2 % of the model's. The pose is rejected. Click "
+                      "to show the place on the canvas.")
+                       .arg(fromText(place_->name), numberText(100.0 * place_->found_share, 0))
+                 : tr("%1: the edges of model and image are %2 px apart (median). Click to show "
+                      "the place on the canvas.")
+                       .arg(fromText(place_->name), numberText(place_->distance_px, 2)));
   update();
+}
+
+QString CloseUpView::figureText() const {
+  if (!place_) return {};
+  return rejected_ ? tr("%1 % found").arg(numberText(100.0 * place_->found_share, 0))
+                   : tr("%1 px").arg(numberText(place_->distance_px, 2));
 }
 
 QRectF CloseUpView::pictureArea() const {
@@ -50,8 +61,7 @@ void CloseUpView::paintEvent(QPaintEvent* /*event*/) {
   painter.setPen(QColor(theme().text2));
   const QRectF caption(0.0, pictureArea().bottom() + 2.0, width(), fontMetrics().height());
   painter.drawText(caption, Qt::AlignLeft | Qt::AlignVCenter, fromText(place_->name));
-  painter.drawText(caption, Qt::AlignRight | Qt::AlignVCenter,
-                   tr("%1 px").arg(numberText(place_->distance_px, 2)));
+  painter.drawText(caption, Qt::AlignRight | Qt::AlignVCenter, figureText());
   paintPicture(painter);
 }
 
@@ -106,8 +116,10 @@ void CloseUpsPanel::showIteration() {
   std::vector<sessions::CloseUp> close_ups;
   if (iteration && loaded_case)
     close_ups = sessions::closeUps(loaded_case->source.camera, iteration->refinement, kSide_px);
+  const bool rejected = state_.snapshot() && isRejected(*state_.snapshot());
   for (std::size_t i = 0; i < views_.size(); ++i)
-    views_[i]->setPlace(i < close_ups.size() ? std::optional(close_ups[i]) : std::nullopt);
+    views_[i]->setPlace(i < close_ups.size() ? std::optional(close_ups[i]) : std::nullopt,
+                        rejected);
   pages_->setCurrentWidget(close_ups.empty() ? static_cast<QWidget*>(hint_) : grid_);
 }
 

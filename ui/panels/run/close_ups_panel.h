@@ -25,8 +25,11 @@ class CloseUpView : public QWidget {
 
   explicit CloseUpView(ImagePanel& image);
 
-  /// Nothing: an empty field.
-  void setPlace(const std::optional<sessions::CloseUp>& place);
+  /// Nothing: an empty field. Of a rejected pose the found share is shown: the distance of the few
+  /// edges found there looks as good as a right pose's.
+  void setPlace(const std::optional<sessions::CloseUp>& place, bool rejected = false);
+  /// "0.12 px", "13 % found".
+  QString figureText() const;
   const std::optional<sessions::CloseUp>& place() const { return place_; }
 
   QSize sizeHint() const override { return {180, 130}; }
@@ -42,6 +45,7 @@ class CloseUpView : public QWidget {
 
   ImagePanel& image_;
   std::optional<sessions::CloseUp> place_;
+  bool rejected_ = false;
 };
 
 /// Four places where the shown refinement's edges can be compared with the image's.
