@@ -447,8 +447,14 @@ QString QueuePanel::nextOpen() const {
 
 void QueuePanel::switchList() { showDifferences(table() == ui_.queue); }
 
-/// In the lists these letters are the queue's, elsewhere in the window the image's.
-bool QueuePanel::eventFilter(QObject*, QEvent* event) {
+/// In the lists these letters are the queue's, elsewhere in the window the image's. While the
+/// pointer is on the queue its rows keep their places: a click hits the row that was seen.
+bool QueuePanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == ui_.queue && (event->type() == QEvent::Enter || event->type() == QEvent::Leave)) {
+    const QScopedValueRollback following(following_, true);
+    filter_.setDynamicSortFilter(event->type() == QEvent::Leave);
+    chooseShown();
+  }
   const bool pressed = event->type() == QEvent::KeyPress;
   if (!pressed && event->type() != QEvent::ShortcutOverride) return false;
   auto* key = static_cast<QKeyEvent*>(event);

@@ -85,6 +85,45 @@ void showColumnsMenu(QTableView& table, const QPoint& at) {
   menu.exec(header.mapToGlobal(at));
 }
 
+/// Lies over the row that the lower edge of a table would cut, at the end of the table the upper
+/// one: all rows in sight are whole.
+class RowCover final : public QWidget {
+ public:
+  explicit RowCover(QTableView& table) : QWidget(table.viewport()), table_(table) {
+    setObjectName(QStringLiteral("rowCover"));
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setBackgroundRole(QPalette::Base);
+    setAutoFillBackground(true);
+    hide();
+    table.viewport()->installEventFilter(this);
+  }
+
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Paint) place();
+    return QWidget::eventFilter(watched, event);
+  }
+
+ private:
+  void place() {
+    const int height = table_.viewport()->height();
+    const int first = table_.rowAt(0);
+    const int last = table_.rowAt(height - 1);
+    const int from = table_.rowViewportPosition(last);
+    const int to = table_.rowViewportPosition(first) + table_.rowHeight(first);
+    // The only row stays, also where it is cut.
+    const bool cut_below = last > first && from + table_.rowHeight(last) > height;
+    const bool cut_above =
+        !cut_below && first >= 0 && first != last && table_.rowViewportPosition(first) < 0;
+    const bool cut = cut_below || cut_above;
+    if (cut)
+      setGeometry(0, cut_below ? from : 0, table_.viewport()->width(),
+                  cut_below ? height - from : to);
+    if (cut == isHidden()) setVisible(cut);
+  }
+
+  QTableView& table_;
+};
+
 }  // namespace
 
 bool hasChosenColumns(const QAbstractItemView& view) {
@@ -107,6 +146,7 @@ void styleTable(QTableView& table) {
   table.horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
   QObject::connect(table.horizontalHeader(), &QWidget::customContextMenuRequested, &table,
                    [&table](const QPoint& at) { showColumnsMenu(table, at); });
+  new RowCover(table);
   // When the panel has hidden what it hides at first.
   QMetaObject::invokeMethod(
       &table, [&table] { restoreColumns(table); }, Qt::QueuedConnection);

@@ -45,6 +45,35 @@ TEST(EmptyHint, MayLeaveARowThatIsAlwaysThere) {
   EXPECT_FALSE(hint->isVisible());
 }
 
+/// Whatever its height, also after scrolling.
+TEST(TableRows, ATableEndsWithAWholeRow) {
+  QStandardItemModel model(30, 1);
+  QTableView table;
+  setUpTable(table, model);
+  table.show();
+  const auto* cover = table.findChild<QWidget*>(QStringLiteral("rowCover"));
+  const int row = table.rowHeight(0);
+  for (const int height : {200, 207, 213, 219}) {
+    table.resize(160, height);
+    table.verticalScrollBar()->setValue(height % 5);
+    table.grab();
+    const int room = table.viewport()->height();
+    const int cut = room % row;
+    EXPECT_EQ(cover->isVisible(), cut > 0) << height;
+    if (cut == 0) continue;
+    EXPECT_EQ(cover->geometry(), QRect(0, room - cut, table.viewport()->width(), cut)) << height;
+  }
+  table.resize(160, 207);
+  table.verticalScrollBar()->setValue(table.verticalScrollBar()->maximum());
+  table.grab();
+  EXPECT_EQ(cover->geometry().top(), 0) << "Qt shows the last row whole and cuts the first one";
+  EXPECT_EQ(cover->height(), table.viewport()->height() % row);
+  table.resize(160, 8 * row + table.horizontalHeader()->height() + 2 * table.frameWidth());
+  model.setRowCount(2);
+  table.grab();
+  EXPECT_FALSE(cover->isVisible()) << "all rows are whole";
+}
+
 TEST(TableColumns, HiddenOnesAreRemembered) {
   const test::TemporaryFolder folder;
   const test::OwnSettings settings(folder.path());

@@ -297,6 +297,25 @@ TEST_F(QueuePanelTest, IsNotFilledWhileHaltedOrOutOfSight) {
   EXPECT_TRUE(filled());
 }
 
+TEST_F(QueuePanelTest, RowsKeepTheirPlacesWhileThePointerIsOnThem) {
+  ASSERT_TRUE(checked());
+  const auto first = [this] {
+    return table_->model()->index(0, QueueModel::kCase).data().toString();
+  };
+  ASSERT_EQ(first(), bad_);
+  QEnterEvent enter(QPointF(5.0, 5.0), QPointF(5.0, 5.0), QPointF(5.0, 5.0));
+  QCoreApplication::sendEvent(table_, &enter);
+  sessions::Session session = window_.document().session();
+  session.runs.eraseIf(
+      [](const sessions::RunRecord& run) { return run.case_id == RunExample::get().bad; });
+  ASSERT_TRUE(window_.document().edit(session, QStringLiteral("Drop the failed case's runs")));
+  ASSERT_TRUE(checked());
+  EXPECT_EQ(first(), bad_) << "it is no longer the worst";
+  QEvent leave(QEvent::Leave);
+  QCoreApplication::sendEvent(table_, &leave);
+  EXPECT_NE(first(), bad_);
+}
+
 TEST_F(QueuePanelTest, ComparesTheLastTwoRuns) {
   ASSERT_TRUE(filled());
   press(Qt::Key_D);
