@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "core/base/math.h"
@@ -38,9 +39,9 @@ TrendPoint pointOf(const std::filesystem::path& file, const Session& session,
   point.station = session_case.station;
   point.time = timeOf(session_case);
   const auto loaded = loadCase(session_case);
-  const Matrix6d covariance = poseCovariance(session_case, loaded->scene.view(),
-                                             run.camera_from_station, run.covariance)
-                                  .total();
+  const Matrix6d covariance =
+      poseCovariance(session_case, loaded->scene.view(), run.camera_from_station, run.covariance)
+          .total();
   const Correction correction =
       correctionsOf(withEndEffector(session_case), run.camera_from_station, covariance).front();
   const Vector6d sigma = sigmasOf(correction.covariance);
@@ -143,23 +144,30 @@ bool TrendPoint::flagged() const {
 std::vector<TrendPoint> trendOf(std::span<const std::filesystem::path> sessions,
                                 std::vector<std::string>& remarks) {
   std::vector<TrendPoint> points;
-  for (const std::filesystem::path& file : sessions) {
-    const Session session = readSessionFile(file).session;
-    for (const auto& session_case : session.cases) {
-      const RunRecord* record = session.lastRunOf(session_case->id);
-      if (record == nullptr) {
-        remarks.push_back(file.string() + ": case " + session_case->id + " has no run");
-        continue;
-      }
-      const LocalizationTrace run = loadSnapshot(*record);
-      if (!run.converged()) {
-        remarks.push_back(file.string() + ": case " + session_case->id + " did not converge");
-        continue;
-      }
-      points.push_back(pointOf(file, session, *session_case, run));
-    }
-  }
+  for (const std::filesystem::path& file : sessions)
+    std::ranges::move(trendOf(readSessionFile(file).session, file, remarks),
+                      std::back_inserter(points));
   flagOutliers(points);
+  return points;
+}
+
+std::vector<TrendPoint> trendOf(const Session& session, const std::filesystem::path& file,
+                                std::vector<std::string>& remarks, const std::stop_token& stop) {
+  std::vector<TrendPoint> points;
+  for (const auto& session_case : session.cases) {
+    if (stop.stop_requested()) break;
+    const RunRecord* record = session.lastRunOf(session_case->id);
+    if (record == nullptr) {
+      remarks.push_back(file.string() + ": case " + session_case->id + " has no run");
+      continue;
+    }
+    const LocalizationTrace run = loadSnapshot(*record);
+    if (!run.converged()) {
+      remarks.push_back(file.string() + ": case " + session_case->id + " did not converge");
+      continue;
+    }
+    points.push_back(pointOf(file, session, *session_case, run));
+  }
   return points;
 }
 

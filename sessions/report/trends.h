@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ namespace boresight::sessions {
 enum class TrendFigure { kX, kY, kZ, kTurnX, kTurnY, kTurnZ, kResidual };
 inline constexpr std::size_t kTrendFigures = 7;
 inline constexpr std::array<const char*, kTrendFigures> kTrendNames = {
-    "correction_x_mm",        "correction_y_mm",        "correction_z_mm", "correction_rx_mrad",
-    "correction_ry_mrad",     "correction_rz_mrad",     "residual_px"};
+    "correction_x_mm",    "correction_y_mm",    "correction_z_mm", "correction_rx_mrad",
+    "correction_ry_mrad", "correction_rz_mrad", "residual_px"};
 
 /// The last converged run of a case.
 struct TrendPoint {
@@ -41,6 +42,10 @@ struct TrendPoint {
 /// named in `remarks`. InputError.
 std::vector<TrendPoint> trendOf(std::span<const std::filesystem::path> sessions,
                                 std::vector<std::string>& remarks);
+/// The same of one session, without flags of outliers. Once stopped it returns what it has.
+std::vector<TrendPoint> trendOf(const Session& session, const std::filesystem::path& file,
+                                std::vector<std::string>& remarks,
+                                const std::stop_token& stop = {});
 
 inline constexpr double kOutlierScores = 3.5;
 inline constexpr std::size_t kFewestForOutliers = 5;

@@ -15,8 +15,10 @@
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_maker.h"
 #include "sessions/version.h"
+#include "ui/panels/case/trends_panel.h"
 #include "ui/panels/diagnose/hypotheses_panel.h"
 #include "ui/panels/diagnose/match_view.h"
+#include "ui/panels/run/runs_panel.h"
 #include "ui/review/queue_panel.h"
 #include "ui/review/review_panel.h"
 #include "ui/scene/scene_canvas.h"
@@ -212,10 +214,13 @@ bool isResting(MainWindow& window) {
   const auto* match = window.findChild<MatchView*>();
   auto* queue = window.findChild<QueuePanel*>();
   auto* review = window.findChild<ReviewPanel*>();
+  const auto* trends = window.findChild<TrendsPanel*>();
+  const auto* runs = window.findChild<RunsPanel*>();
   return !window.tasks().isBusy() && !(queue && queue->controller().isBusy()) &&
          !(review && review->controller().isBusy()) && !window.annotation().stale() &&
-         !window.findings().isBusy() && window.run().state() != RunState::kWorking &&
-         !(match && match->isComputing());
+         !window.findings().isBusy() && !(trends && trends->isBusy()) &&
+         !(runs && runs->isBusy()) && window.image().view().isDrawn() &&
+         window.run().state() != RunState::kWorking && !(match && match->isComputing());
 }
 
 QWidget* widgetOf(MainWindow& window, const QString& view) {

@@ -15,6 +15,7 @@
 #include "ui/panels/case/history_panel.h"
 #include "ui/panels/case/input_sheet_panel.h"
 #include "ui/panels/case/parts_panel.h"
+#include "ui/panels/case/trends_panel.h"
 #include "ui/panels/diagnose/configuration_panel.h"
 #include "ui/panels/diagnose/hypotheses_panel.h"
 #include "ui/panels/diagnose/iterations_panel.h"
@@ -108,6 +109,9 @@ WindowDocks::WindowDocks(QMainWindow& body, QWidget& window, const WindowParts& 
   add(QStringLiteral("onboard"), windowText("Onboard"),
       new OnboardPanel(parts.onboard, parts.state, parts.run));
   add(QStringLiteral("history"), windowText("History"), new HistoryPanel(parts.document));
+  auto* trends = new TrendsPanel(parts.document);
+  add(QStringLiteral("trends"), windowText("Trends"), trends);
+  QObject::connect(trends, &TrendsPanel::openRequested, &parts.cases, &CaseController::chooseCase);
   auto* runs = new RunsPanel(parts.document, parts.state);
   add(QStringLiteral("runs"), windowText("Runs"), runs);
   QObject::connect(runs, &RunsPanel::openRequested, &parts.cases, &CaseController::showRun);

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <QWidget>
+
+#include "ui_trends_panel.h"
+
+#include "sessions/report/trends.h"
+#include "ui/models/rows_model.h"
+#include "ui/run/task_runner.h"
+
+namespace boresight::ui {
+
+class Document;
+class DoublePlot;
+
+/// Corrections and residuals, one row a case with a converged run, in the order of time.
+class TrendsModel : public RowsModel<sessions::TrendPoint> {
+  Q_OBJECT
+
+ public:
+  enum Column { kCase, kFirstFigure, kReview = kFirstFigure + sessions::kTrendFigures };
+
+  explicit TrendsModel(QObject* parent = nullptr);
+
+ protected:
+  QVariant look(const sessions::TrendPoint& row, int column, int role) const override;
+};
+
+/// Trends of the session's runs, and those of further sessions (sols): a table, and a plot of one
+/// correction with the residual. Outliers are marked. A double click opens a case of the session.
+class TrendsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit TrendsPanel(Document& document, QWidget* parent = nullptr);
+
+  const TrendsModel& model() const { return model_; }
+  /// Sessions that come before the shown one, in the order of time.
+  void setEarlier(std::vector<std::filesystem::path> files);
+  bool isBusy() const { return reader_.isBusy(); }
+
+ Q_SIGNALS:
+  void openRequested(const QString& case_id);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  /// The shown case ids with digests of their last runs, and the earlier sessions.
+  using Source = std::pair<std::vector<std::string>, std::vector<std::filesystem::path>>;
+  struct Trend {
+    std::vector<sessions::TrendPoint> points;
+    QStringList remarks;
+  };
+
+  Source source() const;
+  void follow();
+  void take(const Trend& trend);
+  void showFigure();
+  void askForEarlier();
+  void openRow(int row);
+
+  Document& document_;
+  TrendsModel model_;
+  std::vector<std::filesystem::path> earlier_;
+  Source read_;
+  TaskRunner reader_;  ///< only the newest trend is used
+  DoublePlot* plot_ = nullptr;
+  Ui::TrendsPanel ui_;
+};
+
+}  // namespace boresight::ui
