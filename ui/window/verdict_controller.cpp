@@ -56,7 +56,6 @@ VerdictController::VerdictController(const Links& links, VerdictBar& bar, QWidge
   soon_.setInterval(0);
   connect(&soon_, &QTimer::timeout, this, &VerdictController::update);
   connect(&bar_, &VerdictBar::stepRequested, this, &VerdictController::perform);
-  connect(&bar_, &VerdictBar::warningsRequested, this, [this] { perform(Step::kInputs); });
   follow();
   update();
 }
@@ -81,6 +80,12 @@ void VerdictController::follow() {
   connect(&review, &ReviewController::reviewStatusChanged, this, soon);
   connect(&review, &ReviewController::convergenceChanged, this, soon);
   connect(&workspaces_, &Workspaces::changed, this, soon);
+  // Of a failed run the first thing to see is what may help.
+  connect(&workspaces_, &Workspaces::changed, this, [this](Workspace workspace) {
+    const auto& run = parts_.state.snapshot();
+    if (workspace == Workspace::kDiagnose && run && run->finished && !run->converged())
+      workspaces_.reveal(QStringLiteral("remedies"));
+  });
   connect(&files_, &SessionFiles::collectedChanged, this, soon);
   connect(&findings_, &InputFindings::changed, this, soon);
 }
@@ -214,7 +219,8 @@ void VerdictController::perform(Step step) {
       workspaces_.show(Workspace::kAnnotate);
       return parts_.annotation.setMode(PlaceMode::kPoint);
     case Step::kInspect:
-      return workspaces_.show(Workspace::kDiagnose);
+      workspaces_.show(Workspace::kDiagnose);
+      return workspaces_.reveal(QStringLiteral("inspector"));
     case Step::kCompetingPoses:
       workspaces_.show(Workspace::kDiagnose);
       return workspaces_.reveal(QStringLiteral("hypotheses"));

@@ -11,6 +11,8 @@ namespace {
 constexpr int kOthersWide = 2;    // buttons next to the action
 constexpr int kOthersNarrow = 1;  // the rest is behind "..."
 constexpr int kElideStep = 20;    // px by which a sentence is shortened until it fits
+constexpr int kPopoverText = 380;
+constexpr int kPopoverGap = 4;
 
 const char* toneName(VerdictTone tone) {
   return tone == VerdictTone::kGood      ? "good"
@@ -65,7 +67,7 @@ VerdictBar::VerdictBar(QWidget* parent)
   for (QWidget* each : std::initializer_list<QWidget*>{badge_, more_, action_})
     each->setFixedHeight(kButtonHeight);
   for (QPushButton* each : {badge_, action_}) each->setIconSize(kButtonIcon);
-  connect(badge_, &QPushButton::clicked, this, &VerdictBar::warningsRequested);
+  connect(badge_, &QPushButton::clicked, this, &VerdictBar::showWarnings);
   connect(action_, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(verdict_.step); });
   sentence_->installEventFilter(this);
   setWarnings({});
@@ -75,7 +77,8 @@ VerdictBar::VerdictBar(QWidget* parent)
 /// Buttons that come and go change the room of the sentence, and not the bar's size.
 bool VerdictBar::eventFilter(QObject* watched, QEvent* event) {
   if (watched == sentence_ && event->type() == QEvent::Resize)
-    QMetaObject::invokeMethod(this, [this] { elide(); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this] { elide(); }, Qt::QueuedConnection);
   return QFrame::eventFilter(watched, event);
 }
 
@@ -131,11 +134,37 @@ void VerdictBar::showOthers() {
 }
 
 void VerdictBar::setWarnings(const QStringList& sentences) {
-  warning_count_ = static_cast<int>(sentences.size());
-  badge_->setVisible(warning_count_ > 0);
-  badge_->setText(warning_count_ == 1 ? tr("1 warning") : tr("%1 warnings").arg(warning_count_));
+  warnings_ = sentences;
+  badge_->setVisible(!sentences.isEmpty());
+  badge_->setText(sentences.size() == 1 ? tr("1 warning")
+                                        : tr("%1 warnings").arg(sentences.size()));
   badge_->setToolTip(sentences.join(QLatin1Char('\n')));
   elide();
+}
+
+/// Until a click elsewhere.
+void VerdictBar::showWarnings() {
+  auto* popover = named(new QFrame(this, Qt::Popup), "warningPopover");
+  popover->setAttribute(Qt::WA_DeleteOnClose);
+  auto* column = new QVBoxLayout(popover);
+  column->setContentsMargins(12, 12, 12, 12);
+  column->setSpacing(8);
+  for (const QString& sentence : warnings_) {
+    auto* label = new QLabel(sentence);
+    label->setTextFormat(Qt::PlainText);
+    label->setWordWrap(true);
+    label->setFixedWidth(kPopoverText);
+    column->addWidget(label);
+  }
+  auto* inputs = named(new QPushButton(iconOf(Icon::kInfo), textOf(Step::kInputs)), "showInputs",
+                       helpOf(Step::kInputs));
+  column->addWidget(inputs, 0, Qt::AlignRight);
+  connect(inputs, &QPushButton::clicked, popover, &QWidget::close);
+  connect(inputs, &QPushButton::clicked, this, [this] { Q_EMIT stepRequested(Step::kInputs); });
+  popover->adjustSize();
+  popover->move(badge_->mapToGlobal(
+      QPoint(badge_->width() - popover->width(), badge_->height() + kPopoverGap)));
+  popover->show();
 }
 
 /// The bar has room for two lines; a longer sentence is whole in the tool tip.

@@ -14,8 +14,8 @@ class QToolButton;
 
 namespace boresight::ui {
 
-/// Bar above every workspace: the status of the shown case in a sentence, and the next step.
-/// Warnings on the inputs are a badge of it.
+/// Bar above every workspace: the status of the shown case in a sentence, and the next step. A
+/// badge counts the warnings on the inputs; a click lists them below it, and moves nothing.
 class VerdictBar : public QFrame {
   Q_OBJECT
 
@@ -33,7 +33,6 @@ class VerdictBar : public QFrame {
 
  Q_SIGNALS:
   void stepRequested(boresight::ui::Step step);
-  void warningsRequested();
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -41,10 +40,11 @@ class VerdictBar : public QFrame {
 
  private:
   void showOthers();
+  void showWarnings();
   void elide();
 
   Verdict verdict_;
-  int warning_count_ = 0;
+  QStringList warnings_;
   QLabel* icon_ = nullptr;
   QLabel* head_ = nullptr;
   QLabel* sentence_ = nullptr;

@@ -11,7 +11,7 @@
 namespace boresight::ui {
 namespace {
 
-constexpr int kStateVersion = 2;  // of another set of panels, a layout is not taken over
+constexpr int kStateVersion = 3;  // of another set of panels, a layout is not taken over
 
 QString keyOf(Workspace workspace, bool narrow) {
   return QStringLiteral("workspaces/%1/%2")

@@ -5,10 +5,12 @@
 #include "ui/panels/case/cases_panel.h"
 #include "ui/panels/run/close_ups_panel.h"
 #include "ui/run/run_controller.h"
+#include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
 #include "ui/window/window_frame.h"
 #include "ui/workspaces/case_strip.h"
 #include "ui/workspaces/job_strip.h"
+#include "ui/workspaces/remedies_panel.h"
 #include "ui/workspaces/top_bar.h"
 #include "ui/workspaces/verdict_bar.h"
 
@@ -27,14 +29,14 @@ class WorkspacesTest : public test::WindowTest {
 
 TEST_F(WorkspacesTest, EmptyWindow_BeginsAtStartAndASessionInRun) {
   EXPECT_EQ(workspaces().current(), Workspace::kStart);
-  openExample();
+  openExample(true);
   EXPECT_EQ(workspaces().current(), Workspace::kRun);
   window_.document().close();
   EXPECT_EQ(workspaces().current(), Workspace::kStart);
 }
 
 TEST_F(WorkspacesTest, KeysAndTabsChooseAWorkspace) {
-  openExample();
+  openExample(true);
   auto& tabs = find<QTabBar>("workspaceTabs");
   for (int i = 0; i < kWorkspaceCount; ++i) {
     QTest::keyClick(&window_, static_cast<Qt::Key>(Qt::Key_1 + i), Qt::ControlModifier);
@@ -46,7 +48,7 @@ TEST_F(WorkspacesTest, KeysAndTabsChooseAWorkspace) {
 }
 
 TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
-  openExample();
+  openExample(true);
   resize(1920, 1080);
   struct Expected {
     Workspace workspace;
@@ -55,7 +57,7 @@ TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
   };
   const Expected all[] = {
       {Workspace::kRun, {"scene", "closeUps", "result"}, {"queue", "inspector", "annotation"}},
-      {Workspace::kDiagnose, {"inspector", "iterations", "remedies"}, {"queue", "review", "scene"}},
+      {Workspace::kDiagnose, {"inspector", "iterations"}, {"queue", "review", "scene"}},
       {Workspace::kAnnotate, {"scene", "annotation"}, {"queue", "review", "inspector"}},
       {Workspace::kReview, {"queue", "review"}, {"configuration", "annotation", "scene"}},
       {Workspace::kOnboard, {"onboard"}, {"annotation", "queue"}},
@@ -70,8 +72,46 @@ TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
   }
 }
 
+TEST_F(WorkspacesTest, DiagnoseOfAFailedRun_HasWhatMayHelpInFrontAtFullHeight) {
+  sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  session.options = {{"support.min_probability", 1.0}};
+  open(session);
+  resize(1920, 1080);
+  ASSERT_TRUE(runToTheEnd(1));
+  ASSERT_FALSE(window_.state().snapshot()->converged());
+  workspaces().show(Workspace::kDiagnose);
+  QApplication::processEvents();
+  const auto in_front = [this](const char* dock) {
+    return !window_.dock(QString::fromLatin1(dock))->visibleRegion().isEmpty();
+  };
+  for (const CloseUpView* each : window_.findChildren<CloseUpView*>())
+    EXPECT_TRUE(!each->place() || each->figureText().endsWith(QStringLiteral(" % found")));
+  EXPECT_TRUE(in_front("remedies"));
+  EXPECT_FALSE(in_front("inspector"));
+  const auto* scroll = window_.findChild<RemediesPanel*>()->findChild<QScrollArea*>();
+  EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0) << "all remedies are in view";
+}
+
+TEST_F(WorkspacesTest, AClickOnTheWarningsListsThemAndOpensNoPanel) {
+  openExample(true);
+  resize(1920, 1080);
+  auto& bar = *window_.findChild<VerdictBar*>();
+  bar.setWarnings({QStringLiteral("The mesh is not closed."), QStringLiteral("The seed is old.")});
+  const QSize canvas = window_.image().view().size();
+  find<QPushButton>("warningBadge").click();
+  auto* popover = window_.findChild<QFrame*>(QStringLiteral("warningPopover"));
+  ASSERT_TRUE(popover && popover->isVisible());
+  const auto sentences = popover->findChildren<QLabel*>();
+  ASSERT_EQ(sentences.size(), 2);
+  EXPECT_EQ(sentences[1]->text(), QStringLiteral("The seed is old."));
+  EXPECT_FALSE(shows("inputs"));
+  EXPECT_EQ(window_.image().view().size(), canvas);
+  popover->findChild<QPushButton*>(QStringLiteral("showInputs"))->click();
+  EXPECT_TRUE(shows("inputs"));
+}
+
 TEST_F(WorkspacesTest, StripListsFailedCasesFirstInReviewOnly) {
-  openExample();
+  openExample(true);
   CasesModel& model = window_.findChild<CasesPanel*>()->model();
   std::vector<CaseRow> rows(4);
   const CaseState states[] = {CaseState::kValidated, CaseState::kNew, CaseState::kConverged,
@@ -106,7 +146,7 @@ TEST_F(WorkspacesTest, StripListsFailedCasesFirstInReviewOnly) {
 }
 
 TEST_F(WorkspacesTest, CloseUpsShowTheRefinedPose_AndAClickShowsThePlaceOnTheCanvas) {
-  openExample();
+  openExample(true);
   resize(1920, 1080);
   const auto close_ups = window_.findChildren<CloseUpView*>();
   ASSERT_EQ(close_ups.size(), 4);
@@ -126,7 +166,7 @@ TEST_F(WorkspacesTest, CloseUpsShowTheRefinedPose_AndAClickShowsThePlaceOnTheCan
 }
 
 TEST_F(WorkspacesTest, NarrowDiagnose_OpensOneDrawerAtATime) {
-  openExample();
+  openExample(true);
   resize(1280, 800);
   workspaces().show(Workspace::kDiagnose);
   QApplication::processEvents();
@@ -139,7 +179,7 @@ TEST_F(WorkspacesTest, NarrowDiagnose_OpensOneDrawerAtATime) {
 }
 
 TEST_F(WorkspacesTest, BarsAreThereInEveryWorkspace) {
-  openExample();
+  openExample(true);
   for (int i = 0; i < kWorkspaceCount; ++i) {
     workspaces().show(static_cast<Workspace>(i));
     QApplication::processEvents();
@@ -153,7 +193,7 @@ TEST_F(WorkspacesTest, BarsAreThereInEveryWorkspace) {
 }
 
 TEST_F(WorkspacesTest, StripShowsAndChoosesCases) {
-  openExample();
+  openExample(true);
   auto& list = window_.frame().cases().list();
   EXPECT_EQ(list.model()->rowCount(), 2);
   EXPECT_EQ(list.currentIndex().row(), 0);
@@ -164,7 +204,7 @@ TEST_F(WorkspacesTest, StripShowsAndChoosesCases) {
 }
 
 TEST_F(WorkspacesTest, VerdictRunsTheCaseAndLeadsToReview) {
-  openExample();
+  openExample(true);
   VerdictBar& bar = window_.frame().verdict();
   ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kRun; })) << bar.text().toStdString();
   QTest::mouseClick(&bar.action(), Qt::LeftButton);
@@ -177,7 +217,7 @@ TEST_F(WorkspacesTest, VerdictRunsTheCaseAndLeadsToReview) {
 }
 
 TEST_F(WorkspacesTest, AddedPanelStaysWithItsWorkspace) {
-  openExample();
+  openExample(true);
   resize(1920, 1080);
   workspaces().show(Workspace::kRun);
   window_.dock(QStringLiteral("levels"))->show();

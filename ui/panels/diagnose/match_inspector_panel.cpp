@@ -12,6 +12,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kBins = 41;
+constexpr int kHistogramHeight = 320;
 
 /// Places and their share of all.
 QString placesText(int count, double share) {
@@ -40,7 +41,13 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   histogram_->setToolTip(
       tr("Distance of the image's edges from the rendered edges after this refinement, in pixels "
          "of the full image. A good pose has a narrow peak at 0."));
-  ui_.refinementRow->addWidget(histogram_, 1);
+  histogram_->setMaximumHeight(kHistogramHeight);
+  ui_.refinementRow->insertWidget(1, histogram_, 1);
+  ui_.edges->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  ui_.edges->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  connect(ui_.showMatches, &QPushButton::clicked, this, [this] {
+    if (const auto matched = lastMatched()) view_.setCursor({*matched, Stage::kFinished});
+  });
   connect(ui_.show, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int index) {
     showing_ = true;
     filter_.setCondition([this, show = static_cast<TemplatesModel::Show>(index)](int source_row) {
@@ -87,6 +94,14 @@ void MatchInspectorPanel::showIteration() {
   showTemplate();
 }
 
+/// The last iteration up to the shown one that has templates.
+std::optional<int> MatchInspectorPanel::lastMatched() const {
+  const auto& run = view_.snapshot();
+  for (int i = run ? view_.cursor().iteration : -1; i >= 0; --i)
+    if (!run->iterations[static_cast<std::size_t>(i)]->templates.empty()) return i;
+  return std::nullopt;
+}
+
 /// Shares by kind of edge, and distances of the image's edges.
 void MatchInspectorPanel::showRefinement() {
   const auto statistics = sessions::sampleStatistics(*iteration_, kBins);
@@ -101,8 +116,9 @@ void MatchInspectorPanel::showRefinement() {
     addRow(table,
            {name, QString::number(counts.places), placesText(counts.found, counts.foundShare()),
             placesText(counts.used, counts.usedShare())});
-  table.resizeColumnsToContents();
-  table.setFixedWidth(table.horizontalHeader()->length() + 2 * table.frameWidth());
+  table.setFixedHeight(table.horizontalHeader()->sizeHint().height() +
+                       table.verticalHeader()->length() + 2 * table.frameWidth());
+  ui_.showMatches->setEnabled(lastMatched().has_value());
   histogram_->setCounts(statistics.radius_px, asVector(statistics.found_in_bin),
                         asVector(statistics.used_in_bin));
 }

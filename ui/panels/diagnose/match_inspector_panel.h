@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <QWidget>
 
@@ -31,6 +32,7 @@ class MatchInspectorPanel : public QWidget {
   void showTemplate();
   void chooseRow(const QModelIndex& current);
   void showCount();
+  std::optional<int> lastMatched() const;
 
   ViewState& view_;
   TemplatesModel model_;

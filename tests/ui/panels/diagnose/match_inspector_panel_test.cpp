@@ -115,6 +115,10 @@ TEST_F(MatchInspectorPanelTest, ARefinementShowsItsEdges) {
   EXPECT_EQ(histogram->allCount(), view_.iteration()->refinement.found_count);
   auto* table = panel_.findChild<QTableWidget*>();
   EXPECT_EQ(table->item(0, 1)->text(), QString::number(view_.iteration()->refinement.sample_count));
+  panel_.findChild<QPushButton*>(QStringLiteral("showMatches"))->click();
+  EXPECT_LT(view_.cursor().iteration, last);
+  EXPECT_FALSE(view_.iteration()->templates.empty());
+  EXPECT_TRUE(table_->isVisible());
 }
 
 TEST_F(MatchInspectorPanelTest, WithoutMatches_ReportsTheReason) {
