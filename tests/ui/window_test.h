@@ -22,6 +22,12 @@ inline ::testing::AssertionResult has(const QString& text, const char* part) {
   return ::testing::AssertionFailure() << "no '" << part << "' in: " << text.toStdString();
 }
 
+/// The session with runs from the seed alone.
+inline sessions::Session withoutSearch(sessions::Session session) {
+  session.options = {{"search.enabled", false}};
+  return session;
+}
+
 /// Settings of its own, empty before and after: tests run side by side.
 class OwnSettings {
  public:
@@ -73,7 +79,11 @@ class WindowTest : public ::testing::Test {
     moved.translation_m.x() += x_m;
     window_.cases().useAsSeed(moved);
   }
-  void openExample() { open(sessions::makeSession(exampleFolder() / "dataset.json")); }
+  /// Runs of the example take a third of the time without a search.
+  void openExample(bool search = false) {
+    const sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
+    open(search ? session : withoutSearch(session));
+  }
   template <class Widget>
   Widget& find(const char* name) {
     return *window_.findChild<Widget*>(QString::fromUtf8(name));

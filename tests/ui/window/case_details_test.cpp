@@ -6,10 +6,7 @@
 #include <QtTest/QTest>
 
 #include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/ui/patience.h"
+#include "tests/ui/window_test.h"
 #include "ui/run/task_runner.h"
 
 namespace boresight::ui {
@@ -39,7 +36,8 @@ class CaseDetailsTest : public ::testing::Test {
   mutable sessions::StaleRuns stale_runs_;
   TaskRunner tasks_;
   CaseDetails details_{tasks_};
-  sessions::Session session_ = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  sessions::Session session_ =
+      test::withoutSearch(sessions::makeSession(test::exampleFolder() / "dataset.json"));
   std::string id_ = session_.cases[0]->id;
   test::TemporaryFolder folder_;
 };

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 
 #include <QProcess>
@@ -13,10 +12,8 @@
 #include "sessions/io/files/file_bytes.h"
 #include "sessions/session/session_document.h"
 #include "sessions/session/session_file.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/ui/patience.h"
+#include "tests/support/all_cases.h"
+#include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
@@ -74,9 +71,9 @@ std::string lastConfirmed(const std::filesystem::path& file, int round, Random& 
 TEST(KillProgram, NothingConfirmedIsLost) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder / "one.boresight.json";
-  sessions::SessionDocument::create(file,
-                                    sessions::makeSession(test::exampleFolder() / "dataset.json"));
-  const int rounds = std::getenv("BORESIGHT_ALL") != nullptr ? 50 : 5;
+  sessions::SessionDocument::create(
+      file, test::withoutSearch(sessions::makeSession(test::exampleFolder() / "dataset.json")));
+  const int rounds = test::allCases() ? 50 : 5;
   Random random(2026);
   int confirmed_rounds = 0;
   for (int round = 0; round < rounds; ++round) {

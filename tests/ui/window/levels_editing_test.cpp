@@ -27,7 +27,7 @@ class LevelsEditingTest : public test::WindowTest {
     files.parts[0].mesh = station / "model.ply";
     files.parts[0].mesh_unit = "m";
     files.seed = station / "seed.json";
-    open(withCase({}, sessions::makeCase(files).made));
+    open(test::withoutSearch(withCase({}, sessions::makeCase(files).made)));
   }
 
   virtual const char* fileName() const { return "image.png"; }

@@ -190,7 +190,7 @@ TEST_F(MainWindowTest, StopEndsRunAllDuringACase) {
 }
 
 TEST_F(MainWindowTest, EscapeStopsWhatRunsUnlessAToolHasIt) {
-  openExample();
+  openExample(true);
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
   QTest::keyClick(&window_, Qt::Key_Escape);
@@ -263,7 +263,7 @@ TEST_F(MainWindowTest, ClosingItKeepsARunThatHasJustEnded) {
 }
 
 TEST_F(MainWindowTest, StepsAStageAndAnIteration) {
-  openExample();
+  openExample(true);
   QTest::keyClick(&window_, Qt::Key_F7);
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
   EXPECT_EQ(window_.state().snapshot()->stage, Stage::kEdges);

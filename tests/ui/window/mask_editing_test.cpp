@@ -11,7 +11,8 @@ namespace {
 class MaskEditingTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+    sessions::Session session =
+        test::withoutSearch(sessions::makeSession(test::exampleFolder() / "dataset.json"));
     sessions::SessionCase second = *session.cases.front();
     second.id = "second";
     session = withCase(session, second);

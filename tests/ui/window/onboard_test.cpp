@@ -92,7 +92,7 @@ class OnboardTest : public test::WindowTest {
 };
 
 TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
-  openExample();
+  openExample(true);
   drop(write(onboardRecord()));
   ASSERT_TRUE(one().onboard_record);
   ASSERT_NE(window_.onboard().review(), nullptr) << window_.onboard().problem().toStdString();
@@ -130,7 +130,7 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
 }
 
 TEST_F(OnboardTest, WideWindowShowsBothRunsSideBySide) {
-  openExample();
+  openExample(true);
   window_.resize(1920, 1080);
   runOnTheGround();
   drop(write(onboardRecord()));
@@ -152,7 +152,7 @@ TEST_F(OnboardTest, WideWindowShowsBothRunsSideBySide) {
 }
 
 TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
-  openExample();
+  openExample(true);
   runOnTheGround();
   Bytes bytes = onboardRecord();
   alterTemplate(bytes);
@@ -170,7 +170,7 @@ TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
 }
 
 TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
-  openExample();
+  openExample(true);
   runOnTheGround();
   const Bytes pixels = compressed(window_.state().currentCase()->problem().image, 90);
   drop(write(onboardRecord(&pixels)));
@@ -187,7 +187,7 @@ TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
 }
 
 TEST_F(OnboardTest, UnreadableRecord_IsReported) {
-  openExample();
+  openExample(true);
   drop(folder_.write("not.whsr", "something else"));
   EXPECT_TRUE(test::has(window_.lastMessage(), "is not an onboard record"));
   EXPECT_FALSE(one().onboard_record);

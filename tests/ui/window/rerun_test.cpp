@@ -142,6 +142,9 @@ class ViewsRunWindowTest : public test::WindowTest {
   }
   const sessions::Session& session() { return window_.document().session(); }
   QString banner() { return find<Banner>("runStatus").text(); }
+  sessions::Session twoViews() const {
+    return test::withoutSearch(test::sessionOfTwoViews(folder_.path()));
+  }
 };
 
 TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
@@ -180,7 +183,7 @@ TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
 }
 
 TEST_F(ViewsRunWindowTest, AViewThatIsLeftOutSaysWhy) {
-  open(test::withBlackSecond(test::sessionOfTwoViews(folder_.path()), folder_.path()));
+  open(test::withBlackSecond(twoViews(), folder_.path()));
   together()->trigger();
   ASSERT_TRUE(wait([&] { return session().runs.size() == 2 && resting(); }));
   EXPECT_TRUE(test::has(banner(), "left out: too few of its"));
@@ -203,7 +206,7 @@ TEST_F(ViewsRunWindowTest, WithoutOthersItSaysWhy) {
 }
 
 TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
-  open(test::sessionOfTwoViews(folder_.path()));
+  open(twoViews());
   together()->trigger();
   window_.cases().stop();
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
@@ -214,7 +217,7 @@ TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
 }
 
 TEST_F(ViewsRunWindowTest, ViewsRun_CannotContinueFromAnIteration) {
-  open(test::sessionOfTwoViews(folder_.path()));
+  open(twoViews());
   together()->trigger();
   ASSERT_TRUE(wait([&] { return session().runs.size() == 2 && resting(); }));
   window_.state().setCursor({2, Stage::kFinished});

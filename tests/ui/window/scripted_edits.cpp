@@ -73,6 +73,7 @@ class Operator {
 
   bool changeOptions() {
     LocalizerOptions options;
+    options.search.enabled = false;
     options.pnp.seed = 1 + random_.below(1000);
     window_.cases().setOptions(QStringLiteral("default"), options);
     return true;

@@ -39,7 +39,7 @@ class ImageShareTest : public test::WindowTest {
 };
 
 TEST_F(ImageShareTest, ImageTakesItsPartOfTheScreen) {
-  openExample();
+  openExample(true);
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
   for (const Goal& goal : {Goal{{1920, 1080}, 0.30}, Goal{{1280, 800}, 0.40}})
@@ -53,7 +53,7 @@ TEST_F(ImageShareTest, ImageTakesItsPartOfTheScreen) {
 
 /// Nothing is cut off: a scroll bar below a page or a table says that something is.
 TEST_F(ImageShareTest, NothingScrollsSideways) {
-  openExample();
+  openExample(true);
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
   for (const QSize& size : {QSize(1920, 1080), QSize(1280, 800)})

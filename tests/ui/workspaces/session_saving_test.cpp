@@ -36,7 +36,7 @@ TEST_F(SessionSavingTest, NameWithoutASuffixGetsTheOneThatIsListed) {
 }
 
 TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
-  openExample();
+  openExample(true);
   moveSeed(0.01);
   ASSERT_TRUE(window_.document().isModified());
   const Answer answer([](QWidget* modal) {
@@ -55,7 +55,7 @@ TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
 
 /// Adds the four files of os to the open session, and answers what it asks.
 TEST_F(SessionSavingTest, CaseOfAKnownName_IsNeverReplacedWithoutAnAnswer) {
-  openExample();
+  openExample(true);
   const std::filesystem::path os = test::exampleFolder() / "os";
   const auto add = [&](const char* button) {
     bool asked = false;

@@ -116,7 +116,7 @@ TEST_F(StartPageTest, OneClickOpensAnExampleAndRunsIt) {
 }
 
 TEST_F(StartPageTest, FilesMakeANewSession_NotAPartOfTheOpenOne) {
-  openExample();
+  openExample(true);
   window_.workspaces().show(Workspace::kStart);
   const std::filesystem::path os = test::exampleFolder() / "os";
   auto* files = window_.findChild<SessionFiles*>();
