@@ -197,7 +197,8 @@ void ImageView::updateGround() {
   do {
     draw();
   } while (drawing_ && (nothing_to_show || drawing_->bands == 1));
-  if (outdated_) update();
+  // Asked for while painting, it would be painted in the same event.
+  if (outdated_) QTimer::singleShot(0, this, QOverload<>::of(&QWidget::update));
 }
 
 void ImageView::beginDrawing() {
