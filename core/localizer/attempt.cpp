@@ -68,13 +68,15 @@ PassPlan Attempt::plan(const RunContext& run) const {
   plan.attempt = index_;
   const bool coarse = coarse_first_ || (!refines && iteration_ == 0);
   plan.level = coarse ? run.levels.coarse : run.levels.fine;
+  const bool shares_render = coarse_first_ && coarse_render_.has_value();
   plan.camera_from_station = camera_from_station_;
+  plan.rendered_from_station = shares_render ? *coarse_render_ : camera_from_station_;
   plan.roll_rad = rollOf(hypothesis_);
   plan.uncertainty = uncertaintyAt(seed_, loop, iteration_, camera_from_station_);
   plan.threshold_px = thresholdAt(run.options, iteration_, plan.level);
   plan.template_factor = templateFactor(size_index_);
   const bool refined_before = refines && iteration_ > loop.match_iterations;
-  plan.keep_render_px = refined_before ? loop.render_again_px : 0.0;
+  plan.keep_render_px = refined_before || shares_render ? loop.render_again_px : 0.0;
   plan.most_samples = is_draft_ ? kDraftSamples : 0;
   plan.anchored = loop.anchored;
   plan.anchor = anchor_;

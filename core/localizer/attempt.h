@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/localizer/pass_plan.h"
@@ -43,6 +44,9 @@ class Attempt {
   Attempt beforeLastIteration(int index, const Pose& camera_from_station_before,
                               const LocalizerOptions& options) const;
 
+  /// The refinement at the coarse level uses a render from this pose, which may be there already.
+  void renderFrom(const Pose& camera_from_station) { coarse_render_ = camera_from_station; }
+
   /// Refines with fewer edge places and ends at the first small correction: enough to compare poses
   /// with each other. Until beforeLastIteration().
   void draft() { is_draft_ = true; }
@@ -77,8 +81,9 @@ class Attempt {
   bool has_best_ = false;      ///< the other record holds the best hypothesis so far
   int small_corrections_ = 0;
   Seed seed_;
-  PosePrior anchor_;      ///< the seed with its uncertainty as a Gaussian
-  PoseEstimate matched_;  ///< from the latest templates
+  std::optional<Pose> coarse_render_;  ///< pose of the render at the coarse level
+  PosePrior anchor_;                   ///< the seed with its uncertainty as a Gaussian
+  PoseEstimate matched_;               ///< from the latest templates
   Pose camera_from_station_;
   Matrix6d covariance_ = Matrix6d::Zero();
   std::array<Agreement, 2> agreement_;  ///< of each record

@@ -46,7 +46,9 @@ PassPlan Localizer::plan() const {
       plan.kind = PassKind::kSearch;
       break;
     case Phase::kIterate:  // match templates, solve, repeat; then refine on edges
-      return attempt_.plan(pass_.context());
+      plan = attempt_.plan(pass_.context());
+      if (searches()) comparison_.endAtKnown(plan);
+      break;
     case Phase::kWeigh:  // measure the evidence for the converged pose
       plan.kind = PassKind::kEvidence;
       plan.record = attempt_.record();
@@ -54,6 +56,8 @@ PassPlan Localizer::plan() const {
     case Phase::kAccept:  // measure the support of the final pose
       plan.kind = PassKind::kSupport;
       plan.record = attempt_.record();
+      if (searches())
+        plan.evidence = comparison_.evidenceFor(attempt_.camera_from_station(), pass_.context());
       break;
     case Phase::kCompare:  // compare the final pose with what may contradict it
       plan.kind = comparison_kind_;

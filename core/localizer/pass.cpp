@@ -137,8 +137,9 @@ EdgeRender& Pass::renderMemory() {
 
 /// Whether the last refinement's render shows the scene as a new render would.
 bool Pass::keepsRender(const Iteration& iteration) const {
-  return plan_.keep_render_px > 0.0 &&
-         displacementBetween_px(iteration.render.camera_from_station, plan_.camera_from_station,
+  const Camera& camera = memory_.rays[static_cast<std::size_t>(plan_.level)].camera();
+  return iteration.render.camera.width == camera.width &&
+         displacementBetween_px(iteration.render.camera_from_station, plan_.rendered_from_station,
                                 scene_, problem_.camera) < plan_.keep_render_px;
 }
 

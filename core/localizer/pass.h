@@ -156,7 +156,8 @@ class Pass {
   void takeMirrorImage(std::span<const PoseCandidate> candidates);
   void takeOther(std::span<const PoseCandidate> candidates);
   void beginSupport();
-  void noteEvidence();
+  PoseEvidence measuredEvidence();
+  StepReport takeEvidence(PoseEvidence evidence);
   Status beginPose();
   Status beginRefinement();
   Status continueRender(bool& complete);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/accept/pose_evidence.h"
 #include "core/base/status.h"
@@ -9,6 +10,7 @@
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
+#include "core/localizer/pose_hypothesis.h"
 #include "core/localizer/schedule.h"
 #include "core/localizer/stage.h"
 #include "core/localizer/workspace.h"
@@ -38,16 +40,22 @@ struct PassPlan {
   std::int32_t attempt = 0;      ///< index of the attempt, from 0
   int level = 0;                 ///< pyramid level, 0 full resolution
   Pose camera_from_station;      ///< the hypothesis
+  Pose rendered_from_station;    ///< pose of the render, before the roll
   double roll_rad = 0.0;         ///< turns the render about the ray through the scene's centre
   SeedUncertainty uncertainty;   ///< of the hypothesis; sizes the search windows
   double threshold_px = 0.0;     ///< inlier threshold or search radius, px of the full image
   double template_factor = 1.0;  ///< on the size of the templates
-  /// A refinement keeps the last render when the hypothesis moved less since; px.
+  /// A refinement keeps the last render of its level when that is from a pose nearer than this; px.
   double keep_render_px = 0.0;
   std::int32_t most_samples = 0;  ///< edge places of a refinement; 0: as many as the options allow
   bool anchored = false;          ///< whether the two below constrain a refinement
   PosePrior anchor;               ///< the seed with its uncertainty as a Gaussian
   PoseEstimate matched;           ///< from the latest templates
+  /// A refinement ends when it comes nearer than this to one of these poses; px.
+  std::span<const PoseHypothesis> known;
+  double known_px = 0.0;
+  /// Contours and regions measured at a pose that is as good as the record's; nullptr: of none.
+  const PoseEvidence* evidence = nullptr;
 };
 
 /// Outcome of a pass. Its record (Iteration) holds the results; `status` there is kRunning when

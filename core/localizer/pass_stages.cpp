@@ -71,9 +71,9 @@ StepReport Pass::stepRender() {
   }
   if (!stage_begun_) {
     // Without a roll the pose keeps its bits.
-    const Pose rendered = plan_.roll_rad == 0.0
-                              ? plan_.camera_from_station
-                              : rolledAboutScene(plan_.camera_from_station, plan_.roll_rad, scene_);
+    const Pose rendered = plan_.roll_rad == 0.0 ? plan_.rendered_from_station
+                                                : rolledAboutScene(plan_.rendered_from_station,
+                                                                   plan_.roll_rad, scene_);
     const Status status =
         memory_.renderer.begin(memory_.rays[static_cast<std::size_t>(iteration.level)], rendered,
                                iteration.render, surfaces_);
@@ -263,6 +263,8 @@ StepReport Pass::stepRefine() {
   } else {
     for (; tasks.findNext(); tasks.markDone(tasks.next())) refinement.searchChunk(tasks.next());
     status = refinement.finishRound(complete);
+    complete = complete || isKnownPose(iteration.refinement.camera_from_station, plan_.known,
+                                       plan_.known_px, scene_, problem_.camera);
   }
   if (status == Status::kOk && !complete) {
     tasks.open(refinement.chunks());
@@ -278,18 +280,15 @@ StepReport Pass::stepRefine() {
 StepReport Pass::stepSupport() {
   if (!stage_begun_) {
     beginSupport();
-    if (!searches() || !memory_.evidence.begin(searched_, record().render))
-      return end(Stage::kSupport);
+    evidence_complete_ = plan_.evidence != nullptr;
+    const bool measures = evidence_complete_ || memory_.evidence.begin(searched_, record().render);
+    if (!searches() || !measures) return end(Stage::kSupport);
+    if (evidence_complete_) return takeEvidence(*plan_.evidence);
   }
   const StepReport slice = StepReport::of(Stage::kSupport, false);
-  const bool is_refined = record().kind == IterationKind::kRefine;
   if (!evidence_complete_) {
     evidence_complete_ = memory_.evidence.step();
-    if (!evidence_complete_) return slice;
-    noteEvidence();
-    if (plan_.kind == PassKind::kEvidence || !is_refined) return end(Stage::kSupport);
-    memory_.focal.begin(problem_.camera, record().refinement);
-    return slice;
+    return evidence_complete_ ? takeEvidence(measuredEvidence()) : slice;
   }
   if (!memory_.focal.step()) return slice;
   workspace_.focal = memory_.focal.fit();
@@ -315,17 +314,29 @@ void Pass::beginSupport() {
   stage_begun_ = true;
 }
 
-void Pass::noteEvidence() {
+/// Contours and regions.
+PoseEvidence Pass::measuredEvidence() {
   const Iteration& iteration = record();
-  PoseEvidence& evidence = workspace_.evidence;
+  PoseEvidence evidence;
   evidence.contours = memory_.evidence.contours();
   evidence.region =
       memory_.region.measure(iteration.render, iteration.level, problem_.image, problem_.ignore);
+  return evidence;
+}
+
+/// Adds the edge support; of the final pose the focal length follows.
+StepReport Pass::takeEvidence(PoseEvidence evidence) {
+  const Iteration& iteration = record();
+  const bool is_refined = iteration.kind == IterationKind::kRefine;
   evidence.edge_support = workspace_.support.share();
+  workspace_.evidence = evidence;
   workspace_.probability = evidence.probability();
   digestEvidence(evidence, digest_);
-  if (iteration.kind == IterationKind::kRefine)
+  if (is_refined)
     outcome_.weak = weakDirections(iteration.refinement, problem_.camera, scene_.centre());
+  if (plan_.kind == PassKind::kEvidence || !is_refined) return end(Stage::kSupport);
+  memory_.focal.begin(problem_.camera, iteration.refinement);
+  return StepReport::of(Stage::kSupport, false);
 }
 
 /// Works in the memory of the renders and of the samples: those of the iteration become invalid.

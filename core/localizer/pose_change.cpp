@@ -57,6 +57,14 @@ double displacementBetween_px(const Pose& before, const Pose& after, const Bound
   return seen > 0 ? sum_px / seen : 1e6;
 }
 
+bool isKnownPose(const Pose& camera_from_station, std::span<const PoseHypothesis> known,
+                 double nearer_px, const BoundingBox& scene, const Camera& camera) {
+  return std::any_of(known.begin(), known.end(), [&](const PoseHypothesis& hypothesis) {
+    return displacementBetween_px(hypothesis.camera_from_station, camera_from_station, scene,
+                                  camera) < nearer_px;
+  });
+}
+
 double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
                      const Camera& camera) {
   Eigen::AlignedBox2d box;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "core/geometry/camera.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/pose.h"
 #include "core/localizer/localizer_options.h"
 #include "core/localizer/pass_plan.h"
+#include "core/localizer/pose_hypothesis.h"
 #include "core/localizer/problem.h"
 
 // Distances between two poses for the convergence test.
@@ -28,6 +31,10 @@ double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
 /// longer side and than 2 px.
 bool areDistinct(const Pose& first, const Pose& second, const BoundingBox& scene,
                  const Camera& camera);
+
+/// Whether the pose is nearer than `nearer_px` to one of the hypotheses.
+bool isKnownPose(const Pose& camera_from_station, std::span<const PoseHypothesis> known,
+                 double nearer_px, const BoundingBox& scene, const Camera& camera);
 
 /// Displacement of the scene's box in the image at the limits of the seed's uncertainty: root of
 /// the sum over the axes of its squares.

@@ -24,6 +24,9 @@ constexpr double kOfBestTotal = 0.5;
 constexpr double kOfRadius = 0.67;
 /// Poses nearer than this are one hypothesis, px of the level.
 constexpr double kSame_px = 0.6;
+/// The evidence holds for poses nearer than this, as a share of the object's longer side: half a
+/// pixel of the finest view.
+constexpr double kSameEvidence = 0.5 / 420.0;
 /// Motion of a restart, px of the fine level, root mean square.
 constexpr double kRestart_px = 7.0;
 
@@ -34,6 +37,9 @@ constexpr double kNear = 0.1;
 bool isWithinReach(const PoseCandidate& candidate, int level) {
   return candidate.error_px <= kOfRadius * kFirstRadius_px * static_cast<double>(1 << level);
 }
+
+/// Poses nearer than this at a level are one hypothesis, px of the full image.
+double sameAt_px(int level) { return kSame_px * static_cast<double>(1 << level); }
 
 }  // namespace
 
@@ -72,7 +78,8 @@ bool PoseComparison::offers(Source source, const RunContext& run) const {
     case Source::kNearSeed:
       return next_ == 0;
     case Source::kCandidates:
-      return firstCandidateFrom(next_) < static_cast<int>(candidates_.size());
+      return !(searches_on_ && bestConvinces()) &&
+             firstCandidateFrom(next_) < static_cast<int>(candidates_.size());
     case Source::kTemplates:
       return next_ == 0 && !candidates_.empty() && run.options.refinement.enabled &&
              !isWithinReach(candidates_.front(), run.levels.fine);
@@ -161,19 +168,34 @@ Attempt PoseComparison::restart(int attempt, const RunContext& run) {
   }
   const double side = current_.number % 2 == 0 ? 1.0 : -1.0;
   const double motion_px = side * kRestart_px * static_cast<double>(1 << run.levels.fine);
-  return Attempt(attempt, seed_, restarted_.moved(restarted_from_, current_.number / 2, motion_px),
-                 true, run.options.loop);
+  Attempt started(attempt, seed_, restarted_.moved(restarted_from_, current_.number / 2, motion_px),
+                  true, run.options.loop);
+  // A pose that does not convince may be far from the right one: each restart renders anew.
+  if (searches_on_) started.renderFrom(restarted_from_);
+  return started;
 }
 
 bool PoseComparison::isKnown(const Pose& camera_from_station, int level,
                              const RunContext& run) const {
-  if (returns_) return false;
-  const double same_px = kSame_px * static_cast<double>(1 << level);
-  for (const PoseHypothesis& hypothesis : hypotheses_.items())
-    if (displacementBetween_px(hypothesis.camera_from_station, camera_from_station, run.scene,
-                               run.camera) < same_px)
-      return true;
-  return false;
+  return !returns_ &&
+         isKnownPose(camera_from_station, hypotheses(), sameAt_px(level), run.scene, run.camera);
+}
+
+void PoseComparison::endAtKnown(PassPlan& plan) const {
+  if (returns_) return;
+  plan.known = hypotheses();
+  plan.known_px = sameAt_px(plan.level);
+}
+
+const PoseEvidence* PoseComparison::evidenceFor(const Pose& camera_from_station,
+                                                const RunContext& run) const {
+  if (!hasPose()) return nullptr;
+  const PoseHypothesis& best = hypotheses_[best_index_];
+  const double moved_px =
+      displacementBetween_px(best.camera_from_station, camera_from_station, run.scene, run.camera);
+  return moved_px < kSameEvidence * longerSide_px(camera_from_station, run.scene, run.camera)
+             ? &best.evidence
+             : nullptr;
 }
 
 PoseComparison::Next PoseComparison::takePose(const Attempt& attempt,

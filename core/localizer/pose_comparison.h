@@ -61,6 +61,10 @@ class PoseComparison {
   Attempt next(int attempt, const RunContext& run);
   /// Whether a pose of an attempt, refined at a level, is a known hypothesis.
   bool isKnown(const Pose& camera_from_station, int level, const RunContext& run) const;
+  /// A refinement under this plan ends at known hypotheses.
+  void endAtKnown(PassPlan& plan) const;
+  /// Evidence of the best hypothesis where the pose is hardly another one, else nullptr.
+  const PoseEvidence* evidenceFor(const Pose& camera_from_station, const RunContext& run) const;
   /// An attempt has converged on a pose; `measured` has its evidence, score and probability.
   Next takePose(const Attempt& attempt, const Pose& camera_from_station_before,
                 const PoseHypothesis& measured, const WeakDirections& weak, const RunContext& run);

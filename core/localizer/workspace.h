@@ -93,7 +93,7 @@ struct Iteration {
   std::int32_t level = 0;                      ///< pyramid level, 0 full resolution
   double threshold_px = 0.0;  ///< of the full image; the search radius when refining
   /// Pose of the render before the roll of the chosen hypothesis. A refinement may keep the render
-  /// of the last one, whose pose is less than loop.render_again_px away.
+  /// of the last one, whose pose is less than loop.render_again_px away; restarts share a render.
   Pose camera_from_station_before;
   SeedUncertainty uncertainty;                ///< how far the truth may be from that pose
   EdgeRender render;                          ///< the salient edges

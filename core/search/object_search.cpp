@@ -75,13 +75,13 @@ bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& view_edges,
   phase_ = Phase::kDone;
   found_ = CandidateList();
   poses_ = 0;
-  ViewSize size;
-  if (!layOut(size) || !view_edges.begin(problem, problem.camera_from_station_seed, size))
-    return false;
+  if (!layOut() || !beginView()) return false;
   const FacingView& view = view_edges.view();
   const double focal_px = view.camera.fx;
-  slide_x_px_ = std::min(static_cast<int>(size.slide_x * focal_px) + 1, view.camera.width / 2 - 1);
-  slide_y_px_ = std::min(static_cast<int>(size.slide_y * focal_px) + 1, view.camera.height / 2 - 1);
+  slide_x_px_ =
+      std::min(static_cast<int>(view_size_.slide_x * focal_px) + 1, view.camera.width / 2 - 1);
+  slide_y_px_ =
+      std::min(static_cast<int>(view_size_.slide_y * focal_px) + 1, view.camera.height / 2 - 1);
   sums_.begin(view.camera.width, view.camera.height, slide_x_px_, slide_y_px_);
   const Eigen::Vector3d axis = view.view_from_camera.inverse().rotation * Eigen::Vector3d::UnitZ();
   grid_found_ = CandidateList(0.5 * view.span_px, kApartOnGrid * view.span_px, axis);
@@ -94,7 +94,7 @@ bool ObjectSearch::begin(const SearchProblem& problem, ViewEdges& view_edges,
 }
 
 /// Ranges of the grid, and the view that holds them.
-bool ObjectSearch::layOut(ViewSize& size) {
+bool ObjectSearch::layOut() {
   const SearchProblem& problem = *problem_;
   const Eigen::Vector3d middle_m = problem.camera_from_station_seed * problem.scene.centre();
   if (!(middle_m.z() > 0.0)) return false;
@@ -110,6 +110,7 @@ bool ObjectSearch::layOut(ViewSize& size) {
                              {atan(reach_m.y() / depth_m_), atan(reach_m.x() / depth_m_)}});
   depth_range_ = std::min(reach_m.z() / depth_m_, kMostDepth);
   depths_ = placesFor(depth_range_, kDepth);
+  ViewSize& size = view_size_;
   size.span_px = kSpan_px;
   size.margin_px = kMargin * kSpan_px;
   size.slide_x = std::min(reach_m.x() / depth_m_, kFarthestSlide);

@@ -35,6 +35,10 @@ class ObjectSearch {
                            EdgeRenderer& renderer, EdgeRender& render);
   /// One bounded slice; true when the candidates are complete.
   [[nodiscard]] bool step();
+  /// Faces the scene as for the search again; false when it is outside the image.
+  [[nodiscard]] bool beginView() {
+    return view_edges_->begin(*problem_, problem_->camera_from_station_seed, view_size_);
+  }
 
   /// The best poses, the best first.
   std::span<const SearchCandidate> candidates() const { return found_.candidates(); }
@@ -49,7 +53,7 @@ class ObjectSearch {
     double normal_x = 0.0, normal_y = 0.0;
   };
 
-  bool layOut(ViewSize& size);
+  bool layOut();
   bool stepRender();
   bool nextDirection();
   bool nextDescent();
@@ -66,6 +70,7 @@ class ObjectSearch {
   ViewEdges* view_edges_ = nullptr;
   EdgeRenderer* renderer_ = nullptr;
   EdgeRender* render_ = nullptr;
+  ViewSize view_size_;
   double depth_m_ = 0.0;  ///< of the scene's middle
   RotationGrid rotations_;
   double depth_range_ = 0.0;  ///< to either side, as a share of the depth

@@ -36,12 +36,11 @@ struct Round {
       0.0;  ///< other poses whose evidence is lower than the best by more are left out
 };
 constexpr std::array<Round, 4> kRounds = {{
-    {0, 0, CandidateList::kCapacity, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
+    {0, 0, 12, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
     {1, 1, 4, 10, 8, 0.5},
     {2, kFinest, 1, PoseSearch::kMaxCandidates, 5, 0.7},
     {1, kFinest, 1, 1, 1, 0.0},  // of the seed alone
 }};
-constexpr int kSuspendedRound = 1;  ///< the first one that leaves poses to resume()
 constexpr int kLastRound = 2;
 constexpr int kSeedRound = 3;
 constexpr double kMargin = 0.1;  ///< around the object, of its size
@@ -132,6 +131,8 @@ void PoseSearch::takeFound() {
     candidate.found = found;
     candidate.camera_from_station = found.camera_from_station;
   }
+  found_ = waiting_;
+  found_count_ = waiting_count_;
   kept_count_ = 0;
   round_ = next_ = 0;
 }
@@ -140,11 +141,10 @@ bool PoseSearch::resume() {
   if (!isSuspended()) return false;
   resumed_ = true;
   left_ = 0;
-  waiting_ = first_;
-  waiting_count_ = first_count_;
+  waiting_ = found_;
+  waiting_count_ = found_count_;
   kept_count_ = 0;
-  round_ = kSuspendedRound;
-  next_ = 0;
+  round_ = next_ = 0;
   return beginNext();
 }
 
@@ -178,10 +178,6 @@ bool PoseSearch::beginRound() {
   waiting_ = kept_;
   waiting_count_ = kept_count_;
   kept_count_ = 0;
-  if (round_ == kSuspendedRound) {
-    first_ = waiting_;
-    first_count_ = waiting_count_;
-  }
   return true;
 }
 
@@ -232,7 +228,11 @@ bool PoseSearch::isSame(const Pose& first_pose, const Pose& second_pose) const {
 bool PoseSearch::beginLevel() {
   pass_ = 0;
   rendering_ = false;
-  if (level_ == 0) {
+  if (level_ == 0 && resumed_ && next_ == 1) {
+    phase_ = Phase::kView;
+    return search_.beginView();
+  }
+  if (level_ == 0) {  // in the same view
     view_from_station_ = view_edges_.inView(current_.camera_from_station);
     phase_ = Phase::kRender;
     return true;

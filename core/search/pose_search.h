@@ -85,9 +85,9 @@ class PoseSearch {
   std::array<PoseCandidate, CandidateList::kCapacity> waiting_, kept_;
   int waiting_count_ = 0;
   int kept_count_ = 0;
-  /// Poses of the round that resume() begins with.
-  std::array<PoseCandidate, CandidateList::kCapacity> first_;
-  int first_count_ = 0;
+  /// Poses that the search found, for resume().
+  std::array<PoseCandidate, CandidateList::kCapacity> found_;
+  int found_count_ = 0;
   int left_ = 0;  ///< to resume()
 
   Phase phase_ = Phase::kDone;

@@ -146,6 +146,7 @@ PassPlan ViewsLocalizer::planOf(std::size_t index) const {
   PassPlan plan = plan_;
   if (phase_ == Phase::kIterate) plan = attempt_.plan(view.pass.context());
   plan.camera_from_station = view.camera_from_first * plan_.camera_from_station;
+  plan.rendered_from_station = view.camera_from_first * plan_.rendered_from_station;
   plan.uncertainty = turnedInto(view.camera_from_first, plan_.uncertainty);
   return plan;
 }

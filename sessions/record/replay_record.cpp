@@ -140,7 +140,10 @@ class Replayer {
   void startFromCandidate(const IterationTrace& iteration);
   Seed seedOfRepeated(const IterationTrace& iteration) const;
   IterationTrace iterationOf(const RecordedIteration& recorded);
-  Pose renderedPose(const IterationTrace& iteration);
+  Pose matchedPose(const IterationTrace& iteration) const;
+  bool renderAs(const RecordedIteration& recorded, const Pose& camera_from_station,
+                IterationTrace& iteration);
+  bool renderRefined(const RecordedIteration& recorded, IterationTrace& iteration);
   void renderAgain(const RecordedIteration& recorded, IterationTrace& iteration);
   void fillTemplates(const RecordedIteration& recorded, IterationTrace& iteration);
   Match matchOf(const RecordedTemplate& recorded, const Template& item,
@@ -165,7 +168,7 @@ class Replayer {
   std::optional<std::int32_t> attempt_begin_;  ///< index of its first iteration, if known
   Seed attempt_seed_;                          ///< where it started, and within what
   std::map<std::int32_t, Seed> seeds_;         ///< of the attempts of a run that searched
-  std::optional<Pose> refined_render_;         ///< pose of the last refinement's render
+  std::vector<Pose> refined_from_;             ///< poses that later refinements may render from
   bool noted_render_ = false;
   bool noted_refinement_ = false;
 };
@@ -226,7 +229,6 @@ void Replayer::startAttempt(const IterationTrace& iteration) {
   const bool follows =
       !run_.iterations.empty() && run_.iterations.back()->index == iteration.index - 1;
   attempt_ = iteration.attempt;
-  refined_render_.reset();
   attempt_begin_.reset();
   if (iteration.attempt == 0) attempt_begin_ = 0;
   if (iteration.attempt > 0 && follows) attempt_begin_ = iteration.index;
@@ -256,30 +258,50 @@ Seed Replayer::seedOfRepeated(const IterationTrace& iteration) const {
   return seedOf(given_);
 }
 
-/// Of a match the pose before it, rolled; of a refinement perhaps that of the last render.
-Pose Replayer::renderedPose(const IterationTrace& iteration) {
+/// The pose before a match, rolled.
+Pose Replayer::matchedPose(const IterationTrace& iteration) const {
   const Pose& before = iteration.camera_from_station_before;
-  if (iteration.kind == IterationKind::kMatch) {
-    refined_render_.reset();
-    const auto chosen = static_cast<std::size_t>(iteration.chosen_hypothesis);
-    return chosen == 0 ? before
-                       : rolledAboutScene(before, iteration.hypotheses[chosen].roll_rad, bounds_);
+  const auto chosen = static_cast<std::size_t>(iteration.chosen_hypothesis);
+  return chosen == 0 ? before
+                     : rolledAboutScene(before, iteration.hypotheses[chosen].roll_rad, bounds_);
+}
+
+/// Whether the render from a pose is the one on board.
+bool Replayer::renderAs(const RecordedIteration& recorded, const Pose& camera_from_station,
+                        IterationTrace& iteration) {
+  return scene_.render(camera_from_station, iteration.level, iteration.render) &&
+         (!recorded.render_sha256 ||
+          renderHash(iteration.render.view()) == *recorded.render_sha256);
+}
+
+/// A refinement renders from the pose before it, keeps the render of an earlier one, or renders
+/// from a pose found before, as restarts do.
+bool Replayer::renderRefined(const RecordedIteration& recorded, IterationTrace& iteration) {
+  const Pose& before = iteration.camera_from_station_before;
+  bool same = renderAs(recorded, before, iteration);
+  // Where one render differs, others may, too: they would all be tried in vain.
+  if (!noted_render_)
+    for (auto from = refined_from_.rbegin(); !same && from != refined_from_.rend(); ++from)
+      same = renderAs(recorded, *from, iteration);
+  if (!same) {
+    iteration.render = {};
+    (void)scene_.render(before, iteration.level, iteration.render);
   }
-  const double again_px = optionsAt(iteration.index).loop.render_again_px;
-  const bool reuse = refined_render_ && displacementBetween_px(*refined_render_, before, bounds_,
-                                                               given_.camera) < again_px;
-  if (!reuse) refined_render_ = before;
-  return *refined_render_;
+  refined_from_.push_back(before);
+  if (isUsable(iteration.camera_from_station))
+    refined_from_.push_back(iteration.camera_from_station);
+  return same;
 }
 
 void Replayer::renderAgain(const RecordedIteration& recorded, IterationTrace& iteration) {
   const bool failed =
       iteration.reached == Stage::kRender && iteration.status == LocalizationStatus::kFault;
   if (!same_size_ || failed || !isUsable(iteration.camera_from_station_before)) return;
-  const bool rendered = scene_.render(renderedPose(iteration), iteration.level, iteration.render);
-  const bool same = rendered && (!recorded.render_sha256 ||
-                                 renderHash(iteration.render.view()) == *recorded.render_sha256);
+  const bool same = iteration.kind == IterationKind::kMatch
+                        ? renderAs(recorded, matchedPose(iteration), iteration)
+                        : renderRefined(recorded, iteration);
   if (same || std::exchange(noted_render_, true)) return;
+  const bool rendered = !iteration.render.row_begin.empty();
   remark((rendered ? "The station's render differs from that on board"
                    : "The station cannot be rendered") +
          inIteration(iteration) +

@@ -3,6 +3,8 @@
 // accepted.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 #include "core/localizer/acceptance.h"
 #include "core/localizer/localizer.h"
 #include "core/localizer/pose_change.h"
+#include "core/localizer/schedule.h"
 #include "tests/core/localizer/rail_scene.h"
 #include "tests/core/localizer/scene.h"
 
@@ -245,6 +248,53 @@ TEST(LocalizerSearch, OtherCandidates_AreRefinedOnlyWhereTheFirstDoesNotConvince
   EXPECT_EQ(searchesOf(convincing, LocalizationStatus::kConverged), 1);
   const Case rail = railCase(Ends::kOutside, 0.5, 1.7, 3);
   EXPECT_EQ(searchesOf(rail, LocalizationStatus::kAmbiguous), 2);
+}
+
+/// Restarts move the best pose to both sides: its render shows the scene for all of them.
+TEST(LocalizerSearch, Restarts_ShareTheRenderOfTheBestPose) {
+  const Case scene = stationCase(3);
+  OwnedRun run(scene.problem(), defaultProfile());
+  const RunLevels levels = levelsOf(sizeOf(scene.problem()), defaultProfile());
+  std::vector<Pose> found;
+  std::vector<Pose> restarted;
+  std::vector<std::int32_t> edges;
+  run.finish([&](const StepReport& report) {
+    if (!report.iteration_complete) return;
+    const Iteration& iteration = *run.localizer.workspace().iteration;
+    const Pose& rendered = iteration.render.camera_from_station;
+    const bool is_restart = iteration.level == levels.coarse &&
+                            std::find(found.begin(), found.end(), rendered) != found.end() &&
+                            rendered != iteration.camera_from_station_before;
+    if (is_restart) {
+      restarted.push_back(iteration.camera_from_station_before);
+      edges.push_back(iteration.render.pixel_count);
+      // Each ends where it has reached the best pose again.
+      EXPECT_LT(displacementBetween_px(rendered, iteration.camera_from_station,
+                                       matchedBounds(scene.problem().mesh), scene.problem().camera),
+                0.6 * static_cast<double>(1 << levels.coarse));
+    }
+    found.push_back(iteration.camera_from_station);
+  });
+  ASSERT_EQ(restarted.size(), 4u);
+  EXPECT_EQ(std::count(edges.begin(), edges.end(), edges.front()), 4);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(std::count(restarted.begin(), restarted.end(), restarted[i]), 1);
+}
+
+TEST(LocalizerSearch, FinalPose_HasTheContoursOfItsHypothesisAndItsOwnSupport) {
+  const Case scene = stationCase(3);
+  OwnedRun run(scene.problem(), defaultProfile());
+  run.finish();
+  const Workspace& workspace = run.localizer.workspace();
+  ASSERT_EQ(workspace.status, LocalizationStatus::kConverged);
+  const PoseHypothesis& best =
+      workspace.hypotheses[static_cast<std::size_t>(workspace.best_hypothesis)];
+  for (std::size_t view = 0; view < workspace.evidence.contours.size(); ++view)
+    EXPECT_EQ(workspace.evidence.contours[view].total_nats(),
+              best.evidence.contours[view].total_nats());
+  EXPECT_EQ(workspace.evidence.edge_support, workspace.support.share());
+  EXPECT_EQ(workspace.probability, workspace.evidence.probability());
+  EXPECT_NE(workspace.camera_from_station, best.camera_from_station);
 }
 
 TEST(LocalizerSearch, ResultIsTheHypothesisWithTheBestScore) {

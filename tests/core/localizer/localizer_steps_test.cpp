@@ -144,6 +144,7 @@ TEST(LocalizerSteps, SlicesAreSmall) {
   OwnedRun run(scene.problem(), defaultProfile());
   int edges = 0;
   int render = 0, renders = 0;
+  Pose rendered;
   int match = 0, templates = 0;
   int refine = 0, rounds_at_least = 0;
   run.finish([&](const StepReport& report) {
@@ -153,7 +154,11 @@ TEST(LocalizerSteps, SlicesAreSmall) {
     match += report.stage == Stage::kMatch ? 1 : 0;
     refine += report.stage == Stage::kRefine ? 1 : 0;
     if (!report.stage_complete) return;
-    if (report.stage == Stage::kRender) ++renders;
+    if (report.stage == Stage::kRender) {  // a render that is kept takes no slices
+      const Pose& from = workspace.iteration->render.camera_from_station;
+      renders += from != rendered ? 1 : 0;
+      rendered = from;
+    }
     if (report.stage == Stage::kTemplates) templates += workspace.iteration->templates.count;
     if (report.stage == Stage::kRefine) rounds_at_least += 2;
   });
