@@ -51,9 +51,8 @@ struct PassPlan {
   bool anchored = false;          ///< whether the two below constrain a refinement
   PosePrior anchor;               ///< the seed with its uncertainty as a Gaussian
   PoseEstimate matched;           ///< from the latest templates
-  /// A refinement ends when it comes nearer than this to one of these poses; px.
-  std::span<const PoseHypothesis> known;
-  double known_px = 0.0;
+  std::span<const PoseHypothesis> known;  ///< poses at which a refinement ends
+  double known_px = 0.0;                  ///< nearer than this; px
   /// Contours and regions measured at a pose that is as good as the record's; nullptr: of none.
   const PoseEvidence* evidence = nullptr;
 };
