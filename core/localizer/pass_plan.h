@@ -51,8 +51,9 @@ struct PassPlan {
   bool anchored = false;          ///< whether the two below constrain a refinement
   PosePrior anchor;               ///< the seed with its uncertainty as a Gaussian
   PoseEstimate matched;           ///< from the latest templates
-  std::span<const PoseHypothesis> known;  ///< poses at which a refinement ends
-  double known_px = 0.0;                  ///< nearer than this; px
+  /// Poses at which a refinement ends when it comes as near as `known_px`.
+  std::span<const PoseHypothesis> known;
+  double known_px = 0.0;  ///< of the full image
   /// Contours and regions measured at a pose that is as good as the record's; nullptr: of none.
   const PoseEvidence* evidence = nullptr;
 };
