@@ -54,7 +54,7 @@ struct PassPlan {
   /// Poses at which a refinement ends when it comes as near as `known_px`.
   std::span<const PoseHypothesis> known;
   double known_px = 0.0;  ///< of the full image
-  /// Contours and regions measured at a pose that is as good as the record's; nullptr: of none.
+  /// Contours and regions of a pose hardly different from the record's; nullptr: to be measured.
   const PoseEvidence* evidence = nullptr;
 };
 

@@ -280,15 +280,13 @@ StepReport Pass::stepRefine() {
 StepReport Pass::stepSupport() {
   if (!stage_begun_) {
     beginSupport();
-    evidence_complete_ = plan_.evidence != nullptr;
-    const bool measures = evidence_complete_ || memory_.evidence.begin(searched_, record().render);
-    if (!searches() || !measures) return end(Stage::kSupport);
-    if (evidence_complete_) return takeEvidence(*plan_.evidence);
+    if (!searches()) return end(Stage::kSupport);
+    if (plan_.evidence != nullptr) return takeEvidence(*plan_.evidence);
+    if (!memory_.evidence.begin(searched_, record().render)) return end(Stage::kSupport);
   }
   const StepReport slice = StepReport::of(Stage::kSupport, false);
   if (!evidence_complete_) {
-    evidence_complete_ = memory_.evidence.step();
-    return evidence_complete_ ? takeEvidence(measuredEvidence()) : slice;
+    return memory_.evidence.step() ? takeEvidence(measuredEvidence()) : slice;
   }
   if (!memory_.focal.step()) return slice;
   workspace_.focal = memory_.focal.fit();
@@ -328,6 +326,7 @@ PoseEvidence Pass::measuredEvidence() {
 StepReport Pass::takeEvidence(PoseEvidence evidence) {
   const Iteration& iteration = record();
   const bool is_refined = iteration.kind == IterationKind::kRefine;
+  evidence_complete_ = true;
   evidence.edge_support = workspace_.support.share();
   workspace_.evidence = evidence;
   workspace_.probability = evidence.probability();

@@ -170,7 +170,7 @@ Attempt PoseComparison::restart(int attempt, const RunContext& run) {
   const double motion_px = side * kRestart_px * static_cast<double>(1 << run.levels.fine);
   Attempt started(attempt, seed_, restarted_.moved(restarted_from_, current_.number / 2, motion_px),
                   true, run.options.loop);
-  // A pose that does not convince may be far from the right one: each restart renders anew.
+  // A pose that does not convince may be far from the right one: each restart has its own render.
   if (searches_on_) started.renderFrom(restarted_from_);
   return started;
 }

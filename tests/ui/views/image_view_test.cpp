@@ -164,7 +164,7 @@ class EdgeLinesOnImage : public ImageViewTest {
   }
 };
 
-/// Zigzags over the whole image, so many that they are not drawn at once.
+/// Zigzags over the whole image: more than are drawn at once.
 LinesPtr manyLines() {
   sessions::EdgeLines lines;
   for (int row = 0; row < kSide; ++row) {
