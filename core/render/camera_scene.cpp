@@ -94,8 +94,7 @@ Status CameraScene::create(const MeshView& mesh, const MeshAdjacency& adjacency,
   scene = CameraScene();
   const Status status = kept.countsOnly() ? Status::kOk : validateMesh(mesh);
   if (status != Status::kOk) return status;
-  if (adjacency.size() != mesh.faces.size() && !kept.countsOnly())
-    return Status::kInvalidMesh;
+  if (adjacency.size() != mesh.faces.size() && !kept.countsOnly()) return Status::kInvalidMesh;
   scene.mesh = mesh;
   scene.adjacency = adjacency;
   scene.cos_normal_threshold = kept.allocate<double>(mesh.parts.size());
@@ -324,11 +323,6 @@ bool faceEdges(const Corners& corners, Eigen::Vector3d edge[3]) {
   if (determinant < 0.0)
     for (int i = 0; i < 3; ++i) edge[i] = -edge[i];
   return determinant > 0.0 || determinant < 0.0;
-}
-
-bool facePlane(const CameraScene& scene, std::int32_t face, Eigen::Vector3d& plane) {
-  const auto [v0, v1, v2] = scene.corners(face);
-  return planeOf(crossProduct(v1 - v0, v2 - v0), v0, plane);
 }
 
 namespace {

@@ -52,15 +52,15 @@ struct CameraScene {
   /// Surfaces nearer than this are not rendered: no camera is in focus there.
   static constexpr double kNearPlane_m = 0.01;
 
-  MeshView mesh;                                  ///< not owned
-  MeshAdjacency adjacency;                        ///< of the mesh
-  std::size_t first_in_camera = 0;                ///< vertices from here on are fixed to the camera
-  BoundingBox station_box;                        ///< of the vertices before, station frame
-  BoundingBox camera_box;                         ///< of the others, camera frame
-  std::span<FixedPixel> vertex_px;                ///< one per vertex of the mesh
-  std::span<std::uint16_t> vertex_depth;          ///< one per vertex: floor((z - low_m) per_m)
-  FixedScale scale;                               ///< of pixels and depths
-  std::span<double> cos_normal_threshold;               ///< per part
+  MeshView mesh;                           ///< not owned
+  MeshAdjacency adjacency;                 ///< of the mesh
+  std::size_t first_in_camera = 0;         ///< vertices from here on are fixed to the camera
+  BoundingBox station_box;                 ///< of the vertices before, station frame
+  BoundingBox camera_box;                  ///< of the others, camera frame
+  std::span<FixedPixel> vertex_px;         ///< one per vertex of the mesh
+  std::span<std::uint16_t> vertex_depth;   ///< one per vertex: floor((z - low_m) per_m)
+  FixedScale scale;                        ///< of pixels and depths
+  std::span<double> cos_normal_threshold;  ///< per part
   /// Per face: bit i when the surface continues smoothly over edge i to a face of the same
   /// orientation; kFrontFacing when the outer side is seen from this pose; kNormalKnown when the
   /// face is wide enough for its normal to be known.
@@ -187,10 +187,13 @@ inline double dotProduct(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return true;
 }
 
-/// The plane of a face as 1/z = plane . ray; it points away from the camera, so -plane / |plane| is
-/// the face's unit normal on the camera's side, and 1 / |plane| its distance in metres. False when
-/// the face is degenerate or seen exactly edge-on.
-[[nodiscard]] bool facePlane(const CameraScene& scene, std::int32_t face, Eigen::Vector3d& plane);
+/// The plane of a face with these corners as 1/z = plane . ray; it points away from the camera, so
+/// -plane / |plane| is the face's unit normal on the camera's side, and 1 / |plane| its distance in
+/// metres. False when the face is degenerate or seen exactly edge-on.
+[[nodiscard]] inline bool planeThrough(const Corners& corners, Eigen::Vector3d& plane) {
+  const auto& [v0, v1, v2] = corners;
+  return planeOf(crossProduct(v1 - v0, v2 - v0), v0, plane);
+}
 
 /// Pixels that a face can cover: a conservative rectangle, empty when it holds no pixel centre.
 struct PixelBounds {

@@ -70,7 +70,8 @@ bool depthDiffers(double inverse_depth, double inverse_extended, double threshol
          threshold_m * inverse_depth * inverse_extended;
 }
 
-Eigen::Vector3d between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double s) {
+[[gnu::always_inline]] inline Eigen::Vector3d between(const Eigen::Vector3d& from,
+                                                      const Eigen::Vector3d& to, double s) {
   return from + (to - from) * s;
 }
 
@@ -302,10 +303,9 @@ void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x
       inverse_depth * plane.inverse_norm < kGrazing * std::sqrt(dotProduct(marked.ray, marked.ray));
   if (extended && grazing) inverse_depth = dotProduct(plane.plane, ray_at_line);
   if (!extended || grazing) {
-    const auto [v0, v1, v2] = scene.corners(face);
+    const auto& [v0, v1, v2] = planes_.corners(scene, face);
     const double farthest = std::max({v0.z(), v1.z(), v2.z()});
-    const double nearest =
-        std::max(std::min({v0.z(), v1.z(), v2.z()}), CameraScene::kNearPlane_m);
+    const double nearest = std::max(std::min({v0.z(), v1.z(), v2.z()}), CameraScene::kNearPlane_m);
     inverse_depth = std::max(inverse_depth, 1.0 / farthest);
     inverse_depth = std::min(inverse_depth, 1.0 / nearest);
   }

@@ -68,7 +68,7 @@ class SalientEdges {
     std::int32_t face = -1;  ///< of the nearer surface, where it ends
     bool has_line = false;
     Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the nearer side
-    std::int32_t edge_of = -1;  ///< the face whose edge the line is; -1: none
+    std::int32_t edge_of = -1;                       ///< the face whose edge the line is; -1: none
     std::int8_t edge = -1;
     std::uint8_t kind = 0;
   };

@@ -22,7 +22,7 @@ Shaded shade(const CameraScene& scene, const Eigen::Vector3d& ray, float inverse
   Shaded shaded;
   shaded.depth_m = 1.0F / inverse_depth;
   Eigen::Vector3d plane;
-  if (!facePlane(scene, face, plane)) return shaded;
+  if (!planeThrough(scene.corners(face), plane)) return shaded;
   const double exact = dotProduct(plane, ray);
   // The plane of a sliver is uncertain; the rendered depth then is within the face.
   if (std::abs(exact - static_cast<double>(inverse_depth)) <

@@ -14,65 +14,45 @@ constexpr int kMaxHops = 64;
 struct Exit {
   int edge = -1;
   double s = 2.0;
-  Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the triangle's side
 };
 
-/// Where the way from one ray to another leaves a face that it entered at a place through an edge
-/// (-1: it begins there). False when the face, given by its corners, has no area seen from the
-/// camera. The edges are those of faceEdges(), without the one passed already; the sign that turns
-/// them inwards is applied to their values, which gives the same bits.
-inline bool findExit(const Corners& vertex, int entered_through, double s_entered,
-                     const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to, Exit& exit) {
-  Eigen::Vector3d line = crossProduct(vertex[0], vertex[1]);
-  const double determinant = dotProduct(line, vertex[2]);
-  if (!(determinant > 0.0 || determinant < 0.0)) return false;
-  const double sign = determinant < 0.0 ? -1.0 : 1.0;
+/// Where the way from one ray to another leaves a face, seen from the camera, that it entered at a
+/// place through an edge (-1: it begins there). The sign that turns the edges inwards is applied to
+/// their values, which gives the same bits as faceEdges().
+inline Exit findExit(const PlaneCache::Edges& face, double sign, int entered_through,
+                     double s_entered, const Eigen::Vector3d& ray_from,
+                     const Eigen::Vector3d& ray_to) {
+  Exit exit;
   for (int i = 0; i < 3; ++i) {
     if (i == entered_through) continue;
-    if (i > 0)
-      line = crossProduct(vertex[static_cast<std::size_t>(i)],
-                          vertex[static_cast<std::size_t>(i < 2 ? i + 1 : 0)]);
+    const Eigen::Vector3d& line = face.line[static_cast<std::size_t>(i)];
     const double to = sign * dotProduct(line, ray_to);
     if (!(to <= 0.0)) continue;
     const double from = sign * dotProduct(line, ray_from);
     if (!(from > to)) continue;
     const double s = std::max(from > 0.0 ? from / (from - to) : 0.0, s_entered);
-    if (s < exit.s) exit = {i, s, sign * line};
+    if (s < exit.s) exit = {i, s};
   }
-  return true;
+  return exit;
 }
 
-/// The corners of the face beyond an edge: two are those of this face.
-struct Beyond {
-  Corners corner;
-  int third = -1;  ///< the corner that is not on the edge; -1: none
-};
-
-inline Beyond beyondEdge(const CameraScene& scene, std::int32_t face, const Corners& corner,
-                         int edge, std::int32_t beyond) {
-  const Face from = scene.mesh.faces[static_cast<std::size_t>(face)];
-  const Face to = scene.mesh.faces[static_cast<std::size_t>(beyond)];
+/// The corner of a face that is not on the edge to another face; -1: none.
+inline int cornerBeyond(const MeshView& mesh, std::int32_t face, int edge, std::int32_t beyond) {
+  const Face from = mesh.faces[static_cast<std::size_t>(face)];
+  const Face to = mesh.faces[static_cast<std::size_t>(beyond)];
   const auto first = static_cast<std::size_t>(edge);
   const std::size_t second = (first + 1) % 3;
-  Beyond found;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (to.vertex[i] == from.vertex[first]) {
-      found.corner[i] = corner[first];
-    } else if (to.vertex[i] == from.vertex[second]) {
-      found.corner[i] = corner[second];
-    } else {
-      found.corner[i] = scene.vertex(to.vertex[i]);
-      found.third = static_cast<int>(i);
-    }
+  for (int i = 2; i >= 0; --i) {
+    const auto vertex = to.vertex[static_cast<std::size_t>(i)];
+    if (vertex != from.vertex[first] && vertex != from.vertex[second]) return i;
   }
-  return found;
+  return -1;
 }
 
 /// A face folds back behind the surface when its third corner lies on the surface's side of the
 /// edge; this does not depend on the orientation of the mesh.
-bool foldsBack(const Beyond& face, const Eigen::Vector3d& line) {
-  return face.third < 0 ||
-         !(dotProduct(line, face.corner[static_cast<std::size_t>(face.third)]) < 0.0);
+bool foldsBack(const PlaneCache::Edges& face, int third, const Eigen::Vector3d& line) {
+  return third < 0 || !(dotProduct(line, face.corner[static_cast<std::size_t>(third)]) < 0.0);
 }
 
 int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighbour) {
@@ -127,21 +107,31 @@ double nearness(const PlaneCache::Entry& face, const PlaneCache::Entry& other) {
 PlaneCache PlaneCache::create(Arena& arena) {
   PlaneCache cache;
   cache.entries_ = arena.allocate<Entry>(kEntries);
+  cache.edges_ = arena.allocate<Edges>(kEntries);
   return cache;
 }
 
 void PlaneCache::clear() {
-  for (Entry& entry : entries_) entry = Entry();
+  for (Entry& entry : entries_) entry.face = -1;
+  for (Edges& edges : edges_) edges.face = -1;
 }
 
 void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry) {
   // The same for a face without a plane, whatever the entry held.
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
   entry.face = face;
-  entry.valid = facePlane(scene, scene.normalKnown(face) ? face : trustedFace(scene, face), plane);
+  const std::int32_t trusted = scene.normalKnown(face) ? face : trustedFace(scene, face);
+  entry.valid = planeThrough(corners(scene, trusted), plane);
   entry.plane = plane;
   const double norm2 = dotProduct(plane, plane);
   entry.inverse_norm = norm2 > 0.0 ? 1.0 / std::sqrt(norm2) : 0.0;
+}
+
+void PlaneCache::fillLines(Edges& edges) {
+  edges.lines_known = true;
+  for (std::size_t i = 0; i < 3; ++i)
+    edges.line[i] = crossProduct(edges.corner[i], edges.corner[(i + 1) % 3]);
+  edges.determinant = dotProduct(edges.line[0], edges.corner[2]);
 }
 
 SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,
@@ -151,22 +141,24 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
   end.face = start;
   SurfaceEnd turn;
   PlaneCache::Entry plane;  // of the face
-  Corners corner = scene.corners(start);
+  const PlaneCache::Edges* face = &planes.edges(scene, start);
   int entered_through = -1;
   for (int hop = 0; hop <= kMaxHops; ++hop) {
-    Exit exit;
-    if (!findExit(corner, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to, exit)) break;
+    if (!(face->determinant > 0.0 || face->determinant < 0.0)) break;
+    const double sign = face->determinant < 0.0 ? -1.0 : 1.0;
+    const Exit exit =
+        findExit(*face, sign, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to);
     end.ends = exit.edge >= 0;
     end.s = exit.s;
     if (!end.ends) break;
-    end.line = exit.line;
+    end.line = sign * face->line[static_cast<std::size_t>(exit.edge)];
     end.edge = static_cast<std::int8_t>(exit.edge);
     if (hop == kMaxHops) break;
 
     const std::int32_t next = scene.adjacency.beyond(end.face, exit.edge);
     if (next < 0) break;
-    const Beyond beyond = beyondEdge(scene, end.face, corner, exit.edge, next);
-    if (foldsBack(beyond, end.line)) break;
+    face = &planes.edges(scene, next);
+    if (foldsBack(*face, cornerBeyond(scene.mesh, end.face, exit.edge, next), end.line)) break;
     if (next == target) {
       if (turn.ends) end = turn;
       end.reached = true;
@@ -184,7 +176,6 @@ SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32
     entered_through = edgeTowards(scene, next, end.face);
     if (entered_through < 0) break;
     end.face = next;
-    corner = beyond.corner;
     plane = next_plane;
   }
   return end;

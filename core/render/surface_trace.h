@@ -11,8 +11,8 @@
 
 namespace boresight {
 
-/// Cache of the planes of the latest faces (see facePlane): neighbouring pixels need the same few
-/// planes.
+/// Cache of the planes (see planeThrough) and edges of the latest faces: neighbouring pixels need
+/// the same few faces.
 class PlaneCache {
  public:
   /// A face and its plane.
@@ -23,19 +23,49 @@ class PlaneCache {
     double inverse_norm = 0.0;  ///< distance of the plane from the camera centre, m
   };
 
+  /// A face's corners, and its edges seen from the camera's centre: corner i x corner i + 1.
+  struct Edges {
+    std::int32_t face = -1;               ///< -1: empty
+    bool lines_known = false;             ///< otherwise only the corners are
+    Corners corner;                       ///< camera frame, m
+    std::array<Eigen::Vector3d, 3> line;  ///< determinant (line . ray) > 0 on the face's side
+    double determinant = 0.0;             ///< of the corners; 0: no area seen from the camera
+  };
+
   static PlaneCache create(Arena& arena);  ///< Takes the entries from `arena`
-  void clear();                            ///< Removes all planes
+  void clear();                            ///< Removes all faces
   /// Valid until the next call.
   const Entry& get(const CameraScene& scene, std::int32_t face) {
     Entry& entry = entries_[static_cast<std::size_t>(face) % kEntries];
     if (entry.face != face) fill(scene, face, entry);
     return entry;
   }
+  /// Valid until the next call.
+  const Edges& edges(const CameraScene& scene, std::int32_t face) {
+    Edges& edges = cornersOf(scene, face);
+    if (!edges.lines_known) fillLines(edges);
+    return edges;
+  }
+  /// The same for the corners of a face alone.
+  const Corners& corners(const CameraScene& scene, std::int32_t face) {
+    return cornersOf(scene, face).corner;
+  }
 
  private:
   static constexpr std::size_t kEntries = 512;
-  static void fill(const CameraScene& scene, std::int32_t face, Entry& entry);
+  Edges& cornersOf(const CameraScene& scene, std::int32_t face) {
+    Edges& edges = edges_[static_cast<std::size_t>(face) % kEntries];
+    if (edges.face != face) {
+      edges.face = face;
+      edges.lines_known = false;
+      edges.corner = scene.corners(face);
+    }
+    return edges;
+  }
+  void fill(const CameraScene& scene, std::int32_t face, Entry& entry);
+  static void fillLines(Edges& edges);
   std::span<Entry> entries_;
+  std::span<Edges> edges_;
 };
 
 /// True when two surfaces' normals, both taken on the camera's side, differ by more than the angle
