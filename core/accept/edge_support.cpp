@@ -8,7 +8,7 @@
 namespace boresight {
 namespace {
 
-constexpr std::int32_t kMaxPlaces = 6000;  ///< enough for a share to within 0.5 %, in one slice
+constexpr std::int32_t kMaxPlaces = 3000;  ///< enough for a share to within 1 %, in one slice
 
 /// Displacements of the render that measure the share by chance, px of the render: beyond any
 /// search radius in use, and not a multiple of a power of two, which a raster may have.

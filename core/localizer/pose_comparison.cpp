@@ -26,7 +26,7 @@ constexpr double kOfRadius = 0.67;
 constexpr double kSame_px = 0.6;
 /// The evidence holds for poses nearer than this, as a share of the object's longer side: half a
 /// pixel of the finest view.
-constexpr double kSameEvidence = 0.5 / 420.0;
+constexpr double kSameEvidence = 0.5 / kEvidenceSpan_px.back();
 /// Motion of a restart, px of the fine level, root mean square.
 constexpr double kRestart_px = 7.0;
 

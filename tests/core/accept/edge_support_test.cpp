@@ -69,7 +69,7 @@ TEST(EdgeSupport, CoverageCountsEachRenderedEdgePixel) {
       const Rendering rendering =
           renderEdges(scene.solid, cameraAtLevel(scene.camera, level), pose);
       const EdgeRender& render = rendering.edges;
-      ASSERT_LT(render.pixel_count, 6000);  // every one is looked at
+      ASSERT_LT(render.pixel_count, 3000);  // every one is looked at
       const EdgeSearch search(kSupportDerivativeSigma_px);
       const double scale = level == 0 ? 1.0 : 2.0;
       int looked[2] = {0, 0};
