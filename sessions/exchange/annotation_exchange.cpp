@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -43,8 +44,24 @@ std::size_t placeOf(const Session& session, const std::string& case_id) {
   return place;
 }
 
-HandedPoses requirePoses(const Session& session, const std::vector<std::string>& case_ids) {
-  HandedPoses handed = handedPoses(session, case_ids);
+void tell(const ExportProgress& progress, std::size_t done, std::size_t of) {
+  if (progress) progress(static_cast<int>(done), static_cast<int>(of));
+}
+
+/// Case by case, in the order of the session.
+HandedPoses requirePoses(const Session& session, const std::vector<std::string>& case_ids,
+                         const ExportProgress& progress) {
+  for (const std::string& id : case_ids) (void)knownCase(session, id);
+  const std::set<std::string> asked(case_ids.begin(), case_ids.end());
+  HandedPoses handed;
+  for (std::size_t i = 0; i < session.cases.size(); ++i) {
+    const std::string& id = session.cases[i]->id;
+    tell(progress, i, session.cases.size());
+    if (!asked.empty() && !asked.contains(id)) continue;
+    HandedPoses one = handedPoses(session, {id});
+    std::ranges::move(one.poses, std::back_inserter(handed.poses));
+    std::ranges::move(one.notes, std::back_inserter(handed.notes));
+  }
   if (handed.poses.empty())
     throw InputError("session", "cases",
                      handed.notes.empty() ? "there is none" : handed.notes.front());
@@ -227,8 +244,9 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
   return case_poses;
 }
 
-CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids) {
-  const HandedPoses handed = requirePoses(session, case_ids);
+CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids,
+                          const ExportProgress& progress) {
+  const HandedPoses handed = requirePoses(session, case_ids, progress);
   CasePoses case_poses;
   case_poses.notes = handed.notes;
   for (const HandedPose& pose : handed.poses)
@@ -237,8 +255,9 @@ CasePoses posesToHandOver(const Session& session, const std::vector<std::string>
 }
 
 ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
-                              const std::vector<std::string>& case_ids, int scene_id) {
-  const HandedPoses handed = requirePoses(session, case_ids);
+                              const std::vector<std::string>& case_ids, int scene_id,
+                              const ExportProgress& progress) {
+  const HandedPoses handed = requirePoses(session, case_ids, progress);
   requireHonestName(file, handed);
   const std::vector<int> numbers = imageNumbers(session);
   const std::vector<int> stations = stationNumbers(session);
@@ -255,12 +274,14 @@ ExportReport exportBopResults(const Session& session, const std::filesystem::pat
   return report;
 }
 
-ExportReport exportColmap(const Session& session, const fs::path& folder, const CasePoses& poses) {
+ExportReport exportColmap(const Session& session, const fs::path& folder, const CasePoses& poses,
+                          const ExportProgress& progress) {
   requireOneStation(session, poses);
   const std::vector<std::string> names = imageNames(session);
   std::vector<PosedImage> images;
   std::vector<std::string> notes;
   for (const CasePose& pose : poses.poses) {
+    tell(progress, images.size(), poses.poses.size());
     const std::size_t place = placeOf(session, pose.case_id);
     const ExchangeCamera camera = exchangeCamera(*session.cases[place]);
     const std::string remark = remarkOf(session, pose);
@@ -276,7 +297,8 @@ ExportReport exportColmap(const Session& session, const fs::path& folder, const 
   return report;
 }
 
-ExportReport exportBop(const Session& session, const fs::path& folder, const CasePoses& poses) {
+ExportReport exportBop(const Session& session, const fs::path& folder, const CasePoses& poses,
+                       const ExportProgress& progress) {
   const std::vector<int> numbers = imageNumbers(session);
   const std::vector<int> stations = stationNumbers(session);
   writeFolderAtomically(folder, [&](const fs::path& to) {
@@ -284,6 +306,7 @@ ExportReport exportBop(const Session& session, const fs::path& folder, const Cas
     if (!fs::create_directory(to / "gray", error)) throw OutputError(to / "gray", error.message());
     std::vector<BopObject> objects;
     for (const CasePose& pose : poses.poses) {
+      tell(progress, objects.size(), poses.poses.size());
       const std::size_t place = placeOf(session, pose.case_id);
       const SessionCase& session_case = *session.cases[place];
       objects.push_back({{numbers[place], "", pinholeOf(prepared(session_case)),

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,13 @@ struct CasePoses {
 /// that does not exist, and when there is no pose.
 CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
                          bool robust);
+
+/// Called with the number of cases written or read so far, and of all.
+using ExportProgress = std::function<void(int done, int of)>;
+
 /// The poses of cases to be handed over (handedPoses). InputError when there is none.
-CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids);
+CasePoses posesToHandOver(const Session& session, const std::vector<std::string>& case_ids,
+                          const ExportProgress& progress = {});
 
 /// Result of an export.
 struct ExportReport {
@@ -42,7 +48,7 @@ struct ExportReport {
 /// validated a pose, or states that it is not validated. InputError when the cases are of several
 /// stations: a model has one world. OutputError.
 ExportReport exportColmap(const Session& session, const std::filesystem::path& folder,
-                          const CasePoses& poses);
+                          const CasePoses& poses, const ExportProgress& progress = {});
 
 /// Writes a new folder with a BOP scene (bop_scene.h) of the poses: scene_gt.json,
 /// scene_camera.json, and in gray/ the 8-bit images as cameras without distortion would have taken
@@ -51,14 +57,15 @@ ExportReport exportColmap(const Session& session, const std::filesystem::path& f
 /// the session's stations in their order, from 1. A `remark` in scene_gt.json names who validated a
 /// pose, or states that it is not validated. InputError when an image cannot be read; OutputError.
 ExportReport exportBop(const Session& session, const std::filesystem::path& folder,
-                       const CasePoses& poses);
+                       const CasePoses& poses, const ExportProgress& progress = {});
 
 /// Writes the handed-over poses of cases as a BOP19 results file: images and objects are numbered
 /// as `exportBop` does, in this scene; the score is 1 for a validated pose or one from annotations,
 /// else the edge support of its run. The format has no room for a remark: when a pose is not
 /// validated, the file's name must contain kNotValidatedName. InputError; OutputError.
 ExportReport exportBopResults(const Session& session, const std::filesystem::path& file,
-                              const std::vector<std::string>& case_ids, int scene_id);
+                              const std::vector<std::string>& case_ids, int scene_id,
+                              const ExportProgress& progress = {});
 inline constexpr const char* kNotValidatedName = "NOT-VALIDATED";
 
 /// Writes a case's annotations as points.json, or points.csv where the name ends so. InputError

@@ -10,7 +10,7 @@
 #include "sessions/review/review_status.h"
 #include "sessions/review/validated_pose_file.h"
 #include "ui/models/text.h"
-#include "ui/run/task_runner.h"
+#include "ui/run/export_runner.h"
 
 namespace boresight::ui {
 
@@ -28,6 +28,10 @@ QString exportNote(const sessions::ExportReport& report, const std::filesystem::
   return PoseExport::tr("%1 poses written to %2. %3")
       .arg(report.case_ids.size())
       .arg(fileNameOf(path), joinedNotes(report.notes));
+}
+
+QString writingText(const std::filesystem::path& path) {
+  return PoseExport::tr("Writing %1").arg(fileNameOf(path));
 }
 
 QString inSessionFolder(const Document& document, const QString& name) {
@@ -49,8 +53,8 @@ std::filesystem::path askForNewFile(QWidget& window, const QString& title, const
   return file.toStdString();
 }
 
-PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, TaskRunner& tasks)
-    : QObject(&window), window_(window), document_(document), state_(state), tasks_(tasks) {}
+PoseExport::PoseExport(QWidget& window, Document& document, ViewState& state, ExportRunner& exports)
+    : QObject(&window), window_(window), document_(document), state_(state), exports_(exports) {}
 
 void PoseExport::addTo(QMenu& menu) {
   QAction* pose = menu.addAction(tr("&Pose for hand-over..."), this, &PoseExport::askForPose);
@@ -97,15 +101,11 @@ QString PoseExport::bopResultsFileName() const {
                    .arg(QLatin1String(sessions::kNotValidatedName));
 }
 
-/// The pose is measured again: off this thread.
 template <class Write>
-void PoseExport::exportOne(const QString& key, const std::filesystem::path& file,
-                           const QString& note, Write write) {
-  Q_EMIT noted(
-      tr("Measuring the pose of %1 again for %2 ...").arg(fromText(caseId()), fileNameOf(file)));
-  tasks_.start(
-      key,
-      [write, session = document_.session(), id = caseId()](const std::stop_token&) {
+void PoseExport::exportOne(const std::filesystem::path& file, const QString& note, Write write) {
+  exports_.start(
+      writingText(file), tr("the pose of %1 is measured again").arg(fromText(caseId())),
+      [write, session = document_.session(), id = caseId()](const ExportRunner::Progress&) {
         return write(session, id);
       },
       [this, file, note, id = fromText(caseId())](const std::string& status) {
@@ -114,14 +114,14 @@ void PoseExport::exportOne(const QString& key, const std::filesystem::path& file
 }
 
 void PoseExport::exportPose(const std::filesystem::path& file) {
-  exportOne(QStringLiteral("export pose"), file, tr("Pose of %1 written to %2. It is %3."),
+  exportOne(file, tr("Pose of %1 written to %2. It is %3."),
             [file](const sessions::Session& session, const std::string& id) {
               return sessions::writeValidatedPose(file, session, id).review_status;
             });
 }
 
 void PoseExport::exportReport(const std::filesystem::path& file) {
-  exportOne(QStringLiteral("report pose"), file, tr("Report of %1 written to %2. It is %3."),
+  exportOne(file, tr("Report of %1 written to %2. It is %3."),
             [file](const sessions::Session& session, const std::string& id) {
               const sessions::PoseReport report = sessions::poseReport(session, id);
               sessions::writePoseReport(file, report);
@@ -129,26 +129,28 @@ void PoseExport::exportReport(const std::filesystem::path& file) {
             });
 }
 
-/// Traces are read, and images may have to be: off this thread.
 template <class Write>
 void PoseExport::exportAll(const std::filesystem::path& path, Write write) {
-  tasks_.start(
-      QStringLiteral("export poses to hand over"),
-      [write, session = document_.session()](const std::stop_token&) { return write(session); },
+  exports_.start(
+      writingText(path), tr("poses of all cases"),
+      [write, session = document_.session()](const ExportRunner::Progress& progress) {
+        return write(session, progress);
+      },
       [this, path](const sessions::ExportReport& report) {
         Q_EMIT noted(exportNote(report, path));
       });
 }
 
 void PoseExport::exportBopResults(const std::filesystem::path& file, int scene_id) {
-  exportAll(file, [file, scene_id](const sessions::Session& session) {
-    return sessions::exportBopResults(session, file, {}, scene_id);
+  exportAll(file, [file, scene_id](const sessions::Session& session, const auto& progress) {
+    return sessions::exportBopResults(session, file, {}, scene_id, progress);
   });
 }
 
 void PoseExport::exportColmap(const std::filesystem::path& folder) {
-  exportAll(folder, [folder](const sessions::Session& session) {
-    return sessions::exportColmap(session, folder, sessions::posesToHandOver(session, {}));
+  exportAll(folder, [folder](const sessions::Session& session, const auto& progress) {
+    return sessions::exportColmap(session, folder,
+                                  sessions::posesToHandOver(session, {}, progress));
   });
 }
 

@@ -17,7 +17,7 @@ class QWidget;
 
 namespace boresight::ui {
 
-class TaskRunner;
+class ExportRunner;
 
 /// Name of a file or a folder, without its path.
 QString fileNameOf(const std::filesystem::path& file);
@@ -25,6 +25,9 @@ QString fileNameOf(const std::filesystem::path& file);
 QString joinedNotes(const std::vector<std::string>& notes);
 /// Result of an export to `path`, for the status bar.
 QString exportNote(const sessions::ExportReport& report, const std::filesystem::path& path);
+
+/// Name of an export under way.
+QString writingText(const std::filesystem::path& path);
 
 /// A path in the session's folder; for an untitled session, in the operator's documents.
 QString inSessionFolder(const Document& document, const QString& name);
@@ -34,12 +37,12 @@ std::filesystem::path askForNewFile(QWidget& window, const QString& title, const
                                     const QString& filter);
 
 /// Exports poses to be handed over. Poses that are not validated are named so in the file and its
-/// name. noted() is emitted when an export is done; the task runner reports failures.
+/// name. noted() is emitted when an export is done; the runner reports progress and failures.
 class PoseExport : public QObject {
   Q_OBJECT
 
  public:
-  PoseExport(QWidget& window, Document& document, ViewState& state, TaskRunner& tasks);
+  PoseExport(QWidget& window, Document& document, ViewState& state, ExportRunner& exports);
 
   /// The entries of File > Export.
   void addTo(QMenu& menu);
@@ -70,8 +73,7 @@ class PoseExport : public QObject {
   bool isValidated(const std::string& case_id) const;
   QString caseFileName() const;
   template <class Write>
-  void exportOne(const QString& key, const std::filesystem::path& file, const QString& note,
-                 Write write);
+  void exportOne(const std::filesystem::path& file, const QString& note, Write write);
   template <class Write>
   void exportAll(const std::filesystem::path& path, Write write);
   /// For the shown case; `title` takes its id and its review status.
@@ -81,7 +83,7 @@ class PoseExport : public QObject {
   QWidget& window_;
   Document& document_;
   ViewState& state_;
-  TaskRunner& tasks_;
+  ExportRunner& exports_;
 };
 
 }  // namespace boresight::ui

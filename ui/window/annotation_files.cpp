@@ -11,7 +11,7 @@
 #include "ui/annotation/annotation_panel.h"
 #include "ui/models/text.h"
 #include "ui/review/pose_export.h"
-#include "ui/run/task_runner.h"
+#include "ui/run/export_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
 
@@ -85,18 +85,17 @@ void AnnotationFiles::exportAnnotations() {
   });
 }
 
-/// Images may have to be undistorted: off this thread.
 void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const QString& name) {
   const std::filesystem::path folder =
       QFileDialog::getSaveFileName(&window_, title, inSessionFolder(parts_.document, name))
           .toStdString();
   if (folder.empty()) return;
   parts_.annotation.finishMove();
-  parts_.tasks.start(
-      QStringLiteral("export poses"),
+  parts_.exports.start(
+      writingText(folder), tr("annotated poses of all cases"),
       [exporter, folder, session = parts_.document.session(),
-       robust = parts_.annotation.robust()](const std::stop_token&) {
-        return exporter(session, folder, sessions::annotatedPoses(session, {}, robust));
+       robust = parts_.annotation.robust()](const ExportRunner::Progress& progress) {
+        return exporter(session, folder, sessions::annotatedPoses(session, {}, robust), progress);
       },
       [this, folder](const sessions::ExportReport& report) {
         Q_EMIT noted(exportNote(report, folder));

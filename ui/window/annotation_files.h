@@ -37,7 +37,8 @@ class AnnotationFiles : public QObject {
  private:
   using Exporter = sessions::ExportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&,
-                                              const sessions::CasePoses&);
+                                              const sessions::CasePoses&,
+                                              const sessions::ExportProgress&);
   using Importer = sessions::ImportReport (*)(const sessions::Session&,
                                               const std::filesystem::path&, bool);
   /// Exports the annotated poses of all cases to a new folder; noted() is emitted when done.

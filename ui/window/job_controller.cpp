@@ -6,6 +6,7 @@
 #include "sessions/checks/checks.h"
 #include "ui/models/text.h"
 #include "ui/review/review_controller.h"
+#include "ui/run/export_runner.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/sequence_runner.h"
 #include "ui/run/task_runner.h"
@@ -49,6 +50,7 @@ JobController::JobController(const WindowParts& parts, ReviewController& review,
   connect(&parts_.document, &Document::opened, this, &JobController::update);
   connect(&parts_.document, &Document::changed, this, &JobController::update);
   connect(&parts_.sequence, &SequenceRunner::changed, this, &JobController::update);
+  connect(&parts_.exports, &ExportRunner::changed, this, &JobController::update);
   connect(&review_, &ReviewController::convergenceChanged, this, &JobController::update);
   connect(&review_, &ReviewController::checksChanged, this, &JobController::update);
   connect(escape_, &QShortcut::activated, this, &JobController::stop);
@@ -100,16 +102,21 @@ Job JobController::job() const {
             std::nullopt,
             true};
   }
-  if (run.runs || !review_.isConvergenceTestRunning()) return run;
-  Job test{tr("Convergence test"),      {},           review_.convergenceSoFar().seeds,
-           sessions::kConvergenceSeeds, std::nullopt, true};
-  return test;
+  if (run.runs) return run;
+  if (review_.isConvergenceTestRunning())
+    return {tr("Convergence test"),      {},           review_.convergenceSoFar().seeds,
+            sessions::kConvergenceSeeds, std::nullopt, true};
+  if (!parts_.exports.isBusy()) return run;
+  const ExportJob& written = parts_.exports.job();
+  Job job{written.name, written.detail, written.done, written.of, std::nullopt, true};
+  job.stops = false;
+  return job;
 }
 
 void JobController::update() {
   const Job next = job();
   if (!(next == strip_.job())) strip_.setJob(next);
-  escape_->setEnabled(next.runs);  // else it is the tools' and the panels'
+  escape_->setEnabled(next.runs && next.stops);  // else it is the tools' and the panels'
   const Document& document = parts_.document;
   strip_.setSaved(!document.isOpen()       ? QString()
                   : document.isUntitled()  ? tr("Not saved yet")

@@ -52,7 +52,8 @@ MainWindow::MainWindow(QWidget* parent)
       annotation_(document_, state_),
       onboard_(document_, state_, tasks_),
       quality_(document_, state_, tasks_),
-      parts_{document_, state_, tasks_, run_, cases_, annotation_, onboard_, quality_, sequence_},
+      parts_{document_,   state_,   tasks_,   run_,      cases_,
+             annotation_, onboard_, quality_, sequence_, exports_},
       body_(bodyIn(*this)),
       docks_(std::make_unique<WindowDocks>(*body_, *this, parts_)),
       workspaces_(new Workspaces(*body_, docks_->all(), this)),
@@ -144,6 +145,7 @@ void MainWindow::connectAll() {
   connect(&cases_, &CaseController::failed, this, &MainWindow::showMessage);
   connect(&cases_, &CaseController::batchChanged, this, &MainWindow::showState);
   connect(&tasks_, &TaskRunner::failed, this, &MainWindow::showMessage);
+  connect(&exports_, &ExportRunner::failed, this, &MainWindow::showMessage);
   connect(&run_, &RunController::stateChanged, this, &MainWindow::showState);
   connect(&run_, &RunController::stateChanged, this, [this] {
     if (run_.state() == RunState::kWorking) statusBar()->clearMessage();  // of what was before

@@ -10,6 +10,7 @@
 #include "ui/annotation/annotation_controller.h"
 #include "ui/review/onboard_controller.h"
 #include "ui/review/quality_controller.h"
+#include "ui/run/export_runner.h"
 #include "ui/run/run_controller.h"
 #include "ui/run/sequence_runner.h"
 #include "ui/run/task_runner.h"
@@ -61,6 +62,7 @@ class MainWindow : public QMainWindow {
   AnnotationController& annotation() { return annotation_; }
   OnboardController& onboard() { return onboard_; }
   ImagePanel& image();
+  ExportRunner& exports() { return exports_; }
   InputFindings& findings() { return *findings_; }
   Workspaces& workspaces() { return *workspaces_; }
   WindowFrame& frame() { return *frame_; }
@@ -94,6 +96,7 @@ class MainWindow : public QMainWindow {
   OnboardController onboard_;
   QualityController quality_;
   SequenceRunner sequence_;
+  ExportRunner exports_;
   WindowParts parts_;
   QMainWindow* body_ = nullptr;  ///< holds the docks
   std::unique_ptr<WindowDocks> docks_;

@@ -91,7 +91,7 @@ void WindowMenus::connectFile() {
   on(ui_.save, &files_, &SessionFiles::save);
   on(ui_.saveAs, &files_, &SessionFiles::saveAs);
   on(ui_.quit, &window_, &QWidget::close);
-  poses_ = new PoseExport(window_, parts_.document, parts_.state, parts_.tasks);
+  poses_ = new PoseExport(window_, parts_.document, parts_.state, parts_.exports);
   poses_->addTo(*ui_.exportMenu);
   connect(poses_, &PoseExport::noted, this,
           [this](const QString& message) { window_.statusBar()->showMessage(message); });

@@ -6,6 +6,7 @@ namespace boresight::ui {
 class AnnotationController;
 class CaseController;
 class Document;
+class ExportRunner;
 class OnboardController;
 class QualityController;
 class RunController;
@@ -24,6 +25,7 @@ struct WindowParts {
   OnboardController& onboard;
   QualityController& quality;
   SequenceRunner& sequence;
+  ExportRunner& exports;
 };
 
 }  // namespace boresight::ui

@@ -58,7 +58,7 @@ void JobStrip::setJob(const Job& job) {
   count_->setText(tr("%1 of %2 done").arg(job.done).arg(job.of));
   left_->setVisible(job.runs && job.seconds_left.has_value());
   left_->setText(job.seconds_left ? tr("%1 left").arg(durationText(*job.seconds_left)) : QString());
-  stop_->setVisible(job.runs);
+  stop_->setVisible(job.runs && job.stops);
   const StepInfo& info = stepInfo(job.step);
   step_->setText(QCoreApplication::translate("Step", info.text));
   step_->setToolTip(QCoreApplication::translate("Step", info.help));

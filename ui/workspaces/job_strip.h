@@ -22,6 +22,7 @@ struct Job {
   int of = 0;  ///< 0: nothing to count
   std::optional<double> seconds_left;
   bool runs = false;
+  bool stops = true;        ///< on request, while it runs
   Step step = Step::kNone;  ///< offered while nothing runs
 
   bool operator==(const Job&) const = default;

@@ -17,10 +17,12 @@
 #include "ui/panels/case/cases_panel.h"
 #include "ui/panels/diagnose/options_table.h"
 #include "ui/review/pose_export.h"
+#include "ui/run/export_runner.h"
 #include "ui/state/document.h"
 #include "ui/style/tokens.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/window_frame.h"
+#include "ui/workspaces/job_strip.h"
 #include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
 
@@ -393,15 +395,15 @@ class PoseExportTest : public ReviewPanelTest {
     openRun();
     QObject::connect(&exporter_, &PoseExport::noted, panel_.get(),
                      [this](const QString& text) { said_ = text; });
-    QObject::connect(&tasks_, &TaskRunner::failed, panel_.get(),
+    QObject::connect(&exports_, &ExportRunner::failed, panel_.get(),
                      [this](const QString& text) { said_ = text; });
   }
   bool rests() {
-    return QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatienceMs);
+    return QTest::qWaitFor([this] { return !exports_.isBusy(); }, kPatienceMs);
   }
 
-  TaskRunner tasks_;
-  PoseExport exporter_{*panel_, document_, state_, tasks_};
+  ExportRunner exports_;
+  PoseExport exporter_{*panel_, document_, state_, exports_};
   QString said_;
 };
 
@@ -520,6 +522,26 @@ TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
   runAndValidate();
   window_.setFocus();
   QTest::keySequence(&window_, QKeySequence::Undo);
+/// Measuring a pose again can take as long as its convergence test.
+TEST_F(ReviewWindowTest, Exports_AreInTheJobStripUntilTheyAreWritten) {
+  open(RunExample::get().withItsRun(file_));
+  JobStrip& strip = window_.frame().jobs();
+  PoseExport exporter(window_, window_.document(), window_.state(), window_.exports());
+  int cases = 0;
+  QObject::connect(&window_.exports(), &ExportRunner::changed, &window_,
+                   [&] { cases = std::max(cases, strip.job().of); });
+  exporter.exportReport(folder_.path() / "report.pdf");
+  exporter.exportColmap(folder_.path() / "colmap");
+  EXPECT_EQ(strip.job().name, QStringLiteral("Writing report.pdf"));
+  EXPECT_TRUE(strip.job().runs);
+  EXPECT_FALSE(strip.stop().isVisible()) << "it cannot be stopped";
+  ASSERT_TRUE(wait([&] { return !window_.exports().isBusy(); }));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "colmap")) << "none replaces another";
+  EXPECT_EQ(cases, 2) << "counted";
+  EXPECT_FALSE(strip.job().runs);
+}
+
   EXPECT_TRUE(test::has(listed(), "converged"));
   QTest::keySequence(&window_, QKeySequence::Redo);
   EXPECT_TRUE(test::has(listed(), "validated"));

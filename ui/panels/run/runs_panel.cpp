@@ -17,7 +17,7 @@ constexpr const char* kPinnedKey = "pinnedRuns";
 
 enum Column { kPin, kTime, kStatus, kChanged, kMoved, kColumns };
 
-QString taskKey() { return QStringLiteral("run list"); }
+QString runListKey() { return QStringLiteral("run list"); }
 
 /// What makes the run differ from a plain one.
 QString kindOf(const sessions::RunRecord& run) {
@@ -97,7 +97,7 @@ void RunsPanel::askForLines(const std::vector<sessions::RunRecord>& runs) {
   read_ = runs;
   lines_.clear();
   reader_.start(
-      taskKey(),
+      runListKey(),
       [runs, loaded = state_.currentCase()](const std::stop_token& stop) {
         return sessions::runListLines(runs, *loaded, stop);
       },
