@@ -88,25 +88,9 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
     });
   }
   ui_.reading->setMinimumHeight(2 * fontMetrics().lineSpacing());
-  connect(ui_.waiver, &QLineEdit::editingFinished, this, [this] {
-    if (!failed_check_.empty()) controller_.setReason(failed_check_, ui_.waiver->text().trimmed());
-  });
   connect(&controller_, &ReviewController::checksChanged, this, &DecisionForm::showWhatIsPossible);
   connect(&controller_, &ReviewController::reviewStatusChanged, this, &DecisionForm::followCase);
   followCase();
-}
-
-void DecisionForm::setFailedCheck(const std::string& id, const QString& title,
-                                  const QString& reason) {
-  failed_check_ = id;
-  ui_.waiver->setVisible(!id.empty());
-  ui_.waiver->setPlaceholderText(tr("Why does '%1' not matter?").arg(title));
-  if (!ui_.waiver->hasFocus()) ui_.waiver->setText(reason);
-}
-
-void DecisionForm::setNote(const QString& html) {
-  note_ = html;
-  showReading();
 }
 
 sessions::Signature DecisionForm::signature() const {
@@ -207,7 +191,6 @@ void DecisionForm::showReading() {
       parts << QStringLiteral("⚠ %1").arg(reason.toHtmlEscaped());
   if (controller_.awaitsConvergenceTest() && nextStep() == Act::kValidate)
     parts << tr("○ No convergence test: a competing pose is not excluded.");
-  if (!note_.isEmpty()) parts << note_;
   for (const Decision* decision : controller_.history()) parts << decisionHtml(*decision);
   if (controller_.history().empty()) parts << tr("<i>No decision on this case yet.</i>");
   const QString html = parts.join(QStringLiteral("<hr>"));

@@ -30,10 +30,6 @@ class DecisionForm : public QWidget {
 
   /// The shown reason why the next step is not possible.
   const QString& obstacle() const { return obstacle_; }
-  /// Sets a note above the former decisions.
-  void setNote(const QString& html);
-  /// The failed check whose waiver can be typed here; "": none.
-  void setFailedCheck(const std::string& id, const QString& title, const QString& reason);
   /// Without it no next case is shown.
   void setNext(Next next) { next_ = std::move(next); }
   /// Called by a key: asks for a missing name and reason, then decides and goes to the next case;
@@ -74,9 +70,7 @@ class DecisionForm : public QWidget {
   std::map<Act, QString> tips_;
   QString obstacle_;
   QString refusal_;  ///< reason why the last request was rejected
-  QString note_;
   QString read_;
-  std::string failed_check_;
   Ui::DecisionForm ui_;
 };
 

@@ -2,6 +2,7 @@
 #include "ui/review/review_panel.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <QtWidgets>
@@ -10,6 +11,7 @@
 #include "sessions/decision/check_limits.h"
 #include "ui/models/text.h"
 #include "ui/panels/case/cases_panel.h"
+#include "ui/review/check_cards.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
@@ -77,20 +79,6 @@ int rank(CheckState state) {
   return state == CheckState::kFailed ? 0 : state == CheckState::kPassed ? 1 : 2;
 }
 
-QString shortLimit(const sessions::Check& check) {
-  return fromText(sessions::limitText(check))
-      .replace(QStringLiteral("at most"), QStringLiteral("≤"))
-      .replace(QStringLiteral("at least"), QStringLiteral("≥"));
-}
-
-/// "0.37 of 0.40 mm" as everywhere for the pose's quality; "91.3 % (≥ 40 %)".
-QString foundAndLimit(const sessions::Check& check) {
-  if (!check.figure || !check.limit) return fromText(sessions::foundText(check));
-  if (check.id.starts_with("covariance_"))
-    return fromText(sessions::ofLimitText(*check.figure, *check.limit, check.unit));
-  return QStringLiteral("%1 (%2)").arg(fromText(sessions::foundText(check)), shortLimit(check));
-}
-
 /// In a side pane the limit is shown next to the figure found.
 class FoundCell final : public QStyledItemDelegate {
  public:
@@ -101,7 +89,7 @@ class FoundCell final : public QStyledItemDelegate {
   void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
     QStyledItemDelegate::initStyleOption(option, index);
     if (view_.isColumnHidden(ChecksModel::kLimit))
-      option->text = foundAndLimit(model_.at(index.row()).check);
+      option->text = foundAndLimit(model_.at(index.row()));
   }
 
  private:
@@ -109,27 +97,18 @@ class FoundCell final : public QStyledItemDelegate {
   const QTableView& view_;
 };
 
-QString reasonText(const CheckRow& row) {
-  if (row.check.state != CheckState::kFailed) return {};
-  return row.reason.isEmpty() ? ChecksModel::tr("✎ type a reason") : row.reason;
-}
-
-std::vector<TableColumn<CheckRow>> columns() {
-  using Row = const CheckRow&;
+std::vector<TableColumn<sessions::Check>> columns() {
+  using Row = const sessions::Check&;
   constexpr auto tr = [](const char* text) { return ChecksModel::tr(text); };
   return {
       {tr("Check"), tr("Check of the pose: ✗ failed, ✓ passed, – not applicable."), -1,
        [](Row row) {
-         return ChecksModel::sign(row.check.state) + QLatin1Char(' ') + fromText(row.check.title);
+         return ChecksModel::sign(row.state) + QLatin1Char(' ') + fromText(row.title);
        }},
       {tr("Found"), tr("Measured value with its unit; empty if the check has no figure."), 0,
-       [](Row row) { return fromText(sessions::foundText(row.check)); }},
+       [](Row row) { return fromText(sessions::foundText(row)); }},
       {tr("Limit"), tr("Limit of the measured value, from the preset or as edited under Limits."),
-       -1, [](Row row) { return shortLimit(row.check); }},
-      {tr("Reason to waive"),
-       tr("A pose with a failed check needs a reason to waive it. The reason is stored with the "
-          "pose, and dropped when the measured value changes."),
-       -1, reasonText},
+       -1, [](Row row) { return shortLimit(row); }},
   };
 }
 
@@ -171,72 +150,25 @@ QString ChecksModel::sign(CheckState state) {
                                         : QStringLiteral("–");
 }
 
-void ChecksModel::setRows(std::vector<CheckRow> rows, bool current) {
-  std::stable_sort(rows.begin(), rows.end(), [](const CheckRow& a, const CheckRow& b) {
-    return rank(a.check.state) < rank(b.check.state);
-  });
-  if (rows == this->rows() && current == current_) return;
+void ChecksModel::setChecks(std::vector<sessions::Check> checks, bool current) {
+  std::stable_sort(checks.begin(), checks.end(),
+                   [](const sessions::Check& a, const sessions::Check& b) {
+                     return rank(a.state) < rank(b.state);
+                   });
+  if (checks == rows() && current == current_) return;
   current_ = current;
-  setRowsByKey(std::move(rows), [](const CheckRow& row) { return row.check.id; });
-  Q_EMIT headerDataChanged(Qt::Horizontal, kCheck, kCheck);
+  setRowsByKey(std::move(checks), &sessions::Check::id);
 }
 
-int ChecksModel::count(CheckState state) const {
-  return static_cast<int>(std::count_if(rows().begin(), rows().end(), [state](const CheckRow& row) {
-    return row.check.state == state;
-  }));
-}
-
-QVariant ChecksModel::look(const CheckRow& row, int column, int role) const {
-  const bool placeholder = column == kReason && row.reason.isEmpty();
-  switch (role) {
-    case Qt::EditRole:
-      return column == kReason ? row.reason : valueOf(row, column);
-    case Qt::ToolTipRole:
-      return tr("%1: %2. %3")
-          .arg(fromText(row.check.title), fromText(sessions::checkStateText(row.check.state)),
-               fromText(row.check.sentence));
-    case Qt::ForegroundRole:
-      if (current_ && row.check.state != CheckState::kNotApplicable && !placeholder) return {};
-      return QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
-    case Qt::FontRole: {
-      QFont font;
-      font.setBold(row.check.state == CheckState::kFailed && column == kCheck);
-      font.setItalic(placeholder);
-      return font;
-    }
-    default:
-      return {};
-  }
-}
-
-bool ChecksModel::setData(const QModelIndex& index, const QVariant& value, int role) {
-  if (role != Qt::EditRole || !(flags(index) & Qt::ItemIsEditable)) return false;
-  const std::string id = at(index.row()).check.id;
-  Q_EMIT reasonEdited(id, value.toString());
-  return true;
-}
-
-Qt::ItemFlags ChecksModel::flags(const QModelIndex& index) const {
-  const Qt::ItemFlags flags = QAbstractTableModel::flags(index);
-  if (!index.isValid() || index.column() != kReason || !current_) return flags;
-  const bool failed = at(index.row()).check.state == CheckState::kFailed;
-  return failed ? flags | Qt::ItemIsEditable : flags;
-}
-
-QString ChecksModel::countsText() const {
-  if (rows().empty()) return tr("Check");
-  if (!current_) return tr("Check (out of date)");
-  return tr("Check: ✗ %1  ✓ %2  – %3")
-      .arg(count(CheckState::kFailed))
-      .arg(count(CheckState::kPassed))
-      .arg(count(CheckState::kNotApplicable));
-}
-
-QVariant ChecksModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  const bool counts = orientation == Qt::Horizontal && section == kCheck;
-  return counts && role == Qt::DisplayRole ? countsText()
-                                           : RowsModel::headerData(section, orientation, role);
+QVariant ChecksModel::look(const sessions::Check& row, int /*column*/, int role) const {
+  if (role == Qt::ToolTipRole)
+    return tr("%1: %2. %3")
+        .arg(fromText(row.title), fromText(sessions::checkStateText(row.state)),
+             fromText(row.sentence));
+  const bool pale = !current_ || row.state == CheckState::kNotApplicable;
+  return role == Qt::ForegroundRole && pale
+             ? QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text)
+             : QVariant();
 }
 
 ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
@@ -248,10 +180,13 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   ui_.splitter->setSizes({600, 200});
   ui_.convergenceSeeds->setValue(sessions::kConvergenceSeeds);
   buildTable();
-  ui_.passedFold->restore(false);
+  ui_.passedFold->restore(true);
   ui_.notApplicableFold->restore(true);
   for (const FoldButton* fold : {ui_.passedFold, ui_.notApplicableFold})
-    connect(fold, &FoldButton::foldedChanged, this, &ReviewPanel::showFolds);
+    connect(fold, &FoldButton::foldedChanged, this, [this] {
+      showFolds();
+      showChosen();
+    });
   connect(ui_.judged, QOverload<int>::of(&QComboBox::activated), this, [this] {
     controller_.setSource(static_cast<PoseSource>(ui_.judged->currentData().toInt()));
   });
@@ -261,7 +196,7 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
           &ReviewPanel::showReviewStatus);
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
   connect(&controller_, &ReviewController::convergenceChanged, this, &ReviewPanel::showConvergence);
-  connect(&model_, &ChecksModel::reasonEdited, &controller_, &ReviewController::setReason);
+  connect(ui_.failed, &CheckCards::reasonEdited, &controller_, &ReviewController::setReason);
   showReviewStatus();
   showChecks();
 }
@@ -270,21 +205,18 @@ QTableView& ReviewPanel::table() { return *ui_.checks; }
 
 void ReviewPanel::buildTable() {
   setUpTable(*ui_.checks, model_);
-  ui_.checks->setEditTriggers(QAbstractItemView::DoubleClicked |
-                              QAbstractItemView::SelectedClicked |
-                              QAbstractItemView::EditKeyPressed);
-  ui_.checks->setMinimumHeight(4 * ui_.checks->verticalHeader()->defaultSectionSize());
+  // It is as high as its rows: cards and rows scroll together.
+  ui_.checks->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  ui_.checks->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   QHeaderView& header = *ui_.checks->horizontalHeader();
   header.setSectionResizeMode(QHeaderView::ResizeToContents);
   header.setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-  for (const int column : {ChecksModel::kCheck, ChecksModel::kReason})
-    header.setSectionResizeMode(column, QHeaderView::Stretch);
+  header.setSectionResizeMode(ChecksModel::kCheck, QHeaderView::Stretch);
   header.setMinimumSectionSize(24);
   // Long names take a second line.
   ui_.checks->setWordWrap(true);
   ui_.checks->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   ui_.checks->setItemDelegateForColumn(ChecksModel::kFound, new FoundCell(model_, *ui_.checks));
-  hint_ = new EmptyHint(*ui_.checks);
   connect(ui_.checks->selectionModel(), &QItemSelectionModel::currentChanged, this,
           &ReviewPanel::showChosen);
   connect(&model_, &QAbstractItemModel::modelReset, this, &ReviewPanel::showChosen);
@@ -328,74 +260,52 @@ void ReviewPanel::showSources() {
 }
 
 void ReviewPanel::showChecks() {
-  const bool had_rows = model_.rowCount() > 0;
-  std::vector<CheckRow> rows;
+  const QString& problem = controller_.problem();
+  std::vector<FailedCheck> failed;
   for (const sessions::Check& check : controller_.checks())
-    rows.push_back({check, controller_.reasonFor(check)});
-  hint_->setText(controller_.problem().isEmpty() ? tr("The pose is being checked ...")
-                                                 : controller_.problem());
-  model_.setRows(std::move(rows), controller_.isCurrent());
-  if (!had_rows && model_.rowCount() > 0) ui_.checks->setCurrentIndex(model_.index(0, 0));
-  showColumns();
+    if (check.state == CheckState::kFailed) failed.push_back({check, controller_.reasonFor(check)});
+  ui_.failed->setChecks(failed, controller_.isCurrent());
+  model_.setChecks(controller_.checks(), controller_.isCurrent());
+  ui_.emptyHint->setText(!problem.isEmpty()       ? problem
+                         : model_.rowCount() == 0 ? tr("The pose is being checked ...")
+                                                  : tr("Inputs have changed: the checks are out "
+                                                       "of date and run again."));
+  ui_.emptyHint->setVisible(!controller_.isCurrent());
   showFolds();
   showChosen();
   showConvergence();
 }
 
-/// Failed checks are never folded.
+/// Failed checks are cards.
 void ReviewPanel::showFolds() {
-  const auto foldOf = [this](CheckState state) {
-    return state == CheckState::kPassed          ? ui_.passedFold
-           : state == CheckState::kNotApplicable ? ui_.notApplicableFold
-                                                 : nullptr;
-  };
+  std::array<int, 3> counts = {};
+  const std::array<const FoldButton*, 3> folds = {nullptr, ui_.passedFold, ui_.notApplicableFold};
+  bool any = false;
   for (int row = 0; row < model_.rowCount(); ++row) {
-    const FoldButton* fold = foldOf(model_.state(row));
-    ui_.checks->setRowHidden(row, fold && fold->isFolded());
+    const auto kind = static_cast<std::size_t>(rank(model_.state(row)));
+    const bool shown = folds[kind] && !folds[kind]->isFolded();
+    ++counts[kind];
+    any |= shown;
+    ui_.checks->setRowHidden(row, !shown);
   }
-  const int passed = model_.count(CheckState::kPassed);
-  const int not_applicable = model_.count(CheckState::kNotApplicable);
-  ui_.passedFold->setContent(passed > 0 ? tr("%1 passed").arg(passed) : QString());
-  ui_.notApplicableFold->setContent(not_applicable > 0 ? tr("%1 not applicable").arg(not_applicable)
-                                                       : QString());
-}
-
-/// Failed checks come first; without any there is nothing to give a reason for. In a side pane the
-/// reason is typed below the table.
-void ReviewPanel::showColumns() {
-  const bool none = model_.rowCount() > 0 && !model_.isFailed(0);
-  const bool narrow = width() < kChecksColumns_px;
-  ui_.checks->setColumnHidden(ChecksModel::kLimit, narrow);
-  ui_.checks->setColumnHidden(ChecksModel::kReason, none || narrow);
+  ui_.checks->setVisible(any);
+  ui_.passedFold->setContent(counts[1] > 0 ? tr("%1 passed").arg(counts[1]) : QString());
+  ui_.notApplicableFold->setContent(counts[2] > 0 ? tr("%1 not applicable").arg(counts[2])
+                                                  : QString());
 }
 
 void ReviewPanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  showColumns();
+  ui_.checks->setColumnHidden(ChecksModel::kLimit, width() < kChecksColumns_px);
 }
 
+/// The sentence of the selected row.
 void ReviewPanel::showChosen() {
   const QModelIndex index = ui_.checks->currentIndex();
-  const bool failed = controller_.isCurrent() && index.isValid() &&
-                      index.row() < model_.rowCount() && model_.isFailed(index.row());
-  if (failed) {
-    const CheckRow& row = model_.at(index.row());
-    decision_->setFailedCheck(row.check.id, fromText(row.check.title), row.reason);
-  } else {
-    decision_->setFailedCheck({}, {}, {});
-  }
-  QString html;
-  if (!controller_.isCurrent() && model_.rowCount() > 0) {
-    html = controller_.problem().isEmpty()
-               ? tr("… Inputs have changed: the checks are out of date and run again.")
-               : tr("⚠ %1").arg(controller_.problem().toHtmlEscaped());
-  } else if (index.isValid() && index.row() < model_.rowCount()) {
-    const sessions::Check& check = model_.at(index.row()).check;
-    html = QStringLiteral("%1 <b>%2</b> %3")
-               .arg(ChecksModel::sign(check.state), fromText(check.title).toHtmlEscaped(),
-                    fromText(check.sentence).toHtmlEscaped());
-  }
-  decision_->setNote(html);
+  const bool shown = ui_.checks->isVisibleTo(this) && index.isValid() &&
+                     index.row() < model_.rowCount() && !ui_.checks->isRowHidden(index.row());
+  ui_.chosen->setVisible(shown);
+  if (shown) ui_.chosen->setText(fromText(model_.at(index.row()).sentence));
 }
 
 void ReviewPanel::showConvergence() {

@@ -10,12 +10,11 @@
 #include "ui_review_panel.h"
 
 #include "ui/models/rows_model.h"
+#include "ui/review/check_cards.h"
 #include "ui/review/decision_form.h"
 #include "ui/review/review_controller.h"
 
 namespace boresight::ui {
-
-class EmptyHint;
 
 /// Limits of the session's checks: preset, single limits, and whether a second person must approve.
 /// Stays open next to the checks; every change is immediately an edit.
@@ -33,51 +32,31 @@ class LimitsDialog : public QDialog {
   Ui::LimitsDialog ui_;
 };
 
-/// A check as the table shows it.
-struct CheckRow {
-  sessions::Check check;
-  QString reason;  ///< for waiving it, or empty
-
-  bool operator==(const CheckRow&) const = default;
-};
-
-/// The checks of a pose: failed ones first, then passed ones, then those not applicable. The reason
-/// for waiving a failed one is edited here.
-class ChecksModel : public RowsModel<CheckRow> {
+/// The checks of a pose: failed ones first, then passed ones, then those not applicable.
+class ChecksModel : public RowsModel<sessions::Check> {
   Q_OBJECT
 
  public:
-  enum Column { kCheck, kFound, kLimit, kReason };
+  enum Column { kCheck, kFound, kLimit };
 
   explicit ChecksModel(QObject* parent = nullptr);
 
   /// `current` false: their inputs have changed since, and they are shown as outdated. Rows of the
-  /// same checks change in place, so that selections and editors stay.
-  void setRows(std::vector<CheckRow> rows, bool current);
-  sessions::CheckState state(int row) const { return at(row).check.state; }
-  int count(sessions::CheckState state) const;
-  bool isFailed(int row) const { return at(row).check.state == sessions::CheckState::kFailed; }
+  /// same checks change in place, so that selections stay.
+  void setChecks(std::vector<sessions::Check> checks, bool current);
+  sessions::CheckState state(int row) const { return at(row).state; }
   /// "✓", "✗" or "–": each state has a unique shape.
   static QString sign(sessions::CheckState state);
 
-  bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
-  Qt::ItemFlags flags(const QModelIndex& index) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-
- Q_SIGNALS:
-  void reasonEdited(const std::string& check_id, const QString& reason);
-
  protected:
-  QVariant look(const CheckRow& row, int column, int role) const override;
+  QVariant look(const sessions::Check& row, int column, int role) const override;
 
  private:
-  QString countsText() const;
-
   bool current_ = true;
 };
 
-/// Panel for the review: the case's review status, the checks of its pose with their figures and
-/// limits, and the decision.
+/// Panel for the review: the case's review status, the failed checks of its pose as cards, the
+/// others folded to a line, and the decision.
 class ReviewPanel : public QWidget {
   Q_OBJECT
 
@@ -99,7 +78,6 @@ class ReviewPanel : public QWidget {
   void showSources();
   void showChecks();
   void showChosen();
-  void showColumns();
   void showFolds();
   void showConvergence();
   void askForConvergenceTest();
@@ -107,7 +85,6 @@ class ReviewPanel : public QWidget {
 
   ReviewController controller_;
   ChecksModel model_;
-  EmptyHint* hint_ = nullptr;
   DecisionForm* decision_ = nullptr;
   Ui::ReviewPanel ui_;
 };

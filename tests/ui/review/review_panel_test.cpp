@@ -113,34 +113,53 @@ TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
   EXPECT_TRUE(test::has(banner(), "NOT VALIDATED"));
 }
 
-TEST_F(ReviewPanelTest, ChecksThatDoNotApplyAreFoldedAndAClickShowsThem) {
+TEST_F(ReviewPanelTest, FailedChecksAreCards_OthersFoldToALine) {
   openRun();
   askTooMuch();
   const auto shown = [this](CheckState state) {
     int count = 0;
     for (const sessions::Check& check : controller().checks())
-      count += check.state == state &&
+      count += check.state == state && hands().table().isVisible() &&
                !hands().table().isRowHidden(hands().rowOf(fromText(check.title)));
     return count;
   };
-  const auto all = [this](CheckState state) {
-    const auto& checks = controller().checks();
-    return static_cast<int>(std::count_if(checks.begin(), checks.end(),
-                                          [&](const auto& each) { return each.state == state; }));
+  const auto all = [this](CheckState state) { return countOf(controller().checks(), state); };
+  const auto click = [this](const char* name) {
+    auto* fold = panel_->findChild<FoldButton*>(QLatin1String(name));
+    QTest::mouseClick(fold, Qt::LeftButton);
+    return fold->text();
   };
-  ASSERT_GT(all(CheckState::kNotApplicable), 0);
-  EXPECT_EQ(shown(CheckState::kNotApplicable), 0);
+  const auto* cards = panel_->findChild<CheckCards*>();
+  EXPECT_EQ(cards->findChildren<QLineEdit*>().size(), all(CheckState::kFailed));
+  QStringList texts;
+  for (const QLabel* label : cards->findChildren<QLabel*>()) texts << label->text();
+  for (const sessions::Check& check : controller().checks())
+    if (check.state == CheckState::kFailed) {
+      EXPECT_TRUE(texts.contains(fromText(check.sentence)) && texts.contains(foundAndLimit(check)));
+    }
+  EXPECT_FALSE(hands().table().isVisible()) << "at first";
+  EXPECT_EQ(click("passedFold"), QStringLiteral("%1 passed").arg(all(CheckState::kPassed)));
   EXPECT_EQ(shown(CheckState::kPassed), all(CheckState::kPassed));
-  auto* fold = panel_->findChild<FoldButton*>(QStringLiteral("notApplicableFold"));
-  EXPECT_TRUE(fold->text().startsWith(QString::number(all(CheckState::kNotApplicable))));
-  QTest::mouseClick(fold, Qt::LeftButton);
+  EXPECT_EQ(shown(CheckState::kNotApplicable), 0);
+  EXPECT_EQ(shown(CheckState::kFailed), 0) << "they are cards";
+  ASSERT_GT(all(CheckState::kNotApplicable), 0);
+  click("notApplicableFold");
   EXPECT_EQ(shown(CheckState::kNotApplicable), all(CheckState::kNotApplicable));
-  QTest::mouseClick(panel_->findChild<FoldButton*>(QStringLiteral("passedFold")), Qt::LeftButton);
-  EXPECT_EQ(shown(CheckState::kPassed), 0);
-  EXPECT_EQ(shown(CheckState::kFailed), all(CheckState::kFailed)) << "never folded";
   const ReviewPanel next(document_, state_);
   EXPECT_FALSE(next.findChild<FoldButton*>(QStringLiteral("notApplicableFold"))->isFolded())
       << "as it was left";
+}
+
+/// Other checks may change while the operator types.
+TEST_F(ReviewPanelTest, ReasonThatIsBeingTyped_StaysWhileItsCheckIsTheSame) {
+  openRun();
+  askTooMuch();
+  auto* reason = panel_->findChild<QLineEdit*>(QStringLiteral("waiver"));
+  reason->setFocus();
+  QTest::keyClicks(reason, QStringLiteral("half a rea"));
+  Q_EMIT controller().checksChanged();
+  EXPECT_EQ(reason->text(), QStringLiteral("half a rea"));
+  EXPECT_EQ(panel_->findChild<QLineEdit*>(QStringLiteral("waiver")), reason);
 }
 
 TEST_F(ReviewPanelTest, HiddenPanel_ChecksNothing) {
@@ -501,6 +520,26 @@ TEST_F(ReviewWindowTest, BarResultChecksAndReport_StateOneQuality) {
   EXPECT_EQ(bar.verdict().tone == VerdictTone::kCaution, hands().failedCount() > 0);
 }
 
+/// Measuring a pose again can take as long as its convergence test.
+TEST_F(ReviewWindowTest, Exports_AreInTheJobStripUntilTheyAreWritten) {
+  open(RunExample::get().withItsRun(file_));
+  JobStrip& strip = window_.frame().jobs();
+  PoseExport exporter(window_, window_.document(), window_.state(), window_.exports());
+  int cases = 0;
+  QObject::connect(&window_.exports(), &ExportRunner::changed, &window_,
+                   [&] { cases = std::max(cases, strip.job().of); });
+  exporter.exportReport(folder_.path() / "report.pdf");
+  exporter.exportColmap(folder_.path() / "colmap");
+  EXPECT_EQ(strip.job().name, QStringLiteral("Writing report.pdf"));
+  EXPECT_TRUE(strip.job().runs);
+  EXPECT_FALSE(strip.stop().isVisible()) << "it cannot be stopped";
+  ASSERT_TRUE(wait([&] { return !window_.exports().isBusy(); }));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "colmap")) << "none replaces another";
+  EXPECT_EQ(cases, 2) << "counted";
+  EXPECT_FALSE(strip.job().runs);
+}
+
 TEST_F(ReviewWindowTest, ChangedOptions_AreOutdatedInBarAndBanner) {
   runAndValidate();
   const auto& bar = window_.frame().verdict();
@@ -522,26 +561,6 @@ TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
   runAndValidate();
   window_.setFocus();
   QTest::keySequence(&window_, QKeySequence::Undo);
-/// Measuring a pose again can take as long as its convergence test.
-TEST_F(ReviewWindowTest, Exports_AreInTheJobStripUntilTheyAreWritten) {
-  open(RunExample::get().withItsRun(file_));
-  JobStrip& strip = window_.frame().jobs();
-  PoseExport exporter(window_, window_.document(), window_.state(), window_.exports());
-  int cases = 0;
-  QObject::connect(&window_.exports(), &ExportRunner::changed, &window_,
-                   [&] { cases = std::max(cases, strip.job().of); });
-  exporter.exportReport(folder_.path() / "report.pdf");
-  exporter.exportColmap(folder_.path() / "colmap");
-  EXPECT_EQ(strip.job().name, QStringLiteral("Writing report.pdf"));
-  EXPECT_TRUE(strip.job().runs);
-  EXPECT_FALSE(strip.stop().isVisible()) << "it cannot be stopped";
-  ASSERT_TRUE(wait([&] { return !window_.exports().isBusy(); }));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report.pdf"));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "colmap")) << "none replaces another";
-  EXPECT_EQ(cases, 2) << "counted";
-  EXPECT_FALSE(strip.job().runs);
-}
-
   EXPECT_TRUE(test::has(listed(), "converged"));
   QTest::keySequence(&window_, QKeySequence::Redo);
   EXPECT_TRUE(test::has(listed(), "validated"));
