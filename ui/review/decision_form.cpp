@@ -93,6 +93,8 @@ DecisionForm::DecisionForm(ReviewController& controller, QWidget* parent)
   followCase();
 }
 
+void DecisionForm::forgetName() { ui_.decisionName->clear(); }
+
 sessions::Signature DecisionForm::signature() const {
   return {ui_.decisionName->text().trimmed().toStdString(),
           ui_.decisionComment->text().trimmed().toStdString()};

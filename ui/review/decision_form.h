@@ -17,7 +17,7 @@ namespace boresight::ui {
 
 /// Form of all decisions on the shown case: name, decision, reason, and former decisions. Actions
 /// that are not possible now are disabled, with the reason shown. The name is asked once in each
-/// run of the program.
+/// session.
 class DecisionForm : public QWidget {
   Q_OBJECT
 
@@ -32,6 +32,8 @@ class DecisionForm : public QWidget {
   const QString& obstacle() const { return obstacle_; }
   /// Without it no next case is shown.
   void setNext(Next next) { next_ = std::move(next); }
+  /// Clears the name: the reviewer of another session may be another person.
+  void forgetName();
   /// Called by a key: asks for a missing name and reason, then decides and goes to the next case;
   /// Escape withdraws the question.
   void ask(ReviewController::Act act);

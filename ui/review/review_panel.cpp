@@ -12,6 +12,7 @@
 #include "ui/models/text.h"
 #include "ui/panels/case/cases_panel.h"
 #include "ui/review/check_cards.h"
+#include "ui/state/document.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
@@ -175,6 +176,7 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
     : QWidget(parent), controller_(document, state) {
   ui_.setupUi(this);
   decision_ = new DecisionForm(controller_);
+  connect(&document, &Document::opened, decision_, &DecisionForm::forgetName);
   ui_.splitter->addWidget(decision_);
   ui_.splitter->setStretchFactor(0, 1);
   ui_.splitter->setSizes({600, 200});

@@ -228,16 +228,18 @@ TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
   EXPECT_EQ(reviewState(), ReviewState::kValidated);
 }
 
-TEST_F(ReviewPanelTest, TheNameStaysUntilTheProgramEndsAndTheCommentDoesNot) {
+TEST_F(ReviewPanelTest, TheNameStaysInTheSessionAndTheCommentDoesNot) {
   openRun();
   validateAs(QStringLiteral("Ada"));
-  const auto text = [](const ReviewPanel& panel, const char* name) {
-    return panel.findChild<QLineEdit*>(QLatin1String(name))->text();
+  const auto text = [this](const char* name) {
+    return panel_->findChild<QLineEdit*>(QLatin1String(name))->text();
   };
-  EXPECT_EQ(text(*panel_, "decisionComment"), QString());
-  EXPECT_EQ(text(*panel_, "decisionName"), QStringLiteral("Ada"));
-  const ReviewPanel next(document_, state_);
-  EXPECT_EQ(text(next, "decisionName"), QString()) << "another start is another reviewer";
+  EXPECT_EQ(text("decisionComment"), QString());
+  EXPECT_EQ(text("decisionName"), QStringLiteral("Ada"));
+  ASSERT_TRUE(document_.save());
+  EXPECT_EQ(text("decisionName"), QStringLiteral("Ada"));
+  ASSERT_TRUE(document_.create(folder_.path() / "two.boresight.json", RunExample::get().session));
+  EXPECT_EQ(text("decisionName"), QString()) << "another session is another reviewer's";
 }
 
 TEST_F(ReviewPanelTest, OneCaseAlone_OffersNoNext) {
