@@ -2,6 +2,7 @@
 #include "sessions/session/case_inputs.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/math.h"
 #include "sessions/io/cameras/camera_field.h"
@@ -160,8 +161,11 @@ std::optional<InputConcern> inputConcern(const LoadedCase& loaded) {
 
 JudgedFiles judgeFiles(const CaseFiles& files) {
   JudgedFiles judged;
-  const ReadFiles read = readEach(files, judged);
+  ReadFiles read = readEach(files, judged);
   compareFiles(files, read, judged);
+  if (read.image)
+    judged[static_cast<std::size_t>(InputKind::kImage)].image =
+        std::make_shared<const GrayImage>(std::move(*read.image));
   return judged;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -33,6 +34,7 @@ std::optional<InputConcern> inputConcern(const LoadedCase& loaded);
 struct JudgedFile {
   std::string text;     ///< description: "1024 x 1024 px, 8 bit"; empty: not given
   std::string problem;  ///< why it cannot be used, or does not fit the others; empty: it can
+  std::shared_ptr<const GrayImage> image;  ///< of the image: as the core gets it
 };
 /// By `InputKind`.
 using JudgedFiles = std::array<JudgedFile, kInputKinds>;

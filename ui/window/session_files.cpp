@@ -18,6 +18,7 @@
 #include "ui/run/task_runner.h"
 #include "ui/state/document.h"
 #include "ui/state/view_state.h"
+#include "ui/views/display_image.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/case_controller.h"
 #include "ui/window/change_input.h"
@@ -27,6 +28,7 @@ namespace boresight::ui {
 namespace {
 
 constexpr int kRecentFiles = 10;
+constexpr QSize kPicture(512, 192);  ///< of a chosen image, at most
 constexpr const char* kRecentKey = "recent";
 
 QString text(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
@@ -135,13 +137,25 @@ void SessionFiles::take(const std::vector<std::filesystem::path>& files) {
 
 /// Each is read at once, so that a wrong one is known before the others are there.
 void SessionFiles::judgeCollected() {
+  struct Judged {
+    sessions::JudgedFiles files;
+    QImage picture;
+  };
   judged_ = {};
+  picture_ = {};
   Q_EMIT collectedChanged();
   parts_.tasks.start(
       QStringLiteral("judge files"),
-      [files = collected_.one](const std::stop_token&) { return sessions::judgeFiles(files); },
-      [this](const sessions::JudgedFiles& judged) {
-        judged_ = judged;
+      [files = collected_.one](const std::stop_token&) {
+        Judged judged{sessions::judgeFiles(files), {}};
+        if (const auto image = std::move(judged.files.front().image))
+          judged.picture = grayImage(image->view())
+                               .scaled(kPicture, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+        return judged;
+      },
+      [this](const Judged& judged) {
+        judged_ = judged.files;
+        picture_ = judged.picture;
         Q_EMIT collectedChanged();
       });
 }
@@ -223,6 +237,7 @@ FilesSituation SessionFiles::situation() const {
 void SessionFiles::forgetCollected() {
   collected_ = {};
   judged_ = {};
+  picture_ = {};
   mesh_extent_.reset();
   Q_EMIT collectedChanged();
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <QImage>
 #include <QObject>
 #include <QString>
 #include <QStringList>
@@ -59,6 +60,8 @@ class SessionFiles : public QObject {
   const std::optional<double>& meshExtent() const { return mesh_extent_; }
   /// Description of the collected files, and why some cannot be used; empty until they are read.
   const sessions::JudgedFiles& judged() const { return judged_; }
+  /// The collected image, small; null until it is read.
+  const QImage& picture() const { return picture_; }
   /// Sets the unit; the case is created when nothing else is needed.
   void setMeshUnit(const std::string& unit);
   void askForFile(sessions::InputKind kind);
@@ -115,6 +118,7 @@ class SessionFiles : public QObject {
   WindowParts parts_;
   DroppedFiles collected_;  ///< of a case that is not complete yet
   sessions::JudgedFiles judged_;
+  QImage picture_;
   QString kept_;  ///< names of the files from an earlier drop
   std::optional<double> mesh_extent_;
   bool makes_new_session_ = false;

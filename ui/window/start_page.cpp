@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/window/start_page.h"
 
+#include <algorithm>
+
 #include <QtWidgets>
 
 #include "sessions/session/session_maker.h"
@@ -15,6 +17,7 @@ namespace {
 
 constexpr int kRecentShown = 5;
 constexpr int kExamplePicture = 64;
+constexpr int kSlotPicture = 96;  ///< high
 
 struct SlotText {
   Icon icon;
@@ -123,6 +126,8 @@ void StartPage::buildSlot(int index) {
   slot.name->setProperty("title", true);
   slot.name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   slot.detail = caption({});
+  slot.picture = named(new QLabel, ("slotPicture" + std::to_string(index)).c_str());
+  slot.picture->hide();
   slot.choose = new QPushButton(iconOf(Icon::kFolder), tr("Choose..."));
   slot.choose->setIconSize(kButtonIcon);
   auto* icon = new QLabel;
@@ -146,6 +151,7 @@ void StartPage::buildSlot(int index) {
   column->setContentsMargins(12, 8, 12, 12);
   column->setSpacing(8);
   column->addLayout(head);
+  column->addWidget(slot.picture);
   column->addWidget(slot.name);
   column->addWidget(slot.detail);
   if (index == kMesh) {
@@ -207,7 +213,17 @@ void StartPage::showSlots() {
            files.one.seed.empty() ? question(kSeed) : QString());
   slots_[kCamera].remove->setVisible(!files.one.camera.empty());  // a label's is the image's
   seedless_->setVisible(files.isSeedless());
+  showPicture();
   showUnits();
+}
+
+void StartPage::showPicture() {
+  QLabel& label = *slots_[kImage].picture;
+  QPixmap picture = QPixmap::fromImage(files_.picture());
+  label.setVisible(!picture.isNull());
+  if (picture.isNull()) return;
+  picture.setDevicePixelRatio(std::max(1.0, picture.height() / static_cast<double>(kSlotPicture)));
+  label.setPixmap(picture);
 }
 
 /// The unit is chosen by the size that it gives the station.

@@ -23,6 +23,7 @@ class SessionFiles;
 struct FileSlot {
   QFrame* card = nullptr;
   QLabel* state = nullptr;
+  QLabel* picture = nullptr;
   QLabel* name = nullptr;
   QLabel* detail = nullptr;
   QPushButton* choose = nullptr;
@@ -53,6 +54,7 @@ class StartPage : public QScrollArea {
   QWidget* buildGoOn();
   void showSlots();
   void showSlot(int index, bool added, const QString& name, const QString& detail);
+  void showPicture();
   void showUnits();
   void showRecent();
   void showLeft();

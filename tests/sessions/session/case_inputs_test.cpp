@@ -33,6 +33,8 @@ TEST(JudgeFiles, GoodFiles_SayWhatTheyAre) {
   const JudgedFiles judged = judgeFiles(exampleFiles());
   for (const JudgedFile& file : judged) EXPECT_EQ(file.problem, "");
   EXPECT_EQ(judgedOf(judged, InputKind::kImage).text, "1024 x 1024 px, 8 bit");
+  ASSERT_TRUE(judgedOf(judged, InputKind::kImage).image);
+  EXPECT_EQ(judgedOf(judged, InputKind::kImage).image->width, 1024);
   EXPECT_THAT(judgedOf(judged, InputKind::kCamera).text,
               AllOf(HasSubstr("1024 x 1024 px, "), HasSubstr(" deg")));
   EXPECT_THAT(judgedOf(judged, InputKind::kMesh).text, HasSubstr(" faces"));

@@ -41,6 +41,9 @@ TEST_F(StartPageTest, FilesAreJudgedAsTheyCome_AndRemoved) {
   window_.takeFiles({small, os / "camera.json"});
   ASSERT_TRUE(wait([&] { return texts().contains(QStringLiteral("✗ not usable")); }));
   EXPECT_TRUE(texts().contains(QStringLiteral("640 x 480 px, 8 bit")));
+  const auto& picture = find<QLabel>("slotPicture0");
+  ASSERT_TRUE(picture.isVisibleTo(&page()));
+  EXPECT_EQ(picture.sizeHint(), QSize(128, 96));
   const QString problem =
       QStringLiteral("The camera is for 1024 x 1024 px, the image is 640 x 480 px.");
   EXPECT_TRUE(texts().contains(problem));
@@ -57,6 +60,7 @@ TEST_F(StartPageTest, FilesAreJudgedAsTheyCome_AndRemoved) {
   find<QToolButton>("slotRemove0").click();
   ASSERT_TRUE(rests());
   EXPECT_EQ(texts().count(QStringLiteral("✓ added")), 3);
+  EXPECT_FALSE(picture.isVisibleTo(&page()));
   window_.takeFiles({os / "image.png"});
   ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }))
       << window_.lastMessage().toStdString();
