@@ -211,19 +211,24 @@ QImage halved(const QImage& fine, Combine&& combine) {
   return coarse;
 }
 
-/// The coarsest picture whose pixels cover at most `fine_per_pixel` of the finest one's; halves the
-/// last picture until there is one.
+/// The step of the coarsest picture whose pixels cover at most `fine_per_pixel` of the finest
+/// one's.
+int stepFor(double fine_per_pixel) {
+  int step = 0;
+  while ((2 << step) <= fine_per_pixel && step < 12) ++step;
+  return step;
+}
+
+/// Halves the last picture until there is one of this step.
 template <class Halve>
-const QImage& pictureFor(double fine_per_pixel, std::vector<QImage>& pictures, int& step,
-                         Halve&& halve) {
-  step = 0;
-  while ((2 << step) <= fine_per_pixel && step < 12) {
-    ++step;
-    if (static_cast<std::size_t>(step) == pictures.size())
-      pictures.push_back(halve(pictures.back()));
-  }
+const QImage& pictureAt(int step, std::vector<QImage>& pictures, Halve&& halve) {
+  while (pictures.size() <= static_cast<std::size_t>(step))
+    pictures.push_back(halve(pictures.back()));
   return pictures[static_cast<std::size_t>(step)];
 }
+
+/// With the smallest step that drops no bit.
+int stepForBits(double bits_per_pixel) { return stepFor(2.0 * bits_per_pixel - 1e-9); }
 
 }  // namespace
 
@@ -233,9 +238,14 @@ BitPixmaps::BitPixmaps(const BitImage& bits, const QColor& color) {
 
 /// Set pixels all have the same colour: OR keeps it.
 const QImage& BitPixmaps::at(double bits_per_pixel, int& step) {
-  return pictureFor(2.0 * bits_per_pixel - 1e-9, pictures_, step, [](const QImage& fine) {
+  step = stepForBits(bits_per_pixel);
+  return pictureAt(step, pictures_, [](const QImage& fine) {
     return halved<QRgb>(fine, [](QRgb a, QRgb b, QRgb c, QRgb d) { return a | b | c | d; });
   });
+}
+
+bool BitPixmaps::has(double bits_per_pixel) const {
+  return static_cast<std::size_t>(stepForBits(bits_per_pixel)) < pictures_.size();
 }
 
 GrayPyramid::GrayPyramid(QImage gray) {
@@ -243,7 +253,8 @@ GrayPyramid::GrayPyramid(QImage gray) {
 }
 
 const QImage& GrayPyramid::at(double image_per_pixel, int& step) const {
-  return pictureFor(image_per_pixel, pictures_, step, [](const QImage& fine) {
+  step = stepFor(image_per_pixel);
+  return pictureAt(step, pictures_, [](const QImage& fine) {
     return halved<uchar>(fine, [](int a, int b, int c, int d) {
       return static_cast<uchar>((a + b + c + d + 2) / 4);
     });

@@ -106,6 +106,8 @@ class BitPixmaps {
   /// of its pixels covers at least `bits_per_pixel` of them, so that drawing it drops none. Sets
   /// `step`.
   const QImage& at(double bits_per_pixel, int& step);
+  /// Whether that picture is made already.
+  bool has(double bits_per_pixel) const;
 
  private:
   std::vector<QImage> pictures_;  ///< by step, premultiplied ARGB

@@ -23,7 +23,10 @@ constexpr double kFaded = 0.25;
 constexpr double kCursorSize = 12.0;
 constexpr int kToolMargin = 56;  ///< of texts next to the tool strip
 constexpr int kMostBands = 16;
-constexpr double kWorkAtOnce = 40e3;  ///< length of lines on the screen, about 1.5 us a pixel
+constexpr double kWorkAtOnce = 40e3;    ///< length of lines on the screen, about 1.5 us a pixel
+constexpr double kWorkOfABit = 2e-3;    ///< making its picture, in the same unit
+constexpr double kWorkOfAPixel = 5e-3;  ///< of a picture on the screen
+constexpr double kWorkOfAMark = 30.0;
 const QColor kSwipeColor(255, 255, 255);
 
 }  // namespace
@@ -155,10 +158,11 @@ std::optional<ImageView::Pick> ImageView::pickAt(const QPointF& widget) const {
   return found;
 }
 
-QRect ImageView::visiblePixels() const {
+/// Of the image, within a part of the widget.
+QRect ImageView::visiblePixels(const QRectF& area) const {
   const ViewTransform& transform = drawing_->ground.transform;
-  const QPointF first = transform.toPixel(QPointF(0.0, 0.0));
-  const QPointF last = transform.toPixel(QPointF(width(), height()));
+  const QPointF first = transform.toPixel(area.topLeft());
+  const QPointF last = transform.toPixel(area.bottomRight());
   const QRect seen(
       QPoint(static_cast<int>(std::floor(first.x())), static_cast<int>(std::floor(first.y()))),
       QPoint(static_cast<int>(std::ceil(last.x())), static_cast<int>(std::ceil(last.y()))));
@@ -224,35 +228,54 @@ void ImageView::draw() {
   drawing_.reset();
 }
 
-/// Makes the picture of one bit image that has none; false when all have theirs.
+/// Makes the picture of one bit image that has none at this scale; false when all have theirs.
 bool ImageView::prepareBits() {
   if (layers_hidden_) return false;
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     const Layer& layer = layers_[i];
     std::vector<BitPixmaps>& pixmaps = drawn_[i].pixmaps;
-    if (!layer.isShown() || pixmaps.size() == layer.bits.size()) continue;
-    const LayerBits& bits = layer.bits[pixmaps.size()];
-    pixmaps.emplace_back(bits.bits, bits.color.isValid() ? bits.color : layer.style.color);
-    return true;
+    if (!layer.isShown()) continue;
+    for (std::size_t j = 0; j < layer.bits.size(); ++j) {
+      const LayerBits& bits = layer.bits[j];
+      const bool made = j < pixmaps.size();
+      if (made && pixmaps[j].has(bitsPerPixel(bits.level))) continue;
+      if (!made)
+        pixmaps.emplace_back(bits.bits, bits.color.isValid() ? bits.color : layer.style.color);
+      int step = 0;
+      (void)pixmaps[j].at(bitsPerPixel(bits.level), step);
+      return true;
+    }
   }
   return false;
 }
 
-/// As a length of lines on the screen; pictures of bits that are to be made count, too.
+/// Bits of this level that a pixel of the screen covers along an axis.
+double ImageView::bitsPerPixel(int level) const {
+  return 1.0 / (drawing_->ground.transform.scale() * devicePixelRatioF() * (1 << level));
+}
+
+/// As a length of lines on the screen.
 double ImageView::workToDraw() const {
-  constexpr double kWorkOfABit = 2e-3;
-  if (layers_hidden_) return 0.0;
-  const QRectF seen = QRectF(visiblePixels());
+  if (layers_hidden_ || image_.isNull()) return 0.0;
+  const ViewTransform& transform = drawing_->ground.transform;
+  const QRectF seen = QRectF(visiblePixels(rect()));
+  const double pixels =
+      std::pow(transform.scale() * devicePixelRatioF(), 2.0) * seen.width() * seen.height();
   const Eigen::AlignedBox2d box(Eigen::Vector2d(seen.left(), seen.top()),
                                 Eigen::Vector2d(seen.right(), seen.bottom()));
-  double work = 0.0;
+  double work = kWorkOfAPixel * pixels;  // of the image itself
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     const Layer& layer = layers_[i];
     if (!layer.isShown()) continue;
-    for (std::size_t j = drawn_[i].pixmaps.size(); j < layer.bits.size(); ++j)
-      work += kWorkOfABit * layer.bits[j].bits.width * layer.bits[j].bits.height;
-    if (layer.lines)
-      work += drawing_->ground.transform.scale() * sessions::lengthWithin(*layer.lines, box);
+    for (std::size_t j = 0; j < layer.bits.size(); ++j) {
+      const LayerBits& bits = layer.bits[j];
+      const std::vector<BitPixmaps>& made = drawn_[i].pixmaps;
+      if (j >= made.size() || !made[j].has(bitsPerPixel(bits.level)))
+        work += kWorkOfABit * bits.bits.width * bits.bits.height;
+    }
+    work += kWorkOfAPixel * pixels * static_cast<double>(layer.bits.size()) +
+            kWorkOfAMark * static_cast<double>(layer.marks.size());
+    if (layer.lines) work += transform.scale() * sessions::lengthWithin(*layer.lines, box);
   }
   return work;
 }
@@ -276,8 +299,8 @@ void ImageView::drawBand(const QRectF& band) {
     for (std::size_t i = 0; i < layers_.size(); ++i) paintLayer(painter, i);
     painter.restore();
   }
-  if (transform.scale() >= kGridScale) paintGrid(painter);
-  if (transform.scale() >= kValueScale) paintValues(painter);
+  if (transform.scale() >= kGridScale) paintGrid(painter, band);
+  if (transform.scale() >= kValueScale) paintValues(painter, band);
 }
 
 /// While another ground is drawn, the former one lies where its pixels are now.
@@ -365,7 +388,9 @@ void ImageView::paintLayer(QPainter& painter, std::size_t index) {
   painter.setRenderHint(QPainter::Antialiasing, true);
   if (layer.lines)
     paintLines(painter, transform, *layer.lines, lineOf(layer), painter.clipBoundingRect());
-  for (const Mark& mark : layer.marks) paintMark(painter, transform, mark, layer.style.color);
+  for (const Mark& mark : layer.marks)
+    if (reaches(transform, mark, painter.clipBoundingRect()))
+      paintMark(painter, transform, mark, layer.style.color);
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setOpacity(1.0);
 }
@@ -374,19 +399,18 @@ void ImageView::paintBits(QPainter& painter, const Layer& layer, DrawnLayer& dra
   const ViewTransform& transform = drawing_->ground.transform;
   painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
   for (std::size_t i = 0; i < layer.bits.size(); ++i) {
-    const double level_px = static_cast<double>(1 << layer.bits[i].level);
+    const int level = layer.bits[i].level;
     int step = 0;
-    const double per_device = 1.0 / (transform.scale() * devicePixelRatioF() * level_px);
-    const QImage& picture = drawn.pixmaps[i].at(per_device, step);
-    const double factor = level_px * static_cast<double>(1 << step);
+    const QImage& picture = drawn.pixmaps[i].at(bitsPerPixel(level), step);
+    const double factor = static_cast<double>(1 << level) * static_cast<double>(1 << step);
     const QRectF covered(-0.5, -0.5, picture.width() * factor, picture.height() * factor);
     painter.drawImage(transform.toWidget(covered), picture);
   }
 }
 
-void ImageView::paintGrid(QPainter& painter) const {
+void ImageView::paintGrid(QPainter& painter, const QRectF& band) const {
   const ViewTransform& transform = drawing_->ground.transform;
-  const QRect seen = visiblePixels();
+  const QRect seen = visiblePixels(band);
   painter.setPen(QColor(128, 128, 128, 70));
   for (int x = seen.left(); x <= seen.right() + 1; ++x) {
     const double at = transform.toWidget(QPointF(x - 0.5, 0.0)).x();
@@ -398,10 +422,10 @@ void ImageView::paintGrid(QPainter& painter) const {
   }
 }
 
-void ImageView::paintValues(QPainter& painter) const {
+void ImageView::paintValues(QPainter& painter, const QRectF& band) const {
   const ViewTransform& transform = drawing_->ground.transform;
   if (values_.isNull()) return;
-  const QRect seen = visiblePixels();
+  const QRect seen = visiblePixels(band);
   QFont small = font();
   small.setPixelSize(static_cast<int>(std::clamp(0.36 * transform.scale(), 9.0, 22.0)));
   painter.setFont(small);

@@ -193,6 +193,28 @@ double distanceTo(const ViewTransform& transform, const Mark& mark, const QPoint
   return std::max(0.0, length(widget - at) - 0.5 * mark.size_px);
 }
 
+bool reaches(const ViewTransform& transform, const Mark& mark, const QRectF& area) {
+  constexpr double kLabelHeight = 40.0;
+  const double margin = mark.size_px + mark.width + kLabelHeight;
+  double top = transform.toWidget(mark.at).y();
+  double bottom = top;
+  const auto extend = [&](const QPointF& pixel) {
+    const double y = transform.toWidget(pixel).y();
+    top = std::min(top, y);
+    bottom = std::max(bottom, y);
+  };
+  if (mark.shape == MarkShape::kArrow || mark.shape == MarkShape::kSegment) extend(mark.to);
+  if (mark.shape == MarkShape::kRectangle) {
+    top = bottom = transform.toWidget(mark.area.topLeft()).y();
+    extend(mark.area.bottomRight());
+  }
+  if (mark.shape == MarkShape::kStrip && !mark.outline.isEmpty()) {
+    top = bottom = transform.toWidget(mark.outline.front()).y();
+    for (const QPointF& pixel : mark.outline) extend(pixel);
+  }
+  return bottom + margin >= area.top() && top - margin <= area.bottom();
+}
+
 namespace {
 
 constexpr double kCorner = 3.5;

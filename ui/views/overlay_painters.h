@@ -32,6 +32,9 @@ double distanceToSegment(const QPointF& from, const QPointF& to, const QPointF& 
 void paintMark(QPainter& painter, const ViewTransform& transform, const Mark& mark,
                const QColor& layer_color);
 
+/// Whether the mark may be seen between the top and the bottom of an area of the widget.
+bool reaches(const ViewTransform& transform, const Mark& mark, const QRectF& area);
+
 /// Distance on the widget from a position to the drawn mark.
 double distanceTo(const ViewTransform& transform, const Mark& mark, const QPointF& widget);
 

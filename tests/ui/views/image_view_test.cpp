@@ -178,8 +178,38 @@ LinesPtr manyLines() {
   return std::make_shared<const sessions::EdgeLines>(lines);
 }
 
+/// A mark of each shape across the height, whose parts lie in several bands.
+std::vector<Mark> manyMarks() {
+  std::vector<Mark> marks;
+  for (int i = 0; i <= static_cast<int>(MarkShape::kStrip); ++i) {
+    Mark& mark = marks.emplace_back();
+    mark.shape = static_cast<MarkShape>(i);
+    mark.at = QPointF(5.0 * i + 2.0, 5.0 * i + 4.0);
+    mark.to = QPointF(60.0 - 3.0 * i, 33.0);
+    mark.area = QRectF(3.0, 3.0, 50.0, 57.0);
+    mark.outline = QPolygonF({{40.0, 2.0}, {44.0, 60.0}, {46.0, 60.0}, {42.0, 2.0}});
+    mark.label = QStringLiteral("p%1").arg(i);
+    mark.cased = true;
+  }
+  return marks;
+}
+
+/// Pictures of bits take their time by the size that they have on the screen.
+TEST_F(ImageViewTest, ManyBitImagesAreDrawnInSteps) {
+  view_.resize(1400, 1000);
+  const OneBit bit(20, 30, 0);
+  view_.setLayer(layerOf(LayerId::kAgreement, std::vector<LayerBits>(9, bit.bits)));
+  ASSERT_TRUE(QTest::qWaitFor([this] { return view_.isDrawn(); }));
+  wheel({700.0, 500.0}, 1);
+  view_.repaint();
+  EXPECT_FALSE(view_.isDrawn()) << "one event does not draw all";
+  ASSERT_TRUE(QTest::qWaitFor([this] { return view_.isDrawn(); }));
+  EXPECT_EQ(at({20.0, 30.0}), QColor(255, 0, 0));
+}
+
 TEST_F(EdgeLinesOnImage, ManyLinesAreDrawnInStepsWhileTheFormerPictureIsShown) {
   show(LayerId::kTruthEdges, manyLines());
+  view_.setLayer(layerOf(LayerId::kMatches, {}, manyMarks()));
   ASSERT_TRUE(QTest::qWaitFor([this] { return view_.isDrawn(); }));
   const QColor middle = at({32.0, 32.2});
   wheel({320.0, 320.0}, 2);
@@ -193,7 +223,8 @@ TEST_F(EdgeLinesOnImage, ManyLinesAreDrawnInStepsWhileTheFormerPictureIsShown) {
   other.setImage(grayImage());
   for (int i = 0; i < kLayerCount; ++i)
     other.setStyle(static_cast<LayerId>(i), {false, Qt::red, 1.0});
-  other.setLayer(view_.layer(LayerId::kTruthEdges));
+  for (const LayerId id : {LayerId::kTruthEdges, LayerId::kMatches})
+    other.setLayer(view_.layer(id));
   other.setTransform(view_.transform());
   const QImage at_once = other.grab().toImage();
   ASSERT_EQ(in_steps.size(), at_once.size());
