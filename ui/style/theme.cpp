@@ -5,7 +5,7 @@
 
 #include <QtWidgets>
 
-static void loadStyleSheetResource() { Q_INIT_RESOURCE(style); }  // of a static library
+static void loadStyleResources() { Q_INIT_RESOURCE(style); }  // of a static library
 
 namespace boresight::ui {
 namespace {
@@ -42,7 +42,6 @@ constexpr std::pair<const char*, Role> kNames[] = {
 };
 
 QString styleSheet(const Theme& colors) {
-  loadStyleSheetResource();
   QFile file(QStringLiteral(":/style/boresight.qss"));
   if (!file.open(QIODevice::ReadOnly)) return {};
   QString sheet = QString::fromUtf8(file.readAll());
@@ -72,7 +71,16 @@ QPalette paletteOf(const Theme& colors) {
   return palette;
 }
 
+/// Figures have one width. Without these files fonts of the system are used.
+void loadFonts() {
+  static bool loaded = false;
+  if (std::exchange(loaded, true)) return;
+  for (const char* file : {"InterTabular-Regular.otf", "InterTabular-Bold.otf"})
+    QFontDatabase::addApplicationFont(QStringLiteral(":/style/") + QLatin1String(file));
+}
+
 QFont typeface() {
+  loadFonts();
   QFont font = QApplication::font();
   const QStringList known = QFontDatabase().families();
   for (const char* family : kFontFamilies)
@@ -92,6 +100,7 @@ ThemeName themeName() { return applied; }
 
 void applyTheme(QApplication& application, ThemeName name) {
   applied = name;
+  loadStyleResources();
   QApplication::setPalette(paletteOf(theme()));
   QApplication::setFont(typeface());
   application.setStyleSheet(styleSheet(theme()));
@@ -106,9 +115,8 @@ ThemeName rememberedTheme() {
 }
 
 void rememberTheme(ThemeName name) {
-  QSettings().setValue(QLatin1String(kThemeKey), name == ThemeName::kDark
-                                                     ? QStringLiteral("dark")
-                                                     : QStringLiteral("light"));
+  QSettings().setValue(QLatin1String(kThemeKey),
+                       name == ThemeName::kDark ? QStringLiteral("dark") : QStringLiteral("light"));
 }
 
 }  // namespace boresight::ui

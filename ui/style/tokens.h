@@ -167,8 +167,9 @@ constexpr const Measures& measuresFor(int window_width) {
   return window_width >= kWideWindow ? kWide : kNarrow;
 }
 
-/// Fonts; sizes in points.
-inline constexpr std::array<const char*, 3> kFontFamilies = {"Inter", "Noto Sans", "DejaVu Sans"};
+/// Fonts, the first that there is; sizes in points. The program brings its own one.
+inline constexpr std::array<const char*, 4> kFontFamilies = {"Inter Tabular", "Inter", "Noto Sans",
+                                                             "DejaVu Sans"};
 inline constexpr double kTextSize = 10;
 inline constexpr double kCaptionSize = 9;
 inline constexpr double kHeadlineSize = 13.5;

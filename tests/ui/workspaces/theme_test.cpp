@@ -45,6 +45,21 @@ TEST(Theme, StyleSheetKnowsEveryName) {
 
 /// Those of Fusion are pictures in colours of another age, on the buttons too.
 TEST(Theme, MessageBoxesHaveTheIconsOfTheProgram) {
+TEST(Theme, ProgramBringsItsFontWithFiguresOfOneWidth) {
+  applyTheme(*qApp, ThemeName::kLight);
+  for (const bool bold : {false, true}) {
+    QFont font = qApp->font();
+    font.setBold(bold);
+    EXPECT_EQ(QFontInfo(font).family(), QStringLiteral("Inter Tabular"));
+    const QFontMetricsF metrics(font);
+    for (const char* figure : {"0000", "1111", "4444", "7777"})
+      EXPECT_NEAR(metrics.horizontalAdvance(QLatin1String(figure)),
+                  metrics.horizontalAdvance(QStringLiteral("8888")), 0.5)
+          << figure;
+  }
+  qApp->setStyleSheet({});
+}
+
   nameApplication(*qApp);
   const QMessageBox box(QMessageBox::Question, {}, QStringLiteral("Save?"),
                         QMessageBox::Save | QMessageBox::Cancel);
