@@ -182,6 +182,21 @@ void setTip(QAction& action, const QString& tip) {
   action.setStatusTip(tip);
 }
 
+IconLabel::IconLabel(int size_px, QWidget* parent) : QWidget(parent) {
+  setFixedSize(size_px, size_px);
+}
+
+void IconLabel::setIcon(Icon icon, QRgb Theme::*color) {
+  icon_ = icon;
+  color_ = color;
+  update();
+}
+
+void IconLabel::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  paintIcon(painter, rect(), icon_, QColor(theme().*color_));
+}
+
 FoldButton::FoldButton(QWidget* parent) : QToolButton(parent) {
   setCheckable(true);
   setAutoRaise(true);

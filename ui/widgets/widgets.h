@@ -9,6 +9,7 @@
 #include <QToolButton>
 
 #include "sessions/trace/trace.h"
+#include "ui/style/icons.h"
 
 class QAbstractItemModel;
 class QAbstractItemView;
@@ -59,6 +60,23 @@ class EmptyHint : public QLabel {
 
   QAbstractItemView& view_;
   int least_rows_;
+};
+
+/// An icon in a colour of the theme in use.
+class IconLabel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit IconLabel(int size_px, QWidget* parent = nullptr);
+
+  void setIcon(Icon icon, QRgb Theme::*color = &Theme::text);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  Icon icon_ = Icon::kNone;
+  QRgb Theme::*color_ = &Theme::text;
 };
 
 /// A line below a list that shows and hides a part of it, which is remembered by its name.

@@ -130,8 +130,8 @@ void StartPage::buildSlot(int index) {
   slot.picture->hide();
   slot.choose = new QPushButton(iconOf(Icon::kFolder), tr("Choose..."));
   slot.choose->setIconSize(kButtonIcon);
-  auto* icon = new QLabel;
-  icon->setPixmap(iconOf(text.icon).pixmap(kIcon, kIcon));
+  auto* icon = new IconLabel(kIcon);
+  icon->setIcon(text.icon);
   auto* title = new QLabel(tr(text.title));
   title->setProperty("title", true);
   auto* head = new QHBoxLayout;

@@ -35,7 +35,7 @@ QString helpOf(Step step) { return QCoreApplication::translate("Step", stepInfo(
 
 VerdictBar::VerdictBar(QWidget* parent)
     : QFrame(parent),
-      icon_(new QLabel),
+      icon_(new IconLabel(kToolIcon)),
       head_(named(new QLabel, "verdictHeadline")),
       sentence_(named(new QLabel, "verdictSentence")),
       badge_(named(new QPushButton, "warningBadge")),
@@ -85,7 +85,7 @@ bool VerdictBar::eventFilter(QObject* watched, QEvent* event) {
 void VerdictBar::setVerdict(const Verdict& verdict) {
   verdict_ = verdict;
   setProperty("tone", QLatin1String(toneName(verdict.tone)));
-  icon_->setPixmap(iconOf(verdict.icon, colorOf(verdict.tone)).pixmap(kToolIcon, kToolIcon));
+  icon_->setIcon(verdict.icon, colorOf(verdict.tone));
   head_->setText(verdict.head);
   action_->setVisible(verdict.step != Step::kNone);
   action_->setText(verdict.step_text.isEmpty() ? textOf(verdict.step) : verdict.step_text);

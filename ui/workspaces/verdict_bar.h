@@ -7,6 +7,7 @@
 #include "ui/workspaces/verdict.h"
 
 class QHBoxLayout;
+class IconLabel;
 class QLabel;
 class QMenu;
 class QPushButton;
@@ -45,7 +46,7 @@ class VerdictBar : public QFrame {
 
   Verdict verdict_;
   QStringList warnings_;
-  QLabel* icon_ = nullptr;
+  IconLabel* icon_ = nullptr;
   QLabel* head_ = nullptr;
   QLabel* sentence_ = nullptr;
   QPushButton* badge_ = nullptr;

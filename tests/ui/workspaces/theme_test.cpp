@@ -2,7 +2,9 @@
 #include "ui/style/theme.h"
 
 #include "tests/ui/window_test.h"
+#include "ui/plots/plots.h"
 #include "ui/style/icons.h"
+#include "ui/widgets/widgets.h"
 #include "ui/window/application.h"
 
 namespace boresight::ui {
@@ -43,8 +45,6 @@ TEST(Theme, StyleSheetKnowsEveryName) {
   qApp->setStyleSheet({});
 }
 
-/// Those of Fusion are pictures in colours of another age, on the buttons too.
-TEST(Theme, MessageBoxesHaveTheIconsOfTheProgram) {
 TEST(Theme, ProgramBringsItsFontWithFiguresOfOneWidth) {
   applyTheme(*qApp, ThemeName::kLight);
   for (const bool bold : {false, true}) {
@@ -60,6 +60,8 @@ TEST(Theme, ProgramBringsItsFontWithFiguresOfOneWidth) {
   qApp->setStyleSheet({});
 }
 
+/// Those of Fusion are pictures in colours of another age, on the buttons too.
+TEST(Theme, MessageBoxesHaveTheIconsOfTheProgram) {
   nameApplication(*qApp);
   const QMessageBox box(QMessageBox::Question, {}, QStringLiteral("Save?"),
                         QMessageBox::Save | QMessageBox::Cancel);
@@ -79,6 +81,33 @@ TEST_F(ThemeSwitchTest, ButtonSwitchesAndTheNextStartHasIt) {
   EXPECT_EQ(rememberedTheme(), ThemeName::kDark);
   find<QToolButton>("switchTheme").click();
   EXPECT_EQ(rememberedTheme(), ThemeName::kLight);
+  qApp->setStyleSheet({});
+}
+
+/// Icons in labels kept the colour of the start.
+TEST_F(ThemeSwitchTest, IconsAndPlotsFollowAtOnce) {
+  applyTheme(*qApp, ThemeName::kLight);
+  auto* icon = window_.findChild<IconLabel*>();
+  ASSERT_NE(icon, nullptr);
+  icon->setIcon(Icon::kCube);
+  auto* canvas = window_.findChild<DoublePlot*>()->canvas();
+  const auto ink = [icon] {
+    QImage picture(icon->size(), QImage::Format_ARGB32);
+    picture.fill(Qt::transparent);
+    icon->render(&picture, {}, {}, QWidget::RenderFlags());
+    int sum = 0;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x)
+        if (qAlpha(picture.pixel(x, y)) > 200) sum = std::max(sum, qGray(picture.pixel(x, y)));
+    return sum;
+  };
+  const auto ground = [canvas] { return canvas->palette().color(QPalette::Window).lightness(); };
+  EXPECT_LT(ink(), 100);
+  EXPECT_GT(ground(), 200);
+  find<QToolButton>("switchTheme").click();
+  EXPECT_GT(ink(), 150);
+  EXPECT_LT(ground(), 100);
+  applyTheme(*qApp, ThemeName::kLight);
   qApp->setStyleSheet({});
 }
 
