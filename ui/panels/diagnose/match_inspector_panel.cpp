@@ -3,6 +3,7 @@
 
 #include <QtWidgets>
 
+#include "sessions/evaluation/pose_error.h"
 #include "sessions/trace/sample_statistics.h"
 #include "ui/models/text.h"
 #include "ui/plots/plots.h"
@@ -23,6 +24,12 @@ QVector<int> asVector(const std::vector<std::int32_t>& counts) {
   return QVector<int>(counts.begin(), counts.end());
 }
 
+/// As high as its rows.
+void fitHeight(QTableWidget& table) {
+  table.setFixedHeight(table.horizontalHeader()->sizeHint().height() +
+                       table.verticalHeader()->length() + 2 * table.frameWidth());
+}
+
 }  // namespace
 
 MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
@@ -35,16 +42,18 @@ MatchInspectorPanel::MatchInspectorPanel(ViewState& view, QWidget* parent)
   setUpTable(*ui_.templates, filter_);
   ui_.templates->sortByColumn(TemplatesModel::kNumber, Qt::AscendingOrder);
   ui_.show->addItems(TemplatesModel::showNames());
-  styleTable(*ui_.edges);
+  for (QTableWidget* table : {ui_.edges, ui_.directions}) {
+    styleTable(*table);
+    table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  }
   histogram_ = new HistogramPlot(tr("residual along the edge's normal, px"), tr("found"),
                                  tr("used"), ui_.refinement);
   histogram_->setToolTip(
       tr("Distance of the image's edges from the rendered edges after this refinement, in pixels "
          "of the full image. A good pose has a narrow peak at 0."));
   histogram_->setMaximumHeight(kHistogramHeight);
-  ui_.refinementRow->insertWidget(1, histogram_, 1);
-  ui_.edges->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  ui_.edges->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  ui_.refinementRow->insertWidget(2, histogram_, 1);
   connect(ui_.showMatches, &QPushButton::clicked, this, [this] {
     if (const auto matched = lastMatched()) view_.setCursor({*matched, Stage::kFinished});
   });
@@ -116,11 +125,31 @@ void MatchInspectorPanel::showRefinement() {
     addRow(table,
            {name, QString::number(counts.places), placesText(counts.found, counts.foundShare()),
             placesText(counts.used, counts.usedShare())});
-  table.setFixedHeight(table.horizontalHeader()->sizeHint().height() +
-                       table.verticalHeader()->length() + 2 * table.frameWidth());
+  fitHeight(table);
+  showDirections();
   ui_.showMatches->setEnabled(lastMatched().has_value());
   histogram_->setCounts(statistics.radius_px, asVector(statistics.found_in_bin),
                         asVector(statistics.used_in_bin));
+}
+
+/// How far the refinement moved the pose, and how well its edges determine it.
+void MatchInspectorPanel::showDirections() {
+  const sessions::PoseError moved = sessions::poseError(
+      iteration_->camera_from_station_before, iteration_->camera_from_station, std::nullopt);
+  const auto sigma = sessions::poseSigma(iteration_->refinement.covariance, std::nullopt);
+  const auto add = [&](const QString& name, double corrected, double sigma_value,
+                       const QString& unit) {
+    addRow(*ui_.directions,
+           {name, QStringLiteral("%1 %2").arg(numberText(corrected, 3), unit),
+            sigma ? QStringLiteral("%1 %2").arg(numberText(sigma_value, 3), unit) : tr("unknown")});
+  };
+  const sessions::PoseSigma known = sigma.value_or(sessions::PoseSigma());
+  ui_.directions->setRowCount(0);
+  add(tr("along the view axis"), moved.normal_mm, known.normal_mm, tr("mm"));
+  add(tr("across it"), moved.lateral_mm, known.lateral_mm, tr("mm"));
+  add(tr("tilt of the axis"), moved.rotation_mrad, known.out_of_plane_mrad, tr("mrad"));
+  add(tr("twist about it"), moved.in_plane_mrad, known.rotation_mrad.z(), tr("mrad"));
+  fitHeight(*ui_.directions);
 }
 
 void MatchInspectorPanel::showTemplate() {

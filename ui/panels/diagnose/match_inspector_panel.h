@@ -29,6 +29,7 @@ class MatchInspectorPanel : public QWidget {
  private:
   void showIteration();
   void showRefinement();
+  void showDirections();
   void showTemplate();
   void chooseRow(const QModelIndex& current);
   void showCount();

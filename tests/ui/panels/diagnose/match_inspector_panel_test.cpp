@@ -2,6 +2,7 @@
 #include "ui/panels/diagnose/match_inspector_panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -113,8 +114,13 @@ TEST_F(MatchInspectorPanelTest, ARefinementShowsItsEdges) {
   auto* histogram = panel_.findChild<HistogramPlot*>();
   ASSERT_TRUE(histogram->isVisible());
   EXPECT_EQ(histogram->allCount(), view_.iteration()->refinement.found_count);
-  auto* table = panel_.findChild<QTableWidget*>();
+  auto* table = panel_.findChild<QTableWidget*>(QStringLiteral("edges"));
   EXPECT_EQ(table->item(0, 1)->text(), QString::number(view_.iteration()->refinement.sample_count));
+  const auto* directions = panel_.findChild<QTableWidget*>(QStringLiteral("directions"));
+  ASSERT_EQ(directions->rowCount(), 4);
+  const Matrix6d& covariance = view_.iteration()->refinement.covariance;
+  EXPECT_EQ(directions->item(0, 2)->text(),
+            QStringLiteral("%1 mm").arg(1e3 * std::sqrt(covariance(5, 5)), 0, 'f', 3));
   panel_.findChild<QPushButton*>(QStringLiteral("showMatches"))->click();
   EXPECT_LT(view_.cursor().iteration, last);
   EXPECT_FALSE(view_.iteration()->templates.empty());
