@@ -59,6 +59,7 @@ void AnnotationTool::setSnaps(bool snaps) {
 }
 
 std::optional<Pose> AnnotationTool::stationPose() const {
+  if (controller_.answer().blind) return std::nullopt;
   const std::optional<Pose> solved = controller_.solvedPose();
   return solved && view_.layer(LayerId::kAnnotationEdges).style.visible ? solved
                                                                         : state_.knownPose();
@@ -174,7 +175,7 @@ std::optional<AnnotationTool::Handle> AnnotationTool::handleUnder(const QPointF&
 std::string AnnotationTool::stationOnlyUnder(const QPointF& place) const {
   const ViewState::CasePtr& loaded_case = state_.currentCase();
   const std::optional<Pose> pose = stationPose();
-  if (!loaded_case || !pose || controller_.answer().blind || lacksImageSide()) return {};
+  if (!loaded_case || !pose || lacksImageSide()) return {};
   for (const sessions::PointPair& point : controller_.annotations().points) {
     if (point.pixel || !point.point_in_station_m) continue;
     const auto at =

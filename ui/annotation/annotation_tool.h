@@ -40,7 +40,7 @@ class AnnotationTool : public QObject {
   const AnnotationAim& aim() const { return aim_; }
   /// Position of the pointer, or of the annotation that is moved by keys; px. Nothing: none.
   const std::optional<QPointF>& focus() const { return focus_; }
-  /// camera_from_station of the edges on which the station is picked.
+  /// camera_from_station of the edges on which the station is picked; nothing in a blind round.
   std::optional<Pose> stationPose() const;
 
   /// Texts are kept outside `taken` (widget).

@@ -99,7 +99,7 @@ AnnotationLook ImageAnnotation::look() const {
   AnnotationLook annotation_look;
   annotation_look.selected = controller_.selected();
   annotation_look.camera = state_.currentCase()->source.camera;
-  if (!controller_.answer().blind) annotation_look.camera_from_station = tool_->stationPose();
+  annotation_look.camera_from_station = tool_->stationPose();
   if (controller_.solution())
     annotation_look.outliers = controller_.solution()->outlierAnnotations();
   return annotation_look;
@@ -125,7 +125,8 @@ void ImageAnnotation::showAnnotations() {
   lookThroughLoupe();
 }
 
-/// In a blind round the other poses would show where to click; after it they are as before.
+/// In a blind round all that a pose predicts would show where to click; after it the layers are as
+/// before.
 void ImageAnnotation::hideWhileBlind() {
   const auto show = [this](LayerId id, bool visible) {
     LayerStyle style = image_.style(id);
@@ -136,8 +137,12 @@ void ImageAnnotation::hideWhileBlind() {
     for (const LayerId id : std::exchange(hidden_, {})) show(id, true);
     return;
   }
-  for (const LayerId id : {LayerId::kSeedEdges, LayerId::kIterationEdges, LayerId::kTruthEdges,
-                           LayerId::kNudgedEdges, LayerId::kHypothesisEdges}) {
+  constexpr LayerId kPredicted[] = {
+      LayerId::kMask,        LayerId::kAgreement,   LayerId::kSeedEdges,
+      LayerId::kTruthEdges,  LayerId::kNudgedEdges, LayerId::kIterationEdges,
+      LayerId::kChosenEdges, LayerId::kWindows,     LayerId::kHypothesisEdges,
+      LayerId::kTemplates,   LayerId::kMatches,     LayerId::kResiduals};
+  for (const LayerId id : kPredicted) {
     if (!image_.style(id).visible || std::ranges::count(hidden_, id) > 0) continue;
     hidden_.push_back(id);
     show(id, false);

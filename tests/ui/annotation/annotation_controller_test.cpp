@@ -7,6 +7,7 @@
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/review/annotated_seed.h"
 #include "tests/support/loaded_example.h"
+#include "tests/support/turned_view.h"
 #include "tests/ui/annotation/annotation_fixture.h"
 #include "ui/annotation/station_snapper.h"
 
@@ -152,6 +153,22 @@ TEST_F(AnnotationControllerTest, BlindRound_PredictsNothing) {
   ASSERT_TRUE(solved());
   EXPECT_FALSE(controller_.answer().blind);
   EXPECT_TRUE(controller_.solvedPose() && state_.annotatedPose());
+}
+
+/// The pose of the rig is known by its other camera.
+TEST_F(AnnotationControllerTest, BlindRoundInARig_PredictsNothing) {
+  const sessions::Session rig = test::sessionOfTwoViews(folder_.path());
+  ASSERT_TRUE(document_.create(folder_.path() / "rig.boresight.json", rig));
+  for (const auto& session_case : {rig.cases.back(), rig.cases.front()}) {
+    open(session_case->id);
+    markCorners(6);
+    ASSERT_TRUE(solved());
+  }
+  ASSERT_EQ(controller_.solution()->annotations.views.size(), 2u);
+  controller_.putAside(QStringLiteral("Ada"));
+  ASSERT_TRUE(solved());
+  EXPECT_TRUE(controller_.answer().blind);
+  EXPECT_FALSE(controller_.solvedPose() || state_.annotatedPose());
 }
 
 TEST_F(AnnotationControllerTest, UseAsSeed_StatesThreeSigma) {

@@ -394,6 +394,17 @@ TEST_F(ImageAnnotationLayersTest, TheStationIsPickedOnTheEdgesThatShow) {
   EXPECT_EQ(tool().stationPose(), state_.shownPose());
 }
 
+TEST_F(ImageAnnotationLayersTest, BlindRound_HidesAllThatAPosePredicts) {
+  annotateAndSolve();
+  for (const LayerId id : {LayerId::kMask, LayerId::kMatches, LayerId::kTestEdges}) show(id, true);
+  controller_.putAside(QStringLiteral("Ada"));
+  EXPECT_FALSE(tool().stationPose());
+  EXPECT_FALSE(panel_.style(LayerId::kMask).visible || panel_.style(LayerId::kMatches).visible);
+  EXPECT_TRUE(panel_.style(LayerId::kTestEdges).visible) << "they are the image's";
+  ASSERT_TRUE(document_.undo());
+  EXPECT_TRUE(panel_.style(LayerId::kMask).visible && panel_.style(LayerId::kMatches).visible);
+}
+
 TEST_F(ImageAnnotationLayersTest, Band_FollowsTheCurrentAnnotations) {
   annotateAndSolve();
   EXPECT_TRUE(layer(LayerId::kAnnotationBand).marks.empty()) << "it is not switched on";
