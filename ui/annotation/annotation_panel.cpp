@@ -155,6 +155,13 @@ QString comparedHtml(const AnnotationAnswer& answer, const std::vector<ComparedP
       solutionText("Distance of the annotated pose at the %1").arg(placeText(annotations)), rows);
 }
 
+/// Of a rig, whose annotations are more than those of the shown case.
+QString camerasText(const sessions::CaseAnnotations& annotations) {
+  return annotations.views.size() < 2
+             ? QString()
+             : solutionText(" of %1 cameras").arg(annotations.views.size());
+}
+
 }  // namespace
 
 QString solutionHeadline(const AnnotationAnswer& answer, bool stale) {
@@ -165,8 +172,9 @@ QString solutionHeadline(const AnnotationAnswer& answer, bool stale) {
   const sessions::AnnotationsResult& result = answer.solution->result;
   QString text = fromText(result.reason);
   if (result.solution)
-    text = solutionText("Solved from %1 annotations, %2 px rms.")
+    text = solutionText("Solved from %1 annotations%2, %3 px rms.")
                .arg(result.solution->annotations.size())
+               .arg(camerasText(answer.solution->annotations))
                .arg(QString::number(result.solution->rms_px, 'f', 3));
   else if (text.isEmpty())
     text = solutionText("No annotations yet.");

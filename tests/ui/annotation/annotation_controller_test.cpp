@@ -9,6 +9,7 @@
 #include "tests/support/loaded_example.h"
 #include "tests/support/turned_view.h"
 #include "tests/ui/annotation/annotation_fixture.h"
+#include "ui/annotation/annotation_panel.h"
 #include "ui/annotation/station_snapper.h"
 
 namespace boresight::ui {
@@ -165,6 +166,8 @@ TEST_F(AnnotationControllerTest, BlindRoundInARig_PredictsNothing) {
     ASSERT_TRUE(solved());
   }
   ASSERT_EQ(controller_.solution()->annotations.views.size(), 2u);
+  EXPECT_TRUE(solutionHeadline(controller_.answer(), false)
+                  .startsWith(QStringLiteral("Solved from 12 annotations of 2 cameras")));
   controller_.putAside(QStringLiteral("Ada"));
   ASSERT_TRUE(solved());
   EXPECT_TRUE(controller_.answer().blind);
