@@ -41,7 +41,11 @@ CaseController::CaseController(Document& document, ViewState& state, RunControll
   connect(&document_, &Document::opened, this, &CaseController::documentOpened);
   connect(&document_, &Document::changed, this, &CaseController::documentChanged);
   connect(&run_, &RunController::snapshotChanged, this, [this] {
-    if (run_.snapshot()) state_.setSnapshot(run_.snapshot());
+    if (!run_.snapshot()) return;
+    state_.setSnapshot(run_.snapshot());
+    if (std::exchange(is_new_run_, false))  // wherever the run before was looked at
+      state_.setCursor(
+          {static_cast<int>(run_.snapshot()->iterations.size()) - 1, Stage::kFinished});
   });
   connect(&run_, &RunController::finished, this, &CaseController::storeRun);
   connect(&run_, &RunController::failed, this, [this](const QString& message) {
@@ -199,8 +203,14 @@ LocalizerOptions CaseController::options() const {
 }
 
 QString CaseController::staleness() const {
-  const sessions::RunRecord* record = document_.session().lastRunOf(case_id_.toStdString());
-  if (!record || !state_.snapshot() || state_.snapshot()->replayed) return {};
+  const ViewState::SnapshotPtr& shown = state_.snapshot();
+  if (!shown || shown->replayed) return {};
+  const sessions::RunRecord* record = nullptr;
+  for (const sessions::RunRecord& run : document_.session().runs)
+    if (run.case_id == case_id_.toStdString() && run.digest == shown->digest) record = &run;
+  if (!record && storing_) return {};  // the run before says nothing of one that has just ended
+  if (!record) record = document_.session().lastRunOf(case_id_.toStdString());
+  if (!record) return {};
   const sessions::Staleness stale =
       sessions::stalenessOf(*record, document_.session(), document_.file());
   if (stale.inputs_changed && stale.options_changed)
@@ -215,6 +225,7 @@ void CaseController::prepareRun(RunInputs inputs) {
   run_.reset(std::move(inputs));
   run_session_ = document_.session();
   run_is_prepared_ = true;
+  is_new_run_ = run_.inputs().kept.empty();
 }
 
 void CaseController::advance(StepUntil until) {

@@ -34,11 +34,13 @@ class CaseController : public QObject {
                  QObject* parent = nullptr);
 
   const QString& caseId() const { return case_id_; }
+  /// Whether the case is run as soon as it is read.
+  bool runsSoon() const { return run_when_loaded_.has_value(); }
   /// Why the case could not be read, or empty.
   const QString& loadProblem() const { return load_problem_; }
   /// The options of the next run of the case.
   LocalizerOptions options() const;
-  /// A sentence when the case's last run was made with other options or inputs; else empty.
+  /// A sentence when the shown run was made with other options or inputs; else empty.
   QString staleness() const;
   /// Why the case cannot be run together with other views, one sentence; empty when it can.
   QString whyAlone() const;
@@ -148,6 +150,7 @@ class CaseController : public QObject {
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< the case read last, or being read
   bool run_is_prepared_ = false;
+  bool is_new_run_ = false;  ///< from the seed, and nothing of it is shown yet
   int storing_ = 0;
   std::vector<EndedRun> unstored_;
   std::filesystem::path unstored_file_;  ///< where there was no room

@@ -161,6 +161,10 @@ Situation VerdictController::situation() const {
   }
   situation.run = parts_.run.state();
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
+  situation.in_batch |= situation.has_case && parts_.cases.runsSoon();
+  if (!situation.has_case) situation.reading = id;
+  const auto& record = parts_.onboard.review();
+  situation.can_repeat = record && record->plan.has_options;
   situation.trace = parts_.state.snapshot();
   if (situation.trace) situation.tried = taken_.before(id.toStdString(), situation.trace->digest);
   situation.stale = parts_.cases.staleness();
@@ -247,6 +251,8 @@ void VerdictController::perform(Step step) {
       return;
     case Step::kFirstDifference:
       return parts_.onboard.goToFirstDifference();
+    case Step::kRepeatRecord:
+      return parts_.onboard.rerun();
     case Step::kLoadRecord:
       return askForOnboardRecord(parts_.onboard, &window_);
   }

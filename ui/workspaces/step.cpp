@@ -74,6 +74,8 @@ constexpr std::array kSteps = {
              Icon::kNext},
     StepInfo{QT_TR_NOOP("Show first difference"),
              QT_TR_NOOP("Show where onboard and ground run differ first"), Icon::kSearch},
+    StepInfo{QT_TR_NOOP("Re-run here"),
+             QT_TR_NOOP("Run the case on the ground with the options of the record"), Icon::kRun},
     StepInfo{QT_TR_NOOP("Load record..."), QT_TR_NOOP("Attach a downlinked record to the case"),
              Icon::kFolder},
 };

@@ -38,6 +38,7 @@ enum class Step {
   kReport,
   kNextCase,
   kFirstDifference,
+  kRepeatRecord,
   kLoadRecord,
 };
 

@@ -79,6 +79,14 @@ Verdict ofFiles(const FilesSituation& files) {
   return verdict;
 }
 
+Verdict ofReading(const QString& case_id) {
+  Verdict verdict;
+  verdict.icon = Icon::kClock;
+  verdict.head = tr("Opening %1.").arg(case_id);
+  verdict.sentence = tr("Its files are being read.");
+  return verdict;
+}
+
 /// "p2, p5 and 3 others"
 QString suspectsText(const QStringList& suspects) {
   constexpr int kMostNamed = 4;
@@ -144,7 +152,7 @@ Verdict ofOnboard(const Situation& situation) {
   if (!situation.comparison) {
     verdict.head = tr("Not compared.");
     verdict.sentence = situation.not_compared;
-    verdict.step = Step::kLoadRecord;
+    verdict.step = situation.can_repeat ? Step::kRepeatRecord : Step::kLoadRecord;
     return verdict;
   }
   const sessions::RecordComparison& comparison = *situation.comparison;
@@ -333,7 +341,7 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
 
 Verdict verdictOf(const Situation& situation) {
   if (!situation.has_case && situation.load_problem.isEmpty() && situation.file_problem.isEmpty())
-    return ofFiles(situation.files);
+    return situation.reading.isEmpty() ? ofFiles(situation.files) : ofReading(situation.reading);
   if (situation.workspace == Workspace::kStart && situation.files.added > 0)
     return ofFiles(situation.files);
   if (!situation.has_case) {
@@ -348,7 +356,8 @@ Verdict verdictOf(const Situation& situation) {
   }
   if (situation.workspace == Workspace::kAnnotate)
     return ofAnnotation(situation.annotation, situation.has_seed);
-  if (situation.workspace == Workspace::kOnboard) return ofOnboard(situation);
+  if (situation.workspace == Workspace::kOnboard && situation.run != RunState::kWorking)
+    return ofOnboard(situation);
   if (situation.workspace == Workspace::kReview)
     if (auto verdict = ofReview(situation)) return *verdict;
   if (decisionIsOfShownRun(situation)) return ofDecision(situation);

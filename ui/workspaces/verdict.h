@@ -79,7 +79,8 @@ struct Situation {
   QString input_step;     ///< step that corrects it: "Choose camera..."
   QString file_problem;   ///< a missing or changed input file, or empty
   RunState run = RunState::kEmpty;
-  bool in_batch = false;  ///< the batch is at the shown case
+  QString reading;        ///< the case whose files are being read, or empty
+  bool in_batch = false;  ///< the shown case is run as soon as it is read, or by the batch
   std::shared_ptr<const sessions::LocalizationTrace> trace;
   std::vector<Step> tried;  ///< remedies of earlier runs
   QString stale;            ///< changes since the run, or empty
@@ -88,7 +89,8 @@ struct Situation {
   AnnotationSituation annotation;
   ReviewSituation review;
   std::shared_ptr<const sessions::RecordComparison> comparison;
-  QString not_compared;  ///< why there is no comparison
+  QString not_compared;     ///< why there is no comparison
+  bool can_repeat = false;  ///< the onboard record has what a run on the ground needs
 };
 
 Verdict verdictOf(const Situation& situation);

@@ -11,6 +11,8 @@
 #include "ui/window/case_menu.h"
 #include "ui/window/main_window.h"
 #include "ui/window/shortcut_sheet.h"
+#include "ui/window/window_frame.h"
+#include "ui/workspaces/verdict_bar.h"
 #include "ui/workspaces/workspaces.h"
 
 namespace boresight::ui {
@@ -304,6 +306,30 @@ TEST_F(MainWindowTest, RunsAgainWhileTheLastIterationIsShown) {
   QTest::keyClick(&window_, Qt::Key_F5);  // shows fewer iterations than the cursor knows
   ASSERT_TRUE(wait([&] { return window_.state().snapshot() != first && resting(); }));
   EXPECT_EQ(window_.state().snapshot()->digest, first->digest);
+}
+
+TEST_F(MainWindowTest, RunAfterALookAtTheSeed_IsFollowedToItsEnd) {
+  openExample();
+  ASSERT_TRUE(runToTheEnd(1));
+  window_.state().setCursor({-1, Stage::kFinished});
+  moveSeed(0.001);
+  ASSERT_TRUE(runToTheEnd(2));
+  EXPECT_EQ(window_.state().cursor().iteration,
+            static_cast<int>(window_.state().snapshot()->iterations.size()) - 1);
+}
+
+/// Reading may take a second: what is shown meanwhile is not of the run before.
+TEST_F(MainWindowTest, RunThatWaitsForItsFiles_IsUnderWayForTheBar) {
+  openExample();
+  ASSERT_TRUE(runToTheEnd(1));
+  window_.cases().runWithWiderSearch();
+  QStringList heads;
+  ASSERT_TRUE(wait([&] {
+    heads << window_.frame().verdict().verdict().head;
+    return window_.document().session().runs.size() == 2 && resting();
+  }));
+  EXPECT_TRUE(heads.filter(QStringLiteral("outdated")).isEmpty())
+      << heads.join(QLatin1Char('|')).toStdString();
 }
 
 TEST_F(MainWindowTest, KeysShowAndHideLayers) {

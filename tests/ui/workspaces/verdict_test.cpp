@@ -47,6 +47,13 @@ TEST(Verdict, FilesMissing_NamesThem) {
   EXPECT_EQ(verdict.step, Step::kChooseFiles);
 }
 
+TEST(Verdict, CaseThatIsBeingRead_IsNamed) {
+  Situation situation;
+  situation.reading = QStringLiteral("bc-000041");
+  EXPECT_EQ(verdictOf(situation).head, QStringLiteral("Opening bc-000041."));
+  EXPECT_EQ(verdictOf(situation).step, Step::kNone);
+}
+
 TEST(Verdict, ReadyCase_OffersRun) {
   const Verdict verdict = verdictOf(ready());
   EXPECT_EQ(verdict.head, QStringLiteral("Ready to run."));
@@ -345,6 +352,11 @@ TEST(Verdict, Onboard_TellsWhetherTheRunsAgree) {
   situation.workspace = Workspace::kOnboard;
   situation.not_compared = QStringLiteral("No record is attached.");
   EXPECT_EQ(verdictOf(situation).step, Step::kLoadRecord);
+  situation.can_repeat = true;
+  EXPECT_EQ(verdictOf(situation).step, Step::kRepeatRecord);
+  situation.run = RunState::kWorking;
+  EXPECT_EQ(verdictOf(situation).step, Step::kStop);
+  situation.run = RunState::kFinished;
   auto comparison = std::make_shared<sessions::RecordComparison>();
   comparison->verdict = sessions::RunVerdict::kEqual;
   situation.comparison = comparison;
