@@ -206,7 +206,9 @@ void CompareView::take(const Picture& picture) {
   picture_ = picture;
   // As the operator sees the other canvas; another image as the algorithm sees it.
   const bool same = state_.currentCase() == picture.loaded_case;
+  following_ = true;  // the operator's part of the image stays
   view_->setImage(same ? image_.display().picture() : grayImage(picture.loaded_case->image.view()));
+  following_ = false;
   Layer layer = view_->layer(LayerId::kIterationEdges);
   layer.lines = picture.lines;
   layer.line = picture.line;
@@ -219,6 +221,11 @@ void CompareView::follow(ImageView& follower, const ImageView& leader) {
   if (following_ || !isVisible() || follower.imageSize().isEmpty() || leader.imageSize().isEmpty())
     return;
   following_ = true;
+  if (leader.isFitted()) {
+    follower.fit();
+    following_ = false;
+    return;
+  }
   const QPointF centre = leader.transform().toPixel(QPointF(leader.rect().center()));
   const QSizeF from = leader.imageSize();
   const QSizeF to = follower.imageSize();

@@ -42,6 +42,8 @@ class ImageView : public QWidget {
   const ViewTransform& transform() const { return transform_; }
   void setTransform(const ViewTransform& transform);
   void fit();
+  /// Whether the whole image is shown at any size of the widget, until the operator zooms.
+  bool isFitted() const { return fitted_; }
   void showOneToOne();  ///< one image pixel on one device pixel
   void centreOn(const QPointF& pixel, double least_scale);
 

@@ -230,6 +230,7 @@ TEST_F(CanvasToolsTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
   ASSERT_TRUE(wait([&] { return !compare.view().layer(LayerId::kIterationEdges).empty(); }));
   ASSERT_EQ(compare.difference().size(), 1) << "no option differs";
   EXPECT_TRUE(test::has(compare.difference()[0], " px from the shown run"));
+  EXPECT_TRUE(view().isFitted() && compare.view().isFitted()) << "until the operator zooms";
   view().centreOn({200.0, 150.0}, 3.0);
   EXPECT_NEAR(compare.view().transform().scale(), view().transform().scale(), 1e-9);
   const auto centreOf = [](const ImageView& each) {
