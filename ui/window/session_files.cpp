@@ -302,7 +302,11 @@ void SessionFiles::openExample(const std::filesystem::path& file) {
 }
 
 void SessionFiles::recoverUntitled(const std::filesystem::path& file) {
-  if (mayLeave()) parts_.document.open(file);
+  if (!mayLeave()) return;
+  recovers_ = true;  // as the operator has requested
+  const bool opened = parts_.document.open(file);
+  recovers_ = false;
+  if (opened && parts_.document.recovery()) parts_.document.acceptRecovery();
 }
 
 void SessionFiles::closeSession() {
@@ -483,9 +487,9 @@ bool SessionFiles::mayLeave() {
 
 void SessionFiles::offerRecovery() {
   Document& document = parts_.document;
-  if (!document.recovery()) return;
+  if (!document.recovery() || recovers_) return;
   const sessions::Recovery& recovery = **document.recovery();
-  const QString time = QString::fromStdString(recovery.time);
+  const QString time = tr("%1 UTC").arg(timeText(recovery.time));
   const QString changes =
       recovery.edits.size() == 1 ? tr("1 change") : tr("%1 changes").arg(recovery.edits.size());
   QMessageBox box(QMessageBox::Question, tr("Boresight"),

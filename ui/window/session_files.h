@@ -122,6 +122,7 @@ class SessionFiles : public QObject {
   QString kept_;  ///< names of the files from an earlier drop
   std::optional<double> mesh_extent_;
   bool makes_new_session_ = false;
+  bool recovers_ = false;  ///< without a question
 };
 
 }  // namespace boresight::ui

@@ -375,7 +375,11 @@ void StartPage::showLeft() {
   left_->setVisible(file.has_value());
   if (!file) return;
   left_file_ = *file;
-  const QDateTime time = QFileInfo(fromText(file->string())).lastModified();
+  QDateTime time;  // of the last change, which is in the journal
+  const QFileInfo info(fromText(file->string()));
+  for (const QFileInfo& each :
+       info.dir().entryInfoList({info.completeBaseName() + QLatin1Char('*')}))
+    time = std::max(time, each.lastModified());
   left_text_->setText(tr("<b>Unsaved work from %1</b><br>The program ended before it was saved.")
                           .arg(QLocale().toString(time, QLocale::ShortFormat)));
 }

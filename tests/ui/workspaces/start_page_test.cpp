@@ -151,8 +151,9 @@ TEST_F(LeftWorkTest, IsOfferedAndRecoveredOrDiscarded) {
   for (const char* button : {"recoverLeft", "discardLeft"}) {
     {
       Document left;
-      ASSERT_TRUE(
-          left.createUntitled(sessions::makeSession(test::exampleFolder() / "dataset.json")));
+      const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+      ASSERT_TRUE(left.createUntitled(session));
+      left.edit(sessions::withoutCase(session, session.cases.front()->id), QStringLiteral("Edit"));
     }
     MainWindow window;
     window.setQuiet(true);
@@ -162,7 +163,8 @@ TEST_F(LeftWorkTest, IsOfferedAndRecoveredOrDiscarded) {
     window.findChild<QPushButton*>(QLatin1String(button))->click();
     const bool recovers = std::string(button) == "recoverLeft";
     EXPECT_EQ(window.document().isUntitled(), recovers);
-    EXPECT_EQ(window.document().session().cases.size(), recovers ? 2u : 0u);
+    EXPECT_EQ(window.document().session().cases.size(), recovers ? 1u : 0u);
+    EXPECT_FALSE(window.document().recovery()) << "it is not asked for again";
     if (recovers) window.document().discardUntitled();
     EXPECT_FALSE(Document::leftUntitled().has_value());
   }
