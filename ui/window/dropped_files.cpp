@@ -71,6 +71,11 @@ Take takeOfJson(const std::filesystem::path& file) {
   const auto bytes =
       sessions::readFileBytes(file, sessions::kMaxJsonBytes, sessions::FileUse::kFree);
   const sessions::JsonDocument document(file, sessions::asText(bytes));
+  if (!document.root().has("format"))
+    throw std::runtime_error(
+        file.string() +
+        ": has no \"format\", such as \"boresight-camera\"; a camera or a pose "
+        "copied out of a dataset needs \"format\" and \"version\"");
   const std::string format = document.root().at("format").nonEmptyText();
   if (const Take take = findTake(kFormats, format)) return take;
   throw std::runtime_error(

@@ -112,6 +112,9 @@ TEST(DroppedFiles, UnknownFile_IsReportedByName) {
   EXPECT_NE(dropped.problems[0].find("odd.json"), std::string::npos);
   EXPECT_NE(dropped.problems[1].find("broken.json"), std::string::npos);
   EXPECT_NE(dropped.problems[2].find("notes.txt"), std::string::npos);
+  std::ofstream(folder.path() / "copied.json") << R"({"fx": 1200.0})";
+  EXPECT_NE(classify({folder.path() / "copied.json"}).problems.at(0).find("boresight-camera"),
+            std::string::npos);
 }
 
 }  // namespace
