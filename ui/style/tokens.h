@@ -138,6 +138,8 @@ inline constexpr int kOnboardFrame_px = 6;
 inline constexpr int kGroundFrame_px = 4;
 
 // Sizes in device-independent pixels.
+inline constexpr int kPanelMargin = 12;  ///< left and right in all panels
+inline constexpr int kBlockGap = 8;      ///< between the blocks of a panel; between groups twice
 inline constexpr int kTopBarHeight = 40;
 inline constexpr int kVerdictHeight = 48;
 inline constexpr int kPanelHeadHeight = 32;
@@ -155,7 +157,7 @@ inline constexpr int kBadge = 20;
 struct Measures {
   int strip_width;
   int strip_thumbnail;
-  int run_side;       ///< side pane of each workspace; 0: closed at first
+  int run_side;  ///< side pane of each workspace; 0: closed at first
   int diagnose_side;
   int review_side;
   int queue_width;

@@ -25,14 +25,13 @@ QIcon swatch(const QColor& color) {
 
 LayersPanel::LayersPanel(ImagePanel& image, QWidget* parent) : QWidget(parent), image_(image) {
   auto* outer = new QVBoxLayout(this);
-  outer->setContentsMargins(0, 0, 0, 0);
   auto* scroll = new QScrollArea;
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   outer->addWidget(scroll);
   auto* list = new QWidget;
   auto* grid = new QGridLayout(list);
-  grid->setContentsMargins(6, 6, 6, 6);
+  grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(2);
   grid_ = grid;

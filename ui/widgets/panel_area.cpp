@@ -20,6 +20,9 @@ PanelArea::PanelArea(QWidget* panel) {
   setFocusPolicy(Qt::NoFocus);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setWidget(panel);
+  if (!panel->layout() || panel->property("edgeToEdge").toBool()) return;
+  panel->layout()->setContentsMargins(kPanelMargin, kBlockGap, kPanelMargin, kBlockGap);
+  panel->layout()->setSpacing(kBlockGap);
 }
 
 QSize PanelArea::minimumSizeHint() const {

@@ -16,7 +16,7 @@ RemediesPanel::RemediesPanel(ViewState& state, QWidget* parent)
       rows_(new QVBoxLayout) {
   auto* content = new QWidget;
   content->setObjectName(QStringLiteral("remedies"));
-  rows_->setContentsMargins(12, 8, 12, 8);
+  rows_->setContentsMargins(0, 0, 0, 0);
   rows_->setSpacing(8);
   content->setLayout(rows_);
   auto* scroll = new QScrollArea;
@@ -25,8 +25,6 @@ RemediesPanel::RemediesPanel(ViewState& state, QWidget* parent)
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(content);
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
   column->addWidget(status_);
   column->addWidget(scroll, 1);
   state_.onChange(ViewChange::kSnapshot | ViewChange::kCase, this, &RemediesPanel::showRun);

@@ -64,8 +64,6 @@ ResultPanel::ResultPanel(ViewState& state, QualityController& quality, QWidget* 
   pose_->setMinimumWidth(kNarrow.run_side - 24);  // of whole numbers
   rejected_->setText(tr("✗ Rejected: this pose is not a result."));
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 12, 8);
-  column->setSpacing(8);
   column->addLayout(figures);
   column->addWidget(rejected_);
   column->addWidget(new QLabel(tr("Camera from station")));

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window of a session in work, drawn in every workspace and size: all is in view and whole.
+#include <algorithm>
+#include <vector>
+
 #include "core/record/record_writer.h"
 #include "sessions/run/runner.h"
 #include "sessions/session/case_run.h"
@@ -9,6 +12,7 @@
 #include "tests/ui/workspaces/layout_faults.h"
 #include "ui/review/review_panel.h"
 #include "ui/style/theme.h"
+#include "ui/style/tokens.h"
 #include "ui/window/application.h"
 #include "ui/workspaces/workspaces.h"
 
@@ -162,6 +166,54 @@ TEST_F(WindowFitsTest, AddedPanelsAreWhole) {
       dock->show();
       dock->raise();
       expectNoFaults(QStringLiteral("%1 added at %2").arg(dock->objectName()).arg(size.width()));
+    }
+  }
+}
+
+/// The widgets that the layouts of a panel place, without those that only hold others.
+void collectBlocks(const QWidget& holder, std::vector<const QWidget*>& blocks) {
+  const auto* area = qobject_cast<const QScrollArea*>(&holder);
+  const QObjectList children = area ? QObjectList{area->widget()} : holder.children();
+  for (QObject* child : children) {
+    const auto* widget = qobject_cast<const QWidget*>(child);
+    if (!widget || !widget->isVisible() || qobject_cast<const QSplitterHandle*>(widget)) continue;
+    const auto* frame = qobject_cast<const QFrame*>(widget);
+    const bool framed = (frame && frame->frameShape() != QFrame::NoFrame) ||
+                        widget->property("card").toBool() || qobject_cast<const QGroupBox*>(widget);
+    const bool holds = qobject_cast<const QSplitter*>(widget) ||
+                       qobject_cast<const QStackedWidget*>(widget) ||
+                       qobject_cast<const QScrollArea*>(widget) || (widget->layout() && !framed);
+    if (holds)
+      collectBlocks(*widget, blocks);
+    else
+      blocks.push_back(widget);
+  }
+}
+
+TEST_F(WindowFitsTest, PanelsHaveOneLeftEdge) {
+  openDesk(Desk::converged());
+  for (QDockWidget* dock : window_.findChildren<QDockWidget*>()) {
+    window_.workspaces().arrange();
+    dock->show();
+    dock->raise();
+    settle();
+    std::vector<const QWidget*> blocks;
+    collectBlocks(*dock->widget(), blocks);
+    const auto rectOf = [dock](const QWidget* block) {
+      return QRect(block->mapTo(dock, QPoint()), block->size());
+    };
+    for (const QWidget* block : blocks) {
+      const QRect rect = rectOf(block);
+      const bool first = std::none_of(blocks.begin(), blocks.end(), [&](const QWidget* other) {
+        const QRect left = rectOf(other);
+        return left.right() < rect.left() && left.top() <= rect.bottom() &&
+               rect.top() <= left.bottom();
+      });
+      const bool whole_width = rect.left() == 0 && rect.width() == dock->width();  // a picture
+      if (first && !whole_width)
+        EXPECT_EQ(rect.left(), kPanelMargin)
+            << dock->objectName().toStdString() << ": " << block->metaObject()->className() << " "
+            << block->objectName().toStdString();
     }
   }
 }

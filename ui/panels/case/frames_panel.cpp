@@ -57,8 +57,8 @@ FramesPanel::FramesPanel(ViewState& state, QWidget* parent)
       remove_(named(new QPushButton(tr("Remove")), "removeFrame",
                     tr("Remove the chosen transform from the case"))) {
   tree_->setColumnCount(kColumns);
-  tree_->setHeaderLabels({tr("Frame"), tr("Place, mm"), tr("Sigma, mm"),
-                          tr("Sigma, mrad"), tr("Source"), tr("Comment")});
+  tree_->setHeaderLabels({tr("Frame"), tr("Place, mm"), tr("Sigma, mm"), tr("Sigma, mrad"),
+                          tr("Source"), tr("Comment")});
   tree_->headerItem()->setToolTip(kPlace, tr("Of the origin, in the frame above"));
   tree_->headerItem()->setToolTip(kSigma_mm, tr("One sigma of the worst axis"));
   tree_->headerItem()->setToolTip(kSigma_mrad, tr("One sigma of the worst axis"));
@@ -72,7 +72,6 @@ FramesPanel::FramesPanel(ViewState& state, QWidget* parent)
   buttons->addWidget(remove_);
   buttons->addStretch(1);
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
   column->addWidget(tree_, 1);
   column->addLayout(buttons);
   connect(add_, &QPushButton::clicked, this, &FramesPanel::addRequested);

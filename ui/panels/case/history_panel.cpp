@@ -10,7 +10,6 @@ namespace boresight::ui {
 HistoryPanel::HistoryPanel(Document& document, QWidget* parent)
     : QWidget(parent), document_(document), list_(new QListWidget) {
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(list_);
   list_->setObjectName(QStringLiteral("history"));
   list_->setFrameShape(QFrame::NoFrame);

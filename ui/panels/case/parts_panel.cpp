@@ -35,7 +35,6 @@ PartsPanel::PartsPanel(Document& document, ViewState& state, QWidget* parent)
   new ColumnFitter(*table_, {kMesh, kFrame});
   table_->setAccessibleName(tr("Parts of the station"));
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(table_);
   connect(table_, &QTableWidget::itemChanged, this, [this](const QTableWidgetItem* item) {
     if (filling_ || item->column() != kPresent) return;
@@ -70,8 +69,8 @@ void PartsPanel::addPart(int row, const sessions::PartSource& part, bool editabl
                     (editable ? Qt::ItemIsEnabled : Qt::NoItemFlags));
   present->setCheckState(part.state.present ? Qt::Checked : Qt::Unchecked);
   table_->setItem(row, kPresent, present);
-  table_->setItem(row, kName, textItem(fromText(sessions::partName(part)),
-                                       fromText(sessions::partText(part))));
+  table_->setItem(row, kName,
+                  textItem(fromText(sessions::partName(part)), fromText(sessions::partText(part))));
   auto* role = new QComboBox;
   for (const char* name : sessions::kPartRoleNames) role->addItem(QLatin1String(name));
   role->setCurrentIndex(static_cast<int>(part.state.role));

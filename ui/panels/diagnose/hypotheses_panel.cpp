@@ -106,7 +106,6 @@ using sessions::AlternativeKind;
 
 HypothesesPanel::HypothesesPanel(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(4, 4, 4, 4);
   table_ = named(new QTableView(this), "hypotheses");
   table_->setAccessibleName(tr("Competing poses, compared poses and rolled hypotheses"));
   setUpTable(*table_, model_);

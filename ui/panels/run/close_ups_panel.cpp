@@ -94,8 +94,8 @@ CloseUpsPanel::CloseUpsPanel(ImagePanel& image, ViewState& state, QWidget* paren
       grid_(new QWidget),
       hint_(new QLabel(tr("Iterations that refine the pose on edges have close-ups here."))) {
   auto* grid = new QGridLayout(grid_);
-  grid->setContentsMargins(8, 8, 8, 8);
-  grid->setSpacing(8);
+  grid->setContentsMargins(kPanelMargin, kBlockGap, kPanelMargin, kBlockGap);
+  grid->setSpacing(kBlockGap);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     views_[i] = new CloseUpView(image);
     grid->addWidget(views_[i], static_cast<int>(i / 2), static_cast<int>(i % 2));
