@@ -96,6 +96,10 @@ void Plot::nameQuantities(const Quantity& first, const Quantity& second) {
 void Plot::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) applyPalette();
+  // A new style sheet gives the canvas its former colours back after this event.
+  if (event->type() == QEvent::StyleChange)
+    QMetaObject::invokeMethod(
+        this, [this] { applyPalette(); }, Qt::QueuedConnection);
 }
 
 DoublePlot::DoublePlot(const Series& left, const Series& right, QWidget* parent)
