@@ -402,7 +402,9 @@ TEST_F(ImageAnnotationLayersTest, BlindRound_HidesAllThatAPosePredicts) {
   EXPECT_FALSE(panel_.style(LayerId::kMask).visible || panel_.style(LayerId::kMatches).visible);
   EXPECT_TRUE(panel_.style(LayerId::kTestEdges).visible) << "they are the image's";
   ASSERT_TRUE(document_.undo());
-  EXPECT_TRUE(panel_.style(LayerId::kMask).visible && panel_.style(LayerId::kMatches).visible);
+  EXPECT_TRUE(wait([&] {
+    return panel_.style(LayerId::kMask).visible && panel_.style(LayerId::kMatches).visible;
+  }));
 }
 
 TEST_F(ImageAnnotationLayersTest, Band_FollowsTheCurrentAnnotations) {

@@ -210,10 +210,11 @@ TEST_F(WindowFitsTest, PanelsHaveOneLeftEdge) {
                rect.top() <= left.bottom();
       });
       const bool whole_width = rect.left() == 0 && rect.width() == dock->width();  // a picture
-      if (first && !whole_width)
+      if (first && !whole_width) {
         EXPECT_EQ(rect.left(), kPanelMargin)
             << dock->objectName().toStdString() << ": " << block->metaObject()->className() << " "
             << block->objectName().toStdString();
+      }
     }
   }
 }

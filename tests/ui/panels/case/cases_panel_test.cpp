@@ -8,6 +8,8 @@
 #include <QtTest>
 #include <QtWidgets>
 
+#include "ui/style/theme.h"
+
 namespace boresight::ui {
 namespace {
 
@@ -68,6 +70,7 @@ TEST_F(CasesPanelTest, RunAll_RunsTheListedCases) {
 }
 
 TEST_F(CasesPanelTest, NameStateAndTheFirstErrorAreInSightInANarrowList) {
+  applyTheme(*qApp, ThemeName::kLight);  // for its font
   std::vector<CaseRow> rows(1);
   rows[0].id = QString(60, QLatin1Char('w'));
   rows[0].state = CaseState::kAnnotated;
