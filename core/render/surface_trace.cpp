@@ -107,7 +107,7 @@ double nearness(const PlaneCache::Entry& face, const PlaneCache::Entry& other) {
 PlaneCache PlaneCache::create(Arena& arena) {
   PlaneCache cache;
   cache.entries_ = arena.allocate<Entry>(kEntries);
-  cache.edges_ = arena.allocate<Edges>(kEntries);
+  cache.edges_ = arena.allocate<Edges>(kEdges);
   return cache;
 }
 

@@ -52,9 +52,10 @@ class PlaneCache {
   }
 
  private:
-  static constexpr std::size_t kEntries = 512;
+  static constexpr std::size_t kEntries = 256;
+  static constexpr std::size_t kEdges = 128;  ///< four times as large
   Edges& cornersOf(const CameraScene& scene, std::int32_t face) {
-    Edges& edges = edges_[static_cast<std::size_t>(face) % kEntries];
+    Edges& edges = edges_[static_cast<std::size_t>(face) % kEdges];
     if (edges.face != face) {
       edges.face = face;
       edges.lines_known = false;
