@@ -75,7 +75,7 @@ bool depthDiffers(double inverse_depth, double inverse_extended, double threshol
   return from + (to - from) * s;
 }
 
-bool flatter(const PlaneCache::Entry& a, const PlaneCache::Entry& b) {
+bool flatter(const FaceCache::Plane& a, const FaceCache::Plane& b) {
   return a.inverse_norm > b.inverse_norm || (a.inverse_norm == b.inverse_norm && a.face < b.face);
 }
 
@@ -100,14 +100,14 @@ bool preferred(const EdgePixel& a, const EdgePixel& b) {
 
 SalientEdges SalientEdges::create(int max_width, Arena& arena) {
   SalientEdges edges;
-  edges.planes_ = PlaneCache::create(arena);
+  edges.faces_ = FaceCache::create(arena);
   edges.stride_ = max_width;
   edges.candidates_ = arena.allocate<EdgePixel>(2 * static_cast<std::size_t>(max_width));
   return edges;
 }
 
 void SalientEdges::begin(int first_y, int last_y) {
-  planes_.clear();
+  faces_.clear();
   first_y_ = first_y;
   last_y_ = last_y;
 }
@@ -127,10 +127,10 @@ void SalientEdges::clear(EdgeRender& output) {
   const Sample& farther = crossing.nearer_is_p ? q : p;
   if (!context.scene.part(nearer.face).match) return false;
   const SurfaceEnd end =
-      traceSurface(context.scene, planes_, nearer.face, nearer.ray, farther.ray, -1);
+      traceSurface(context.scene, faces_, nearer.face, nearer.ray, farther.ray, -1);
   if (!end.ends) {
     // The near plane cuts the surface here: not an end of the surface.
-    const PlaneCache::Entry plane = planes_.get(context.scene, nearer.face);
+    const FaceCache::Plane plane = faces_.plane(context.scene, nearer.face);
     if (dotProduct(plane.plane, farther.ray) * CameraScene::kNearPlane_m >= 1.0) return false;
   }
   const double s = std::min(end.s, 1.0);
@@ -151,9 +151,9 @@ void SalientEdges::clear(EdgeRender& output) {
                                                                Crossing& crossing) {
   const CameraScene& scene = context.scene;
   crossing.nearer_is_p = difference.nearer_is_p;
-  const SurfaceEnd end_p = traceSurface(scene, planes_, p.face, p.ray, q.ray, q.face);
+  const SurfaceEnd end_p = traceSurface(scene, faces_, p.face, p.ray, q.ray, q.face);
   SurfaceEnd end_q;
-  if (!end_p.reached) end_q = traceSurface(scene, planes_, q.face, q.ray, p.ray, p.face);
+  if (!end_p.reached) end_q = traceSurface(scene, faces_, q.face, q.ray, p.ray, p.face);
   if (!end_p.reached && !end_q.reached) {
     crossing.kind = static_cast<std::uint8_t>((difference.crease ? kEdgeCrease : 0) |
                                               (difference.occluding ? kEdgeOccluding : 0));
@@ -170,8 +170,8 @@ void SalientEdges::clear(EdgeRender& output) {
   crossing.edge_of = end_p.reached ? end_p.face : end_q.face;
   crossing.edge = end_p.reached ? end_p.edge : end_q.edge;
   // Both faces contain the line; the plane of the flatter one is better known next to it.
-  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
-  crossing.nearer_is_p = flatter(plane_p, planes_.get(scene, q.face));
+  const FaceCache::Plane plane_p = faces_.plane(scene, p.face);
+  crossing.nearer_is_p = flatter(plane_p, faces_.plane(scene, q.face));
   if (!crossing.nearer_is_p) crossing.line = -crossing.line;
   crossing.face = crossing.nearer_is_p ? p.face : q.face;
   return scene.part(crossing.face).match;
@@ -185,8 +185,8 @@ void SalientEdges::clear(EdgeRender& output) {
                                                               const SurfaceEnd& end_q,
                                                               Crossing& crossing) {
   const CameraScene& scene = context.scene;
-  const PlaneCache::Entry plane_p = planes_.get(scene, p.face);
-  const PlaneCache::Entry plane_q = planes_.get(scene, q.face);
+  const FaceCache::Plane plane_p = faces_.plane(scene, p.face);
+  const FaceCache::Plane plane_q = faces_.plane(scene, q.face);
   const double s_p = end_p.s;                                        // p's surface covers 0 .. s_p
   const double s_q = 1.0 - end_q.s;                                  // q's surface covers s_q .. 1
   const Eigen::Vector3d difference = plane_p.plane - plane_q.plane;  // > 0 where p's is nearer
@@ -197,8 +197,8 @@ void SalientEdges::clear(EdgeRender& output) {
     const Eigen::Vector3d ray_low = between(p.ray, q.ray, low);
     const Eigen::Vector3d ray_high = between(p.ray, q.ray, high);
     const double ahead_low = dotProduct(plane_p.plane, ray_low) -
-                             dotProduct(planes_.get(scene, end_q.face).plane, ray_low);
-    const double ahead_high = dotProduct(planes_.get(scene, end_p.face).plane, ray_high) -
+                             dotProduct(faces_.plane(scene, end_q.face).plane, ray_low);
+    const double ahead_high = dotProduct(faces_.plane(scene, end_p.face).plane, ray_high) -
                               dotProduct(plane_q.plane, ray_high);
     if (ahead_low > 0.0 && ahead_high > 0.0) crossing.nearer_is_p = true;
     if (ahead_low < 0.0 && ahead_high < 0.0) crossing.nearer_is_p = false;
@@ -252,8 +252,8 @@ void SalientEdges::clear(EdgeRender& output) {
                                                                 Difference& difference) {
   const CameraScene& scene = context.scene;
   const RasterBand& band = context.band;
-  const PlaneCache::Entry plane_p = planes_.get(scene, band.face[p]);
-  const PlaneCache::Entry& plane_q = planes_.get(scene, band.face[q]);
+  const FaceCache::Plane plane_p = faces_.plane(scene, band.face[p]);
+  const FaceCache::Plane& plane_q = faces_.plane(scene, band.face[q]);
   const auto inverseDepth = [&band](const Eigen::Vector3d& plane, std::size_t at) {
     return plane.x() * band.ray_x[at] + (plane.y() * band.ray_y[at] + plane.z());
   };
@@ -295,7 +295,7 @@ void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x
                                                           const Eigen::Vector3d& ray_at_line,
                                                           std::int32_t face) {
   const CameraScene& scene = context.scene;
-  const PlaneCache::Entry plane = planes_.get(scene, face);
+  const FaceCache::Plane plane = faces_.plane(scene, face);
   double inverse_depth = dotProduct(plane.plane, marked.ray);
   const bool extended = own.x != marked.x || own.row != marked.row;
   const bool grazing =
@@ -303,7 +303,7 @@ void SalientEdges::comparePair(const Context& context, int x_p, int row_p, int x
       inverse_depth * plane.inverse_norm < kGrazing * std::sqrt(dotProduct(marked.ray, marked.ray));
   if (extended && grazing) inverse_depth = dotProduct(plane.plane, ray_at_line);
   if (!extended || grazing) {
-    const auto& [v0, v1, v2] = planes_.corners(scene, face);
+    const auto& [v0, v1, v2] = faces_.corners(scene, face);
     const double farthest = std::max({v0.z(), v1.z(), v2.z()});
     const double nearest = std::max(std::min({v0.z(), v1.z(), v2.z()}), CameraScene::kNearPlane_m);
     inverse_depth = std::max(inverse_depth, 1.0 / farthest);

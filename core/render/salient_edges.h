@@ -94,7 +94,7 @@ class SalientEdges {
   Status finishRow(const Context& context, int row);
   void endRows(int y, EdgeRender& output) const;
 
-  PlaneCache planes_;
+  FaceCache faces_;
   std::span<EdgePixel> candidates_;  ///< two rows: this one and the next
   int stride_ = 0;
   int first_y_ = 0;

@@ -19,7 +19,7 @@ struct Exit {
 /// Where the way from one ray to another leaves a face, seen from the camera, that it entered at a
 /// place through an edge (-1: it begins there). The sign that turns the edges inwards is applied to
 /// their values, which gives the same bits as faceEdges().
-inline Exit findExit(const PlaneCache::Edges& face, double sign, int entered_through,
+inline Exit findExit(const FaceCache::Edges& face, double sign, int entered_through,
                      double s_entered, const Eigen::Vector3d& ray_from,
                      const Eigen::Vector3d& ray_to) {
   Exit exit;
@@ -51,8 +51,8 @@ inline int cornerBeyond(const MeshView& mesh, std::int32_t face, int edge, std::
 
 /// A face folds back behind the surface when its third corner lies on the surface's side of the
 /// edge; this does not depend on the orientation of the mesh.
-bool foldsBack(const PlaneCache::Edges& face, int third, const Eigen::Vector3d& line) {
-  return third < 0 || !(dotProduct(line, face.corner[static_cast<std::size_t>(third)]) < 0.0);
+bool foldsBack(const Corners& face, int third, const Eigen::Vector3d& line) {
+  return third < 0 || !(dotProduct(line, face[static_cast<std::size_t>(third)]) < 0.0);
 }
 
 int edgeTowards(const CameraScene& scene, std::int32_t face, std::int32_t neighbour) {
@@ -98,80 +98,80 @@ std::int32_t trustedFace(const CameraScene& scene, std::int32_t face) {
 }
 
 /// Cosine-like similarity of two faces' normals.
-double nearness(const PlaneCache::Entry& face, const PlaneCache::Entry& other) {
+double nearness(const FaceCache::Plane& face, const FaceCache::Plane& other) {
   return dotProduct(face.plane, other.plane) * other.inverse_norm;
 }
 
 }  // namespace
 
-PlaneCache PlaneCache::create(Arena& arena) {
-  PlaneCache cache;
-  cache.entries_ = arena.allocate<Entry>(kEntries);
+FaceCache FaceCache::create(Arena& arena) {
+  FaceCache cache;
+  cache.planes_ = arena.allocate<Plane>(kPlanes);
   cache.edges_ = arena.allocate<Edges>(kEdges);
   return cache;
 }
 
-void PlaneCache::clear() {
-  for (Entry& entry : entries_) entry.face = -1;
+void FaceCache::clear() {
+  for (Plane& found : planes_) found.face = -1;
   for (Edges& edges : edges_) edges.face = -1;
 }
 
-void PlaneCache::fill(const CameraScene& scene, std::int32_t face, Entry& entry) {
-  // The same for a face without a plane, whatever the entry held.
+void FaceCache::fill(const CameraScene& scene, std::int32_t face, Plane& found) {
+  // The same for a face without a plane, whatever it held.
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
-  entry.face = face;
+  found.face = face;
   const std::int32_t trusted = scene.normalKnown(face) ? face : trustedFace(scene, face);
-  entry.valid = planeThrough(corners(scene, trusted), plane);
-  entry.plane = plane;
+  found.valid = planeThrough(corners(scene, trusted), plane);
+  found.plane = plane;
   const double norm2 = dotProduct(plane, plane);
-  entry.inverse_norm = norm2 > 0.0 ? 1.0 / std::sqrt(norm2) : 0.0;
+  found.inverse_norm = norm2 > 0.0 ? 1.0 / std::sqrt(norm2) : 0.0;
 }
 
-void PlaneCache::fillLines(Edges& edges) {
+void FaceCache::fillLines(Edges& edges) {
   edges.lines_known = true;
   for (std::size_t i = 0; i < 3; ++i)
     edges.line[i] = crossProduct(edges.corner[i], edges.corner[(i + 1) % 3]);
   edges.determinant = dotProduct(edges.line[0], edges.corner[2]);
 }
 
-SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,
+SurfaceEnd traceSurface(const CameraScene& scene, FaceCache& faces, std::int32_t start,
                         const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
                         std::int32_t target) {
   SurfaceEnd end;
   end.face = start;
   SurfaceEnd turn;
-  PlaneCache::Entry plane;  // of the face
-  const PlaneCache::Edges* face = &planes.edges(scene, start);
+  FaceCache::Plane plane;  // of the face
   int entered_through = -1;
   for (int hop = 0; hop <= kMaxHops; ++hop) {
-    if (!(face->determinant > 0.0 || face->determinant < 0.0)) break;
-    const double sign = face->determinant < 0.0 ? -1.0 : 1.0;
+    const FaceCache::Edges& face = faces.edges(scene, end.face);
+    if (!(face.determinant > 0.0 || face.determinant < 0.0)) break;
+    const double sign = face.determinant < 0.0 ? -1.0 : 1.0;
     const Exit exit =
-        findExit(*face, sign, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to);
+        findExit(face, sign, entered_through, end.ends ? end.s : 0.0, ray_from, ray_to);
     end.ends = exit.edge >= 0;
     end.s = exit.s;
     if (!end.ends) break;
-    end.line = sign * face->line[static_cast<std::size_t>(exit.edge)];
+    end.line = sign * face.line[static_cast<std::size_t>(exit.edge)];
     end.edge = static_cast<std::int8_t>(exit.edge);
     if (hop == kMaxHops) break;
 
     const std::int32_t next = scene.adjacency.beyond(end.face, exit.edge);
     if (next < 0) break;
-    face = &planes.edges(scene, next);
-    if (foldsBack(*face, cornerBeyond(scene.mesh, end.face, exit.edge, next), end.line)) break;
+    const int third = cornerBeyond(scene.mesh, end.face, exit.edge, next);
+    if (foldsBack(faces.corners(scene, next), third, end.line)) break;
     if (next == target) {
       if (turn.ends) end = turn;
       end.reached = true;
       break;
     }
-    if (hop == 0) plane = planes.get(scene, start);
-    const PlaneCache::Entry next_plane = planes.get(scene, next);
+    if (hop == 0) plane = faces.plane(scene, start);
+    const FaceCache::Plane next_plane = faces.plane(scene, next);
     if (!next_plane.valid ||
         normalsDiffer(plane, next_plane, scene.cos_normal_threshold[scene.partIndex(end.face)]))
       break;
     if (target >= 0 && !turn.ends &&
-        nearness(next_plane, planes.get(scene, target)) >
-            nearness(next_plane, planes.get(scene, start)))
+        nearness(next_plane, faces.plane(scene, target)) >
+            nearness(next_plane, faces.plane(scene, start)))
       turn = end;
     entered_through = edgeTowards(scene, next, end.face);
     if (entered_through < 0) break;

@@ -13,10 +13,10 @@ namespace boresight {
 
 /// Cache of the planes (see planeThrough) and edges of the latest faces: neighbouring pixels need
 /// the same few faces.
-class PlaneCache {
+class FaceCache {
  public:
   /// A face and its plane.
-  struct Entry {
+  struct Plane {
     std::int32_t face = -1;                           ///< -1: empty
     bool valid = false;                               ///< it has a plane
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();  ///< 1/z = plane . ray
@@ -32,13 +32,13 @@ class PlaneCache {
     double determinant = 0.0;             ///< of the corners; 0: no area seen from the camera
   };
 
-  static PlaneCache create(Arena& arena);  ///< Takes the entries from `arena`
-  void clear();                            ///< Removes all faces
+  static FaceCache create(Arena& arena);  ///< Takes its memory from `arena`
+  void clear();                           ///< Removes all faces
   /// Valid until the next call.
-  const Entry& get(const CameraScene& scene, std::int32_t face) {
-    Entry& entry = entries_[static_cast<std::size_t>(face) % kEntries];
-    if (entry.face != face) fill(scene, face, entry);
-    return entry;
+  const Plane& plane(const CameraScene& scene, std::int32_t face) {
+    Plane& found = planes_[static_cast<std::size_t>(face) % kPlanes];
+    if (found.face != face) fill(scene, face, found);
+    return found;
   }
   /// Valid until the next call.
   const Edges& edges(const CameraScene& scene, std::int32_t face) {
@@ -52,7 +52,7 @@ class PlaneCache {
   }
 
  private:
-  static constexpr std::size_t kEntries = 256;
+  static constexpr std::size_t kPlanes = 256;
   static constexpr std::size_t kEdges = 128;  ///< four times as large
   Edges& cornersOf(const CameraScene& scene, std::int32_t face) {
     Edges& edges = edges_[static_cast<std::size_t>(face) % kEdges];
@@ -63,15 +63,15 @@ class PlaneCache {
     }
     return edges;
   }
-  void fill(const CameraScene& scene, std::int32_t face, Entry& entry);
+  void fill(const CameraScene& scene, std::int32_t face, Plane& found);
   static void fillLines(Edges& edges);
-  std::span<Entry> entries_;
+  std::span<Plane> planes_;
   std::span<Edges> edges_;
 };
 
 /// True when two surfaces' normals, both taken on the camera's side, differ by more than the angle
 /// whose cosine is given.
-inline bool normalsDiffer(const PlaneCache::Entry& a, const PlaneCache::Entry& b,
+inline bool normalsDiffer(const FaceCache::Plane& a, const FaceCache::Plane& b,
                           double cos_threshold) {
   return dotProduct(a.plane, b.plane) * (a.inverse_norm * b.inverse_norm) < cos_threshold;
 }
@@ -90,7 +90,7 @@ struct SurfaceEnd {
 /// camera: silhouettes of tessellated curved surfaces consist of slivers narrower than a pixel, and
 /// stopping at the first face's edge would shift them inwards. When `target` (-1: none) is
 /// reached, `s` and `line` are where the normal turns from the start's to the target's.
-SurfaceEnd traceSurface(const CameraScene& scene, PlaneCache& planes, std::int32_t start,
+SurfaceEnd traceSurface(const CameraScene& scene, FaceCache& faces, std::int32_t start,
                         const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
                         std::int32_t target);
 
