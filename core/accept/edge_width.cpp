@@ -8,14 +8,14 @@
 namespace boresight {
 namespace {
 
-constexpr int kMostPlaces = 4000;
-constexpr std::int32_t kLeastPlaces = 30;  ///< of a direction
-constexpr int kReach_px = 24;              ///< of a profile, to either side
-constexpr int kNear_px = 4;                ///< range of the search for its steepest slope
-constexpr double kLeastHeight = 20.0;      ///< gray values
-constexpr int kSamples = 2 * kReach_px + 1;
+constexpr int kMostProfiles = 4000;
+constexpr std::int32_t kLeastProfiles = 30;  ///< of a direction
+constexpr int kReach_px = 24;                ///< of a profile, to either side
+constexpr int kNear_px = 4;                  ///< range of the search for its steepest slope
+constexpr double kLeastHeight = 20.0;        ///< gray values
+constexpr int kProfileSamples = 2 * kReach_px + 1;
 
-using Profile = std::array<double, kSamples>;
+using Profile = std::array<double, kProfileSamples>;
 
 /// Bilinear.
 double sample(const ImageView& image, const Eigen::Vector2d& place) {
@@ -31,7 +31,7 @@ double sample(const ImageView& image, const Eigen::Vector2d& place) {
 /// Gray values along the normal. False when a part is outside the image, or ignored.
 bool takeProfile(const ImageView& image, const BitImage* ignore, const Eigen::Vector2d& place,
                  const Eigen::Vector2d& normal, Profile& profile) {
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kProfileSamples; ++i) {
     const Eigen::Vector2d at = place + (i - kReach_px) * normal;
     if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < image.width - 1 && at.y() < image.height - 1))
       return false;
@@ -57,7 +57,7 @@ std::optional<double> rampWidth_px(const Profile& profile) {
   int first = steepest;
   int last = steepest;
   while (first > 0 && sign * (at(first) - at(first - 1)) > 0.0) --first;
-  while (last + 1 < kSamples && sign * (at(last + 1) - at(last)) > 0.0) ++last;
+  while (last + 1 < kProfileSamples && sign * (at(last + 1) - at(last)) > 0.0) ++last;
   const double height = sign * (at(last) - at(first));
   if (!(height >= kLeastHeight)) return std::nullopt;
   return height / std::abs(slope);
@@ -69,7 +69,7 @@ int EdgeWidth::widestDirection() const {
   int widest = -1;
   for (int i = 0; i < kEdgeDirections; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (places[at] < kLeastPlaces) continue;
+    if (places[at] < kLeastProfiles) continue;
     if (widest < 0 || width_px[at] > width_px[static_cast<std::size_t>(widest)]) widest = i;
   }
   return widest;
@@ -111,7 +111,7 @@ EdgeWidth measureEdgeWidth(const EdgeRender& render, int level, const ImageView&
   EdgeWidthMeter meter(image, ignore);
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5);
   const double scale = static_cast<double>(1 << level);
-  const int stride = std::max(1, (render.pixel_count + kMostPlaces - 1) / kMostPlaces);
+  const int stride = std::max(1, (render.pixel_count + kMostProfiles - 1) / kMostProfiles);
   for (const EdgePixel& pixel : render.eachPixel(stride)) {
     const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
     const Eigen::Vector2d place = Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;

@@ -16,8 +16,8 @@ constexpr double kLeastReach = 6.0;
 constexpr double kMostReach = 40.0;
 constexpr int kLeastLines = 20;
 /// Share of either side that no gray value excludes.
-constexpr double kTrusted = 0.96;
-constexpr double kLeastShare = 0.001;
+constexpr double kTrustedRegion = 0.96;
+constexpr double kLeastColourShare = 0.001;
 constexpr double kLeast_nats = -0.8;
 constexpr double kMost_nats = 1.2;
 
@@ -38,8 +38,6 @@ struct OutlineBox {
   }
   int longerSide() const { return std::max(x_max - x_min, y_max - y_min) + 1; }
 };
-
-bool isOutline(const EdgePixel& pixel) { return (pixel.kind & kEdgeBorder) != 0; }
 
 /// Sector of a direction among twelve of 30 deg: sectors 0 to 2 have x and y positive.
 int sectorOf(double x, double y) {
@@ -101,7 +99,7 @@ void RegionEvidenceMeter::takeLines(const EdgeRender& render, int level, const I
   count_ = 0;
   OutlineBox box;
   for (const EdgePixel& pixel : render.eachPixel())
-    if (isOutline(pixel)) box.extend(pixel);
+    if (isBorder(pixel)) box.extend(pixel);
   if (box.places == 0) return;
   const double scale = static_cast<double>(1 << level);
   const double reach_px =
@@ -111,7 +109,7 @@ void RegionEvidenceMeter::takeLines(const EdgeRender& render, int level, const I
   const std::int32_t stride = (box.places + kMostLines - 1) / kMostLines;
   std::int32_t index = 0;
   for (const EdgePixel& pixel : render.eachPixel()) {
-    if (!isOutline(pixel) || index++ % stride != 0 || count_ == kMostLines) continue;
+    if (!isBorder(pixel) || index++ % stride != 0 || count_ == kMostLines) continue;
     const Eigen::Vector2d normal = Eigen::Vector2d(pixel.normal_x, pixel.normal_y) / 127.0;
     const Eigen::Vector2d on_line =
         Eigen::Vector2d(pixel.x, pixel.y) + 0.01 * pixel.offset * normal;
@@ -171,11 +169,11 @@ void RegionEvidenceMeter::fillLogOdds() {
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       const auto shareOf = [](std::int64_t count, std::int64_t all) {
         return (all > 0 ? static_cast<double>(count) / static_cast<double>(all) : 0.0) +
-               kLeastShare;
+               kLeastColourShare;
       };
       const double f = shareOf(inside[bin], all_inside);
       const double g = shareOf(outside[bin], all_outside);
-      const double q = 0.5 * (1.0 - kTrusted) + kTrusted * f / (f + g);
+      const double q = 0.5 * (1.0 - kTrustedRegion) + kTrustedRegion * f / (f + g);
       log_odds_[static_cast<std::size_t>(sector)][bin] = log(q / (1.0 - q));
     }
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 namespace boresight {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -10,6 +12,9 @@ inline constexpr double kUniformSigma = 0.57735026918962576;
 
 /// Neither infinite nor a NaN.
 inline bool isFinite(double x) { return x - x == 0.0; }
+
+/// The nearest integer, the upper one of two; `x` must fit.
+inline int nearestInt(double x) { return static_cast<int>(std::floor(x + 0.5)); }
 
 /// Elementary functions from + - * / and sqrt in a fixed order, so that every machine gives the
 /// same bits; those of the C library differ between versions and processors. Absolute error below

@@ -11,7 +11,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kMostRounds = 100;
+constexpr int kMostPupilRounds = 100;
 /// No ray with z > 0 is farther from an optical axis within 60 deg of z.
 constexpr double kWidestAngle_rad = 150.0 * kDegree_rad;
 /// Below this angle the first terms of the series in theta are exact to rounding.
@@ -102,7 +102,7 @@ bool solveAngle(const Camera& camera, const Split& split, double& theta) {
   const double start = theta < limit ? theta : limit;
   if (!bracket(pupil, start, limit, low, high)) return false;
   theta = start;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostPupilRounds; ++round) {
     const double excess = pupil.value(theta);
     if (excess == 0.0) break;
     (excess > 0.0 ? high : low) = theta;
@@ -206,7 +206,7 @@ bool solveRadius(const Eigen::Vector3d& r, double radius, double limit, double& 
   double low = 0.0;
   double high = limit;
   x = radius < high ? radius : high;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostPupilRounds; ++round) {
     const double excess = distorted(x) - radius;
     if (excess == 0.0) break;
     (excess > 0.0 ? high : low) = x;

@@ -8,7 +8,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kMostRounds = 100;
+constexpr int kMostAngleRounds = 100;
 
 inline double distortedAngle(const Camera& camera, double theta) {
   const auto& k = camera.distortion;
@@ -71,7 +71,7 @@ bool undistortKannalaBrandt(const Camera& camera, const Eigen::Vector2d& q, Eige
   // Newton between bounds: the distorted angle increases up to the end of the valid field, where
   // its slope may vanish.
   double theta = distorted < high ? distorted : high;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostAngleRounds; ++round) {
     const double excess = distortedAngle(camera, theta) - distorted;
     if (excess == 0.0) break;
     (excess > 0.0 ? high : low) = theta;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/math.h"
 #include "core/localizer/pass.h"
 #include "core/localizer/run_digest.h"
 
@@ -30,8 +31,6 @@ Template insideOf(const Camera& camera, Template item) {
   return item;
 }
 
-int nearestPixel(double place) { return static_cast<int>(std::floor(place + 0.5)); }
-
 Match matchOf(const SuppliedMatch& supplied, const Camera& camera) {
   Match match;
   match.window = supplied.window;
@@ -39,8 +38,8 @@ Match matchOf(const SuppliedMatch& supplied, const Camera& camera) {
   match.norms = {kScoreNorm, 0};
   match.x = supplied.x;
   match.y = supplied.y;
-  match.peak.x = nearestPixel(supplied.x);
-  match.peak.y = nearestPixel(supplied.y);
+  match.peak.x = nearestInt(supplied.x);
+  match.peak.y = nearestInt(supplied.y);
   match.peak.counts = countsOf(supplied.score);
   match.peak.has_second = supplied.has_second;
   if (supplied.has_second) match.peak.second_counts = countsOf(supplied.second_score);

@@ -34,7 +34,7 @@ struct DirectionBounds {
   }
 };
 
-struct PixelBounds {
+struct CornerBounds {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d high = Eigen::Vector2d::Zero();
 };
@@ -204,7 +204,7 @@ Eigen::Vector2d pixelTowards(const Camera& camera, const Eigen::Vector2d& inside
 /// that is allowed for where the extreme may lie between samples, and the whole distance between
 /// samples where the side leaves the valid field.
 void extendBySide(const Camera& camera, const Eigen::Vector2d& inside, const Eigen::Vector2d& from,
-                  const Eigen::Vector2d& to, PixelBounds& pixels) {
+                  const Eigen::Vector2d& to, CornerBounds& pixels) {
   constexpr std::size_t kSegments = 4;
   std::array<Eigen::Vector2d, kSegments + 1> samples;
   bool pulled_in = false;
@@ -249,7 +249,7 @@ void seeFromPupil(const Camera& camera, Eigen::Vector3d& point_in_camera_m,
 /// Bounds of the pixels of a point. The Jacobian of every distortion model is regular in the valid
 /// field, which it maps one to one: extremes lie on the sides of the polygon.
 bool boundPixels(const Camera& camera, Eigen::Vector3d point_in_camera_m,
-                 SeedUncertainty uncertainty, PixelBounds& pixels) {
+                 SeedUncertainty uncertainty, CornerBounds& pixels) {
   if (!project(camera, point_in_camera_m, pixels.low)) return false;
   pixels.high = pixels.low;
   seeFromPupil(camera, point_in_camera_m, uncertainty);
@@ -291,7 +291,7 @@ SearchWindow searchWindow(const Camera& camera, const Eigen::Vector3d& point_in_
   const int half = template_side_px / 2;
   if (half < 1 || !isUsable(point_in_camera_m, uncertainty)) return {};
   if (camera.width < template_side_px || camera.height < template_side_px) return {};
-  PixelBounds pixels;
+  CornerBounds pixels;
   if (!boundPixels(camera, point_in_camera_m, uncertainty, pixels)) return {};
 
   // Rounded outwards, so that the window holds the pixels on both sides of every place; one pixel

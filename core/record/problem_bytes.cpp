@@ -15,15 +15,15 @@
 namespace boresight {
 namespace {
 
-constexpr std::array<std::uint8_t, 8> kMagic = {'B', 'O', 'R', 'S', 'I', 'G', 'H', 'T'};
-constexpr std::size_t kHeaderBytes = kMagic.size() + 8;
-constexpr std::size_t kChecksumBytes = 32;
+constexpr std::array<std::uint8_t, 8> kProblemMagic = {'B', 'O', 'R', 'S', 'I', 'G', 'H', 'T'};
+constexpr std::size_t kHeaderBytes = kProblemMagic.size() + 8;
+constexpr std::size_t kDigestBytes = 32;
 
 std::string_view bytesAsText(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::array<std::uint8_t, kChecksumBytes> checksumOf(std::span<const std::uint8_t> bytes) {
+std::array<std::uint8_t, kDigestBytes> checksumOf(std::span<const std::uint8_t> bytes) {
   Sha256 sha;
   sha.update(bytes);
   return sha.digest();
@@ -31,15 +31,11 @@ std::array<std::uint8_t, kChecksumBytes> checksumOf(std::span<const std::uint8_t
 
 // -- Writing --
 
-void writeVector(const Eigen::Vector3d& vector, ByteWriter& writer) {
-  for (int i = 0; i < 3; ++i) writer.f64(vector[i]);
-}
-
 void writeLens(const CahvLens& lens, ByteWriter& writer) {
   writer.f64(lens.skew_px);
-  writeVector(lens.optical_axis, writer);
-  writeVector(lens.radial, writer);
-  writeVector(lens.entrance_m, writer);
+  writer.f64s({lens.optical_axis.data(), 3});
+  writer.f64s({lens.radial.data(), 3});
+  writer.f64s({lens.entrance_m.data(), 3});
   writer.f64(lens.linearity);
 }
 
@@ -58,11 +54,11 @@ void writeSeed(const LocalizationProblem& problem, ByteWriter& writer) {
        {seed.rotation.w(), seed.rotation.x(), seed.rotation.y(), seed.rotation.z()}) {
     writer.f64(value);
   }
-  writeVector(seed.translation_m, writer);
-  writeVector(problem.uncertainty.translation_m, writer);
-  writeVector(problem.uncertainty.rotation_rad, writer);
-  writeVector(problem.uncertainty.pivot_in_camera_m, writer);
-  writeVector(problem.end_effector_in_camera_m, writer);
+  writer.f64s({seed.translation_m.data(), 3});
+  writer.f64s({problem.uncertainty.translation_m.data(), 3});
+  writer.f64s({problem.uncertainty.rotation_rad.data(), 3});
+  writer.f64s({problem.uncertainty.pivot_in_camera_m.data(), 3});
+  writer.f64s({problem.end_effector_in_camera_m.data(), 3});
 }
 
 void writeMesh(const MeshView& mesh, ByteWriter& writer) {
@@ -95,7 +91,7 @@ void writeIgnore(const BitImage* ignore, ByteWriter& writer) {
 /// All but the checksum; `size` is that of the whole.
 void writeProblem(const LocalizationProblem& problem, const LocalizerOptions& options,
                   std::size_t size, ByteWriter& writer) {
-  writer.bytes(kMagic);
+  writer.bytes(kProblemMagic);
   writer.u32(kProblemVersion);
   writer.u32(static_cast<std::uint32_t>(size));
   writeOptions(options, writer);
@@ -295,17 +291,17 @@ ProblemCheck readContent(ByteReader& reader, Arena& arena, LocalizationProblem& 
 
 ProblemFault checkFrame(std::span<const std::uint8_t> bytes) {
   ByteReader reader(bytes);
-  const std::span<const std::uint8_t> magic = reader.take(kMagic.size());
-  if (!std::equal(magic.begin(), magic.end(), kMagic.begin(), kMagic.end()))
+  const std::span<const std::uint8_t> magic = reader.take(kProblemMagic.size());
+  if (!std::equal(magic.begin(), magic.end(), kProblemMagic.begin(), kProblemMagic.end()))
     return ProblemFault::kNotAProblem;
   const std::uint32_t version = reader.u32();
   const std::uint32_t size = reader.u32();
   if (reader.failed()) return ProblemFault::kNotAProblem;
   if (version != kProblemVersion) return ProblemFault::kVersion;
-  if (size != bytes.size() || size < kHeaderBytes + kChecksumBytes) return ProblemFault::kSize;
-  const std::array<std::uint8_t, kChecksumBytes> sum =
-      checksumOf(bytes.first(bytes.size() - kChecksumBytes));
-  const auto stored = bytes.last(kChecksumBytes);
+  if (size != bytes.size() || size < kHeaderBytes + kDigestBytes) return ProblemFault::kSize;
+  const std::array<std::uint8_t, kDigestBytes> sum =
+      checksumOf(bytes.first(bytes.size() - kDigestBytes));
+  const auto stored = bytes.last(kDigestBytes);
   return std::equal(sum.begin(), sum.end(), stored.begin()) ? ProblemFault::kNone
                                                             : ProblemFault::kChecksum;
 }
@@ -386,7 +382,7 @@ std::size_t encodeProblem(const LocalizationProblem& problem, const LocalizerOpt
                           std::span<std::uint8_t> out) {
   ByteWriter counter;
   writeProblem(problem, options, 0, counter);
-  const std::size_t size = counter.written() + kChecksumBytes;
+  const std::size_t size = counter.written() + kDigestBytes;
   if (out.size() < size) return size;
   ByteWriter writer(out);
   writeProblem(problem, options, size, writer);
@@ -400,7 +396,7 @@ ProblemCheck decodeProblem(std::span<const std::uint8_t> bytes, Arena& arena,
   options = {};
   const ProblemFault fault = checkFrame(bytes);
   if (fault != ProblemFault::kNone) return {fault, nullptr};
-  ByteReader reader(bytes.subspan(kHeaderBytes, bytes.size() - kHeaderBytes - kChecksumBytes));
+  ByteReader reader(bytes.subspan(kHeaderBytes, bytes.size() - kHeaderBytes - kDigestBytes));
   return readContent(reader, arena, problem, options);
 }
 

@@ -8,15 +8,11 @@
 namespace boresight {
 namespace {
 
-void writeVector(const Eigen::Vector3d& vector, ByteWriter& writer) {
-  for (int i = 0; i < 3; ++i) writer.f64(vector[i]);
-}
-
 void writePose(const Pose& pose, ByteWriter& writer) {
   for (const double value :
        {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z()})
     writer.f64(value);
-  writeVector(pose.translation_m, writer);
+  writer.f64s({pose.translation_m.data(), 3});
 }
 
 void writeInputs(const RecordInputs& inputs, const LocalizationProblem& problem,
@@ -26,10 +22,10 @@ void writeInputs(const RecordInputs& inputs, const LocalizationProblem& problem,
   writer.i32(problem.image.width);
   writer.i32(problem.image.height);
   writePose(problem.camera_from_station_seed, writer);
-  writeVector(problem.uncertainty.translation_m, writer);
-  writeVector(problem.uncertainty.rotation_rad, writer);
-  writeVector(problem.uncertainty.pivot_in_camera_m, writer);
-  writeVector(problem.end_effector_in_camera_m, writer);
+  writer.f64s({problem.uncertainty.translation_m.data(), 3});
+  writer.f64s({problem.uncertainty.rotation_rad.data(), 3});
+  writer.f64s({problem.uncertainty.pivot_in_camera_m.data(), 3});
+  writer.f64s({problem.end_effector_in_camera_m.data(), 3});
 }
 
 /// Progress of an iteration; stages that it did not reach hold values of another iteration.

@@ -9,9 +9,6 @@
 namespace boresight {
 namespace {
 
-constexpr double kTukey = 4.685;  ///< 95 % efficiency on Gaussian residuals (Huber 1981)
-constexpr double kMadToSigma = 1.4826;
-constexpr double kMinScale_px = 0.15;
 /// Searches as far as this take wide steps: a narrower one follows.
 constexpr double kWideSearch_px = 2.0;
 constexpr double kSettled_px = 0.003;  ///< a step below this does not change the measurements

@@ -9,11 +9,8 @@
 namespace boresight {
 namespace {
 
-constexpr double kTukey = 4.685;
-constexpr double kMadToSigma = 1.4826;
-constexpr double kMinScale_px = 0.15;
 /// The focal length is undetermined when the pose explains all but this share of it.
-constexpr double kLeastShare = 1e-9;
+constexpr double kLeastFocalShare = 1e-9;
 
 /// Sums of the errors of one unknown over the groups of one way of grouping.
 template <std::size_t N>
@@ -133,7 +130,7 @@ bool FocalFitter::solve(const Sums& sums) {
   if (!invert(sums.pose, covariance)) return false;
   coupling_ = covariance * sums.mixed;
   information_ = sums.focal - sums.mixed.dot(coupling_);
-  if (!(information_ > kLeastShare * sums.focal)) return false;
+  if (!(information_ > kLeastFocalShare * sums.focal)) return false;
   const double change = (sums.focal_gradient - coupling_.dot(sums.pose_gradient)) / information_;
   fit_.change += change;
   xi_ += covariance * (sums.pose_gradient - sums.mixed * change);

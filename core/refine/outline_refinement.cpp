@@ -10,7 +10,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kRounds = 3;
+constexpr int kOutlineRounds = 3;
 constexpr int kLeastFound = 12;
 /// Neighbouring places share their errors: together they weigh as this many independent ones.
 constexpr double kIndependent = 60.0;
@@ -61,7 +61,7 @@ void OutlineRefinement::takePlaces(const MeshView& mesh, const EdgeRender& rende
 bool OutlineRefinement::refine(const DirectedEdges& edges, const PosePrior& prior, double radius_px,
                                Pose& view_from_station) const {
   Pose pose = view_from_station;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kOutlineRounds; ++round) {
     const double cut_px = radius_px + 0.5;
     const int radius = static_cast<int>(radius_px + 0.5);
     NormalEquations equations;

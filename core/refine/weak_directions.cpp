@@ -11,8 +11,8 @@
 namespace boresight {
 namespace {
 
-constexpr std::int32_t kMostPlaces = 1500;  ///< enough for the means
-constexpr std::int32_t kLeastPlaces = 12;
+constexpr std::int32_t kMostMeanPlaces = 1500;  ///< enough for the means
+constexpr std::int32_t kLeastMeanPlaces = 12;
 
 /// Adds the outer product of a row to the lower triangle.
 void addSquare(const Vector6d& row, Matrix6d& sum) {
@@ -89,7 +89,8 @@ void EdgeMotion::add(const RefinementResult& refined, const Camera& camera,
   const Eigen::Matrix3d rotation = pose.matrix();
   const Eigen::Matrix3d from_first = camera_from_first.matrix();
   const Eigen::Vector3d pivot_m = camera_from_first * pivot_in_camera_m_;
-  const std::int32_t stride = std::max(1, (refined.sample_count + kMostPlaces - 1) / kMostPlaces);
+  const std::int32_t stride =
+      std::max(1, (refined.sample_count + kMostMeanPlaces - 1) / kMostMeanPlaces);
   for (std::int32_t i = 0; i < refined.sample_count; i += stride) {
     const EdgeSample& sample = refined.samples[static_cast<std::size_t>(i)];
     const Eigen::Vector3d point_m = rotation * sample.point_in_station_m + pose.translation_m;
@@ -109,7 +110,7 @@ WeakDirections EdgeMotion::weakDirections() const {
   WeakDirections weak;
   weak.pivot_in_camera_m = pivot_in_camera_m_;
   Matrix6d factor;
-  if (places_ < kLeastPlaces || !factorize(in_image_ / places_, factor)) return weak;
+  if (places_ < kLeastMeanPlaces || !factorize(in_image_ / places_, factor)) return weak;
   const Matrix6d mean = along_normals_ / places_;
   const Matrix6d full = mean.selfadjointView<Eigen::Lower>();
   const Matrix6d half = solveLower(factor, full);

@@ -73,6 +73,9 @@ enum EdgeKind : std::uint8_t {
   kEdgeBorder = 4,     ///< the other side is background
 };
 
+/// Whether the pixel is between the object and the background.
+inline bool isBorder(const EdgePixel& pixel) { return (pixel.kind & kEdgeBorder) != 0; }
+
 class EdgePixelRange;
 
 /// Salient edges of the scene from one pose (Pham 2025, Sec. III-B): the baseline edge map, its
@@ -136,7 +139,7 @@ class EdgePixelRange {
   /// `render` must outlive the range.
   EdgePixelRange(const EdgeRender& render, std::int32_t stride)
       : render_(render), stride_(stride) {}
-  Iterator begin() const { return {render_, 0, stride_}; }                    ///< The first one
+  Iterator begin() const { return {render_, 0, stride_}; }                  ///< The first one
   Iterator end() const { return {render_, render_.pixel_count, stride_}; }  ///< Behind the last
 
  private:

@@ -8,14 +8,12 @@
 namespace boresight {
 namespace {
 
-constexpr int kScales = 3;
+constexpr int kStepSizes = 3;
 constexpr int kMostSweeps = 6;
 /// First steps: half the spacings of the grid.
 constexpr double kTurn_rad = 7.5 * kDegree_rad;
 constexpr double kSlide_px = 2.0;
-constexpr double kDepth = 0.05;
-
-int nearest(double value) { return static_cast<int>(std::floor(value + 0.5)); }
+constexpr double kDepthStep = 0.05;
 
 }  // namespace
 
@@ -47,8 +45,8 @@ int CompassSearch::sumAt(const SlideSums& maps, const State& state) const {
     }
     const double inverse_z = 1.0 / point.z();
     const int direction =
-        edgeDirectionOf(nearest(8.0 * (c * place.normal.x() - s * place.normal.y())),
-                        nearest(8.0 * (s * place.normal.x() + c * place.normal.y())));
+        edgeDirectionOf(nearestInt(8.0 * (c * place.normal.x() - s * place.normal.y())),
+                        nearestInt(8.0 * (s * place.normal.x() + c * place.normal.y())));
     sum +=
         maps.at(direction, camera_.fx * point.x() * inverse_z, camera_.fy * point.y() * inverse_z);
   }
@@ -60,7 +58,7 @@ double CompassSearch::descend(const SlideSums& maps, const Eigen::Vector3d& midd
   State best{view_from_station, 0.0};
   int least = sumAt(maps, best);
   double share = 1.0;
-  for (int scale = 0; scale < kScales; ++scale, share *= 0.5) {
+  for (int scale = 0; scale < kStepSizes; ++scale, share *= 0.5) {
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
       bool moved = false;
       for (int move = 0; move < 12; ++move) {
@@ -78,7 +76,7 @@ double CompassSearch::descend(const SlideSums& maps, const Eigen::Vector3d& midd
         } else if (axis < 5) {
           pose.translation_m[axis - 3] += step * kSlide_px * middle_m.z() / camera_.fx;
         } else {
-          pose.translation_m += step * kDepth * middle_m;
+          pose.translation_m += step * kDepthStep * middle_m;
         }
         const int sum = sumAt(maps, next);
         if (sum >= least) continue;

@@ -18,7 +18,6 @@ struct Scale {
 };
 constexpr std::array<Scale, 3> kScales = {{{88.0, 6.0}, {158.0, 5.0}, {kEvidenceSpan_px[0], 4.0}}};
 constexpr int kLastScale = static_cast<int>(kScales.size()) - 1;
-constexpr double kMargin = 0.1;  ///< around the object, of its size
 
 /// Competing poses whose evidence is lower by more than this are not refined; not refined further.
 constexpr double kBehind_nats = 0.6;
@@ -32,9 +31,9 @@ constexpr double kVisible = 0.1;
 /// share of the object's size.
 constexpr double kSlid = 0.05;
 /// Largest motion of a pose by the refinement, as shares of the object's size.
-constexpr double kLateral = 0.1;
-constexpr double kDepth = 0.2;
-constexpr double kRotation_rad = 0.3;
+constexpr double kWidestLateral = 0.1;
+constexpr double kWidestDepth = 0.2;
+constexpr double kWidestRotation_rad = 0.3;
 
 Eigen::Matrix3d halfTurn(const Eigen::Vector3d& axis) {
   return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
@@ -116,7 +115,7 @@ void CompetingPoseTest::beginView(double span_px, Purpose purpose) {
   ViewSize size;
   size.span_px = span_px;
   const bool slides = purpose == Purpose::kFound;
-  size.margin_px = kMargin * span_px + (slides ? SelfSlides::kLongest_px : 0);
+  size.margin_px = kViewMargin * span_px + (slides ? SelfSlides::kLongest_px : 0);
   size.most_px = slides ? SlideSums::kMaxView_px : kLongestView_px;
   purpose_ = purpose;
   phase_ = view_edges_.begin(problem_, found_, size) ? Phase::kView : Phase::kDone;
@@ -310,8 +309,9 @@ PosePrior CompetingPoseTest::priorOf(const Pose& view_from_station) const {
   const double size_m = problem_.scene.diagonal();
   PosePrior prior;
   prior.camera_from_station = view_from_station;
-  prior.sigma.translation_m = size_m * Eigen::Vector3d(kLateral, kLateral, kDepth);
-  prior.sigma.rotation_rad.setConstant(kRotation_rad);
+  prior.sigma.translation_m =
+      size_m * Eigen::Vector3d(kWidestLateral, kWidestLateral, kWidestDepth);
+  prior.sigma.rotation_rad.setConstant(kWidestRotation_rad);
   prior.sigma.pivot_in_camera_m = view_from_station * problem_.scene.centre();
   return prior;
 }

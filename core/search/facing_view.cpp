@@ -10,7 +10,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kWeightBits = 8;
+constexpr int kShareBits = 8;
 /// Objects smaller than this are magnified, at most by the factor. Edges some pixels around a place
 /// are otherwise those of the object itself, and explain its evidence away.
 constexpr double kLeastSpan_px = 130.0;
@@ -88,16 +88,16 @@ using Sums = std::array<std::int64_t, static_cast<std::size_t>(kCount)>;
 /// columns count by the share that the block covers.
 struct Block {
   int x, y;                  ///< its first pixel
-  std::int32_t right, down;  ///< weights of the last column and row, in units of 2^-kWeightBits
+  std::int32_t right, down;  ///< weights of the last column and row, in units of 2^-kShareBits
   int size;                  ///< px; it touches one column and one row more
 
   Block(double x_px, double y_px, int size_px)
       : x(static_cast<int>(x_px)), y(static_cast<int>(y_px)), size(size_px) {
-    right = static_cast<std::int32_t>((x_px - x) * (1 << kWeightBits));
-    down = static_cast<std::int32_t>((y_px - y) * (1 << kWeightBits));
+    right = static_cast<std::int32_t>((x_px - x) * (1 << kShareBits));
+    down = static_cast<std::int32_t>((y_px - y) * (1 << kShareBits));
   }
-  std::int32_t left() const { return (1 << kWeightBits) - right; }
-  std::int32_t up() const { return (1 << kWeightBits) - down; }
+  std::int32_t left() const { return (1 << kShareBits) - right; }
+  std::int32_t up() const { return (1 << kShareBits) - down; }
 };
 
 /// Sums over a block, in units of 2^-16.
@@ -111,11 +111,10 @@ Sums<kCount> blockSums(const Channels& image, const Block& block) {
       for (int k = 0; k < kCount; ++k) inner[static_cast<std::size_t>(k)] += pixel[i * kCount + k];
     const std::int32_t weight = row == 0            ? block.up()
                                 : row == block.size ? block.down
-                                                    : (1 << kWeightBits);
+                                                    : (1 << kShareBits);
     for (int k = 0; k < kCount; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      const std::int64_t along = block.left() * pixel[k] +
-                                 (std::int64_t{inner[at]} << kWeightBits) +
+      const std::int64_t along = block.left() * pixel[k] + (std::int64_t{inner[at]} << kShareBits) +
                                  block.right * pixel[block.size * kCount + k];
       sums[at] += along * weight;
     }
@@ -145,7 +144,7 @@ constexpr int kMostRows = 128;
 /// kColumns - n before the middle.
 constexpr std::array<std::int16_t, 2 * kColumns> kWhole = [] {
   std::array<std::int16_t, 2 * kColumns> weights{};
-  for (std::size_t k = 0; k < kColumns; ++k) weights[k] = 1 << kWeightBits;
+  for (std::size_t k = 0; k < kColumns; ++k) weights[k] = 1 << kShareBits;
   return weights;
 }();
 
@@ -173,7 +172,7 @@ constexpr std::array<std::int16_t, 2 * kColumns> kWhole = [] {
     std::copy_n(kWhole.begin() + (kColumns - to), kColumns, weights.begin());
   } else {
     for (std::size_t k = 0; k < kColumns; ++k)
-      weights[k] = kPlace[k] >= from && kPlace[k] < to ? 1 << kWeightBits : 0;
+      weights[k] = kPlace[k] >= from && kPlace[k] < to ? 1 << kShareBits : 0;
   }
   const auto weightOf = [&](int column) -> std::int16_t& {
     return weights[static_cast<std::size_t>(column - begin)];
@@ -197,7 +196,7 @@ std::int64_t blockSumByColumns(const Channels& image, int width, const Block& bl
       return std::int64_t{weighRow(weights, row)};
     };
     const Columns inner = columnSums(top + image.stride, image.stride, block.size - 1);
-    sum += (std::int64_t{dotProduct(weights, inner)} << kWeightBits) + block.up() * alongRow(top) +
+    sum += (std::int64_t{dotProduct(weights, inner)} << kShareBits) + block.up() * alongRow(top) +
            block.down * alongRow(bottom);
   }
   return sum;
@@ -287,7 +286,7 @@ void fillRows(const SearchProblem& problem, const Channels& image, const FacingV
         sums = blockSums<kCount>(image, covered);
       for (int k = 0; k < kCount; ++k)
         output.value[static_cast<std::size_t>(k) * channel + at] = static_cast<std::uint8_t>(
-            (sums[static_cast<std::size_t>(k)] >> (2 * kWeightBits)) / (block * block));
+            (sums[static_cast<std::size_t>(k)] >> (2 * kShareBits)) / (block * block));
       const bool ignored =
           problem.ignore != nullptr &&
           problem.ignore->get(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));

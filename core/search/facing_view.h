@@ -21,9 +21,12 @@ struct FacingView {
   double span_px = 0.0;        ///< longer side of the visible object, px of the view
 };
 
+/// Usual margin around the object, of its size.
+constexpr double kViewMargin = 0.1;
+
 /// Requested size of a view.
 struct ViewSize {
-  double span_px = 0.0;  ///< longer side of the visible object, at most 2 px per real px
+  double span_px = 0.0;     ///< longer side of the visible object, at most 2 px per real px
   double margin_px = 0.0;   ///< around the object
   double slide_x = 0.0;     ///< range of the object's motion to either side, as tangents
   double slide_y = 0.0;     ///< the same, downwards

@@ -11,8 +11,8 @@ namespace {
 
 // How far the mirror image may be from the reflected pose: shares of the object's size and of its
 // depth, and a tilt.
-constexpr double kLateral = 0.2;
-constexpr double kDepth = 0.1;
+constexpr double kMirrorLateral = 0.2;
+constexpr double kMirrorDepth = 0.1;
 constexpr double kTilt_rad = 15.0 * kDegree_rad;
 constexpr double kMostTilt_rad = 60.0 * kDegree_rad;
 
@@ -47,8 +47,8 @@ SearchProblem mirrorSearch(const SearchProblem& problem, const Pose& camera_from
   mirrored.flipped = true;
   mirrored.camera_from_station_seed = mirroredPose(camera_from_station, surface);
   const Eigen::Vector3d middle_m = mirrored.camera_from_station_seed * problem.scene.centre();
-  const double lateral_m = kLateral * problem.scene.diagonal();
-  mirrored.uncertainty.translation_m = {lateral_m, lateral_m, kDepth * middle_m.z()};
+  const double lateral_m = kMirrorLateral * problem.scene.diagonal();
+  mirrored.uncertainty.translation_m = {lateral_m, lateral_m, kMirrorDepth * middle_m.z()};
   const double tilt_rad = tiltOf(camera_from_station, surface);
   mirrored.uncertainty.rotation_rad = {tilt_rad, tilt_rad, kPi};
   mirrored.uncertainty.pivot_in_camera_m = middle_m;

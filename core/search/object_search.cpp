@@ -10,8 +10,7 @@
 namespace boresight {
 namespace {
 
-constexpr double kMargin = 0.1;  ///< around the object, of its size
-constexpr double kDepth = 0.1;   ///< spacing of depths, at most, as a share of the depth
+constexpr double kDepthSpacing = 0.1;  ///< spacing of depths, at most, as a share of the depth
 constexpr int kMostDepths = 15;
 constexpr double kMostDepth = 0.6;
 constexpr double kFarthestSlide = 1.5;  ///< 56 deg off the view's axis
@@ -29,8 +28,6 @@ int placesFor(double range, double spacing) {
   const int half = static_cast<int>(-std::floor(0.5 - std::min(range / spacing, 1e3)));
   return std::clamp(2 * half + 1, 1, kMostDepths);
 }
-
-int nearest(double value) { return static_cast<int>(std::floor(value + 0.5)); }
 
 /// Largest motion of the scene's centre by a turn about the pivot and a translation, per camera
 /// axis.
@@ -109,10 +106,10 @@ bool ObjectSearch::layOut() {
                              view_from_camera.rotation,
                              {atan(reach_m.y() / depth_m_), atan(reach_m.x() / depth_m_)}});
   depth_range_ = std::min(reach_m.z() / depth_m_, kMostDepth);
-  depths_ = placesFor(depth_range_, kDepth);
+  depths_ = placesFor(depth_range_, kDepthSpacing);
   ViewSize& size = view_size_;
   size.span_px = kSpan_px;
-  size.margin_px = kMargin * kSpan_px;
+  size.margin_px = kViewMargin * kSpan_px;
   size.slide_x = std::min(reach_m.x() / depth_m_, kFarthestSlide);
   size.slide_y = std::min(reach_m.y() / depth_m_, kFarthestSlide);
   size.most_px = SlideSums::kMaxView_px;
@@ -235,11 +232,11 @@ void ObjectSearch::scoreTurn(int turn) {
     const double ratio = depthRatio(depth);
     for (std::size_t i = 0; i < used.size(); ++i) {
       const Point& point = points_[i];
-      used[i] = {static_cast<std::int16_t>(nearest((c * point.x_px - s * point.y_px) / ratio)),
-                 static_cast<std::int16_t>(nearest((s * point.x_px + c * point.y_px) / ratio)),
-                 static_cast<std::uint8_t>(
-                     edgeDirectionOf(nearest(1024.0 * (c * point.normal_x - s * point.normal_y)),
-                                     nearest(1024.0 * (s * point.normal_x + c * point.normal_y))))};
+      used[i] = {static_cast<std::int16_t>(nearestInt((c * point.x_px - s * point.y_px) / ratio)),
+                 static_cast<std::int16_t>(nearestInt((s * point.x_px + c * point.y_px) / ratio)),
+                 static_cast<std::uint8_t>(edgeDirectionOf(
+                     nearestInt(1024.0 * (c * point.normal_x - s * point.normal_y)),
+                     nearestInt(1024.0 * (s * point.normal_x + c * point.normal_y))))};
     }
     sums_.add(used);
     poses_ += std::int64_t{sums_.columns()} * sums_.rows();
@@ -290,7 +287,7 @@ bool ObjectSearch::isWithinSeed(const Pose& camera_from_station) const {
   const Vector6d offset = offsetAboutPivot(problem_->camera_from_station_seed, camera_from_station,
                                            seed.pivot_in_camera_m);
   // Half a step of the grid more.
-  const double step_m = depth_m_ * (1.5 / view_edges_->view().camera.fx + 0.5 * kDepth);
+  const double step_m = depth_m_ * (1.5 / view_edges_->view().camera.fx + 0.5 * kDepthSpacing);
   for (int i = 3; i < 6; ++i)
     if (std::abs(offset[i]) > kBeyond * seed.translation_m[i - 3] + step_m) return false;
   return isNearBox(offset.head<3>(), kBeyond * seed.rotation_rad,

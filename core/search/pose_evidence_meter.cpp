@@ -9,7 +9,6 @@
 namespace boresight {
 namespace {
 
-constexpr double kMargin = 0.1;  ///< around the object, of its size
 /// Longest side of each view: holds the object with its margins.
 constexpr std::array<int, kEvidenceViews> kLongestView_px = {312, 512};
 constexpr double kAlongNormal_px = 4.0;  ///< step that gives a normal's direction in the view
@@ -18,8 +17,6 @@ std::int32_t strideOf(const EdgeRender& render) {
   return std::max(1, (render.pixel_count + ContourEvidenceMeter::kMaxPlaces - 1) /
                          ContourEvidenceMeter::kMaxPlaces);
 }
-
-bool isOutline(const EdgePixel& pixel) { return (pixel.kind & kEdgeBorder) != 0; }
 
 /// A pixel of the render, in the view.
 bool inView(const EdgeRender& render, const Eigen::Vector2d& pixel, const FacingView& view,
@@ -35,7 +32,7 @@ ViewSize evidenceViewSize(int view) {
   const auto at = static_cast<std::size_t>(view);
   ViewSize size;
   size.span_px = kEvidenceSpan_px[at];
-  size.margin_px = kMargin * size.span_px;
+  size.margin_px = kViewMargin * size.span_px;
   size.most_px = kLongestView_px[at];
   return size;
 }
@@ -46,7 +43,7 @@ void takePlaces(const EdgeRender& render, ContourEvidenceMeter& meter) {
   for (const EdgePixel& pixel : render.eachPixel(stride)) {
     meter.add({pixel.x, pixel.y,
                static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y)),
-               isOutline(pixel)});
+               isBorder(pixel)});
   }
 }
 
@@ -101,7 +98,7 @@ void PoseEvidenceMeter::takePlacesOfRender() {
                 static_cast<std::int16_t>(std::floor(at.y() + 0.5)),
                 static_cast<std::uint8_t>(edgeDirectionOf(static_cast<std::int32_t>(way.x()),
                                                           static_cast<std::int32_t>(way.y()))),
-                isOutline(pixel)});
+                isBorder(pixel)});
   }
 }
 

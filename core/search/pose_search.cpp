@@ -35,7 +35,7 @@ struct Round {
   double behind_nats =
       0.0;  ///< other poses whose evidence is lower than the best by more are left out
 };
-constexpr std::array<Round, 4> kRounds = {{
+constexpr std::array<Round, 4> kSearchRounds = {{
     {0, 0, 12, CandidateList::kCapacity, CandidateList::kCapacity, 0.0},
     {1, 1, 4, 10, 8, 0.5},
     {2, kFinest, 1, PoseSearch::kMaxCandidates, 5, 0.7},
@@ -43,7 +43,6 @@ constexpr std::array<Round, 4> kRounds = {{
 }};
 constexpr int kLastRound = 2;
 constexpr int kSeedRound = 3;
-constexpr double kMargin = 0.1;  ///< around the object, of its size
 /// Poses that differ by less, in the view of their refinement, count as the same.
 constexpr double kSame_px = 1.2;
 /// Error after the last scale, px of its view.
@@ -150,14 +149,14 @@ bool PoseSearch::resume() {
 
 /// Poses of the round that are refined, unless their evidence is too low.
 int PoseSearch::most() const {
-  const Round& round = kRounds[static_cast<std::size_t>(round_)];
+  const Round& round = kSearchRounds[static_cast<std::size_t>(round_)];
   return std::min(waiting_count_, resumed_ ? round.most : round.at_first);
 }
 
 /// Starts the next waiting pose; false when none is left and all rounds are over.
 bool PoseSearch::beginNext() {
   do {
-    const Round& round = kRounds[static_cast<std::size_t>(round_)];
+    const Round& round = kSearchRounds[static_cast<std::size_t>(round_)];
     while (next_ < most()) {
       current_ = waiting_[static_cast<std::size_t>(next_++)];
       if (next_ > round.least && current_.rank_nats() < waiting_[0].rank_nats() - round.behind_nats)
@@ -239,7 +238,7 @@ bool PoseSearch::beginLevel() {
   }
   ViewSize size;
   size.span_px = kLevels[static_cast<std::size_t>(level_)].span_px;
-  size.margin_px = kMargin * size.span_px;
+  size.margin_px = kViewMargin * size.span_px;
   size.most_px = kLongestView_px;
   phase_ = Phase::kView;
   return view_edges_.begin(problem_, current_.camera_from_station, size);
@@ -284,7 +283,7 @@ bool PoseSearch::refine() {
   current_.camera_from_station = view_edges_.inCamera(view_from_station_);
   if (moved || level_ <= 1) current_.error_px = kRemaining_px / view_edges_.view().pixels_per_px;
   if (round_ < kLastRound && isKept(current_.camera_from_station)) return !beginNext();
-  const bool measures = level_ == kRounds[static_cast<std::size_t>(round_)].last_level;
+  const bool measures = level_ == kSearchRounds[static_cast<std::size_t>(round_)].last_level;
   if (moved && ++pass_ < level.passes) {
     // The last pass renders again where its render is measured.
     if (measures && pass_ + 1 == level.passes) phase_ = Phase::kRender;
