@@ -8,6 +8,7 @@
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/run/runner.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

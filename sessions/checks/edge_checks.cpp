@@ -13,6 +13,7 @@
 #include "sessions/checks/edge_evidence.h"
 #include "sessions/decision/check.h"
 #include "sessions/session/input_sigmas.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

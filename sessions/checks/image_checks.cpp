@@ -4,6 +4,7 @@
 #include "sessions/checks/checks.h"
 #include "sessions/decision/check.h"
 #include "sessions/run/image_quality.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {

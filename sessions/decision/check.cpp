@@ -92,10 +92,6 @@ Check notAskedCheck(const CheckName& name, const std::string& why) {
   return check;
 }
 
-std::string percentText(double share) {
-  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
-}
-
 std::string sentenceNumber(double value) {
   const double size = std::abs(value);
   int decimals = 0;

@@ -61,9 +61,6 @@ Check statedCheck(const CheckName& name, bool passed, const std::string& found,
 /// A check that is not applicable; `why` is a sentence.
 Check notAskedCheck(const CheckName& name, const std::string& why);
 
-/// A share (0 to 1) for a sentence: "46 %".
-std::string percentText(double share);
-
 /// A number for a sentence: three significant digits, no exponent where it can be avoided.
 std::string sentenceNumber(double value);
 

@@ -288,8 +288,8 @@ void compareEnds(const OnboardRecord& record, const OnboardRecord& other,
     record_comparison.pose_sigmas = sigmasOf(poses.xi, record.end->covariance);
 }
 
-std::string percent(int part, int whole) {
-  return std::to_string(static_cast<int>(std::lround(100.0 * part / std::max(whole, 1)))) + " %";
+std::string shareText(int part, int whole) {
+  return percentText(static_cast<double>(part) / std::max(whole, 1));
 }
 
 /// Whether the first iterations of both runs started at one pose: from the seed. Candidates of a
@@ -313,11 +313,12 @@ void holdToLimits(const OnboardRecord& record, const OnboardRecord& other,
   if (record_comparison.iterations.empty() || !startAlike(record, other)) return;
   const IterationComparison& first = record_comparison.iterations.front();
   if (first.templates >= kLeastCounted && first.found_alike < limits.found_share * first.templates)
-    record_comparison.beyond.push_back("only " + percent(first.found_alike, first.templates) +
+    record_comparison.beyond.push_back("only " + shareText(first.found_alike, first.templates) +
                                        " of the first iteration's templates have equal positions");
   if (first.inliers_either >= kLeastCounted &&
       first.inliers_both < limits.inlier_share * first.inliers_either)
-    record_comparison.beyond.push_back("only " + percent(first.inliers_both, first.inliers_either) +
+    record_comparison.beyond.push_back("only " +
+                                       shareText(first.inliers_both, first.inliers_either) +
                                        " of the first iteration's inliers are inliers of both");
 }
 

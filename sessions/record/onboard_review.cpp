@@ -31,10 +31,6 @@ std::string turnText(const Pose& pose) {
   return triple(turn_deg, 3) + " deg";
 }
 
-std::string percent(double share) {
-  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
-}
-
 }  // namespace
 
 std::shared_ptr<const OnboardReview> reviewRecord(const std::filesystem::path& file,
@@ -104,9 +100,9 @@ std::string verdictText(const RecordComparison& comparison) {
 
 std::string limitsText(const ComparisonLimits& limits) {
   return "Limits if the pixels differ: in the first iteration at least " +
-         percent(limits.found_share) + " of the templates at equal positions match within " +
+         percentText(limits.found_share) + " of the templates at equal positions match within " +
          fixedText(limits.found_px, 1) + " px of each other, and at least " +
-         percent(limits.inlier_share) +
+         percentText(limits.inlier_share) +
          " of the inliers of either run are inliers of both (shares of ten or more); the final "
          "poses are at most " +
          fixedText(limits.pose_sigmas, 1) + " sigmas apart.";

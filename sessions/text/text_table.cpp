@@ -33,6 +33,10 @@ std::string fixedText(double value, int decimals) {
   return text.data();
 }
 
+std::string percentText(double share, int decimals) {
+  return fixedText(100.0 * share, decimals) + " %";
+}
+
 void TextTable::add(const std::vector<std::string>& row) {
   std::vector<std::string>& cells = rows_.emplace_back();
   for (const std::string& cell : row) cells.push_back(plainText(cell));
@@ -64,7 +68,7 @@ std::string TextTable::text() const {
 
 std::string probabilityPercent(double probability) {
   constexpr double kMostShown = 0.9995;
-  return probability >= kMostShown ? "> 99.9 %" : fixedText(100.0 * probability, 1) + " %";
+  return probability >= kMostShown ? "> 99.9 %" : percentText(probability, 1);
 }
 
 std::string csvField(const std::string& text) {

@@ -9,11 +9,9 @@
 namespace boresight::sessions {
 namespace {
 
-std::string percent(double share) { return fixedText(100.0 * share, 1) + " %"; }
-
 std::string supportText(const LocalizationTrace& trace) {
-  return "Edge support is " + percent(trace.support.share()) + ", needed " +
-         percent(trace.lastOptions().support.min_support) + ".";
+  return "Edge support is " + percentText(trace.support.share(), 1) + ", needed " +
+         percentText(trace.lastOptions().support.min_support, 1) + ".";
 }
 
 /// "The pose has the most evidence of 3 compared poses; it comes from candidate 1 of the search."
@@ -90,11 +88,12 @@ std::string originText(const PoseHypothesis& hypothesis) {
 std::string probabilityText(const LocalizationTrace& trace) {
   const PoseEvidence& evidence = trace.evidence;
   return "the probability that the pose is right is " + probabilityPercent(trace.probability) +
-         ", needed " + percent(trace.lastOptions().support.min_probability) + ": edges show " +
+         ", needed " + percentText(trace.lastOptions().support.min_probability, 1) +
+         ": edges show " +
          fixedText(100.0 * std::clamp(evidence.finest().shareOfExpected(), 0.0, 1.0), 0) +
          " % of the evidence that a right pose would have, inside and outside differ along " +
          fixedText(100.0 * evidence.region.separatedShare(), 0) +
-         " % of the outline, edge support is " + percent(trace.support.share());
+         " % of the outline, edge support is " + percentText(trace.support.share(), 1);
 }
 
 std::string acceptanceText(const LocalizationTrace& trace) {

@@ -11,8 +11,6 @@
 namespace boresight::sessions {
 namespace {
 
-std::string percent(double share) { return fixedText(100.0 * share, 1) + " %"; }
-
 std::string countText(std::size_t count, const char* item) {
   return std::to_string(count) + " " + item + (count == 1 ? "" : "s");
 }
@@ -21,10 +19,10 @@ std::string acceptedText(const LocalizationTrace& trace) {
   const auto& limits = trace.lastOptions().support;
   if (hasProbability(trace))
     return " Probability of the pose " + probabilityPercent(trace.probability) + " (" +
-           percent(limits.min_probability) + " needed).";
+           percentText(limits.min_probability, 1) + " needed).";
   if (!limits.gate) return "";
-  return " " + percent(trace.support.share()) + " of the edges agree (" +
-         percent(limits.min_support) + " needed).";
+  return " " + percentText(trace.support.share(), 1) + " of the edges agree (" +
+         percentText(limits.min_support, 1) + " needed).";
 }
 
 std::string convergedSentence(const LocalizationTrace& trace) {
@@ -46,12 +44,12 @@ std::string notSupportedSentence(const LocalizationTrace& trace) {
   const auto& limits = trace.lastOptions().support;
   if (hasProbability(trace))
     return "Probability of the pose " + probabilityPercent(trace.probability) + ", " +
-           percent(limits.min_probability) + " needed. " + seedDoubt(trace);
+           percentText(limits.min_probability, 1) + " needed. " + seedDoubt(trace);
   const EdgeSupport& support = trace.support;
   const bool chance = support.coverage() <= 1.5 * support.chanceCoverage();
   return std::string(chance ? "The edges fit no better than chance: " : "Too few edges fit: ") +
-         percent(support.share()) + " agree, " + percent(limits.min_support) + " needed. " +
-         seedDoubt(trace);
+         percentText(support.share(), 1) + " agree, " + percentText(limits.min_support, 1) +
+         " needed. " + seedDoubt(trace);
 }
 
 std::string noPoseSentence(const LocalizationTrace& trace) {
