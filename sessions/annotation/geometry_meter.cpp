@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "core/base/symmetric_eigen.h"
 
 namespace boresight::sessions {
 namespace {
@@ -105,10 +105,10 @@ AnnotatedSpread annotatedSpread(std::span<const AnnotatedView> views) {
     const Eigen::Vector3d from_middle = place - spread.middle_in_station_m;
     scatter += from_middle * from_middle.transpose() / count;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  const SymmetricEigen<3> eigen(scatter);
   for (int i = 0; i < 3; ++i) {
-    spread.axes_in_station.col(i) = solver.eigenvectors().col(2 - i);
-    spread.deviation_m[i] = std::sqrt(std::max(0.0, solver.eigenvalues()[2 - i]));
+    spread.axes_in_station.col(i) = eigen.vectors.col(2 - i);
+    spread.deviation_m[i] = std::sqrt(std::max(0.0, eigen.values[2 - i]));
   }
   return spread;
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
-#include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
+#include "core/base/symmetric_eigen.h"
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/image_snap.h"
 #include "sessions/io/files/atomic_file.h"
@@ -24,8 +24,7 @@ constexpr int kLandmarksVersion = 1;
 /// Standard deviation along the direction in which it is largest.
 double largestSigma_px(const PredictedPlace& place, const Matrix6d& covariance) {
   const Eigen::Matrix2d spread = place.pixel_by_xi * covariance * place.pixel_by_xi.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+  return std::sqrt(std::max(0.0, SymmetricEigen<2>(spread).values[1]));
 }
 
 constexpr double kSigmas = 3.0;

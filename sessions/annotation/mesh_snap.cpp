@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "core/base/symmetric_eigen.h"
 #include "sessions/io/files/errors.h"
 
 namespace boresight::sessions {
@@ -61,18 +61,18 @@ std::optional<Eigen::Vector3d> nearestOnEdge(const Camera& camera, const Pose& c
     Eigen::Vector2d seen;
     return project(camera, camera_from_station * at(t), seen) ? (seen - pixel).norm() : 1e9;
   };
-  constexpr int kSections = 16;
+  constexpr int kParts = 16;
   int best = 0;
   double least = 1e9;
-  for (int i = 0; i <= kSections; ++i) {
-    const double current = distance(static_cast<double>(i) / kSections);
+  for (int i = 0; i <= kParts; ++i) {
+    const double current = distance(static_cast<double>(i) / kParts);
     if (current >= least) continue;
     least = current;
     best = i;
   }
   if (least >= 1e9) return {};
-  double low = std::max(0.0, (best - 1.0) / kSections);
-  double high = std::min(1.0, (best + 1.0) / kSections);
+  double low = std::max(0.0, (best - 1.0) / kParts);
+  double high = std::min(1.0, (best + 1.0) / kParts);
   for (int i = 0; i < 60; ++i) {
     const double a = low + (high - low) / 3.0;
     const double b = high - (high - low) / 3.0;
@@ -155,17 +155,19 @@ void MeshSnapper::addLoop(const std::vector<std::int32_t>& loop) {
     places_m.col(i) = vertex(loop[static_cast<std::size_t>(i)]);
   const Eigen::Vector3d mean_m = places_m.rowwise().mean();
   places_m.colwise() -= mean_m;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(places_m * places_m.transpose());
-  const Eigen::Matrix<double, 3, 2> plane = solver.eigenvectors().rightCols<2>();
+  const SymmetricEigen<3> axes(places_m * places_m.transpose());
+  if (!(axes.values[1] > 0.0)) return;  // on one line
+  const Eigen::Matrix<double, 3, 2> plane = axes.vectors.rightCols<2>();
   // x^2 + y^2 = 2 a x + 2 b y + c, least squares (Kasa 1976): corners need not be evenly spaced.
-  Eigen::MatrixX3d rows(places_m.cols(), 3);
-  rows << places_m.transpose() * plane, Eigen::VectorXd::Constant(places_m.cols(), 0.5);
-  const Eigen::Vector3d fit =
-      rows.colPivHouseholderQr().solve(0.5 * rows.leftCols<2>().rowwise().squaredNorm());
+  // The sums of x, y and x y are 0, so each unknown is found alone.
+  const Eigen::Matrix2Xd in_plane_m = plane.transpose() * places_m;
+  const Eigen::VectorXd squares_m2 = in_plane_m.colwise().squaredNorm().transpose();
+  const Eigen::Vector2d centre_m =
+      (0.5 * (in_plane_m * squares_m2)).cwiseQuotient(axes.values.tail<2>());
   MeshCircle circle;
-  circle.normal_in_station = solver.eigenvectors().col(0);
-  circle.radius_m = std::sqrt(std::max(0.0, fit.z() + fit.head<2>().squaredNorm()));
-  circle.centre_in_station_m = mean_m + plane * fit.head<2>();
+  circle.normal_in_station = axes.vectors.col(0);
+  circle.radius_m = std::sqrt(squares_m2.mean() + centre_m.squaredNorm());
+  circle.centre_in_station_m = mean_m + plane * centre_m;
   circle.vertices = loop;
   for (const std::int32_t index : loop) {
     const Eigen::Vector3d offset = vertex(index) - circle.centre_in_station_m;

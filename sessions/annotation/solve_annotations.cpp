@@ -14,7 +14,7 @@
 namespace boresight::sessions {
 namespace {
 
-constexpr int kUnknowns = 6;
+constexpr int kPoseUnknowns = 6;
 constexpr int kRobustRounds = 50;
 constexpr double kTukey = 4.685;  ///< 95 % efficient on Gaussian errors
 /// Of |residual| / sigma of a two-dimensional Gaussian: its median is 1.1774.
@@ -22,7 +22,7 @@ constexpr double kMedianOfRayleigh = 1.1774;
 constexpr double kAmbiguousRatio = 5.0;       ///< of both poses' rms, or the other one is ruled out
 constexpr double kAmbiguousFloor_px = 1.0;    ///< rms below this is never ruled out
 constexpr double kAmbiguousAngle_rad = 0.02;  ///< nearer than this it is the same pose
-constexpr std::size_t kFewestPoints = 4;
+constexpr std::size_t kFewestPosePoints = 4;
 constexpr double kFirstThreshold_px = 8.0;
 constexpr int kMostSamples = 5000;
 constexpr double kConfidence = 0.999;  ///< of having drawn a sample without outliers
@@ -69,11 +69,11 @@ std::vector<Pose> consensus(const AnnotatedView& view, double threshold_px) {
     cv::Mat rotation;
     cv::Mat translation;
     std::vector<int> inliers;
-    if (points.size() < kFewestPoints ||
+    if (points.size() < kFewestPosePoints ||
         !cv::solvePnPRansac(points, places, plane, cv::noArray(), rotation, translation, false,
                             kMostSamples, static_cast<float>(threshold_px / view.camera.fx),
                             kConfidence, inliers, cv::SOLVEPNP_AP3P) ||
-        inliers.size() < kFewestPoints)
+        inliers.size() < kFewestPosePoints)
       return {};
     for (const int i : inliers) {
       agreed.push_back(points[static_cast<std::size_t>(i)]);
@@ -91,7 +91,7 @@ std::vector<Pose> consensus(const AnnotatedView& view, double threshold_px) {
 /// that has the most of them. None where no view has four, or none agree.
 std::vector<Pose> firstPoses(std::span<const AnnotatedView> views) {
   const AnnotatedView* most = nullptr;
-  std::size_t most_points = kFewestPoints - 1;
+  std::size_t most_points = kFewestPosePoints - 1;
   for (const AnnotatedView& view : views) {
     const std::size_t points = correspondencesOf(view).size();
     if (points <= most_points) continue;
@@ -283,7 +283,7 @@ AnnotationsSolution describe(std::span<const AnnotatedView> views,
     solution.camera_from_station.push_back(view.camera_from_rig * fit.rig_from_station);
   double weights = 0.0;
   for (const double weight : fit.weight) weights += weight;
-  const double freedom = 2.0 * weights - kUnknowns;
+  const double freedom = 2.0 * weights - kPoseUnknowns;
   solution.degrees_of_freedom = std::max(0, static_cast<int>(std::floor(freedom + 1e-9)));
   if (solution.degrees_of_freedom > 0)
     solution.noise_factor = std::sqrt(fit.equations.squares / freedom);

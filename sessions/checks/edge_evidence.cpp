@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/math.h"
 #include "core/render/edge_render.h"
 #include "sessions/checks/checks.h"
+#include "sessions/checks/generalized_eigen.h"
 #include "sessions/trace/scene_render.h"
 
 namespace boresight::sessions {
@@ -146,9 +146,8 @@ Motion motionOf(const std::vector<EdgePlace>& places, const Camera& camera,
 Vector6d leastDetermined(const Motion& motion) {
   Matrix6d image = motion.image;
   image.diagonal() *= 1.0 + kLeastMotion;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> solver(motion.across, image);
-  if (solver.info() != Eigen::Success) return Vector6d::Unit(2);
-  return solver.eigenvectors().col(0);
+  const auto eigen = generalizedEigen<6>(motion.across, image);
+  return eigen ? Vector6d(eigen->vectors.col(0)) : Vector6d(Vector6d::Unit(2));
 }
 
 /// The places as a displaced pose predicts them; which are hidden is left as it was.

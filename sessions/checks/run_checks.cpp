@@ -5,9 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
+#include "sessions/checks/generalized_eigen.h"
 #include "sessions/decision/check.h"
 #include "sessions/trace/acceptance.h"
 #include "sessions/trace/match_details.h"
@@ -263,10 +262,9 @@ std::optional<double> leastSpread(std::span<const Eigen::Vector2d> points_px,
   const Eigen::Matrix2d floor = floor_px * floor_px * Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d points = scatterOf(points_px) + floor;
   const Eigen::Matrix2d others = scatterOf(others_px) + floor;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(points, others,
-                                                                         Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) return {};
-  return std::sqrt(std::max(0.0, solver.eigenvalues().minCoeff()));
+  const auto eigen = generalizedEigen<2>(points, others);
+  if (!eigen) return {};
+  return std::sqrt(std::max(0.0, eigen->values[0]));
 }
 
 double deviationOf(std::span<const double> values) {

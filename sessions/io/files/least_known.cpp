@@ -5,9 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include "core/base/math.h"
+#include "core/base/symmetric_eigen.h"
 #include "sessions/text/text_table.h"
 #include "sessions/text/units.h"
 
@@ -27,10 +28,9 @@ struct Principal {
 };
 
 Principal principalOf(const Eigen::Matrix3d& covariance, double least) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  const Eigen::Vector3d sigma = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  return {sigma[2], eigen.eigenvectors().col(2),
-          sigma[2] >= least && sigma[2] >= kStandsOut * sigma[1]};
+  const SymmetricEigen<3> eigen(covariance);
+  const Eigen::Vector3d sigma = eigen.values.cwiseMax(0.0).cwiseSqrt();
+  return {sigma[2], eigen.vectors.col(2), sigma[2] >= least && sigma[2] >= kStandsOut * sigma[1]};
 }
 
 /// "z axis", "direction (0.71, 0.71, 0.00)".

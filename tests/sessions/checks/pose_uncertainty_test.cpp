@@ -3,9 +3,10 @@
 #include "sessions/checks/edge_evidence.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 #include "core/geometry/cahv_model.h"
+#include "sessions/checks/generalized_eigen.h"
 #include "sessions/io/cameras/camera_file.h"
 
 #include "tests/sessions/checks/drawn_box.h"
@@ -39,8 +40,9 @@ Pose fitted(const PredictedEdges& edges, const Camera& camera, Pose pose) {
     for (int i = 0; i < 6; ++i)
       slopes.col(i) =
           (misfit(edges, camera, perturbed(1e-6 * Vector6d::Unit(i), pose)) - current) / 1e-6;
-    const Eigen::VectorXd step = slopes.colPivHouseholderQr().solve(-current);
-    pose = perturbed(Vector6d(step), pose);
+    const Matrix6d information = slopes.transpose() * slopes;
+    const Vector6d gradient = slopes.transpose() * current;
+    pose = perturbed(-information.llt().solve(gradient), pose);
   }
   return pose;
 }
@@ -113,9 +115,9 @@ Pose fittedWith(const VectorScene& scene, const Eigen::VectorXd& change) {
 
 /// Range of the eigenvalues of `covariance` in units of `expected`: 1 and 1 where they are equal.
 Eigen::Vector2d ratios(const Matrix6d& covariance, const Matrix6d& expected) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> solver(covariance, expected,
-                                                                  Eigen::EigenvaluesOnly);
-  return {solver.eigenvalues().minCoeff(), solver.eigenvalues().maxCoeff()};
+  const auto eigen = generalizedEigen<6>(covariance, expected);
+  return eigen ? Eigen::Vector2d(eigen->values[0], eigen->values[5])
+               : Eigen::Vector2d(Eigen::Vector2d::Zero());
 }
 
 TEST(PoseUncertainty, TheCamerasCovariance_GivesThatOfPosesFittedWithDrawnCameras) {
