@@ -26,7 +26,7 @@ folder="$build/instructions"
 mkdir -p "$folder"
 if [ -z "${METHODS:-}" ]; then
   cmake -S "$source_dir" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-    -DBORESIGHT_BUILD_SESSIONS=OFF -DBORESIGHT_BUILD_UI=OFF -DBORESIGHT_BUILD_TESTS=OFF \
+    -DBORESIGHT_BUILD_SESSIONS=OFF -DBORESIGHT_BUILD_UI=OFF -DBORESIGHT_BUILD_TESTS=OFF -DBORESIGHT_UNITY=ON \
     -DBORESIGHT_FLIGHT_ARENA_BYTES=400000000 >"$folder.log" 2>&1 &&
     cmake --build "$folder" --target flight_driver --parallel 2 >>"$folder.log" 2>&1 || {
     cat "$folder.log"

@@ -8,8 +8,9 @@
 #                                optimized, for this very processor, by another compiler, for a
 #                                32-bit big-endian processor that is emulated
 #   whs ARGUMENT...              whs of BUILD itself with further arguments
-# debug and native are built only with BORESIGHT_ALL set: each takes minutes. With it, powerpc
-# computes every case, not two.
+#   whs_all ARGUMENT...          the same
+# debug, native and whs_all run only with BORESIGHT_ALL set. With it, powerpc computes every case,
+# not two.
 # Exit status 77: a compiler or the emulator is not installed, and nothing was compared.
 set -euo pipefail
 cases="$2" build="$3"
@@ -33,7 +34,7 @@ buildDriver() {
   local folder="$build/same_bits/$1"
   shift
   cmake -S "$source_dir" -B "$folder" -G Ninja -DBORESIGHT_BUILD_SESSIONS=OFF \
-    -DBORESIGHT_BUILD_UI=OFF -DBORESIGHT_BUILD_TESTS=OFF "$@" >"$folder.log" 2>&1 &&
+    -DBORESIGHT_BUILD_UI=OFF -DBORESIGHT_BUILD_TESTS=OFF -DBORESIGHT_UNITY=ON "$@" >"$folder.log" 2>&1 &&
     cmake --build "$folder" --target flight_driver --parallel 2 >>"$folder.log" 2>&1 || {
     cat "$folder.log"
     exit 1
@@ -67,7 +68,8 @@ case "$1" in
     command_line=(qemu-ppc -cpu 750 "${command_line[@]}")
     [ -n "${BORESIGHT_ALL:-}" ] || left_out=" bc_brown_conrady bc_pinhole os_fisheye os_not_converged os_rational "
     ;;
-  whs)
+  whs | whs_all)
+    [ "$1" = whs ] || requireAll "whs ${*:4}"
     driver=false
     whs_arguments=("${@:4}")
     ;;

@@ -10,7 +10,7 @@
 namespace boresight::ui {
 namespace {
 
-QString taskKey() { return QStringLiteral("batch"); }
+QString batchTask() { return QStringLiteral("batch"); }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ QString Batch::takeNext() {
 }
 
 void Batch::run(const sessions::Session& session, const QString& id) {
-  runner_.run(taskKey(), [this, session, id](const std::stop_token& stop,
+  runner_.run(batchTask(), [this, session, id](const std::stop_token& stop,
                                              const TaskRunner::Report& report) {
     try {
       const auto loaded = sessions::loadCase(sessions::knownCase(session, id.toStdString()));
@@ -75,7 +75,7 @@ void Batch::run(const sessions::Session& session, const QString& id) {
 
 void Batch::stop() {
   waiting_.clear();
-  runner_.cancel(taskKey());
+  runner_.cancel(batchTask());
   if (const auto ended = std::exchange(progress_, std::nullopt)) {
     summary_ = {ended->of, std::exchange(ends_, {}), 1e-3 * static_cast<double>(watch_.elapsed())};
     Q_EMIT changed();

@@ -99,7 +99,7 @@ void BackdropActor::fillTexture(const QImage& gray) {
 
 namespace {
 
-vtkNew<vtkPolyData> linesOf(const ColoredLines& lines) {
+vtkNew<vtkPolyData> polyDataOf(const ColoredLines& lines) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
@@ -199,7 +199,7 @@ void Lines::lift(double units) {
 }
 
 void Lines::set(const ColoredLines& lines) {
-  mapper->SetInputData(linesOf(lines));
+  mapper->SetInputData(polyDataOf(lines));
   actor->SetVisibility(!lines.empty());
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kBoxMargin = 8;
 
-QString taskKey() { return QStringLiteral("compare"); }
+QString comparisonTask() { return QStringLiteral("compare"); }
 
 /// How far a pose is from the shown run's, the seed's without one.
 QString apartText(const sessions::LoadedCase& loaded, const sessions::LocalizationTrace* shown_run,
@@ -168,7 +168,7 @@ void CompareView::showOnboardRun() {
 void CompareView::order() {
   const auto& shown = state_.currentCase();
   const auto index = static_cast<std::size_t>(std::max(0, box_->currentIndex()));
-  tasks_.cancel(taskKey());
+  tasks_.cancel(comparisonTask());
   Q_EMIT chosen(index < choices_.size() && choices_[index].onboard);
   if (!shown || index >= choices_.size()) return view_->setImage({});
   const sessions::SessionCase* other = choices_[index].case_id.empty()
@@ -177,7 +177,7 @@ void CompareView::order() {
   std::optional<sessions::SessionCase> other_case;
   if (other) other_case = *other;
   tasks_.start(
-      taskKey(),
+      comparisonTask(),
       [shown, choice = choices_[index], other_case, pose = state_.shownPose(),
        shown_run = state_.snapshot()](const std::stop_token&) {
         Picture picture{shown, pose, nullptr, choice.line, {}};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/pnp/epnp.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <Eigen/Eigenvalues>
 
 #include "core/base/symmetric_eigen.h"
 #include "tests/support/random_pose.h"
@@ -113,7 +113,7 @@ TEST(SolveEpnp, DegenerateInput_IsRefused) {
   }
 }
 
-TEST(SymmetricEigen, RandomMatrices_AgreeWithEigen) {
+TEST(SymmetricEigen, RandomMatrices_HaveTheEquationOfTheirEigenvectors) {
   Random random = randomFor("SymmetricEigen.RandomMatrices");
   constexpr int kSize = 12;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
@@ -123,8 +123,7 @@ TEST(SymmetricEigen, RandomMatrices_AgreeWithEigen) {
     if (trial % 3 == 0) root.leftCols<4>().setZero();  // singular
     const Matrix matrix = root * root.transpose();
     const SymmetricEigen<kSize> ours(matrix);
-    const Eigen::SelfAdjointEigenSolver<Matrix> theirs(matrix);
-    EXPECT_LT((ours.values - theirs.eigenvalues()).norm(), 1e-12 * matrix.norm());
+    EXPECT_TRUE(std::is_sorted(ours.values.begin(), ours.values.end()));
     EXPECT_LT((ours.vectors.transpose() * ours.vectors - Matrix::Identity()).norm(), 1e-12);
     EXPECT_LT((matrix * ours.vectors - ours.vectors * ours.values.asDiagonal()).norm(),
               1e-12 * matrix.norm());

@@ -2,7 +2,7 @@
 // Longest time that the window is blocked: event_gaps DATASET CASE opens a case, runs it to the
 // end, walks through its iterations, zooms with all layers shown, runs a batch, runs it again and
 // stops it at once. It prints the longest times that the event loop was kept by one event, and how
-// soon a stop was answered.
+// soon a stop was answered. Built by: cmake --build build/release --target event_gaps
 #include <algorithm>
 #include <cstdio>
 #include <ctime>

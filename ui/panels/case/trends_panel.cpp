@@ -28,7 +28,7 @@ constexpr std::array<const char*, kTrendFigures> kFigureTitles = {
     QT_TR_NOOP("x, mm"),    QT_TR_NOOP("y, mm"),    QT_TR_NOOP("z, mm"),  QT_TR_NOOP("rx, mrad"),
     QT_TR_NOOP("ry, mrad"), QT_TR_NOOP("rz, mrad"), QT_TR_NOOP("RMS, px")};
 
-QString taskKey() { return QStringLiteral("trends"); }
+QString trendsTask() { return QStringLiteral("trends"); }
 
 std::vector<TableColumn<TrendPoint>> trendColumns() {
   constexpr auto tr = [](const char* text) { return TrendsModel::tr(text); };
@@ -112,7 +112,7 @@ void TrendsPanel::follow() {
   read_ = std::move(wanted);
   ui_.trendNote->setText(tr("Reading %n run(s) ...", "", static_cast<int>(read_.first.size())));
   reader_.start(
-      taskKey(),
+      trendsTask(),
       [session = document_.session(), file = document_.file(),
        earlier = earlier_](const std::stop_token& stop) {
         Trend trend;

@@ -111,7 +111,7 @@ using sessions::MatchDetails;
 
 namespace {
 
-QString taskKey() { return QStringLiteral("score map"); }
+QString scoreMapTask() { return QStringLiteral("score map"); }
 
 QString pairText(const Eigen::Vector2d& pixel, int decimals) {
   return QStringLiteral("%1, %2").arg(numberText(pixel.x(), decimals),
@@ -137,7 +137,7 @@ QString countText(int part, int whole, double share) {
 MatchView::MatchView(QWidget* parent) : QWidget(parent) { ui_.setupUi(this); }
 
 void MatchView::showNote(const QString& note) {
-  runner_.cancel(taskKey());
+  runner_.cancel(scoreMapTask());
   for (PixelPicture* picture : {ui_.templatePicture, ui_.foundPicture, ui_.agreementPicture})
     picture->setPicture({}, {});
   ui_.places->clear();
@@ -148,7 +148,7 @@ void MatchView::showNote(const QString& note) {
 void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
                           std::shared_ptr<const sessions::IterationTrace> iteration,
                           int template_index) {
-  runner_.cancel(taskKey());
+  runner_.cancel(scoreMapTask());
   const auto index = static_cast<std::size_t>(template_index);
   const bool searched = index < iteration->matches.size() && iteration->matches[index].searched;
   const Match* match = searched ? &iteration->matches[index] : nullptr;
@@ -166,7 +166,7 @@ void MatchView::showMatch(std::shared_ptr<const sessions::EdgeMapTrace> edges,
   const Template& item = iteration->templates[index];
   const ScoreMapView::Marks marks = {item.center_x, item.center_y, match->peak};
   runner_.start(
-      taskKey(),
+      scoreMapTask(),
       [edges, iteration, template_index](const std::stop_token& stop) {
         return sessions::scoreMap(*edges, *iteration, template_index, stop);
       },
