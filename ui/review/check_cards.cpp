@@ -7,6 +7,7 @@
 
 #include "sessions/checks/pose_quality.h"
 #include "ui/models/text.h"
+#include "ui/style/tokens.h"
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
@@ -26,7 +27,7 @@ QString foundAndLimit(const sessions::Check& check) {
 
 CheckCards::CheckCards(QWidget* parent) : QWidget(parent), cards_(new QVBoxLayout(this)) {
   cards_->setContentsMargins(0, 0, 0, 0);
-  cards_->setSpacing(8);
+  cards_->setSpacing(kBlockGap);
 }
 
 void CheckCards::setChecks(const std::vector<FailedCheck>& failed, bool current) {
@@ -70,12 +71,12 @@ QWidget* CheckCards::cardOf(const sessions::Check& check) {
   });
   reasons_.push_back(reason);
   auto* head = new QHBoxLayout;
-  head->setSpacing(8);
+  head->setSpacing(kBlockGap);
   head->addWidget(title, 1);
   head->addWidget(found, 0, Qt::AlignTop);
   auto* column = new QVBoxLayout(card);
-  column->setContentsMargins(8, 6, 8, 8);
-  column->setSpacing(4);
+  column->setContentsMargins(kBlockGap, kBlockGap, kBlockGap, kBlockGap);
+  column->setSpacing(kBlockGap / 2);
   column->addLayout(head);
   column->addWidget(sentence);
   column->addWidget(reason);
