@@ -2,7 +2,6 @@
 #include "ui/run/run_controller.h"
 
 #include <algorithm>
-#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -65,10 +64,11 @@ struct RunController::Job {
 
   bool hasKept() const {
     const auto& result = run->trace().iterations;
-    const auto pose = [](const auto& iteration) { return iteration->camera_from_station; };
     return result.size() >= inputs.kept.size() &&
-           std::ranges::equal(result | std::views::take(inputs.kept.size()), inputs.kept, {}, pose,
-                              pose);
+           std::equal(inputs.kept.begin(), inputs.kept.end(), result.begin(),
+                      [](const auto& kept, const auto& iteration) {
+                        return kept->camera_from_station == iteration->camera_from_station;
+                      });
   }
 };
 

@@ -100,13 +100,13 @@ class ViewState : public QObject {
   /// Calls a function of the receiver once for each change of any of these parts.
   template <class Receiver, class Function>
   void onChange(ViewChanges any_of, Receiver* receiver, Function function) {
-    connect(this, &ViewState::changed, receiver, [any_of, receiver, function](ViewChanges what) {
-      if (!(what & any_of)) return;
-      if constexpr (std::is_member_function_pointer_v<Function>)
-        std::invoke(function, receiver);
-      else
-        function();
-    });
+    if constexpr (std::is_member_function_pointer_v<Function>) {
+      onChange(any_of, receiver, [receiver, function] { std::invoke(function, receiver); });
+    } else {
+      connect(this, &ViewState::changed, receiver, [any_of, function](ViewChanges what) {
+        if (what & any_of) function();
+      });
+    }
   }
 
  Q_SIGNALS:

@@ -206,7 +206,7 @@ void ImageView::updateGround() {
 }
 
 void ImageView::beginDrawing() {
-  drawing_.emplace();
+  drawing_ = Drawing();
   Ground& ground = drawing_->ground;
   ground.transform = transform_;
   ground.canvas = canvasColor();

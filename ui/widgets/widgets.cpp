@@ -166,11 +166,12 @@ void addRow(QTableWidget& table, const QStringList& texts) {
   table.setRowCount(row + 1);
   for (int column = 0; column < texts.size(); ++column) {
     auto* item = new QTableWidgetItem(texts[column]);
-    const Qt::Alignment side = column > 0 ? Qt::AlignRight : Qt::AlignLeft;
-    item->setTextAlignment(side | Qt::AlignVCenter);
+    const auto alignment =
+        static_cast<int>((column > 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    item->setTextAlignment(alignment);
     table.setItem(row, column, item);
     if (QTableWidgetItem* head = table.horizontalHeaderItem(column))
-      head->setTextAlignment(side | Qt::AlignVCenter);
+      head->setTextAlignment(alignment);
   }
 }
 

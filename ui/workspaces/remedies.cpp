@@ -79,7 +79,8 @@ std::vector<Remedy> remediesFor(const sessions::LocalizationTrace& trace,
   for (Remedy& remedy : remedies)
     remedy.tried = std::ranges::count(tried, remedy.step) > 0 ||
                    (remedy.step == Step::kWiderSearch && sessions::searchedEveryTurn(trace));
-  (void)std::ranges::stable_partition(remedies, [](const Remedy& remedy) { return !remedy.tried; });
+  std::stable_partition(remedies.begin(), remedies.end(),
+                        [](const Remedy& remedy) { return !remedy.tried; });
   return remedies;
 }
 

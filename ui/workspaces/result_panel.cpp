@@ -146,7 +146,8 @@ void ResultPanel::showPose() {
   const auto row = [this](int index, const QString& name, const Eigen::Vector3d& values) {
     const auto cell = [&](int column, const QString& text) {
       auto* item = new QTableWidgetItem(text);
-      item->setTextAlignment((column > 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+      item->setTextAlignment(
+          static_cast<int>((column > 0 ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter));
       pose_->setItem(index, column, item);
     };
     cell(0, name);
