@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-
 #include "sessions/checks/generalized_eigen.h"
 #include "sessions/decision/check.h"
 #include "sessions/trace/acceptance.h"

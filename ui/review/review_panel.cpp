@@ -182,6 +182,7 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   ui_.splitter->setSizes({600, 200});
   ui_.convergenceSeeds->setValue(sessions::kConvergenceSeeds);
   buildTable();
+  ui_.passedFold->restore(true);
   ui_.notApplicableFold->restore(true);
   for (const FoldButton* fold : {ui_.passedFold, ui_.notApplicableFold})
     connect(fold, &FoldButton::foldedChanged, this, [this] {
@@ -209,7 +210,6 @@ void ReviewPanel::buildTable() {
   // It is as high as its rows: cards and rows scroll together.
   ui_.checks->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
   ui_.checks->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  ui_.checks->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the first column gives way
   QHeaderView& header = *ui_.checks->horizontalHeader();
   header.setSectionResizeMode(QHeaderView::ResizeToContents);
   header.setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
@@ -273,9 +273,6 @@ void ReviewPanel::showChecks() {
                                                   : tr("Inputs have changed: the checks are out "
                                                        "of date and run again."));
   ui_.emptyHint->setVisible(!controller_.isCurrent());
-  // Where nothing failed, the panel shows what was checked.
-  ui_.passedFold->restore(sessions::countOf(controller_.checks(), sessions::CheckState::kFailed) >
-                          0);
   showFolds();
   showChosen();
   showConvergence();

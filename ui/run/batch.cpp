@@ -45,7 +45,7 @@ QString Batch::takeNext() {
 
 void Batch::run(const sessions::Session& session, const QString& id) {
   runner_.run(batchTask(), [this, session, id](const std::stop_token& stop,
-                                             const TaskRunner::Report& report) {
+                                               const TaskRunner::Report& report) {
     try {
       const auto loaded = sessions::loadCase(sessions::knownCase(session, id.toStdString()));
       sessions::requireRunnable(*loaded);

@@ -150,16 +150,6 @@ TEST_F(ReviewPanelTest, FailedChecksAreCards_OthersFoldToALine) {
       << "as it was left";
 }
 
-TEST_F(ReviewPanelTest, PassedChecksAreShownWhereNoneFailed) {
-  openRun();
-  const auto* fold = panel_->findChild<FoldButton*>(QStringLiteral("passedFold"));
-  ASSERT_EQ(countOf(controller().checks(), CheckState::kFailed), 0);
-  EXPECT_FALSE(fold->isFolded());
-  EXPECT_TRUE(hands().table().isVisible());
-  askTooMuch();
-  EXPECT_TRUE(fold->isFolded());
-}
-
 /// Other checks may change while the operator types.
 TEST_F(ReviewPanelTest, ReasonThatIsBeingTyped_StaysWhileItsCheckIsTheSame) {
   openRun();
