@@ -14,9 +14,9 @@ namespace boresight {
 
 /// Weights of the errors: Tukey's, with 95 % efficiency on Gaussian ones (Huber 1981), in units of
 /// their scale, which is 1.4826 times their median size, and not less than `kMinScale_px`.
-constexpr double kTukey = 4.685;
-constexpr double kMadToSigma = 1.4826;
-constexpr double kMinScale_px = 0.15;
+inline constexpr double kTukey = 4.685;
+inline constexpr double kMadToSigma = 1.4826;
+inline constexpr double kMinScale_px = 0.15;
 
 /// One measured place on an edge, as it enters a pose.
 struct GroupedError {

@@ -22,7 +22,7 @@ struct FacingView {
 };
 
 /// Usual margin around the object, of its size.
-constexpr double kViewMargin = 0.1;
+inline constexpr double kViewMargin = 0.1;
 
 /// Requested size of a view.
 struct ViewSize {

@@ -156,7 +156,8 @@ void MeshSnapper::addLoop(const std::vector<std::int32_t>& loop) {
   const Eigen::Vector3d mean_m = places_m.rowwise().mean();
   places_m.colwise() -= mean_m;
   const SymmetricEigen<3> axes(places_m * places_m.transpose());
-  if (!(axes.values[1] > 0.0)) return;  // on one line
+  constexpr double kOnLine = 1e-12;  // share of squares that rounded coordinates leave
+  if (!(axes.values[1] > kOnLine * axes.values[2])) return;
   const Eigen::Matrix<double, 3, 2> plane = axes.vectors.rightCols<2>();
   // x^2 + y^2 = 2 a x + 2 b y + c, least squares (Kasa 1976): corners need not be evenly spaced.
   // The sums of x, y and x y are 0, so each unknown is found alone.

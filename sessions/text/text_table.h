@@ -21,7 +21,7 @@ class TextTable {
 
 /// printf's %.*f; "-" for a value that is not finite.
 std::string fixedText(double value, int decimals);
-/// A share as "12.3 %".
+/// A share (0 to 1) as "46 %".
 std::string percentText(double share, int decimals = 0);
 
 /// "98.7 %"; "> 99.9 %" where rounding would claim certainty.
