@@ -50,7 +50,7 @@ sessions::ExportReport exportPoses(const sessions::Session& session,
                                       arguments.scene);
   const sessions::CasePoses poses =
       arguments.poses == "annotations"
-          ? sessions::annotatedPoses(session, arguments.cases, arguments.robust)
+          ? sessions::annotatedPoses(session, arguments.cases)
           : sessions::posesToHandOver(session, arguments.cases);
   return arguments.colmap.empty() ? sessions::exportBop(session, arguments.bop, poses)
                                   : sessions::exportColmap(session, arguments.colmap, poses);
@@ -58,7 +58,8 @@ sessions::ExportReport exportPoses(const sessions::Session& session,
 
 int exportFrom(const ExchangeArguments& arguments) {
   const sessions::SessionDocument document = openToRead(arguments.session);
-  const sessions::Session& session = document.session();
+  sessions::Session session = document.session();
+  session.robust_annotations |= arguments.robust;
   for (const std::string& id : arguments.cases) (void)requireCase(document, id);
   if (!arguments.points.empty()) {
     sessions::exportAnnotations(session, arguments.onlyCase(), arguments.points);

@@ -42,7 +42,7 @@ sessions::CaseAnnotationsSolution solveFiles(const SolveArguments& arguments) {
   case_annotations_solution.annotations.views = readViews(arguments);
   case_annotations_solution.annotations.rigid = !arguments.rig.empty();
   sessions::SolveAnnotationsOptions options;
-  options.robust = arguments.robust;
+  options.robust = case_annotations_solution.annotations.robust = arguments.robust;
   if (!arguments.seed.empty()) {
     sessions::PoseFrames frames;
     if (arguments.rig.empty())
@@ -67,8 +67,9 @@ sessions::CaseAnnotationsSolution solveFiles(const SolveArguments& arguments) {
 sessions::CaseAnnotationsSolution solveSession(const SolveArguments& arguments) {
   const sessions::SessionDocument document = openToRead(arguments.session);
   requireCase(document, arguments.case_id);
-  return sessions::solveCaseAnnotations(document.session(), arguments.case_id, !arguments.alone,
-                                        arguments.robust);
+  sessions::Session session = document.session();
+  session.robust_annotations |= arguments.robust;
+  return sessions::solveCaseAnnotations(session, arguments.case_id, !arguments.alone);
 }
 
 int solve(const SolveArguments& arguments) {
@@ -83,7 +84,7 @@ int solve(const SolveArguments& arguments) {
   if (!arguments.json.empty())
     sessions::writeSolution(arguments.json, views, case_annotations_solution.result,
                             case_annotations_solution.left_out, case_annotations_solution.warnings,
-                            arguments.robust);
+                            case_annotations_solution.annotations.robust);
   if (!case_annotations_solution.result.solution) {
     note("no pose: " + case_annotations_solution.result.reason);
     return kNotConverged;

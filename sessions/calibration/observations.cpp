@@ -26,7 +26,7 @@ CalibrationView annotatedView(const Session& session, const SessionCase& session
       view.points.push_back(
           {*pair.point_in_station_m, *pair.pixel, Eigen::Vector2d::Zero(), pair.sigma_px});
   if (view.points.size() < kFewestPoints) return view;
-  const auto solved = solveCaseAnnotations(session, session_case.id, false, false);
+  const auto solved = solveCaseAnnotations(session, session_case.id, false);
   if (const auto pose = solved.camera_from_station())
     view.camera_from_station = *pose;
   else

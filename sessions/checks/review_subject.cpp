@@ -33,7 +33,7 @@ std::optional<OtherPose> poseOfAnnotations(const Session& session, const LoadedC
   if (!session.annotations.contains(id)) return {};
   const CaseAnnotationsSolution solved =
       solveCaseAnnotations(caseAnnotations(session, id), annotationsGuess(loaded.source),
-                           boxCorners(matchedBounds(loaded.scene.view())), false);
+                           boxCorners(matchedBounds(loaded.scene.view())));
   reason = solved.result.reason;
   if (!solved.result.solution) return {};
   return OtherPose{"the annotation", *solved.camera_from_station(), {*solved.covariance()}};

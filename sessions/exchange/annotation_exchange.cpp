@@ -215,8 +215,7 @@ std::vector<SeenPoint> annotatedPoints(const Session& session, const std::string
 
 }  // namespace
 
-CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
-                         bool robust) {
+CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids) {
   for (const std::string& id : case_ids) (void)knownCase(session, id);
   CasePoses case_poses;
   for (const auto& session_case : session.cases) {
@@ -229,7 +228,7 @@ CasePoses annotatedPoses(const Session& session, const std::vector<std::string>&
                     [](const AnnotatedView& view) { return !view.annotations.empty(); });
     if (!annotated && !asked) continue;
     const CaseAnnotationsSolution solved =
-        solveCaseAnnotations(annotations, annotationsGuess(*session_case), {}, robust);
+        solveCaseAnnotations(annotations, annotationsGuess(*session_case), {});
     if (const auto pose = solved.camera_from_station())
       case_poses.poses.push_back({session_case->id, *pose});
     else

@@ -26,8 +26,7 @@ struct CasePoses {
 /// Poses solved from annotations as by `solveCaseAnnotations`, each together with its rig: of the
 /// given cases, or of all cases with annotations (their own or their rig's). InputError for an id
 /// that does not exist, and when there is no pose.
-CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids,
-                         bool robust);
+CasePoses annotatedPoses(const Session& session, const std::vector<std::string>& case_ids);
 
 /// Called with the number of cases written or read so far, and of all.
 using ExportProgress = std::function<void(int done, int of)>;

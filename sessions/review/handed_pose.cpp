@@ -39,7 +39,7 @@ void takeRun(const SessionCase& session_case, const RunRecord& run, HandedPose& 
 
 void takeAnnotations(const Session& session, const SessionCase& session_case, HandedPose& pose) {
   const CaseAnnotationsSolution solved = solveCaseAnnotations(
-      caseAnnotations(session, session_case.id), annotationsGuess(session_case), {}, false);
+      caseAnnotations(session, session_case.id), annotationsGuess(session_case), {});
   const auto camera_from_station = solved.camera_from_station();
   if (!camera_from_station)
     throw InputError(

@@ -86,6 +86,7 @@ ordered_json annotationsJson(const Session& session, const std::string& case_id)
   for (const std::string& id : ids)
     if (const auto found = session.annotations.find(id); found != session.annotations.end())
       json[id] = toJson(*found->second);
+  if (session.robust_annotations && !json.empty()) json["robust"] = true;
   return json;
 }
 

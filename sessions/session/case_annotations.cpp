@@ -35,6 +35,7 @@ AnnotatedView viewOf(const Session& session, const SessionCase& session_case,
 CaseAnnotations caseAnnotations(const Session& session, const std::string& case_id, bool together) {
   const SessionCase* chosen = &knownCase(session, case_id);
   CaseAnnotations case_annotations;
+  case_annotations.robust = session.robust_annotations;
   case_annotations.requirement = requirementOf(session, *chosen);
   case_annotations.camera_from_end_effector = chosen->camera_from_end_effector;
   const auto add = [&](const SessionCase& session_case, const Pose& camera_from_rig) {
@@ -84,13 +85,12 @@ std::map<std::string, double> CaseAnnotationsSolution::outlierAnnotations() cons
 
 CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
                                              const Pose& camera_from_station_guess,
-                                             std::span<const Eigen::Vector3d> station_m,
-                                             bool robust) {
+                                             std::span<const Eigen::Vector3d> station_m) {
   CaseAnnotationsSolution case_annotations_solution;
   case_annotations_solution.annotations = std::move(annotations);
   const std::vector<AnnotatedView>& views = case_annotations_solution.annotations.views;
   SolveAnnotationsOptions options;
-  options.robust = robust;
+  options.robust = case_annotations_solution.annotations.robust;
   options.rig_from_station_guess = views[0].camera_from_rig.inverse() * camera_from_station_guess;
   case_annotations_solution.warnings =
       geometryWarnings(views, &*options.rig_from_station_guess, station_m);
@@ -104,12 +104,12 @@ CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
 }
 
 CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::string& case_id,
-                                             bool together, bool robust) {
+                                             bool together) {
   CaseAnnotations annotations = caseAnnotations(session, case_id, together);
   const SessionCase& session_case = *session.findCase(case_id);
   const SceneMesh scene = readKnownScene(session_case);
   return solveCaseAnnotations(std::move(annotations), annotationsGuess(session_case),
-                              boxCorners(matchedBounds(scene.view())), robust);
+                              boxCorners(matchedBounds(scene.view())));
 }
 
 const Pose& annotationsGuess(const SessionCase& session_case) {

@@ -24,6 +24,7 @@ struct CaseAnnotations {
   std::vector<std::string> case_ids;  ///< by view
   std::vector<AnnotatedView> views;   ///< cameras prepared; `name` is the case's id
   bool rigid = false;                 ///< several: the pose is the rig's
+  bool robust = false;                ///< the session's choice
   Requirement requirement;            ///< of the case itself, as is the next
   std::optional<Pose> camera_from_end_effector;
 };
@@ -59,13 +60,12 @@ struct CaseAnnotationsSolution {
 /// working pose; `station_m` spans the station (corners of its box), or is empty.
 CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
                                              const Pose& camera_from_station_guess,
-                                             std::span<const Eigen::Vector3d> station_m,
-                                             bool robust);
+                                             std::span<const Eigen::Vector3d> station_m);
 
 /// The same with the guess and the box of the station's matched parts taken from the session; the
 /// parts are read. InputError also for a part that cannot be read.
 CaseAnnotationsSolution solveCaseAnnotations(const Session& session, const std::string& case_id,
-                                             bool together, bool robust);
+                                             bool together = true);
 
 /// Start of solving a case's annotations: its working pose, else its seed. The last bits of a
 /// solution depend on it, so all callers use this start.

@@ -147,6 +147,7 @@ struct Session {
   std::map<std::string, SharedValue<Annotation>> annotations;  ///< by case; no element is empty
   /// Completed annotation rounds by case, in order of completion; no element is empty.
   std::map<std::string, SharedValue<AnnotationRounds>> rounds;
+  bool robust_annotations = false;  ///< outliers among annotations get less weight
   ReviewSettings review;
   KeyedList<Decision, CaseIdOf> decisions;  ///< in the order in which they were made
   KeyedList<RunRecord, CaseIdOf> runs;      ///< in the order in which they were made

@@ -157,6 +157,8 @@ Session readMembers(const JsonReader& json) {
     session.cases.push_back(std::move(session_case));
   }
   readAnnotationsOf(json, session);
+  if (const auto robust = json.find("robust_annotations"))
+    session.robust_annotations = robust->boolean();
   if (const auto review = json.find("review")) session.review = readReviewSettings(*review);
   for (const JsonReader& decision : json.at("decisions").elements()) {
     session.decisions.push_back(readDecision(decision));
@@ -220,6 +222,7 @@ ordered_json toJson(const Session& session, const fs::path& file) {
       value.update(toJson(round.annotations));
       json["rounds"][id].push_back(value);
     }
+  if (session.robust_annotations) json["robust_annotations"] = true;
   if (session.review != ReviewSettings()) json["review"] = toJson(session.review);
   json["decisions"] = ordered_json::array();
   for (const Decision& decision : session.decisions) json["decisions"].push_back(toJson(decision));

@@ -190,7 +190,7 @@ TEST_F(WhsSolve, SolvesACaseOfASessionAsTheDesktopDoes) {
   const ProgramRun run = runWhs({"solve", "--session", file, "--case", kOsCase, "--json",
                                  folder_ / "s.solution.json", "--out", folder_ / "pose.json"},
                                 0);
-  const auto solved = sessions::solveCaseAnnotations(session, kOsCase, true, false);
+  const auto solved = sessions::solveCaseAnnotations(session, kOsCase);
   const sessions::AnnotationsSolution& solution = *solved.result.solution;
   EXPECT_EQ(run.out, sessions::solutionText(solved.annotations.views, solution, solved.left_out,
                                             solved.warnings));

@@ -31,7 +31,7 @@ bool sameViews(const sessions::CaseAnnotations& a, const sessions::CaseAnnotatio
 
 bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
   return sameViews(a.annotations, b.annotations) && a.one == b.one && a.landmarks == b.landmarks &&
-         a.rounds == b.rounds && a.robust == b.robust && a.sigmas == b.sigmas &&
+         a.rounds == b.rounds && a.annotations.robust == b.annotations.robust && a.sigmas == b.sigmas &&
          a.blind == b.blind && a.annotations.requirement == b.annotations.requirement &&
          a.camera_from_station_guess == b.camera_from_station_guess;
 }
@@ -47,7 +47,7 @@ RoundAnswer answerOf(const sessions::AnnotationRound& round, const AnnotationQue
   view.camera_from_rig = Pose();
   view.annotations = round.annotations;
   sessions::SolveAnnotationsOptions options;
-  options.robust = asked.robust;
+  options.robust = asked.annotations.robust;
   options.rig_from_station_guess = asked.camera_from_station_guess;
   const sessions::AnnotationsResult result = sessions::solveAnnotations({&view, 1}, options);
   if (result.solution)
@@ -64,7 +64,7 @@ AnnotationAnswer solve(const AnnotationQuestion& asked) {
   const MeshView mesh = asked.one->scene.view();
   auto solution = std::make_shared<sessions::CaseAnnotationsSolution>(
       sessions::solveCaseAnnotations(asked.annotations, asked.camera_from_station_guess,
-                                     sessions::boxCorners(matchedBounds(mesh)), asked.robust));
+                                     sessions::boxCorners(matchedBounds(mesh))));
   if (const auto pose = solution->camera_from_station()) {
     const sessions::AnnotatedView& view = solution->annotations.views.front();
     annotation_answer.covariance = solution->covariance();
@@ -161,7 +161,6 @@ void AnnotationController::askIfChanged(bool anyway) {
       sessions::annotationsGuess(*document_.session().findCase(case_id_));
   current.landmarks = landmarks_;
   current.rounds = roundsOfCase();
-  current.robust = robust_;
   const sessions::ReviewSettings& review = document_.session().review;
   current.sigmas = sessions::checkLimits(review.preset, review.limits).sigmas;
   current.blind = sessions::isBlind(current.rounds, annotations_);
@@ -202,8 +201,9 @@ void AnnotationController::select(const std::string& id) {
 }
 
 void AnnotationController::setRobust(bool robust) {
-  robust_ = robust;
-  askIfChanged(false);
+  sessions::Session next = document_.session();
+  next.robust_annotations = robust;
+  document_.edit(next, robust ? tr("Less weight for outliers") : tr("Equal weights"));
 }
 
 void AnnotationController::setTogether(bool together) {

@@ -37,7 +37,6 @@ struct AnnotationQuestion {
   Pose camera_from_station_guess;
   std::vector<sessions::Landmark> landmarks;
   sessions::AnnotationRounds rounds;
-  bool robust = false;
   double sigmas = 3.0;  ///< number of sigmas that must fit into the requirement
   bool blind = false;   ///< nothing is solved
 };
@@ -88,7 +87,7 @@ class AnnotationController : public QObject {
   /// The solved pose of the current case, stale or not; nothing where there is none.
   std::optional<Pose> solvedPose() const;
   const AnnotationAnswer& answer() const { return answer_; }
-  bool robust() const { return robust_; }
+  bool robust() const { return document_.session().robust_annotations; }
   /// Whether the other cases of the rig are solved with this one.
   bool together() const { return together_; }
   /// Standard deviation that new annotations get, px per axis.
@@ -187,7 +186,6 @@ class AnnotationController : public QObject {
   AnnotationAnswer answer_;
   std::optional<AnnotationQuestion> asked_;
   bool stale_ = false;
-  bool robust_ = false;
   bool together_ = true;
   double sigma_px_ = kSigma_px;
   std::optional<std::filesystem::path> landmarks_file_;

@@ -93,9 +93,9 @@ void AnnotationFiles::exportPoses(Exporter exporter, const QString& title, const
   parts_.annotation.finishMove();
   parts_.exports.start(
       writingText(folder), tr("annotated poses of all cases"),
-      [exporter, folder, session = parts_.document.session(),
-       robust = parts_.annotation.robust()](const ExportRunner::Progress& progress) {
-        return exporter(session, folder, sessions::annotatedPoses(session, {}, robust), progress);
+      [exporter, folder,
+       session = parts_.document.session()](const ExportRunner::Progress& progress) {
+        return exporter(session, folder, sessions::annotatedPoses(session, {}), progress);
       },
       [this, folder](const sessions::ExportReport& report) {
         Q_EMIT noted(exportNote(report, folder));

@@ -29,10 +29,10 @@ using testing::HasSubstr;
 class AnnotationExchange : public testing::Test {
  protected:
   Pose solved(const std::string& id) const {
-    return *sessions::solveCaseAnnotations(session_, id, true, false).camera_from_station();
+    return *sessions::solveCaseAnnotations(session_, id).camera_from_station();
   }
   static sessions::CasePoses annotated(const Session& session, std::vector<std::string> ids = {}) {
-    return sessions::annotatedPoses(session, ids, false);
+    return sessions::annotatedPoses(session, ids);
   }
   std::string message(const std::function<void()>& call) const { return folder_.message(call); }
 

@@ -42,7 +42,8 @@ CaseAnnotationsSolution solutionWith(const std::map<std::size_t, double>& errors
   annotations.case_ids = {"a"};
   annotations.views = {scene.view};
   annotations.views[0].camera_from_rig = Pose();
-  return sessions::solveCaseAnnotations(annotations, scene.camera_from_station, {}, robust);
+  annotations.robust = robust;
+  return sessions::solveCaseAnnotations(annotations, scene.camera_from_station, {});
 }
 
 std::string idOf(const CaseAnnotationsSolution& solution, std::size_t index) {

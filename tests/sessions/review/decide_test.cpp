@@ -153,6 +153,19 @@ TEST(Decide, ChangedInput_InvalidatesADecisionAndIsNamed) {
   }
 }
 
+TEST(Decide, RobustAnnotations_InvalidateAValidationOfAnAnnotatedCase) {
+  Random random = randomFor("Decide.Robust");
+  JudgedCase judged(random);
+  sessions::Annotations annotations;
+  while (annotations == sessions::Annotations()) annotations = randomAnnotation(random);
+  for (const bool annotated : {false, true}) {
+    if (annotated) judged.session = withAnnotations(judged.session, "a", annotations);
+    Session after = judged.validatedBy("Ada");
+    after.robust_annotations = !after.robust_annotations;
+    EXPECT_EQ(reviewStatusOf(after, "a").holds(), !annotated);
+  }
+}
+
 TEST(Decide, NewRunOfTheRigsOtherCamera_InvalidatesAValidation) {
   Random random = randomFor("Decide.OtherCamera");
   JudgedCase judged(random);

@@ -79,15 +79,16 @@ TEST(CaseAnnotations, Views_StartWithTheCaseAndOmitUnannotatedAndOtherRigs) {
 }
 
 TEST(CaseAnnotations, SolveCase_EqualsSolvingItsViews) {
-  const RigSession rig;
+  RigSession rig;
   const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
   for (const bool robust : {false, true}) {
     sessions::SolveAnnotationsOptions options;
     options.robust = robust;
     options.rig_from_station_guess = rig.views[0].camera_from_rig.inverse() * guess;
     const auto direct = sessions::solveAnnotations(rig.views, options);
+    rig.session.robust_annotations = robust;
     const auto result =
-        sessions::solveCaseAnnotations(caseAnnotations(rig.session, "left"), guess, {}, robust);
+        sessions::solveCaseAnnotations(caseAnnotations(rig.session, "left"), guess, {});
     ASSERT_TRUE(direct.solution && result.result.solution) << result.result.reason;
     EXPECT_EQ(result.result.solution->rig_from_station, direct.solution->rig_from_station);
     EXPECT_EQ(result.result.solution->covariance, direct.solution->covariance);

@@ -266,6 +266,7 @@ inline sessions::Session randomSession(Random& random) {
     if (coin(random) && !session.runs.empty()) session.runs.back().rerun = randomRerun(random);
     if (coin(random)) session.view = {id, "", static_cast<std::int32_t>(random.below(9)) - 1};
   }
+  session.robust_annotations = coin(random);
   return session;
 }
 

@@ -162,7 +162,7 @@ TEST_F(AnnotationPanelTest, ButtonsSetModeWeightsAndTruth) {
   ASSERT_TRUE(solved());
   const auto far_off = (controller_.solvedPose()->translation_m - before.translation_m).norm();
   find<QCheckBox>("robust").click();
-  ASSERT_TRUE(controller_.robust() && solved());
+  ASSERT_TRUE(document_.session().robust_annotations && solved());
   EXPECT_LT((controller_.solvedPose()->translation_m - before.translation_m).norm(), 0.1 * far_off);
   QTest::mouseClick(&find<QPushButton>("annotationAsTruth"), Qt::LeftButton);
   EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth,
