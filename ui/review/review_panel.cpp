@@ -267,6 +267,8 @@ void ReviewPanel::showChecks() {
   for (const sessions::Check& check : controller_.checks())
     if (check.state == CheckState::kFailed) failed.push_back({check, controller_.reasonFor(check)});
   ui_.failed->setChecks(failed, controller_.isCurrent());
+  // Where none failed, the measure leads.
+  ui_.precision->setChecks(failed.empty() ? controller_.checks() : std::vector<sessions::Check>());
   model_.setChecks(controller_.checks(), controller_.isCurrent());
   ui_.emptyHint->setText(!problem.isEmpty()       ? problem
                          : model_.rowCount() == 0 ? tr("The pose is being checked ...")
