@@ -214,6 +214,9 @@ std::string tooFewText(const LocalizationTrace& trace, const IterationTrace& las
         "feature size or a smaller ignore mask",
         last.template_count, last.template_side_px, last.edge_pixel_count,
         TemplateSelector::kMinCount);
+  if (last.template_count == 0)  // another method matched, without templates
+    return format("too few matches on the station and in the search window: %d, needed %d",
+                  last.correspondence_count, options.pnp.min_inliers);
   return format(
       "too few templates inside the image: %d of %d, needed %d; the station may be at the border, "
       "or the template (%d px) too large",

@@ -78,6 +78,10 @@ TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
               AllOf(HasSubstr("5 of 64 px"), HasSubstr("needed 6")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewMatches)),
               AllOf(HasSubstr("4 of 5"), HasSubstr("needed 6")));
+  LocalizationTrace without_templates = endedWith(LocalizationStatus::kTooFewMatches);
+  editIteration(without_templates, 0, [](IterationTrace& last) { last.template_count = 0; });
+  EXPECT_THAT(explanation(without_templates),
+              AllOf(HasSubstr("too few matches"), HasSubstr("4, needed 6")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kPnpFailed)),
               AllOf(HasSubstr("4 matches"), HasSubstr("3 inliers at 8.0 px")));
   EXPECT_THAT(explanation(endedWith(LocalizationStatus::kIterationLimit)),
