@@ -82,11 +82,13 @@ TEST_F(BadInput, NamesAFileThatIsEmptyCutOrOfAnotherFormat) {
                                           {"--seed", "seed.json"},
                                           {"--camera", "camera.json"}}) {
     const std::string whole = contentOf(example_ / name);
-    expectRefused({{option, inputs_.write(name, std::string_view()).string()}}, name, "");
     expectRefused({{option, inputs_.write(name, whole.substr(0, whole.size() / 2)).string()}}, name,
                   "");
-    expectRefused({{option, inputs_.write(name, "hello, this is a letter").string()}}, name, "");
   }
+  expectRefused({{"--mesh", inputs_.write("model.ply", std::string_view()).string()}}, "model.ply",
+                "");
+  expectRefused({{"--image", inputs_.write("image.png", "hello, a letter").string()}}, "image.png",
+                "");
   expectRefused({{"--seed", example_ / "camera.json"}}, "camera.json: format", "boresight-pose");
 }
 
@@ -189,23 +191,26 @@ TEST_F(BadInput, NamesAnOptionWhoseNumberIsNotFiniteOrOutOfRange) {
     EXPECT_THAT(refused.err, HasSubstr(value)) << option;
     EXPECT_EQ(refused.out, "");
   };
-  for (const std::string value : {"nan", "1e999", "-1"}) {
+  // One check reads these numbers: each option once, with one of the values in turn.
+  for (const std::string value : {"nan", "1e999", "-1"})
     expectUsage(localizeArguments({{"--feature-size", value}}), "--feature-size", value);
-    expectUsage(with(localizeArguments(), {"--uncertainty", value, "0.01", "0.01", "1", "1", "1"}),
-                "--uncertainty", value);
-    for (const std::string option : {"--feature-size", "--mesh-scale-sigma"})
-      expectUsage({"new", "--image", "i.png", option, value, "--out", "s.json"}, option, value);
-    expectUsage({"camera", example_ / "camera.json", "--as", "pinhole", "--distance", value},
-                "--distance", value);
-    expectUsage(
-        {"evaluate", "--dataset", dataset, "--out", outputs_ / "r.sqlite", "--reseed-scale", value},
-        "--reseed-scale", value);
-    for (const std::string option : {"--found-px", "--found-share", "--inlier-share", "--sigmas"})
-      expectUsage({"compare", record, record, option, value}, option, value);
-    expectUsage(localizeArguments({{"--set", "templates.feature_size_m=" + value}}), "--set",
-                value == "1e999" ? "templates.feature_size_m" : value);
-    expectUsage(localizeArguments({{"--threads", value}}), "--threads", value);
-  }
+  expectUsage(with(localizeArguments(), {"--uncertainty", "nan", "0.01", "0.01", "1", "1", "1"}),
+              "--uncertainty", "nan");
+  expectUsage({"new", "--image", "i.png", "--mesh-scale-sigma", "-1", "--out", "s.json"},
+              "--mesh-scale-sigma", "-1");
+  expectUsage({"camera", example_ / "camera.json", "--as", "pinhole", "--distance", "1e999"},
+              "--distance", "1e999");
+  expectUsage(
+      {"evaluate", "--dataset", dataset, "--out", outputs_ / "r.sqlite", "--reseed-scale", "nan"},
+      "--reseed-scale", "nan");
+  expectUsage({"compare", record, record, "--found-px", "-1"}, "--found-px", "-1");
+  expectUsage({"compare", record, record, "--found-share", "nan"}, "--found-share", "nan");
+  expectUsage({"compare", record, record, "--inlier-share", "1e999"}, "--inlier-share", "1e999");
+  expectUsage({"compare", record, record, "--sigmas", "-1"}, "--sigmas", "-1");
+  expectUsage(localizeArguments({{"--set", "templates.feature_size_m=1e999"}}), "--set",
+              "templates.feature_size_m");
+  expectUsage(localizeArguments({{"--set", "templates.feature_size_m=nan"}}), "--set", "nan");
+  expectUsage(localizeArguments({{"--threads", "-1"}}), "--threads", "-1");
   expectUsage(with(localizeArguments(), {"--uncertainty", "0.01", "0.01", "0.01", "1", "1", "181"}),
               "--uncertainty", "180 deg");
   EXPECT_EQ(outputs_.fileCount(), 0u);
