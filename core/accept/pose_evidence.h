@@ -30,7 +30,7 @@ struct PoseEvidence {
   /// and means and edge support, which distinguish minima of one basin
   /// (resources/evidence/trust.md).
   double score() const;
-  /// Probability that the pose is right: logistic in the contours' share of their expectation, in
+  /// Probability that the pose is correct: logistic in the contours' share of their expectation, in
   /// the regions, and in the edge support over the expected evidence; fitted to correct and wrong
   /// poses (resources/evidence/trust.md).
   double probability() const;

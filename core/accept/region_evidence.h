@@ -28,8 +28,8 @@ struct RegionEvidence {
   }
 };
 
-/// Measures RegionEvidence. Statistics of gray values inside and outside an outline by sectors, as
-/// in region-based tracking (Stoiber et al. 2022, SRT3D), for the test of a pose.
+/// Measures RegionEvidence from gray values inside and outside an outline by sectors, as in
+/// region-based tracking (Stoiber et al. 2022, SRT3D).
 class RegionEvidenceMeter {
  public:
   static constexpr int kMostLines = 2500;  ///< across the outline

@@ -19,7 +19,7 @@ class GradientRows {
  public:
   /// Takes the ring from `arena`, for an image of this size.
   void begin(int width, int height, Arena& arena);
-  /// Back to before the first row, for another pass.
+  /// Restarts before the first row.
   void restart();
   /// The next row, from rows of `smoothed` over `source`.
   void advance(const Equalizer& source, SmoothedRows& smoothed);
@@ -64,7 +64,7 @@ class GradientHistogram {
   void begin(Arena& arena);
   /// Counts a row of GradientRows::magnitude; `ignored` is nullptr or a row of the ignore mask.
   void addRow(const std::int32_t* magnitude, const std::uint64_t* ignored, int width);
-  /// The quantile of that share; the largest possible magnitude when no pixel was counted.
+  /// The quantile `share`; the largest possible magnitude when no pixel was counted.
   std::int32_t quantile(double share) const;
 
  private:

@@ -28,7 +28,7 @@ namespace boresight {
 /// refines the seed alone, and ends there when the pose is probable. At the end the final pose is
 /// compared with other poses that show about the same edges.
 ///
-/// A caller with threads may share out the independent tasks of a stage:
+/// A caller with threads may distribute the independent tasks of a stage:
 ///
 ///     while (!finished) {
 ///       for task in 0 ... tasks() - 1, at the same time:  runTask(task, worker)
@@ -64,8 +64,8 @@ class Localizer {
   void runTask(int task, int worker) { pass_.runTask(task, worker); }
 
   /// Restarts with another problem (such as the next image of a sequence) and other options,
-  /// without reallocating; what the problem points to must outlive the run. kInvalidPose,
-  /// kInvalidOption, kArenaTooSmall (it needs more memory): on each of them the old run continues.
+  /// without reallocating; data of the problem must outlive the run. On kInvalidPose,
+  /// kInvalidOption and kArenaTooSmall (more memory needed) the old run continues.
   Status restart(const LocalizationProblem& problem, const LocalizerOptions& options);
 
   /// Whether the next step starts an iteration.
@@ -82,10 +82,9 @@ class Localizer {
   void matchOutside(const SurfaceRender& surfaces) { pass_.matchOutside(surfaces); }
   /// Whether step() waits for matches: then the workspace's iteration holds render and templates.
   bool awaitsMatches() const { return pass_.needs() == PassNeed::kMatches; }
-  /// One entry per template, in the order of the templates; or any other items of the render, which
-  /// then replace the templates. Entries that are not finite count as not found. kCapacityExceeded
-  /// for more than templates.count, kInvalidOption when no matches are awaited; then nothing has
-  /// changed.
+  /// One entry per template, in the order of the templates; or other items of the render, which
+  /// replace the templates. Entries that are not finite count as not found. kCapacityExceeded for
+  /// more than templates.count, kInvalidOption when no matches are awaited; both change nothing.
   Status supplyMatches(std::span<const SuppliedMatch> supplied) {
     return pass_.supplyMatches(supplied);
   }

@@ -28,7 +28,7 @@ class PoseComparison {
   /// Next action after an attempt.
   enum class Next : std::uint8_t {
     kTry = 0,   ///< the attempt of next()
-    kReturn,    ///< the attempt of best(): its last iteration again
+    kReturn,    ///< the attempt of best() repeats its last iteration
     kSearch,    ///< the whole object is searched, and a new comparison begins with its candidates
     kConclude,  ///< the run ends: with the pose of best(), or as a failure
   };
@@ -63,13 +63,13 @@ class PoseComparison {
   bool isKnown(const Pose& camera_from_station, int level, const RunContext& run) const;
   /// A refinement under this plan ends at known hypotheses.
   void endAtKnown(PassPlan& plan) const;
-  /// Evidence of the best hypothesis where the pose is hardly another one, else nullptr.
+  /// Evidence of the best hypothesis if the pose is nearly the same, else nullptr.
   const PoseEvidence* evidenceFor(const Pose& camera_from_station, const RunContext& run) const;
-  /// An attempt has converged on a pose; `measured` has its evidence, score and probability.
+  /// Takes the pose of a converged attempt; `measured` has its evidence, score and probability.
   Next takePose(const Attempt& attempt, const Pose& camera_from_station_before,
                 const PoseHypothesis& measured, const WeakDirections& weak, const RunContext& run);
-  /// An attempt has failed, left the seed's uncertainty, reached a known hypothesis, or does not
-  /// convince.
+  /// Takes an attempt that failed, left the seed's uncertainty, reached a known hypothesis, or does
+  /// not convince.
   Next takeFailure(const RunContext& run);
   /// Whether the final pose, of this probability, needs no further search: after a whole one
   /// always, else if its probability is kUndoubted and it lies within the stated uncertainty.
@@ -81,11 +81,11 @@ class PoseComparison {
   /// The attempt that repeats the last iteration of the best hypothesis.
   Attempt best(int attempt, const LocalizerOptions& options);
 
-  /// All hypotheses in the order in which they were found.
+  /// All hypotheses in order of discovery.
   std::span<const PoseHypothesis> hypotheses() const { return hypotheses_.items(); }
-  /// Index of the best hypothesis; -1: there is none.
+  /// Index of the best hypothesis; -1: none.
   int bestIndex() const { return best_index_; }
-  /// Index of the best hypothesis that is another pose than the best one; -1: there is none.
+  /// Index of the best hypothesis that is distinct from the best one; -1: none.
   int competitorIndex(const RunContext& run) const;
   /// Score of the best hypothesis minus that of the competitor, which counts as 0 when negative.
   double gap(const RunContext& run) const;

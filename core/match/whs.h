@@ -19,7 +19,7 @@
 namespace boresight {
 
 /// Half-side of the square around the best place that is excluded from the second best: within it
-/// edges of the same place still match.
+/// the same edges still match.
 inline constexpr int kSecondPeakExclusion_px = 6;
 
 /// S in [0, 2] for display: S+ / c+ + S- / c-, a term whose count is 0 being 0.

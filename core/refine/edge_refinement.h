@@ -54,7 +54,7 @@ struct EdgeSample {
   std::int8_t normal_y = 0;  ///< likewise
   std::uint8_t kind = 0;     ///< EdgeKind bits
 
-  /// In the image, from the nearer surface outwards.
+  /// Normal in the image, from the nearer surface outwards.
   Eigen::Vector2d normal() const { return Eigen::Vector2d(normal_x, normal_y) / 127.0; }
 };
 

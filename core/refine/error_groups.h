@@ -12,8 +12,8 @@
 
 namespace boresight {
 
-/// Weights of the errors: Tukey's, with 95 % efficiency on Gaussian ones (Huber 1981), in units of
-/// their scale, which is 1.4826 times their median size, and not less than `kMinScale_px`.
+/// Tukey's limit of the errors, in units of their scale: 95 % efficiency on Gaussian errors (Huber
+/// 1981). The scale is 1.4826 times their median size, at least `kMinScale_px`.
 inline constexpr double kTukey = 4.685;
 inline constexpr double kMadToSigma = 1.4826;
 inline constexpr double kMinScale_px = 0.15;
@@ -32,7 +32,7 @@ struct ErrorSums {
   Matrix6d squares = Matrix6d::Zero();    ///< of the sums of errors in the groups
   bool suffices = true;                   ///< every way of grouping has two groups or more
 
-  void add(const ErrorSums& other);  ///< Errors of different views are independent.
+  void add(const ErrorSums& other);  ///< Adds sums of another view
   /// The sums in the perturbation of `camera`'s pose as those of `first`'s; see inFirst() of
   /// NormalEquations.
   ErrorSums inFirst(const Pose& camera_from_first) const;

@@ -55,7 +55,7 @@ struct CameraScene {
   MeshView mesh;                           ///< not owned
   MeshAdjacency adjacency;                 ///< of the mesh
   std::size_t first_in_camera = 0;         ///< vertices from here on are fixed to the camera
-  BoundingBox station_box;                 ///< of the vertices before, station frame
+  BoundingBox station_box;                 ///< of the vertices before those, station frame
   BoundingBox camera_box;                  ///< of the others, camera frame
   std::span<FixedPixel> vertex_px;         ///< one per vertex of the mesh
   std::span<std::uint16_t> vertex_depth;   ///< one per vertex: floor((z - low_m) per_m)

@@ -58,7 +58,7 @@ class SmallFaces {
   /// Largest extent along each image axis.
   static constexpr int kLargest_px = 12;
 
-  /// Everything that is the same for all faces of a render.
+  /// Computes the data that all faces of a render share.
   SmallFaces(const CameraScene& scene, const RayGrid& rays);
   SmallFaces() = default;
 

@@ -80,7 +80,7 @@ inline bool normalsDiffer(const FaceCache::Plane& a, const FaceCache::Plane& b,
 struct SurfaceEnd {
   bool ends = false;       ///< false: the surface covers the whole way
   bool reached = false;    ///< the way leads over one connected surface to the target face
-  double s = 2.0;          ///< where it ends; beyond 1: it does not
+  double s = 2.0;          ///< where the surface ends; above 1: it does not end
   std::int32_t face = -1;  ///< the face that ends there
   std::int8_t edge = -1;   ///< the edge of that face
   Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the surface's side

@@ -35,7 +35,7 @@ class ObjectSearch {
                            EdgeRenderer& renderer, EdgeRender& render);
   /// One bounded slice; true when the candidates are complete.
   [[nodiscard]] bool step();
-  /// Faces the scene as for the search again; false when it is outside the image.
+  /// Restarts the search's view of the scene; false when it is outside the image.
   [[nodiscard]] bool beginView() {
     return view_edges_->begin(*problem_, problem_->camera_from_station_seed, view_size_);
   }

@@ -20,7 +20,7 @@ class SlideSums {
   static constexpr int kMaxPlaces = 64;     ///< of an outline
   static constexpr int kMaxView_px = 183;   ///< sides of the maps
   static constexpr double kStep_px = 0.4;   ///< of the distances
-  static constexpr int kFarthestStep = 15;  ///< largest distance, in such steps
+  static constexpr int kFarthestStep = 15;  ///< largest distance, in kStep_px
 
   /// A place of an outline, px from the middle of the view.
   struct Place {
@@ -39,7 +39,7 @@ class SlideSums {
   /// Sums over at most kMaxPlaces places.
   void add(std::span<const Place> places);
 
-  /// Distance of a place of an edge of that direction, kStep_px; px from the middle of the view.
+  /// Distance to the edges of a direction, in kStep_px, at a place, px from the middle of the view.
   std::uint8_t at(int direction, double x_px, double y_px) const;
 
   int columns() const { return columns_; }  ///< slides along x
