@@ -53,9 +53,8 @@ struct PlannedRun {
   int reseed = 0;
 };
 
-/// The runs that the options ask for, in the order of the dataset, then of seeds. InputError when a
-/// filter or `mesh_of` names something that is not in the dataset, or no case meets all filters. A
-/// shard may be empty.
+/// The runs of the options, in the order of the dataset, then of seeds. InputError when a filter or
+/// `mesh_of` is not in the dataset, or no case meets all filters. A shard may be empty.
 std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& options);
 
 /// Called for each finished run, by one thread at a time, in the order of finishing.

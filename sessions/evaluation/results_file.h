@@ -34,7 +34,7 @@ struct ResultsFacts {
 ResultsFacts readResultsFacts(const std::filesystem::path& file);
 
 /// Calls `take` for each run, with tags and without steps, ordered by dataset, then seed, then
-/// method, whatever order they were run in. InputError.
+/// method. InputError.
 void forEachRun(const std::filesystem::path& file, const std::function<void(RunResult&&)>& take);
 
 /// The iterations of a file's runs, one run at a time.

@@ -19,7 +19,7 @@
 
 namespace boresight::sessions {
 
-/// An option as stored in the record, also if this program does not know it.
+/// An option as stored in the record, also if unknown to this program.
 struct RecordedOption {
   std::string name;
   OptionKind kind = OptionKind::kReal;
@@ -69,8 +69,8 @@ struct RecordedIteration {
   /// The figures of the iteration. When read from a record, its lists are empty, and of hypotheses
   /// that were not chosen only the roll is known.
   IterationTrace trace;
-  std::optional<RecordHash> render_sha256;                 ///< zeros: it failed; nothing: not known
-  std::optional<std::vector<RecordedTemplate>> templates;  ///< nothing: none, or not in the record
+  std::optional<RecordHash> render_sha256;                 ///< zeros: it failed; empty: not known
+  std::optional<std::vector<RecordedTemplate>> templates;  ///< empty: none, or not in the record
   std::optional<EdgeSupport> support;  ///< of an iteration whose pose was judged by it
 };
 
@@ -87,7 +87,7 @@ struct RecordedEnd {
 /// The content of a record before its first damage.
 struct OnboardRecord {
   std::optional<RecordedInputs> inputs;
-  std::vector<RecordedOptions> options;  ///< those that it started with, then changes
+  std::vector<RecordedOptions> options;  ///< those at the start, then changes
   std::optional<RecordedEdges> edges;
   std::vector<RecordedIteration> iterations;
   std::optional<RecordedEnd> end;
@@ -96,8 +96,8 @@ struct OnboardRecord {
   bool whole() const { return missing.empty(); }
 };
 
-/// Reads a record; any bytes are allowed. InputError (`file` names them) when they do not begin as
-/// a record of this version does.
+/// Reads a record; any bytes are allowed. InputError (`file` names them) unless they begin like a
+/// record of this version.
 OnboardRecord parseRecord(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 /// The same of a file; InputError.
 OnboardRecord readRecord(const std::filesystem::path& file);
@@ -122,7 +122,7 @@ OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* 
 LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
                                const std::stop_token& stop = {});
 
-/// The options of an onboard run as this program understands them.
+/// The options of an onboard run as read by this program.
 struct RecordedPlan {
   RunPlan plan;
   /// Differences from the onboard options, sentences: options that this program does not know or

@@ -67,8 +67,8 @@ struct QueueRow {
   std::shared_ptr<const ReviewSubject> subject;
 };
 
-/// Checks a case's last run with the inputs as they are now. Reads its files and its trace;
-/// failures to read are reported in `trouble`. std::invalid_argument when there is no such case.
+/// Checks a case's last run with the current inputs. Reads its files and its trace; failures to
+/// read are reported in `trouble`. std::invalid_argument when there is no such case.
 QueueRow queueRow(const Session& session, const std::string& case_id);
 /// The same for inputs that were read already (nullptr: they could not be read, for `reason`).
 QueueRow queueRow(const Session& session, const std::string& case_id,

@@ -15,12 +15,12 @@ namespace boresight::sessions {
 struct ListedResult {
   std::string status;  ///< RunResult::status
   bool completed = false;
-  /// requirementShare() of its error; nothing without truth or requirement.
+  /// requirementShare() of its error; empty without truth or requirement.
   std::optional<double> error_share;
 };
 ListedResult listedResult(const RunResult& run);
 
-/// As one of a case's tags, "result:converged:0.37" or "result:pnp_failed", and back; nothing when
+/// As one of a case's tags, "result:converged:0.37" or "result:pnp_failed", and back; empty when
 /// there is no such tag.
 std::string resultTag(const ListedResult& result);
 std::optional<ListedResult> listedResult(const SessionCase& session_case);

@@ -16,7 +16,7 @@ struct PackedFile {
   std::string sha256;          ///< of its bytes
 };
 
-/// Content of the archive of a session: in a folder of the session's name the session, `inputs/`
+/// Content of the archive of a session: a folder of the session's name with the session, `inputs/`
 /// with every file that it names (once, below the beginning of its hash, so that equal names do not
 /// collide), and the traces of its runs.
 struct SessionPack {

@@ -19,8 +19,8 @@ namespace boresight::sessions {
 /// they can.
 std::string whyAlone(const Session& session, const std::string& case_id);
 
-/// Views of one rig, read, to be run as one; immutable. The first one leads: seed and uncertainty
-/// are its case's.
+/// Views of one rig, read, to be run as one; immutable. Seed and uncertainty are those of the first
+/// view's case.
 struct LoadedViews {
   std::vector<std::shared_ptr<const LoadedCase>> cases;
   std::vector<View> views;  ///< point into the cases

@@ -17,7 +17,7 @@ struct TableColumn {
   int decimals = 0;  ///< of its numbers, as text
 };
 
-/// Text, or the numbers of a column's parts; a part without one shows as "-".
+/// Text, or the numbers of a column's parts; a part without a number shows as "-".
 struct TableCell {
   // NOLINTBEGIN: rows are lists of texts and numbers
   TableCell(std::string shown) : text(std::move(shown)) {}

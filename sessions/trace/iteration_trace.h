@@ -21,9 +21,8 @@ RenderTrace recordRender(const EdgeRender& render);
 /// With kSummary: thresholds and count alone.
 EdgeMapTrace recordEdgeMap(const EdgeMap& edges, RecordLevel level = RecordLevel::kFull);
 
-/// The test edges of an image as in a run with these options, in memory of its own. `ignore` (the
-/// image's size) may be nullptr. The core's statuses are returned as they are. Throws
-/// std::bad_alloc.
+/// The test edges of an image as in a run with these options, in separate memory. `ignore` (the
+/// image's size) may be nullptr. Returns the core's status. Throws std::bad_alloc.
 Status detectEdges(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                    EdgeMapTrace& output);
 

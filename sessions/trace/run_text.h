@@ -18,8 +18,8 @@ std::string poseText(const Pose& pose, const Matrix6d& covariance,
                      const std::string& name = "camera_from_station",
                      const std::string& place = "");
 
-/// Why a run ended as it did: what was measured, what was needed, and what to try. One sentence or
-/// two; empty for a run that converged.
+/// Why a run failed: the values measured and needed, and what to try. One sentence or two; empty
+/// for a run that converged.
 std::string explanation(const LocalizationTrace& trace);
 
 /// High-water mark of memory by stage, compared with the limit if there is one.

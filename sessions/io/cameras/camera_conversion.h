@@ -15,8 +15,8 @@ namespace boresight::sessions {
 /// poses remain valid; with the approximation error.
 struct FittedCamera {
   Camera camera;  ///< prepared
-  /// Over pixels all across the image and along its whole border: between the pixel of the given
-  /// camera and where the fitted one sees the same point.
+  /// Largest distance between the pixels of the given and the fitted camera for the same point,
+  /// over the image and its border.
   double worst_error_px = 0.0;
   Eigen::Vector2d worst_pixel = Eigen::Vector2d::Zero();
   double rms_error_px = 0.0;

@@ -35,7 +35,7 @@ struct PoseFile {
   /// |R'R - I| (Frobenius) of the matrix in the file, before it was projected to a rotation.
   double rotation_deviation = 0.0;
   std::optional<DeclaredUncertainty> uncertainty;
-  /// Over (rotation rad, translation m), left perturbation, camera frame; nothing: not stated.
+  /// Over (rotation rad, translation m), left perturbation, camera frame; empty: not stated.
   std::optional<Matrix6d> covariance = std::nullopt;
   /// Of a pose that was given as `reference_from_station`; the name may be empty.
   std::optional<FrameName> station_frame = std::nullopt;

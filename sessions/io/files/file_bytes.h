@@ -28,7 +28,8 @@ enum class FileUse {
 /// two uses counts as an input. Files that are not regular are not remembered.
 void noteInput(const std::filesystem::path& file, FileUse use = FileUse::kInput);
 
-/// Remembers that this process has written `output`: it may do so again, also after reading it.
+/// Remembers that this process has written `output`: it may be written again, also after being
+/// read.
 void noteOutput(const std::filesystem::path& output, FileUse use = FileUse::kInput);
 
 /// Throws OverwriteError when `output` is a file that was noted, under whatever name, symbolic or

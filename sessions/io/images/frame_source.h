@@ -24,7 +24,7 @@ class FrameSource {
   virtual ~FrameSource() = default;
   /// Number of frames; of a video as its file states it, 0 where it states none.
   virtual std::int64_t count() const = 0;
-  /// The next frame; nothing after the last one.
+  /// The next frame; empty after the last one.
   virtual std::optional<Frame> next() = 0;
   /// Skips the next frame without reading its image; does nothing after the last one.
   virtual void skip() = 0;

@@ -44,7 +44,7 @@ struct ImageReadOptions {
   std::vector<std::uint8_t> table = {};
   /// The table given by two numbers; not together with `table`.
   std::optional<GrayLevels> levels = {};
-  /// The samples are such a mosaic: their colours are interpolated first (OpenCV, edge-aware).
+  /// The samples are a Bayer mosaic: colours are interpolated first (OpenCV, edge-aware).
   std::optional<BayerPattern> bayer = {};
 
   bool operator==(const ImageReadOptions&) const = default;

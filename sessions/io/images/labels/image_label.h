@@ -31,10 +31,10 @@ struct LabelFrame {
 struct LabelSubframe {
   int first_sample = 0;  ///< of the detector, counted from 0
   int first_line = 0;
-  double samples_per_pixel = 1.0;  ///< detector samples that one pixel of the image stands for
+  double samples_per_pixel = 1.0;  ///< detector samples per image pixel
   double lines_per_pixel = 1.0;
 
-  /// Whether the image is the whole detector as it is.
+  /// Whether the image is the whole detector at full resolution.
   bool whole() const {
     return first_sample == 0 && first_line == 0 && samples_per_pixel == 1.0 &&
            lines_per_pixel == 1.0;
