@@ -25,7 +25,7 @@ struct AnnotationLook {
   std::string selected;
   std::map<std::string, double> outliers;  ///< normalized residual by id
   Camera camera;
-  /// Predicts the position of annotations without image side. Nothing: these are not drawn.
+  /// Predicts the position of annotations without image side. Empty: these are not drawn.
   std::optional<Pose> camera_from_station = {};
 };
 

@@ -62,8 +62,8 @@ class Loupe : public QWidget {
   bool isSwitchedOn() const { return on_; }
   void setSwitchedOn(bool on);
 
-  /// Shows a position (px) under the cross; `aim` is the target of a click there. Nothing: the
-  /// loupe hides.
+  /// Shows a position (px) under the cross; `aim` is the target of a click there. Empty: the loupe
+  /// hides.
   void lookAt(const std::optional<QPointF>& pixel, const AnnotationAim& aim);
   const std::optional<QPointF>& place() const { return pixel_; }
   /// Between image pixels and this widget's coordinates.

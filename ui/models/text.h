@@ -10,10 +10,10 @@
 
 namespace boresight::ui {
 
-/// For table cells: a fixed number of decimals, always with a dot; nothing for NaN.
+/// For table cells: a fixed number of decimals, always with a dot; empty for NaN.
 QString numberText(double value, int decimals);
 
-/// For table cells: "98.7 %", "> 99.9 %"; nothing for NaN.
+/// For table cells: "98.7 %", "> 99.9 %"; empty for NaN.
 QString probabilityCell(double probability);
 
 /// 1, 2 or 5 times a power of ten, not below the value by more than rounding: the end of a scale or

@@ -132,7 +132,7 @@ class Document;
 struct QueueEntry {
   sessions::QueueRow row;  ///< before its check, only data of the session
   QImage thumbnail;
-  bool checked = false;  ///< whether the row is of the document's present state
+  bool checked = false;  ///< whether the row is of the document's current state
 };
 
 /// A case's last run against the one before.

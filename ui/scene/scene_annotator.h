@@ -56,7 +56,7 @@ class SceneLoupe : public QWidget {
   double magnification() const { return magnification_; }
   void setMagnification(double magnification);
 
-  /// Shows a pixel of the canvas under the cross; nothing: the loupe hides.
+  /// Shows a pixel of the canvas under the cross; empty: the loupe hides.
   void lookAt(const SceneShot& shot, const std::optional<QPointF>& pixel);
   const std::optional<QPointF>& place() const { return pixel_; }
   /// Whether the newest position is drawn.

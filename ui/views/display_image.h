@@ -106,7 +106,7 @@ class BitPixmaps {
   /// of its pixels covers at least `bits_per_pixel` of them, so that drawing it drops none. Sets
   /// `step`.
   const QImage& at(double bits_per_pixel, int& step);
-  /// Whether that picture is made already.
+  /// Whether that picture is already computed.
   bool has(double bits_per_pixel) const;
 
  private:

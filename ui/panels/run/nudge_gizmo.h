@@ -51,7 +51,7 @@ class NudgeGizmo : public QObject {
 
   /// The nudged pose, else the seed: a rejected pose is not a start.
   Pose pose() const;
-  /// Of the station's middle, on the widget; nothing where it is behind the camera.
+  /// Of the station's middle, on the widget; empty where it is behind the camera.
   std::optional<QPointF> centre() const;
   Part partAt(const QPointF& place) const;
   void press(const QPointF& pixel);
