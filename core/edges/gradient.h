@@ -55,9 +55,9 @@ class GradientRows {
   std::span<std::int32_t> magnitude_;  ///< the ring, then a row of zeros
 };
 
-/// Counts the magnitudes of unignored pixels and finds a quantile. Everything is an integer: a
-/// pixel counts as ceil(sqrt(magnitude)), so `quantile(q)` is the smallest integer h such that at
-/// least the share q of the pixels has a root <= h, that is, does not exceed the threshold h.
+/// Counts the magnitudes of unignored pixels and finds a quantile. Uses integers only. A pixel
+/// counts as ceil(sqrt(magnitude)): `quantile(q)` is the smallest integer threshold h that at least
+/// the share q of the pixels does not exceed.
 class GradientHistogram {
  public:
   /// Takes the counters from `arena`.

@@ -12,11 +12,11 @@
 
 namespace boresight {
 
-/// One attempt of a run: the iterations from a seed until they converge or fail (Pham 2025,
-/// Sec. III-A). The first iteration compares renders rolled about the view axis and keeps the one
-/// with most inliers; windows and thresholds shrink from iteration to iteration (schedule.h); after
-/// the matching iterations the pose is refined on edges. A plain value: a copy continues with the
-/// same results.
+/// One attempt of a run: the iterations from a seed until they converge or fail (Pham 2025, Sec.
+/// III-A). The first iteration compares renders rolled about the view axis and keeps the one with
+/// most inliers; windows and thresholds shrink from iteration to iteration (schedule.h). After the
+/// matching iterations the pose is refined on edges. A plain value: a copy continues with the same
+/// results.
 class Attempt {
  public:
   Attempt() = default;

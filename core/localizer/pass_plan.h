@@ -54,7 +54,7 @@ struct PassPlan {
   /// A refinement ends within `known_px` of any of these poses.
   std::span<const PoseHypothesis> known;
   double known_px = 0.0;  ///< of the full image
-  /// Contours and regions of a pose hardly different from the record's; nullptr: to be measured.
+  /// Contours and regions of nearly the same pose as the record's; nullptr: to be measured.
   const PoseEvidence* evidence = nullptr;
 };
 
@@ -77,7 +77,7 @@ struct Ruling {
   /// Next action: another pass, a pose, or a failure.
   enum class Next : std::uint8_t { kPass = 0, kPose, kFailed };
 
-  Next next = Next::kPass;  ///< another pass, a pose to go on with, or a failure
+  Next next = Next::kPass;                                   ///< another pass, a pose, or a failure
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< why it failed
   Stage stage = Stage::kEdges;                               ///< the stage to report
   bool iteration_complete = false;                           ///< the shown record is complete

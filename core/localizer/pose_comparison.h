@@ -18,11 +18,11 @@ namespace boresight {
 /// Search policy. For a near seed it takes the refinement of the seed if convinces() holds.
 /// Otherwise it refines several poses of a run, measures the evidence of each, and takes the one
 /// with the best score. Hypotheses come from the candidates of the whole-object search, refined on
-/// edges; from templates matched around the first of them, where the object is too large for the
-/// search to resolve it; from the seed, where no pose is probable; and from restarts of the best
-/// pose along its two weakest directions, to both sides: a refinement may have stopped at
-/// neighbouring edges. An attempt that reaches a known hypothesis ends there. The run ends with the
-/// last iteration of the best hypothesis repeated, so that the records show it.
+/// edges; from templates matched around the first candidate, where the object is too large for the
+/// search; and from the seed, where no pose is probable. Restarts of the best pose along its two
+/// weakest directions, to both sides, add more: a refinement may have stopped at neighbouring
+/// edges. An attempt that reaches a known hypothesis ends there. The run ends with the last
+/// iteration of the best hypothesis repeated, so that the records show it.
 class PoseComparison {
  public:
   /// Next action after an attempt.
@@ -50,7 +50,8 @@ class PoseComparison {
     comparison.returns_ = comparison.searches_on_ = true;
     return comparison;
   }
-  /// The comparison of the candidates of a suspended search, which goes on if they do not convince.
+  /// The comparison of the candidates of a suspended search, which continues if they do not
+  /// convince.
   static PoseComparison ofFirst(std::span<const PoseCandidate> candidates, const Seed& seed) {
     PoseComparison comparison(candidates, seed);
     comparison.searches_on_ = true;

@@ -88,8 +88,9 @@ class WhsSearch {
   int row_ = 0;                      ///< row of offsets, relative to the window
 };
 
-/// Sub-pixel place of the peak: one parabola per axis through the comparable scores at the peak and
-/// its two neighbours (clamped to +-0.5 px; 0 at the image border or where the parabola is flat).
+/// Sub-pixel position of the peak: one parabola per axis through the comparable scores at the peak
+/// and its two neighbours (clamped to +-0.5 px; 0 at the image border or where the parabola is
+/// flat).
 void subpixelPeak(const TemplateView& view, const BitImage& test_edges, const WhsPeak& peak,
                   double& x, double& y);
 

@@ -42,14 +42,14 @@ struct ErrorSums {
 
 /// The covariance of a robust least-squares pose from its measured residuals, where the residuals
 /// are not independent: nearby places share errors of the mesh; edges of one orientation share
-/// effects of the light, edges of one kind their rounded corners. Errors are summed up within a
-/// group before they are squared (the cluster-robust estimator, Liang and Zeger 1986), in three
-/// ways of grouping, whose sums are added (Cameron, Gelbach and Miller 2011, without subtracting
-/// the intersections: an error that is alone in all three counts three times, so that the
-/// covariance is rather too large): 8 x 8 cells; 8 directions by the sign of the gradient; 16
-/// directions by the kind of edge. An error common to all edges changes the pose and leaves no
-/// residual: an offset outwards (bevels, blur) and a shift of the image along each axis (light from
-/// one side, sampling) of kCommonOffset_px are added as if measured.
+/// effects of the light, edges of one kind their rounded corners. Errors are summed within a group
+/// before they are squared (the cluster-robust estimator, Liang and Zeger 1986). There are three
+/// ways of grouping: 8 x 8 cells; 8 directions by the sign of the gradient; 16 directions by the
+/// kind of edge. Their sums are added (Cameron, Gelbach and Miller 2011) without subtracting the
+/// intersections: an error alone in all three counts three times, so that the covariance is rather
+/// too large. An error common to all edges changes the pose and leaves no residual: an offset
+/// outwards (bevels, blur) and a shift of the image along each axis (light from one side, sampling)
+/// of kCommonOffset_px are added as if measured.
 class ErrorGroups {
  public:
   Status create(Arena& arena);  ///< Takes the sums from `arena`. kArenaTooSmall.

@@ -109,7 +109,7 @@ class EdgeRenderer {
   /// Runs all tasks of the phase, then step().
   Status stepWhole(bool& done);
 
-  /// Number of tasks in the current phase; 0 with one worker, whose steps do everything.
+  /// Number of tasks in the current phase; 0 with one worker.
   int tasks() const { return phase_ == Phase::kIdle ? 0 : task_count_; }
   /// Largest number of tasks in a phase with this number of workers.
   static int mostTasks(int workers) { return workers > 1 ? kTasksPerWorker * workers : 0; }

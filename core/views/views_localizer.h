@@ -17,8 +17,8 @@
 
 namespace boresight {
 
-/// Localization from several views at once. There is one attempt, and a pass for each view: at
-/// every iteration all views render and match (or look for edges) in their own images from the one
+/// Localization from several views at once. There is one attempt, and a pass for each view. At
+/// every iteration all views render and match (or search edges) in their own images from one
 /// hypothesis, and one pose is solved from all results:
 ///
 /// - matches: PnpRansac over the correspondences of all views;
@@ -29,8 +29,8 @@ namespace boresight {
 /// its render by the same angle about its own ray. A single view therefore gives the same bits as
 /// Localizer without a search.
 ///
-/// A view without enough matches, or whose matches disagree with the others', is left out (until
-/// the next matching iteration; from refinements, until the next attempt). A view without edge
+/// A view with too few matches, or with matches that disagree with the others', is left out until
+/// the next matching iteration (from refinements, until the next attempt). A view without edge
 /// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
 /// The result is the pose for which all remaining views have support.
 ///
