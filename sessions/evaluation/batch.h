@@ -68,8 +68,8 @@ void runPlanned(const Dataset& dataset, const BatchOptions& options,
                 const std::vector<PlannedRun>& plan, const BatchProgress& progress,
                 const std::stop_token& stop = {});
 
-/// Plans and runs. The results are in the order of the plan, whatever the number of threads; after
-/// a stop, those that have not been run are missing.
+/// Plans and runs. The results are in the order of the plan; after a stop, runs that were not done
+/// are missing.
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
                                 const BatchProgress& progress, const std::stop_token& stop = {});
 

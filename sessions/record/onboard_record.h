@@ -112,8 +112,8 @@ OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* 
 /// were found, inliers, support and end are the record's. Data that is not in the record is
 /// computed by the core from the ground's inputs, with the record's options and at the record's
 /// poses: the image's edges, renders, the templates' points, search windows; residuals are those of
-/// the recorded poses. Edge places of refinements, covariances but the last, and the counts behind
-/// matching scores are not known and stay empty (`recorded_scores` has the scores).
+/// the recorded poses. Edge places of refinements, covariances except the last, and the counts
+/// behind matching scores stay empty (`recorded_scores` has the scores).
 ///
 /// `ground` is the input of a run on the ground. `remarks` states whether it differs from the
 /// onboard input, and whether the record is truncated or of another program. With the same inputs

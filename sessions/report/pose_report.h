@@ -19,7 +19,7 @@ namespace boresight::sessions {
 
 struct PoseReport {
   const Session* session = nullptr;
-  HandedPose pose;  ///< with its checks, judged or as they are now
+  HandedPose pose;  ///< with its checks, as judged or current
   std::shared_ptr<const LoadedCase> loaded;
   std::optional<LocalizationTrace> trace;  ///< of the pose's run; empty for a pose from annotations
 };

@@ -68,7 +68,7 @@ std::string poseDistanceText(const PoseDistance& distance);
 
 /// A run of a list, next to the run before it.
 struct RunListLine {
-  std::string changed;  ///< "inputs, pnp.min_inliers 12 -> 100"; empty: nothing, or the first run
+  std::string changed;  ///< "inputs, pnp.min_inliers 12 -> 100"; empty: no change, or the first run
   std::optional<PoseDistance> moved;  ///< empty unless both runs converged
 };
 /// In the order of the runs of one case. Lines of a trace that cannot be read are empty.
@@ -100,10 +100,10 @@ std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& ca
 
 /// Compares two runs of one case. Both are checked with the current inputs and limits. With a known
 /// truth, a correct pose (within the requirement) is better than a failed run, which is better than
-/// a wrong pose; of two wrong poses the nearer one is better, if by a tenth of the requirement.
-/// Otherwise the checks decide, from best to worst: all passed, fewer failed, a failed run.
-/// InputError when a trace cannot be read; std::invalid_argument when the runs are not of one case
-/// of the session.
+/// a wrong pose; of two wrong poses the nearer one is better, if nearer by a tenth of the
+/// requirement. Otherwise the checks decide, from best to worst: all passed, fewer failed, a failed
+/// run. InputError when a trace cannot be read; std::invalid_argument when the runs are not of one
+/// case of the session.
 RunDifference compareRuns(const Session& session, const std::string& before_digest,
                           const std::string& after_digest,
                           std::shared_ptr<const LoadedCase> loaded);

@@ -61,7 +61,7 @@ MeasuredPose measurePose(const Session& session, const HandedPose& pose, int con
 
 /// A pose to hand over, with all measurable data measured again.
 struct CheckedPose {
-  HandedPose pose;        ///< with its checks: as they were judged, else as they are now
+  HandedPose pose;        ///< with its checks: as judged, else current
   Session session;        ///< that was measured: sessionOfCase
   ReviewSubject subject;  ///< as measured
 };

@@ -60,7 +60,7 @@ inline constexpr int kSessionVersion = 1;
 /// read back as the same bits. OutputError when a text is not UTF-8.
 nlohmann::ordered_json toJson(const Session& session, const std::filesystem::path& file);
 
-/// The same as text: a session has exactly one text, so that its SHA-256 identifies it.
+/// The same as text: each session has exactly one text, whose SHA-256 identifies it.
 std::string sessionText(const Session& session, const std::filesystem::path& file);
 
 /// Inverse of toJson. InputError (file, field, reason): another format, a newer version, unknown

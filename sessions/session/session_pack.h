@@ -33,7 +33,7 @@ struct SessionPack {
 /// Nothing is written.
 SessionPack planPack(const Session& session, const std::filesystem::path& session_file);
 
-/// Writes the zip archive, which is read again before it gets its name. InputError when a file has
+/// Writes the zip archive, and reads it again before it is renamed. InputError when a file has
 /// changed since it was planned; OutputError.
 void writePack(const SessionPack& pack, const std::filesystem::path& archive);
 

@@ -48,7 +48,7 @@ std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> f
 std::vector<LocalizationTrace> runViews(const Session& session, const std::string& case_id,
                                         const std::stop_token& stop = {});
 
-/// Stores the result of each view, as storeRun does, as a run of its own case that names the
+/// Stores the result of each view, as storeRun does, as a run of the view's case that names the
 /// others.
 std::vector<RunRecord> storeViews(const Session& session,
                                   const std::vector<LocalizationTrace>& views,

@@ -65,8 +65,8 @@ struct ResultsDifference {
 
 /// Pairs runs by case, seed and method; by case and seed alone where each set has one method. With
 /// truth and requirement known, a correct pose is better than a failed run, which is better than a
-/// wrong pose; of two wrong poses the nearer one is better, if by a tenth of the requirement.
-/// Otherwise a run that completed is better than one that did not.
+/// wrong pose; of two wrong poses the nearer one is better, if nearer by a tenth of the
+/// requirement. Otherwise a run that completed is better than one that did not.
 ResultsDifference compareResults(const ResultsSet& before, const ResultsSet& after);
 
 /// The pairs that changed or, with `all`, all of them.

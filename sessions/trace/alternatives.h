@@ -41,8 +41,8 @@ struct Alternative {
 };
 
 /// The alternatives of a run so far: its competing poses, the poses that it compared (the best one
-/// that is not the result first, the others by descending score), then iteration by iteration the
-/// rolled hypotheses of those that had several.
+/// that is not the result first, the others by descending score), then by iteration the rolled
+/// hypotheses, where there were several.
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run);
 
 }  // namespace boresight::sessions

@@ -18,7 +18,7 @@ struct OptionChange {
 };
 
 /// The options of a whole run: those that it starts with, and those that it changes to later. The
-/// same plan on the same inputs gives the same digest, wherever it is run.
+/// same plan on the same inputs gives the same digest on every machine.
 struct RunPlan {
   LocalizerOptions options;
   std::vector<OptionChange> changes;  ///< by increasing iteration, each at least 1

@@ -11,9 +11,9 @@ namespace boresight::sessions {
 /// One line per iteration: kind, level, templates, matches, inliers, threshold, correction, rms.
 std::string iterationTable(const LocalizationTrace& trace);
 
-/// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m
-/// and one sigma per axis where a covariance is given (not all zero), which holds at the camera,
-/// the rig's origin (a `name` that begins with "rig"), or `place`. `name` heads it.
+/// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m. A
+/// covariance that is not zero adds one sigma per axis, at the camera, the rig's origin (a `name`
+/// that begins with "rig"), or `place`. `name` heads it.
 std::string poseText(const Pose& pose, const Matrix6d& covariance,
                      const std::string& name = "camera_from_station",
                      const std::string& place = "");

@@ -24,7 +24,7 @@ struct BitMap {
   BitImage view() const;
 };
 
-/// A render for the core's functions, with edge pixels of its own.
+/// A render for the core's functions, with its own edge pixels.
 struct RenderView {
   std::vector<PackedEdgePixel> pixels;
   EdgeRender render;  ///< points to `pixels` and to the trace

@@ -34,8 +34,8 @@ struct FittedCamera {
 /// Kannala-Brandt; or a pinhole, whose error is the whole distortion). A camera whose entrance
 /// pupil moves has no equivalent for all distances at once: the fit is for points `distance_m` from
 /// the camera's centre, infinity for the rays alone. Fields of more than 120 deg are fitted from
-/// the inside out, from several starts; the smallest mean square wins, pixels that the fitted
-/// camera does not see counted as 20 px off. std::invalid_argument for a model of the CAHV family,
+/// the inside out, from several starts. The smallest mean square wins; pixels that the fitted
+/// camera does not see count as 20 px off. std::invalid_argument for a model of the CAHV family,
 /// whose vectors are exact as they are; std::runtime_error with a sentence when no such camera can
 /// replace it: a mirrored image, or a fit that fails.
 FittedCamera fitCamera(const Camera& given, CameraModel model,

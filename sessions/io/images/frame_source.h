@@ -31,8 +31,8 @@ class FrameSource {
 };
 
 /// The images of a folder (PNG, JPEG, TIFF and the labelled formats, by the ends of their names),
-/// or those that a text file lists, one a line, relative to it; empty lines and lines that begin
-/// with # are skipped. Names of a folder are ordered with their numbers by value: 9 before 10.
+/// or of a text file, one path a line, relative to the file. Empty lines and lines that begin with
+/// # are skipped. Names of a folder are ordered with their numbers by value: 9 before 10.
 /// InputError when there is no such folder or file, no image, or an image twice.
 std::unique_ptr<FrameSource> openImages(const std::filesystem::path& folder_or_list,
                                         const ImageReadOptions& options = {});

@@ -141,7 +141,7 @@ std::string numberText(double value);
 inline constexpr std::size_t kMaxJsonBytes = 64 * kMegabyte;
 inline constexpr std::size_t kMaxJsonDepth = 64;
 
-/// A parsed JSON file. Rejected, each with the place in the file: anything that is not JSON or not
+/// A parsed JSON file. Rejected, each with the place in the file: text that is not JSON or not
 /// UTF-8, a duplicate key, NaN or infinity, numbers that do not fit a double, more than
 /// `kMaxJsonDepth` levels. Comments are not JSON.
 class JsonDocument {

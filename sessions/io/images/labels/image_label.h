@@ -48,8 +48,8 @@ struct ImageLabel {
   std::vector<LabelItem> identifiers;
   int width = 0;  ///< of the image, px
   int height = 0;
-  /// The camera of the image as it is stored: sub-frame and down-sampling applied, pixels counted
-  /// from the centre of the top-left one. Empty with the reason in `camera_remark`.
+  /// The camera of the image as it is stored: sub-frame and down-sampling applied; the centre of
+  /// the top-left pixel is (0, 0). Empty with the reason in `camera_remark`.
   std::optional<CameraFile> camera;
   /// One sentence: the label has no camera model, or one that does not fit the image.
   std::string camera_remark;
