@@ -128,7 +128,7 @@ class CaseByCase {
 
 class Document;
 
-/// A case of the queue as it is shown.
+/// A case of the queue as shown.
 struct QueueEntry {
   sessions::QueueRow row;  ///< before its check, only data of the session
   QImage thumbnail;

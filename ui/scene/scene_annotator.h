@@ -79,9 +79,9 @@ class SceneLoupe : public QWidget {
 };
 
 /// Annotating in the scene. While the operator places annotations, a click sets the station side:
-/// the corner, edge, circle centre or named point shown next to the pointer, or with Alt held the
-/// surface; Tab changes to another snap candidate. In line mode it is the highlighted edge.
-/// Otherwise a click on an annotation selects it.
+/// the corner, edge, circle centre or named point shown next to the pointer. With Alt held it sets
+/// a point of the surface; Tab changes to another snap candidate. In line mode it is the
+/// highlighted edge. Otherwise a click on an annotation selects it.
 class SceneAnnotator : public QObject {
   Q_OBJECT
 

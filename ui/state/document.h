@@ -83,7 +83,7 @@ class Document : public QObject {
   void writeFailed(const QString& message);
 
  private:
-  /// An edit that could not be written to the journal; the next saveAs() makes it.
+  /// An edit that could not be written to the journal; the next saveAs() applies it.
   struct Refused {
     sessions::Session after;
     QString text;

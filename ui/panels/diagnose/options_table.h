@@ -59,8 +59,8 @@ class OptionsTable : public QTableView {
   OptionsModel& options() { return model_; }
   void setOptions(const std::vector<sessions::OptionDescription>& current,
                   const std::vector<sessions::OptionDescription>& by_default);
-  /// Shows the options whose name or help holds every word; all of these, or only those that differ
-  /// from their default.
+  /// Shows the options whose name or help holds every word; with `changed_only` only those that
+  /// differ from their default.
   void setFilter(const QString& words, bool changed_only);
 
  Q_SIGNALS:
