@@ -29,13 +29,13 @@ inline double aboveChance(double share, double chance) {
   return share > chance && chance < 1.0 ? (share - chance) / (1.0 - chance) : 0.0;
 }
 
-/// How well a pose explains the image, independent of any match. *Coverage*: share of rendered edge
-/// pixels seen, with the strongest derivative of the raw image along the normal, within the search
-/// radius, near the edge. *Explained*: share of test edges inside the mask that have a rendered
-/// edge within one pixel; the rest is texture, shadow, or edges of other objects. Both also occur
-/// by chance, more often with denser edges; the same counts with the render displaced in four
-/// directions measure chance. Only the excess over chance counts. A wrong pose has some coverage
-/// but explains little; a dark or textured object has one of the two high.
+/// How well a pose explains the image, independent of any match. *Coverage* is the share of
+/// rendered edge pixels seen: the strongest derivative of the raw image along the normal, within
+/// the search radius, lies near the edge. *Explained* is the share of test edges inside the mask
+/// with a rendered edge within one pixel; the rest is texture, shadow, or edges of other objects.
+/// Both also occur by chance, more often with denser edges; the same counts with the render
+/// displaced in four directions measure chance. Only the excess over chance counts. A wrong pose
+/// has some coverage but explains little; a dark or textured object has one of the two high.
 struct EdgeSupport {
   std::int32_t rendered = 0;   ///< rendered edge pixels tested (evenly sampled), not ignored
   std::int32_t covered = 0;    ///< of those, seen in the image

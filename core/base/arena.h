@@ -11,8 +11,8 @@ namespace boresight {
 
 /// All memory of the core: a block that the caller owns, handed out from the front. Objects are not
 /// freed one by one; a stage that needs scratch takes a mark, allocates, and rewinds. An arena
-/// without a block only counts, which computes sizes before any memory exists: the same allocation
-/// code runs twice, so the count equals the use.
+/// without a block only counts, to compute sizes before any memory exists. The same allocation code
+/// runs twice, so the count equals the use.
 class Arena {
  public:
   Arena() = default;  ///< counts only

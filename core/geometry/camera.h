@@ -99,8 +99,8 @@ struct Ray {
 /// inverse of `unproject`.
 [[nodiscard]] bool projectDirection(const Camera& camera, const Eigen::Vector3d& direction,
                                     Eigen::Vector2d& pixel);
-/// True when not all rays start at the camera's centre: CAHVORE whose pupil moves by more than
-/// 10 nm, which at 10 mm is a thousandth of a pixel.
+/// True when not all rays start at the camera's centre: CAHVORE whose pupil moves by more than 10
+/// nm (a thousandth of a pixel at 10 mm).
 inline bool pupilMoves(const Camera& camera) {
   return camera.cahv.pupil_high_m - camera.cahv.pupil_low_m > 1e-8;
 }

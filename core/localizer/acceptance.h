@@ -20,7 +20,7 @@ inline constexpr double kLeastMargin_nats = 3.0;
 /// the seed's uncertainty.
 inline constexpr double kUndoubted = 0.9;
 /// The mesh counts as mirrored when its mirror image has more total evidence than this multiple of
-/// the pose's: symmetric meshes have about the same.
+/// the pose's. Symmetric meshes have about the same.
 inline constexpr double kMirrorExcess = 1.5;
 /// The seed counts as farther off than stated when another pose within twice its uncertainty has
 /// more total evidence than this multiple of the pose's.

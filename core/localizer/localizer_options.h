@@ -165,8 +165,8 @@ LocalizationProblem withoutUnusedInputs(LocalizationProblem problem,
                                         const LocalizerOptions& options);
 
 bool sameOptions(const LocalizerOptions& first, const LocalizerOptions& second);
-/// The first option in which `after` differs from `before` and that holds for a whole run, or
-/// nullptr: the test edges are detected once, and the memory is laid out once.
+/// The first option that differs and holds for a whole run, or nullptr: test edges are detected and
+/// memory is laid out once.
 const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOptions& after);
 
 /// The loop of Pham 2025, Sec. III-A and III-B: full resolution from the start, whole-pixel peaks,

@@ -43,7 +43,7 @@ class PoseComparison {
       : candidates_(candidates.first(std::min<std::size_t>(candidates.size(), kMostCandidates))),
         seed_(seed) {}
   /// The comparison of a near seed: takes the refinement of the only candidate, or of the seed
-  /// where there is none, if it convinces; the whole object is searched otherwise.
+  /// without one, if it convinces. Otherwise the whole object is searched.
   static PoseComparison ofNearSeed(std::span<const PoseCandidate> candidates, const Seed& seed) {
     PoseComparison comparison(candidates, seed);
     comparison.source_ = Source::kNearSeed;
@@ -72,8 +72,8 @@ class PoseComparison {
   /// Takes an attempt that failed, left the seed's uncertainty, reached a known hypothesis, or does
   /// not convince.
   Next takeFailure(const RunContext& run);
-  /// Whether the final pose, of this probability, needs no further search: after a whole one
-  /// always, else if its probability is kUndoubted and it lies within the stated uncertainty.
+  /// Whether the final pose needs no further search: always after a whole one, else if
+  /// `probability` is at least kUndoubted and the pose lies within the stated uncertainty.
   bool convinces(const Pose& camera_from_station, double probability) const;
   /// Whether there is a hypothesis.
   bool hasPose() const { return hypotheses_.size() > 0; }
@@ -125,8 +125,8 @@ class PoseComparison {
   Pose restarted_from_;
 };
 
-/// Whether the stated uncertainty moves the scene in the image so little, compared with its size
-/// there, that a refinement of the seed is likely to reach the right pose.
+/// Whether the stated uncertainty moves the scene in the image by little compared with its size
+/// there: a refinement of the seed then probably reaches the correct pose.
 bool isNear(const Seed& seed, const RunContext& run);
 
 /// Uncertainty of a candidate whose templates are matched, about the scene's centre: in rotation at

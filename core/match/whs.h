@@ -35,8 +35,8 @@ WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int 
 /// predicted place (the template's own centre, or as given), then to raster order. The second best
 /// is the best among the 8x8 blocks of offsets (aligned to the window's corner) that do not touch
 /// the square of half-side `exclusion_px` around the best. Bit-sliced carry-save counters add the
-/// shifted rows of test edges for 64 offsets at once (EdgePixels, bit_counters.h), the mask term
-/// follows the mask's borders from row to row (MaskCounts), and only offsets above the bound of
+/// shifted rows of test edges for 64 offsets at once (EdgePixels, bit_counters.h). The mask term
+/// follows the mask's borders from row to row (MaskCounts). Only offsets above the bound of
 /// PeakTable are turned into integers. Scratch is allocated once.
 class WhsSearch {
  public:

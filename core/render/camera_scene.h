@@ -98,8 +98,8 @@ struct CameraScene {
     return (face_flags[static_cast<std::size_t>(face)] & kNormalKnown) != 0;
   }
 
-  /// True when two faces share an edge over which the surface continues smoothly, and show the same
-  /// side: no salient edge separates them.
+  /// True when two faces share an edge over which the surface continues smoothly and show the same
+  /// side, without a salient edge between them.
   bool continues(std::int32_t face, std::int32_t other) const {
     const std::uint8_t flags = face_flags[static_cast<std::size_t>(face)];
     if (((flags ^ face_flags[static_cast<std::size_t>(other)]) & kFrontFacing) != 0) return false;

@@ -87,9 +87,9 @@ struct SurfaceEnd {
 };
 
 /// Follows the surface from `start` over edges across which it continues smoothly and faces the
-/// camera: silhouettes of tessellated curved surfaces consist of slivers narrower than a pixel, and
-/// stopping at the first face's edge would shift them inwards. When `target` (-1: none) is
-/// reached, `s` and `line` are where the normal turns from the start's to the target's.
+/// camera. Silhouettes of tessellated curved surfaces consist of slivers narrower than a pixel;
+/// stopping at the first face's edge would shift them inwards. When `target` (-1: none) is reached,
+/// `s` and `line` are where the normal turns from the start's to the target's.
 SurfaceEnd traceSurface(const CameraScene& scene, FaceCache& faces, std::int32_t start,
                         const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
                         std::int32_t target);

@@ -31,7 +31,7 @@ struct CompetingPose {
 /// of its own render again (repeated features, long handles). Poses that the image supports about
 /// as well at a small scale are refined on its edges and compared with the pose found where the
 /// renders differ. A pose whose render is the same within some pixels of a small view does not
-/// compete: the mesh is symmetric as far as the image can tell.
+/// compete: in the image the mesh is symmetric.
 class CompetingPoseTest {
  public:
   static constexpr int kTurned = 4;                               ///< turned poses that are tested

@@ -13,8 +13,8 @@
 namespace boresight {
 
 /// Sums of directed distances of an outline for all slides of it at the same time. The distances
-/// are rounded to steps of kStep_px, so that the sums of many places fit bytes, of which the
-/// compiler adds 16 at a time.
+/// are rounded to steps of kStep_px: sums of many places then fit bytes, and the compiler adds 16
+/// bytes at a time.
 class SlideSums {
  public:
   static constexpr int kMaxPlaces = 64;     ///< of an outline
