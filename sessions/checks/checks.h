@@ -78,8 +78,8 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks);
 /// Inliers of the last matching iteration; 0 when there was none.
 std::int32_t lastInliers(const LocalizationTrace& run);
 
-/// Index of the iteration to look at first: the last one that failed when the run did not converge,
-/// else the last one; -1 when there is none.
+/// Index of the iteration to open first: the last failed one of a run that did not converge, else
+/// the last one; -1: none.
 int iterationToOpen(const LocalizationTrace& run);
 
 /// Spread of points relative to that of others: the smallest ratio of both standard deviations over
@@ -100,8 +100,8 @@ double medianOf(std::span<const double> values);
 void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
                     std::vector<Check>& checks);
 
-/// Edge checks of the final pose, measured independently of the run's acceptance test: coverage,
-/// clutter, edge-coverage sensitivity, and whether the edges contradict the camera.
+/// Edge checks of the final pose, independent of the run's acceptance test: coverage, clutter,
+/// edge-coverage sensitivity, and agreement of edges and camera.
 void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
                    const PredictedEdges& edges, std::vector<Check>& checks);
 

@@ -39,7 +39,7 @@ Dataset readBopDataset(const std::filesystem::path& folder, const BopSelection& 
 Dataset openDataset(const std::filesystem::path& path, const BopSelection& selection = {});
 
 /// The completed runs of one method on a BOP dataset as lines of a results file: the score is the
-/// edge support, the time that of all runs in the image. Runs from further seeds are left out.
+/// edge support, the time is that of all runs in the image. Runs from further seeds are left out.
 /// InputError when a case is not of a BOP dataset.
 std::vector<BopResult> bopResults(const Dataset& dataset, std::span<const RunResult> runs);
 

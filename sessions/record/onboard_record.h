@@ -103,9 +103,9 @@ OnboardRecord parseRecord(const std::filesystem::path& file, std::span<const std
 OnboardRecord readRecord(const std::filesystem::path& file);
 
 /// The onboard record that the flight side would have written for a run that was traced here, field
-/// for field. `given` is the input of the run: nullptr when only the trace is left, and then the
-/// hashes of the inputs are missing. `missing` also names edges, renders and templates that a
-/// summary does not have, and the end of a run that was halted.
+/// for field. `given` is the input of the run: nullptr when only the trace is left; the hashes of
+/// the inputs are then missing. `missing` also names edges, renders and templates that a summary
+/// does not have, and the end of a run that was halted.
 OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given);
 
 /// An onboard run in the form of a local run, for all views. Poses, counts, templates, where they
@@ -125,8 +125,8 @@ LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationPr
 /// The options of an onboard run as read by this program.
 struct RecordedPlan {
   RunPlan plan;
-  /// Differences from the onboard options, sentences: options that this program does not know or
-  /// whose value it rejects, and options that the record lacks. All of these have their default.
+  /// Differences from the onboard options, sentences: unknown options, rejected values, and options
+  /// that the record lacks. All of these have their default.
   std::vector<std::string> remarks;
   bool has_options = false;  ///< false: the record has none, and all have their default
 };

@@ -97,9 +97,8 @@ std::vector<QueueRow> queueRows(const Session& session, int jobs = 1,
                                 const std::stop_token& stop = {},
                                 const QueueProgress& progress = {});
 
-/// Rows for the runs of a results file that become cases of its session (session_of_results.h), in
-/// the order and with the texts of that session's queue. Reads only the file: neither dataset nor
-/// images. InputError.
+/// Rows for the runs of a results file that become cases of its session (session_of_results.h), as
+/// in that session's queue. Reads only the file: neither dataset nor images. InputError.
 std::vector<QueueRow> resultsQueue(const std::filesystem::path& results_file);
 
 /// A readable table, in the order of the rows.

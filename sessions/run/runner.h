@@ -28,7 +28,7 @@ struct RunSettings {
   /// 1 ... Localizer::kMaxWorkers; 0: one per core, and one where there is a memory limit.
   int threads = 0;
   /// Instructions that the inner loops use. With a memory limit always the portable ones: wide
-  /// registers need more memory, and the limit is that of a machine without them.
+  /// registers need more memory, and the limit is for a machine without them.
   Kernels kernels = bestKernels();
   /// If given, receives the onboard record of the run, from its first block to its last.
   RecordWriter* onboard_record = nullptr;
@@ -47,11 +47,10 @@ struct JointResult {
 /// How far a step goes.
 enum class StepUntil { kStage, kIteration, kEnd };
 
-/// The one loop around Localizer::step() and ViewsLocalizer::step() on the ground: takes memory for
-/// the whole run, steps with all threads, times, and keeps a trace. It halts as requested (after a
-/// stage, after an iteration, at the end, or between two slices when it is stopped), and can
-/// continue from there. Neither halting nor recording changes a bit of the result. One calling
-/// thread at a time.
+/// The loop around Localizer::step() and ViewsLocalizer::step() on the ground: takes memory for the
+/// whole run, steps with all threads, times, and keeps a trace. It halts after a stage, after an
+/// iteration, at the end, or between two slices when stopped, and can continue. Neither halting nor
+/// recording changes a bit of the result. One calling thread at a time.
 class Runner {
  public:
   /// Data of `problem` must outlive the object. A problem or plan that cannot run, or exceeds the

@@ -30,8 +30,8 @@ struct SequenceOrder {
   std::string command;            ///< that started the sequence, for the results
 };
 
-/// Reads mesh and mask. Strokes of the mask are drawn for `image`, the case's own: pixels that they
-/// ignore by its gray values are ignored in all frames. InputError, also of a camera whose
+/// Reads mesh and mask. Strokes of the mask are drawn for `image`, the image of the case: pixels
+/// ignored by its gray values are ignored in all frames. InputError, also of a camera whose
 /// distortion folds back and of a seed from which the station is not visible; `places` names both.
 SequenceInputs sequenceInputs(const SequenceOrder& order, const InputPlaces& places,
                               const GrayImage* image = nullptr);

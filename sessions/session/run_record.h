@@ -12,8 +12,7 @@
 namespace boresight::sessions {
 
 /// The plan of a run that continued another run with other options, or that started with options
-/// other than the session's (those of an onboard record). It suffices to repeat the run, even
-/// without the other run.
+/// other than the session's. It suffices to repeat the run, even without the other run.
 struct RerunRecord : RunPlan {
   std::string from;  ///< digest of the run whose first iterations it has; empty: a halted run
 

@@ -33,8 +33,8 @@ CurvePoints successAgainstTolerance(std::span<const RunResult* const> runs,
 enum class SeedMeasure { kDistance_mm, kAngle_mrad };
 std::optional<double> seedMeasure(const RunResult& run, SeedMeasure measure);
 
-/// Judged runs in `bins` groups of equal size (as far as they divide), by seed error: the mean
-/// error of the group's seeds, and the percent of successful runs.
+/// Judged runs in `bins` groups of about equal size by seed error: the mean seed error and the
+/// percent of successful runs of each.
 CurvePoints successAgainstSeed(std::span<const RunResult* const> runs, SeedMeasure measure,
                                int bins);
 

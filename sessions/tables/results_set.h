@@ -15,13 +15,12 @@
 
 namespace boresight::sessions {
 
-/// Runs of any number of methods. A run's `method` is the name under which it is shown: where files
-/// have a method with other options, its profile follows, and where that does not distinguish them,
-/// the file's name.
+/// Runs of any number of methods. A run's `method` is its displayed name. Where files have a method
+/// with different options, the profile follows, or the file's name if the profile is the same.
 struct ResultsSet {
   std::vector<ResultsFacts> files;
   std::vector<RunResult> runs;
-  std::map<std::string, MethodFacts> methods;  ///< by the name under which it is shown
+  std::map<std::string, MethodFacts> methods;  ///< by displayed name
 
   /// The methods in the order of the paper, others before WHS by name.
   std::vector<std::string> methodNames() const;
@@ -36,7 +35,7 @@ struct ResultsFilter {
   bool takes(const RunResult& run) const;
 };
 
-/// InputError when a file is not a results file, or the same run is in two of them with the same
+/// InputError when a file is not a results file, or two files hold the same run with the same
 /// options: it would count twice.
 ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
                           const ResultsFilter& filter = {});

@@ -7,8 +7,8 @@
 
 namespace boresight::sessions {
 
-/// Copies the core's record of an iteration up to the stage that it reached: data beyond it still
-/// has the values of an earlier iteration and is left out.
+/// Copies the core's record of an iteration up to the stage reached; later data is that of an
+/// earlier iteration and is left out.
 IterationTrace recordIteration(const Iteration& iteration, Stage reached, RecordLevel level);
 
 /// Copies the poses that a run has compared so far.

@@ -23,7 +23,7 @@ struct RayHit {
 };
 
 /// The faces of a mesh in a tree of boxes (bounding volume hierarchy, split at the median of the
-/// widest axis), so that a ray is tested against few of them: microseconds for a hundred thousand.
+/// widest axis), so that a ray is tested against few faces: microseconds for a hundred thousand.
 class FaceTree {
  public:
   /// `mesh` must outlive it, and be valid.

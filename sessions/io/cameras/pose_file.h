@@ -73,8 +73,8 @@ Matrix6d readCovariance(const JsonReader& json);
 /// Translations 0 .. 1000 m, rotations 0 .. 180 deg; `pivot` is "camera" where it is not given.
 DeclaredUncertainty readUncertainty(const JsonReader& json);
 
-/// A line for the operator when the matrix was noticeably not a rotation (deviation above 1e-6,
-/// more than single precision explains), else empty.
+/// A line for the operator when the matrix deviates from a rotation by more than 1e-6 (more than
+/// single precision explains), else empty.
 std::string projectionNote(double rotation_deviation);
 
 /// The uncertainty in the core's form: radians, and the pivot in the seed camera's frame, which for

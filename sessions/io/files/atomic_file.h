@@ -32,9 +32,9 @@ void moveIntoPlace(const std::filesystem::path& finished, const std::filesystem:
 /// it is a folder): called before long work; writing may still fail.
 void requireWritable(const std::filesystem::path& file, FileUse use = FileUse::kInput);
 
-/// Creates a folder with all its files or not at all: `write` fills a temporary folder next to it,
-/// which is renamed when `write` returns, and removed when it throws. OutputError when the name
-/// exists and is not an empty folder, or the folder cannot be created.
+/// Creates a folder with all its files or not at all: `write` fills a temporary folder next to it.
+/// The folder is renamed when `write` returns, and removed when it throws. OutputError when the
+/// name exists and is not an empty folder, or the folder cannot be created.
 void writeFolderAtomically(const std::filesystem::path& folder,
                            const std::function<void(const std::filesystem::path&)>& write);
 

@@ -48,7 +48,7 @@ class JsonReader {
       : JsonReader(file, value, std::move(place), nullptr) {}
 
   /// The result of `read` for this value. InputError for each member that `read` did not access: a
-  /// misspelt one would be ignored, and lost when the file is written again.
+  /// misspelt member would be ignored, and lost when the file is written again.
   template <class Read>
   auto whole(Read&& read) const {
     JsonUse use;
