@@ -62,8 +62,8 @@ struct AnnotationAnswer {
 
 /// State of annotating: the annotations of the current case, the selected annotation, the
 /// incomplete pair, and the solved pose. Views report where the operator pointed; the controller
-/// edits the document, with names that Undo shows, and has the pose solved again after each edit on
-/// a worker thread. Snapping and solving are computed in sessions/.
+/// edits the document, with names for Undo, and solves the pose again after each edit on a worker
+/// thread. Snapping and solving are computed in sessions/.
 class AnnotationController : public QObject {
   Q_OBJECT
 

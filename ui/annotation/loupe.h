@@ -40,10 +40,10 @@ void paintLoupeFoot(QPainter& painter, const QWidget& loupe, const QString& text
 
 class ImageView;
 
-/// A piece of the image, magnified, in a corner of the image view away from the pointer: image
-/// pixels as squares, in their own contrast, under a cross at a sub-pixel position, with
-/// annotations and rendered edges as the view shows them. The magnification counts screen pixels
-/// per image pixel; Ctrl+wheel over the view changes it.
+/// A magnified part of the image in a corner of the image view away from the pointer: image pixels
+/// as squares, stretched in contrast, under a cross at a sub-pixel position. Annotations and
+/// rendered edges are drawn as in the view. The magnification counts screen pixels per image pixel;
+/// Ctrl+wheel over the view changes it.
 class Loupe : public QWidget {
   Q_OBJECT
 

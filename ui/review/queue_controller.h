@@ -22,8 +22,8 @@
 
 namespace boresight::ui {
 
-/// A value for each case of a session, computed on a worker thread one case at a time, and computed
-/// again when its key (of all inputs) changes. The previous value is shown until then.
+/// A value for each case of a session, computed on a worker thread one case at a time, again when
+/// its key (of all inputs) changes. Until then the previous value is shown.
 template <class Value>
 class CaseByCase {
  public:
