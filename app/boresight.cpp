@@ -115,7 +115,7 @@ bool wantsNoDisplay(int count, char** values) {
 std::string keysPage() {
   const ui::MainWindow window;
   std::string text =
-      "# Every key\n\nF1 shows them in the program.\n\n| key | what it does |\n|---|---|\n";
+      "# Every key\n\nF1 shows them in the program.\n\n| key | action |\n|---|---|\n";
   for (const ui::KeyRow& row : ui::keysOf(window))
     text += "| " + markdownText(row.keys.toStdString()) + " | " +
             markdownText(row.text.toStdString()) + " |\n";

@@ -104,11 +104,12 @@ int calibrate(const CalibrateArguments& arguments) {
 }  // namespace
 
 void addCalibrate(CLI::App& app, int& exit_code) {
-  const auto [command, arguments] = addCommand(
-      app, exit_code, "calibrate",
-      "Estimates camera parameters from many images of a station, with their sigmas; says what the "
-      "images cannot determine. Several sessions: each by itself, and the drift since the first",
-      calibrate);
+  const auto [command, arguments] =
+      addCommand(app, exit_code, "calibrate",
+                 "Estimates camera parameters from many images of a station, with their sigmas; "
+                 "reports what the images cannot determine. Several sessions: each by itself, and "
+                 "the drift since the first",
+                 calibrate);
   addFile(*command, "sessions", arguments->sessions, "Session files of one camera")->required();
   command
       ->add_option("--from", arguments->from,

@@ -20,7 +20,7 @@ void printParameters(const std::vector<sessions::CalibrationParameter>& paramete
   for (const auto& parameter : parameters)
     table.add({parameter.name, parameterText(parameter.value), parameterText(parameter.sigma)});
   std::cout << table.text() << "noise factor " << sessions::fixedText(noise_factor, 2)
-            << " (1: residuals as the sigmas say)\n";
+            << " (1: residuals as the sigmas state)\n";
   for (const sessions::Undetermined& direction : undetermined)
     std::cout << "not determined: " << direction.text << "; " << advice << "\n";
 }

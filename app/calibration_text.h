@@ -12,8 +12,8 @@ namespace boresight::app {
 /// At most nine decimals; "not determined" for values that are not finite.
 std::string parameterText(double value);
 
-/// A table of the parameters with their sigmas, the noise factor, and a line for each direction
-/// that the observations do not determine, with `advice` on what to add.
+/// Prints the parameters with their sigmas, the noise factor, and each direction that the
+/// observations do not determine, with `advice` on observations to add.
 void printParameters(const std::vector<sessions::CalibrationParameter>& parameters,
                      const std::vector<sessions::Undetermined>& undetermined, double noise_factor,
                      const std::string& advice);

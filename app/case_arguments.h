@@ -29,9 +29,9 @@ struct CaseArguments {
   void addEndEffectorTo(CLI::App& command);
   void addRequirementTo(CLI::App& command);
   CLI::Option* addTruthTo(CLI::App& command);
-  /// The camera file; the image itself without one, for the camera model in its label.
+  /// The camera file; without it the image, for the camera model in its label.
   const std::string& cameraFile() const { return camera.empty() ? image : camera; }
-  /// The seed file; without one the first file of transforms, which may join CAMERA and STATION.
+  /// The seed file; without it the first file of transforms, which may join CAMERA and STATION.
   const std::string& seedFile() const {
     return seed.empty() && !frames.files.empty() ? frames.files.front() : seed;
   }
@@ -52,8 +52,8 @@ struct ReadCase {
 /// InputError, CLI::ValidationError.
 ReadCase readCase(const CaseArguments& arguments);
 
-/// InputError, naming one of these files or the mesh, when image and camera differ in size, when
-/// the distortion folds back within the image, or when the station is not visible from the seed.
+/// InputError, naming the file: image and camera differ in size, the distortion folds back within
+/// the image, or the station is not visible from the seed.
 void requireRunnable(const sessions::LoadedCase& loaded, const std::string& camera_file,
                      const std::string& seed_file);
 

@@ -93,9 +93,9 @@ struct OptionArguments {
   void addTo(CLI::App& command);
   /// Profile, then config, then --set. InputError for the config, CLI::ValidationError for --set.
   LocalizerOptions read() const;
-  /// The same for the other methods, whose options are in the same places.
+  /// Options of the other methods, from the same sources.
   sessions::MethodOptions readMethodOptions() const;
-  /// "paper", "default" or "flight": the one asked for, else the config's.
+  /// "paper", "default" or "flight": the profile requested, else the config's.
   std::string profileName() const;
   /// Bytes for a run and its inputs; 0 where the profile sets no limit.
   std::size_t memoryLimit() const;
@@ -113,7 +113,7 @@ struct FrameArguments {
 /// Values of --camera, for its help.
 inline constexpr const char* kCameraHelp =
     "camera.json, a .cahvor file, or an image whose label has a camera model";
-/// The same where the image's own label is the default.
+/// The same where the image's label is the default.
 inline constexpr const char* kOwnCameraHelp =
     "camera.json, a .cahvor file, or an image whose label has a camera model; without it the "
     "label of the image itself";
@@ -126,7 +126,7 @@ struct MethodArguments {
   /// Unknown names are rejected with a list of the known ones.
   void addTo(CLI::App& command, bool several);
   bool needsSetup() const;
-  /// With the options of the methods among `options`. InputError, CLI::ValidationError.
+  /// Includes the options of methods from `options`. InputError, CLI::ValidationError.
   sessions::MethodSetup setup(const OptionArguments& options) const;
   /// Options of methods other than WHS that differ from their defaults.
   sessions::OptionList changedOptions(const sessions::MethodOptions& options) const;
@@ -141,7 +141,7 @@ struct DatasetArguments {
   std::vector<std::string> parts;  ///< NAME=STATE
 
   /// --part, --split, --scene, --obj, --sensor, --every-instance, --uncertainty and --pivot. The
-  /// path's own option is the caller's.
+  /// caller adds the option of the path.
   void addTo(CLI::App& command);
   /// InputError; CLI::ValidationError when a selection is given for a path that is not a folder.
   sessions::Dataset open() const;
@@ -152,20 +152,19 @@ struct DatasetArguments {
 sessions::SessionDocument openToRead(const std::string& file);
 
 /// Opens a session to be changed. InputError as above unless `recover` accepts these edits;
-/// OutputError when another program has it open or it cannot be written.
+/// OutputError when another program has the session open or it cannot be written.
 sessions::SessionDocument openToEdit(const std::string& file, bool recover = false);
 
 /// InputError when the session has no such case.
 const sessions::SessionCase& requireCase(const sessions::SessionDocument& document,
                                          const std::string& case_id);
 
-/// The recorded run whose digest begins with `beginning`; InputError when there is none, or more
-/// than one.
+/// The recorded run whose digest begins with `beginning`; InputError unless there is exactly one.
 const sessions::RunRecord& recordedRun(const sessions::SessionDocument& document,
                                        const std::string& beginning);
 
 LocalizerOptions profileOptions(const std::string& name);
-/// The same for the other methods: `paper` as published, otherwise the tuned ones.
+/// Options of the other methods: `paper` as published, otherwise tuned.
 sessions::MethodOptions methodProfile(const std::string& name);
 
 /// "12.3 mm", for display.

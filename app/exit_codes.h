@@ -10,7 +10,7 @@ enum ExitCode : int {
   kUsage = 2,
   kBadInput = 3,  ///< or an output that cannot be written
   kNotConverged = 4,
-  kWithinLimits = 5,  ///< compare: not the same, but within the limits
+  kWithinLimits = 5,  ///< compare: different, within the limits
   kDifferent = 6,     ///< compare, verify, tables --against
 };
 

@@ -113,8 +113,8 @@ int handEye(const HandEyeArguments& arguments) {
 void addHandEye(CLI::App& app, int& exit_code) {
   const auto [command, arguments] = addCommand(
       app, exit_code, "hand-eye",
-      "Estimates the camera's place on the arm from converged runs in several postures and the "
-      "arm's telemetry, with its covariance; says what the postures cannot determine",
+      "Estimates the camera's pose on the arm from converged runs in several postures and the "
+      "arm's telemetry, with its covariance; reports what the postures cannot determine",
       handEye);
   addFile(*command, "sessions", arguments->sessions, "Session files of one camera")->required();
   command

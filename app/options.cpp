@@ -174,7 +174,7 @@ void addOptions(CLI::App& app, int& exit_code) {
           "Writes the options as a binary table with a checksum, which --config and the flight "
           "driver read");
   addFile(*command, "--dictionary", arguments->dictionary,
-          "Writes what the table's parameters mean, as JSON");
+          "Writes a description of the table's parameters as JSON");
 }
 
 /// Writes the manual's pages of commands and options, for the build: hidden from the help.

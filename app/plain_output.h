@@ -7,9 +7,8 @@
 
 namespace boresight::app {
 
-/// While it exists, a stream prints plain text: control characters are replaced by blanks
-/// (sessions/text/plain_text.h). Line feeds stay, so that lines must be composed of text without
-/// any.
+/// While this object exists, a stream prints plain text: control characters become blanks
+/// (sessions/text/plain_text.h). Line feeds stay: the text within a line must not contain any.
 class PlainOutput : private std::streambuf {
  public:
   explicit PlainOutput(std::ostream& stream);

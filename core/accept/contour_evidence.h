@@ -26,15 +26,15 @@ struct EvidencePlace {
 /// and texture therefore do not support a pose.
 ///
 /// The expectation of the same sum at a correct pose is sum over k of m_k log(m_k / b_k) with m =
-/// 0.6 p + 0.4 b. It is small in dense print, where every place has edges around it.
+/// 0.6 p + 0.4 b. The expectation is small in dense print, where every place has edges around it.
 struct ContourEvidence {
   double place_length_px = 1.0;                   ///< rendered edge per place, px of the view
   std::int32_t places = 0;                        ///< rendered edge places measured
   std::int32_t outline_places = 0;                ///< of these, on the outline
   double edges_nats = 0.0;                        ///< mean over all places
   double outline_nats = 0.0;                      ///< mean over the outline
-  double expected_nats = 0.0;                     ///< expectation of edges_nats at a right pose
-  double outline_expected_nats = 0.0;             ///< expectation of outline_nats there
+  double expected_nats = 0.0;                     ///< expectation of edges_nats at a correct pose
+  double outline_expected_nats = 0.0;             ///< the same of outline_nats
   std::array<double, 4> quadrant_nats{};          ///< mean over the places of a quadrant
   std::array<std::int32_t, 4> quadrant_places{};  ///< about the middle of all places
 
@@ -46,19 +46,19 @@ struct ContourEvidence {
   /// Sum over the length of all rendered edges, in pixels of the view: a pose that explains more
   /// edges has more.
   double total_nats() const { return edges_nats * places * place_length_px; }
-  /// Evidence of all edges, or of the outline if larger, as a share of its expectation at a right
+  /// Evidence of all edges, or of the outline if larger, as a share of its expectation at a correct
   /// pose; 0 without places.
   double shareOfExpected() const;
 };
 
-/// Neighbouring edge pixels of a small view that share their errors: their evidence counts once.
+/// Length over which edge pixels of a small view share errors: their evidence counts once.
 inline constexpr double kAlongEdge_px = 8.0;
 /// Side of the window around a place in which b(d) is counted, as a share of the object's size.
 inline constexpr double kEvidenceWindow = 0.2;
 /// The evidence of one place, nats.
 struct PlaceEvidence {
   double nats = 0.0;           ///< measured in the image
-  double expected_nats = 0.0;  ///< its expectation at a right pose
+  double expected_nats = 0.0;  ///< its expectation at a correct pose
 };
 /// The evidence of one place, given the distances to edges of its direction.
 PlaceEvidence evidenceOfPlace(const EvidencePlace& place, const DirectedEdges& edges,
@@ -74,8 +74,7 @@ class ContourEvidenceMeter {
   void create(std::size_t pixels, Arena& arena);
   /// Sets the edges to measure against and clears the cached distances.
   void begin(const DirectedEdges& edges);
-  /// Removes all places; each of those that follow stands for this length of rendered edge, in
-  /// pixels of the image.
+  /// Removes all places; each later place represents this length of rendered edge, px of the image.
   void clear(double place_length_px = 1.0) {
     count_ = 0;
     place_length_px_ = place_length_px;
@@ -93,7 +92,7 @@ class ContourEvidenceMeter {
 
   const DirectedEdges* edges_ = nullptr;
   std::span<std::uint8_t> distance_;
-  unsigned known_ = 0;  ///< bit i: the distances to edges of direction i are kept
+  unsigned known_ = 0;  ///< bit i: the distances to edges of direction i are cached
   std::span<EvidencePlace> places_;
   int count_ = 0;
   double place_length_px_ = 1.0;

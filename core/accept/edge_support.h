@@ -29,18 +29,17 @@ inline double aboveChance(double share, double chance) {
   return share > chance && chance < 1.0 ? (share - chance) / (1.0 - chance) : 0.0;
 }
 
-/// How well a pose explains the image, independent of any match, by two measures:
-/// *coverage*, the share of predicted edges that is seen: rendered edge pixels where the strongest
-/// derivative of the raw image along the edge's normal, within the search radius, lies near the
-/// edge; *explained*, the share of edges seen on the object that is predicted: test edges inside
-/// the mask with a rendered edge within one pixel (the rest is texture, shadow, or edges of other
-/// objects). Both also occur by chance, more often the denser the edges; the same counts with the
-/// render displaced in four directions measure chance. The excess over chance counts. A wrong pose
+/// How well a pose explains the image, independent of any match. *Coverage* is the share of
+/// rendered edge pixels seen: the strongest derivative of the raw image along the normal, within
+/// the search radius, lies near the edge. *Explained* is the share of test edges inside the mask
+/// with a rendered edge within one pixel; the rest is texture, shadow, or edges of other objects.
+/// Both also occur by chance, more often with denser edges; the same counts with the render
+/// displaced in four directions measure chance. Only the excess over chance counts. A wrong pose
 /// has some coverage but explains little; a dark or textured object has one of the two high.
 struct EdgeSupport {
-  std::int32_t rendered = 0;  ///< rendered edge pixels tested (an even subset of many), not ignored
-  std::int32_t covered = 0;   ///< of those, seen in the image
-  std::int32_t displaced = 0;          ///< the same for the displaced render
+  std::int32_t rendered = 0;   ///< rendered edge pixels tested (evenly sampled), not ignored
+  std::int32_t covered = 0;    ///< of those, seen in the image
+  std::int32_t displaced = 0;  ///< the same for the displaced render
   std::int32_t displaced_covered = 0;  ///< of those, seen in the image
   std::int32_t seen = 0;               ///< test edge pixels inside the mask, at the render's level
   std::int32_t explained = 0;          ///< of those, predicted by the render

@@ -16,14 +16,14 @@ namespace boresight {
 /// the pose error larger than its covariance states. The width of an edge is the height of its ramp
 /// over the steepest slope.
 struct EdgeWidth {
-  /// A pose from wider edges is not accepted, px. Sharp images have 2 to 7 px; those blurred by
-  /// 16 px have 13 to 17 px, and 7 of 20 rendered stations then missed the requirement.
+  /// Widest edges of an accepted pose. Sharp images have 2 to 7 px; those blurred by 16 px have 13
+  /// to 17 px, and 7 of 20 rendered stations then missed the requirement.
   static constexpr double kWidest_px = 10.0;
 
   std::array<double, kEdgeDirections> width_px{};      ///< median by direction of the normal
   std::array<std::int32_t, kEdgeDirections> places{};  ///< number of places of each median
 
-  /// The direction with the widest edges, of those with enough places; -1: too few are seen.
+  /// Direction with the widest edges among those with enough places; -1: too few are seen.
   int widestDirection() const;
   /// Width in the widest direction; 0 when too few edges are seen.
   double widest_px() const;

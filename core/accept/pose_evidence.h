@@ -26,11 +26,10 @@ struct PoseEvidence {
   double strongest_nats() const;
   /// Mean over the views of the weakest quadrant.
   double weakest_nats() const;
-  /// Score by which poses of one image are compared: total evidence, which distinguishes basins,
-  /// and means and edge support, which distinguish minima of one basin
-  /// (resources/evidence/trust.md).
+  /// Score to compare poses of one image. Total evidence distinguishes basins; means and edge
+  /// support distinguish minima of one basin (resources/evidence/trust.md).
   double score() const;
-  /// Probability that the pose is right: logistic in the contours' share of their expectation, in
+  /// Probability that the pose is correct: logistic in the contours' share of their expectation, in
   /// the regions, and in the edge support over the expected evidence; fitted to correct and wrong
   /// poses (resources/evidence/trust.md).
   double probability() const;

@@ -12,9 +12,9 @@
 
 namespace boresight {
 
-/// Evidence of the gray values on both sides of an outline: whether the object's inside and its
-/// surroundings differ, and whether they change at the outline rather than some pixels next to it.
-/// It does not use edges and is therefore independent of the contour evidence.
+/// Evidence of the gray values on both sides of an outline: whether they differ, and whether they
+/// change at the outline rather than some pixels next to it. It does not use edges and is therefore
+/// independent of the contour evidence.
 struct RegionEvidence {
   /// Mean over the lines across the outline, nats: log-likelihood of the border at the outline
   /// minus that of a border anywhere on the line; in [-0.8, 1.2].
@@ -28,8 +28,8 @@ struct RegionEvidence {
   }
 };
 
-/// Measures RegionEvidence. Statistics of gray values inside and outside an outline by sectors, as
-/// in region-based tracking (Stoiber et al. 2022, SRT3D), for the test of a pose.
+/// Measures RegionEvidence from gray values inside and outside an outline by sectors, as in
+/// region-based tracking (Stoiber et al. 2022, SRT3D).
 class RegionEvidenceMeter {
  public:
   static constexpr int kMostLines = 2500;  ///< across the outline

@@ -23,11 +23,11 @@ struct SupportOptions {
             "as well."},
         self.gate);
     visit(OptionInfo{"support.min_probability", "", 0.0, 1.0,
-                     "Probability of being right that a converged pose must have, by the evidence "
-                     "of its contours and its edge support."},
+                     "Least probability that a converged pose is correct, by the evidence of its "
+                     "contours and its edge support."},
           self.min_probability);
     visit(OptionInfo{"support.min_support", "", 0.0, 1.0,
-                     "Edge support that a converged pose must have without a search."},
+                     "Least edge support of a converged pose without a search."},
           self.min_support);
   }
 };

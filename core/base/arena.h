@@ -11,8 +11,8 @@ namespace boresight {
 
 /// All memory of the core: a block that the caller owns, handed out from the front. Objects are not
 /// freed one by one; a stage that needs scratch takes a mark, allocates, and rewinds. An arena
-/// without a block only counts, which computes sizes before any memory exists: the same allocation
-/// code runs twice, so the count cannot disagree with the use.
+/// without a block only counts, to compute sizes before any memory exists. The same allocation code
+/// runs twice, so the count equals the use.
 class Arena {
  public:
   Arena() = default;  ///< counts only
@@ -38,7 +38,7 @@ class Arena {
     return {first, count};
   }
 
-  /// Begin of the next allocation, for rewind().
+  /// Start of the next allocation, for rewind().
   std::size_t mark() const { return used_; }
   /// Frees everything allocated since the mark was taken.
   void rewind(std::size_t mark) { used_ = mark; }

@@ -9,7 +9,7 @@
 
 namespace boresight {
 
-/// A view of an 8-bit gray image, which does not own the pixels; rows are `stride` bytes apart.
+/// A view of an 8-bit gray image.
 struct ImageView {
   const std::uint8_t* data = nullptr;  ///< the top-left pixel; not owned
   int width = 0;                       ///< px
@@ -22,8 +22,7 @@ struct ImageView {
   std::uint8_t at(int x, int y) const { return row(y)[x]; }
 };
 
-/// A view of an image of three interleaved 8-bit channels, in any order, which does not own the
-/// pixels; rows are `stride` bytes apart.
+/// A view of an image of three interleaved 8-bit channels, in any order.
 struct ColorView {
   static constexpr int kChannels = 3;  ///< bytes of a pixel
   const std::uint8_t* data = nullptr;  ///< the top-left pixel; not owned; nullptr: no colour
@@ -36,8 +35,8 @@ struct ColorView {
 };
 
 /// A binary image, 64 pixels to a word. Pixel x of row y is bit (x & 63) of word (x >> 6); bits
-/// beyond `width` are zero. Words, not bytes, are the unit, so the value of a map does not depend
-/// on the byte order of the machine.
+/// beyond `width` are zero. The unit is the word, so a map's value does not depend on the machine's
+/// byte order.
 struct BitImage {
   std::span<std::uint64_t> words;  ///< row by row, from the arena
   int width = 0;                   ///< px

@@ -13,7 +13,7 @@ inline constexpr double kUniformSigma = 0.57735026918962576;
 /// Neither infinite nor a NaN.
 inline bool isFinite(double x) { return x - x == 0.0; }
 
-/// The nearest integer, the upper one of two; `x` must fit.
+/// The nearest integer, halves up; `x` must fit.
 inline int nearestInt(double x) { return static_cast<int>(std::floor(x + 0.5)); }
 
 /// Elementary functions from + - * / and sqrt in a fixed order, so that every machine gives the

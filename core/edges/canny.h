@@ -18,11 +18,10 @@ struct CannyLimits {
 /// Requires 0 <= low <= high.
 CannyLimits cannyLimits(double low, double high);
 
-/// Non-maximum suppression of row y of `gradient`, whose row y + 1 must be done (if there is one):
-/// packed pixels whose magnitude exceeds the low limit and is largest across the edge
-/// (`candidates`), and the candidates above the high limit (`strong`). The direction is cv::Canny's
-/// integer test against tan 22.5 and 67.5 deg, and of equal neighbours the first wins, as in
-/// cv::Canny.
+/// Non-maximum suppression of row y of `gradient`, whose row y + 1 must be done (if there is one).
+/// `candidates`: packed pixels whose magnitude exceeds the low limit and is largest across the
+/// edge; `strong`: candidates above the high limit. The direction is cv::Canny's integer test
+/// against tan 22.5 and 67.5 deg, and of equal neighbours the first wins, as in cv::Canny.
 void suppressRow(const GradientRows& gradient, int y, int width, const CannyLimits& limits,
                  std::uint64_t* candidates, std::uint64_t* strong);
 

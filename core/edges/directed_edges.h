@@ -45,10 +45,10 @@ struct DirectedEdges {
   }
 };
 
-/// Finds directed edges in small images: Sobel's gradient (5 x 5), suppressed where it is not the
-/// largest along its direction, and kept where it is at least 0.7 times the mean around it
-/// (31 x 31). Dim parts therefore have edges, too, and dense texture has few. Of several channels
-/// the largest gradient counts (an approximation of Di Zenzo 1986).
+/// Finds directed edges in small images: Sobel's gradient (5 x 5) where it is the largest along its
+/// direction and at least 0.7 times the mean around it (31 x 31). Dim parts therefore have edges,
+/// too, and dense texture has few. Of several channels the largest gradient counts (an
+/// approximation of Di Zenzo 1986).
 class DirectedEdgeDetector {
  public:
   static constexpr int kMaxWidth = 512;  ///< px

@@ -26,8 +26,8 @@ inline constexpr std::int32_t kEdgeSlice = 1 << 19;
 
 inline constexpr int kPyramidLevels = 4;  ///< full, half, quarter, eighth resolution
 
-/// The test image: Canny's edges at full resolution and, per further level, the OR over 2x2 pixels
-/// of the level before (an edge survives pooling; Canny at the coarse level loses it).
+/// Edges of the test image: Canny at full resolution and, per further level, the OR over 2x2 pixels
+/// of the level before. Pooling keeps edges that Canny at the coarse level loses.
 struct EdgeMap {
   std::array<BitImage, kPyramidLevels> level;  ///< by pyramid level, 0 full resolution
   double low_threshold = 0.0;                  ///< as used, in the units of cv::Canny
@@ -64,9 +64,9 @@ class EdgeDetector {
   }
   /// Levels to keep.
   struct KeptLevels {
-    int finest = 0;                     ///< the first of them
-    int coarsest = kPyramidLevels - 1;  ///< the last of them
-    /// Whether a level is one of them.
+    int finest = 0;                     ///< finest level kept
+    int coarsest = kPyramidLevels - 1;  ///< coarsest level kept
+    /// Whether a level is kept.
     bool hold(int level) const { return level >= finest && level <= coarsest; }
   };
   /// As above, but levels outside `levels` come from `scratch`, before the detector's own scratch:
@@ -99,7 +99,7 @@ class EdgeDetector {
   Arena* scratch_ = nullptr;
   std::size_t mark_ = 0;  ///< where the scratch begins
   EdgeMap* output_ = nullptr;
-  int row_ = 0;         ///< next one of the stage
+  int row_ = 0;         ///< next row of the stage
   int pool_level_ = 0;  ///< being written
   CannyLimits limits_;
   Equalizer equalizer_;
@@ -111,7 +111,7 @@ class EdgeDetector {
   std::span<std::uint64_t> near_ignored_;  ///< one row of the ignore mask, widened
 };
 
-/// The whole stage at once.
+/// Runs the whole stage.
 Status detectEdges(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                    Arena& arena, EdgeMap& output);
 

@@ -67,7 +67,7 @@ class Equalizer {
   int tile_width_ = 1;
   int tile_height_ = 1;
   int tile_ = 0;  ///< being counted
-  int row_ = 0;   ///< next one to count, of the image or of the tile
+  int row_ = 0;   ///< next row to count, of the image or of the tile
   std::span<std::int32_t> counts_;
   std::span<std::uint8_t> tables_;      ///< tile after tile, row-major
   std::span<std::int32_t> left_table_;  ///< per column: where the left tile's table begins

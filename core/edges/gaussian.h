@@ -30,7 +30,7 @@ class SmoothedRows {
  public:
   /// Takes the ring from `arena`, for an image of this size.
   void begin(int width, int height, double sigma_px, Arena& arena);
-  /// Back to the first row, for another pass.
+  /// Restarts at the first row.
   void restart() { loaded_ = 0; }
   /// Writes row y to `out`: roundUpToBlock(width) bytes, unspecified from `width` on. Rows must be
   /// requested in ascending order.

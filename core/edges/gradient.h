@@ -19,7 +19,7 @@ class GradientRows {
  public:
   /// Takes the ring from `arena`, for an image of this size.
   void begin(int width, int height, Arena& arena);
-  /// Back to before the first row, for another pass.
+  /// Restarts before the first row.
   void restart();
   /// The next row, from rows of `smoothed` over `source`.
   void advance(const Equalizer& source, SmoothedRows& smoothed);
@@ -55,16 +55,16 @@ class GradientRows {
   std::span<std::int32_t> magnitude_;  ///< the ring, then a row of zeros
 };
 
-/// Counts the magnitudes of unignored pixels and finds a quantile. Everything is an integer: a
-/// pixel counts as ceil(sqrt(magnitude)), so `quantile(q)` is the smallest integer h such that at
-/// least the share q of the pixels has a root <= h, that is, does not exceed the threshold h.
+/// Counts the magnitudes of unignored pixels and finds a quantile. Uses integers only. A pixel
+/// counts as ceil(sqrt(magnitude)): `quantile(q)` is the smallest integer threshold h that at least
+/// the share q of the pixels does not exceed.
 class GradientHistogram {
  public:
   /// Takes the counters from `arena`.
   void begin(Arena& arena);
   /// Counts a row of GradientRows::magnitude; `ignored` is nullptr or a row of the ignore mask.
   void addRow(const std::int32_t* magnitude, const std::uint64_t* ignored, int width);
-  /// The quantile of that share; the largest possible magnitude when no pixel was counted.
+  /// The quantile `share`; the largest possible magnitude when no pixel was counted.
   std::int32_t quantile(double share) const;
 
  private:

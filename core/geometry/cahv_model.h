@@ -9,8 +9,8 @@
 
 namespace boresight {
 
-/// A camera as the labels of planetary images state it: vectors in some frame of the vehicle or the
-/// site (the reference frame), for pixels counted from the centre of the top-left one.
+/// A camera as in labels of planetary images: vectors in a frame of the vehicle or the site (the
+/// reference frame). The centre of the top-left pixel is (0, 0).
 struct CahvModel {
   CameraModel model = CameraModel::kCahv;         ///< kCahv, kCahvor or kCahvore
   Eigen::Vector3d c_m = Eigen::Vector3d::Zero();  ///< centre
@@ -21,7 +21,7 @@ struct CahvModel {
   Eigen::Vector3d r = Eigen::Vector3d::Zero();     ///< radial terms; CAHVOR and CAHVORE
   Eigen::Vector3d e_m = Eigen::Vector3d::Zero();   ///< entrance pupil terms; CAHVORE
   int type = 1;                                    ///< CAHVORE: 1 perspective, 2 fisheye, 3 general
-  double parameter = 1.0;  ///< CAHVORE: linearity of type 3; the others do not use it
+  double parameter = 1.0;                          ///< CAHVORE type 3 only: linearity
 
   bool operator==(const CahvModel&) const = default;
 };
@@ -34,7 +34,7 @@ struct CahvModel {
 Status cameraFromCahv(const CahvModel& cahv, int width, int height, Camera& camera,
                       Pose& camera_from_reference);
 
-/// The inverse: the vectors of a label in that frame, with A and O of length 1.
+/// The inverse of cameraFromCahv, with A and O of length 1.
 CahvModel cahvFromCamera(const Camera& camera, const Pose& camera_from_reference);
 
 }  // namespace boresight

@@ -19,8 +19,8 @@ namespace boresight {
 /// A camera must have been prepared; `false` means outside its valid field (or not finite), and
 /// then the outputs are unspecified.
 
-/// The end of the valid field (see Camera::valid_radius), also sets the range of the pupil; 0 when
-/// there is none.
+/// Returns the end of the valid field (see Camera::valid_radius), 0 when there is none; sets the
+/// range of the pupil.
 double prepareCahvLens(Camera& camera);
 
 bool distortCahv(const Camera& camera, const Eigen::Vector3d& point, Eigen::Vector2d& q);
@@ -32,7 +32,7 @@ bool distortCahvDirection(const Camera& camera, const Eigen::Vector3d& direction
                           Eigen::Vector2d& q);
 bool undistortCahv(const Camera& camera, const Eigen::Vector2d& q, Ray& ray);
 
-/// Place of the pupil along O for the ray on which a point lies, kept within the image's range.
+/// Position of the pupil along O, m, for the ray through a point, within the image's range.
 double pupilOf(const Camera& camera, const Eigen::Vector3d& point);
 
 }  // namespace boresight

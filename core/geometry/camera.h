@@ -44,7 +44,7 @@ struct CahvLens {
   bool operator==(const CahvLens&) const = default;
 };
 
-/// A calibrated camera: a tagged struct with a switch, not a class hierarchy.
+/// A calibrated camera.
 struct Camera {
   CameraModel model = CameraModel::kPinhole;  ///< how a ray becomes a pixel
   int width = 0;                              ///< px
@@ -56,9 +56,9 @@ struct Camera {
   CahvLens cahv;  ///< CAHV family only
   /// Largest undistorted radius |(x/z, y/z)| (Brown-Conrady), tangent of the angle to O (CAHVOR) or
   /// angle theta in rad (Kannala-Brandt; to O: CAHVORE) up to which the distortion is one-to-one:
-  /// the radial polynomial increases, by more than the tangential terms can take back in any
-  /// direction. Set by `prepareCamera`; until then nothing projects. At most 1e4, and smaller where
-  /// |(u - cx) / fx, (v - cy) / fy| would exceed 1e4.
+  /// the radial polynomial increases by more than the tangential terms reduce it in any direction.
+  /// `prepareCamera` sets it; before, all projections fail. At most 1e4, and less where |(u - cx) /
+  /// fx, (v - cy) / fy| would exceed 1e4.
   double valid_radius = 0.0;
 
   bool operator==(const Camera&) const = default;
@@ -85,7 +85,7 @@ Status prepareCamera(Camera& camera);
                              Eigen::Vector3d& ray);
 
 /// The ray of a pixel: the points origin_m + depth direction, depth > 0. A point's depth is its z
-/// as measured from the pupil; where all rays have one centre, that is the origin, and depth is z.
+/// measured from the pupil; where all rays have one centre, the pupil is the origin.
 struct Ray {
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();    ///< camera frame
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< (x/z, y/z, 1)
@@ -93,14 +93,14 @@ struct Ray {
   /// The point of the ray at a depth.
   Eigen::Vector3d at(double depth_m) const { return origin_m + direction * depth_m; }
 };
-/// `unproject` with the place where the ray starts.
+/// `unproject` with the origin of the ray.
 [[nodiscard]] bool unprojectRay(const Camera& camera, const Eigen::Vector2d& pixel, Ray& ray);
 /// Pixel of the ray with a direction (any length): `project` of a point infinitely far off, and the
 /// inverse of `unproject`.
 [[nodiscard]] bool projectDirection(const Camera& camera, const Eigen::Vector3d& direction,
                                     Eigen::Vector2d& pixel);
-/// True when not all rays start at the camera's centre: CAHVORE whose pupil moves by more than
-/// 10 nm, which at 10 mm is a thousandth of a pixel.
+/// True when not all rays start at the camera's centre: CAHVORE whose pupil moves by more than 10
+/// nm (a thousandth of a pixel at 10 mm).
 inline bool pupilMoves(const Camera& camera) {
   return camera.cahv.pupil_high_m - camera.cahv.pupil_low_m > 1e-8;
 }

@@ -11,8 +11,8 @@ namespace boresight {
 /// point q with pixel = (fx q_x + cx, fy q_y + cy). A camera must have been prepared; `false` means
 /// outside its valid field (or not finite), and then the outputs are unspecified.
 
-/// |p| and |q| are kept below this: 0.006 deg off a right angle, beyond any lens, and it keeps
-/// every pixel finite and far from overflow.
+/// Limit of |p| and |q|: 0.006 deg off a right angle, beyond any lens. Every pixel stays finite and
+/// far from overflow.
 inline constexpr double kLargestRadius = 1e4;
 
 /// Brown-Conrady with OpenCV's rational radial factor, s = |p|^2:

@@ -15,13 +15,13 @@
 
 namespace boresight {
 
-/// One triangle: indices of its vertices, counter-clockwise seen from outside (back faces are
-/// rendered all the same: coarse meshes are not always oriented).
+/// One triangle: indices of its vertices, counter-clockwise seen from outside (back faces are also
+/// rendered: coarse meshes are not always oriented).
 struct Face {
   std::array<std::int32_t, 3> vertex{};  ///< indices into MeshView::vertices_in_station_m
 };
 
-/// The same in 16 bits, where the mesh has at most kShortVertices vertices.
+/// A face in 16 bits, for meshes of at most kShortVertices vertices.
 using ShortFace = std::array<std::uint16_t, 3>;
 inline constexpr std::size_t kShortVertices = 65536;
 
@@ -101,7 +101,7 @@ constexpr std::size_t bytesPerFace(std::size_t vertices) {
 /// Thresholds and role of one part of the scene.
 struct ScenePart {
   double normal_threshold_rad = 0.5235987755982988;  ///< 30 deg
-  /// Surfaces this much apart in depth have an edge between them.
+  /// Surfaces this far apart in depth have an edge between them.
   double depth_threshold_m = 0.005;
   bool match = true;  ///< false: occludes, yields neither edges nor mask nor templates
   /// The part does not move with the station: its vertices are in the camera frame. Never matched.

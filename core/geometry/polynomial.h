@@ -22,7 +22,7 @@ Polynomial operator*(double factor, const Polynomial& a);
 
 /// The largest x <= limit such that the polynomial stays positive on [0, x] (a root that it only
 /// touches does not count); 0 when it is not positive at 0. Between two neighbouring roots of the
-/// derivative a polynomial is monotone, so bisection there finds every root and misses none.
+/// derivative a polynomial is monotone, so bisection there finds every root.
 double positiveUpTo(const Polynomial& polynomial, double limit);
 
 }  // namespace boresight

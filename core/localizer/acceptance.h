@@ -20,7 +20,7 @@ inline constexpr double kLeastMargin_nats = 3.0;
 /// the seed's uncertainty.
 inline constexpr double kUndoubted = 0.9;
 /// The mesh counts as mirrored when its mirror image has more total evidence than this multiple of
-/// the pose's: symmetric meshes have about the same.
+/// the pose's. Symmetric meshes have about the same.
 inline constexpr double kMirrorExcess = 1.5;
 /// The seed counts as farther off than stated when another pose within twice its uncertainty has
 /// more total evidence than this multiple of the pose's.
@@ -33,9 +33,9 @@ inline constexpr double kLeastMarginOutside_nats = -2.0;
 /// Least difference between the scores of the final pose and of the best other pose of the run.
 inline constexpr double kLeastGap = 0.15;
 
-/// Whether the image supports the pose after its support pass: kConverged, or the reason why not.
-/// A run that searches also judges the probability, edge width and focal length. Edge width and
-/// focal length describe the image only where the pose is about right.
+/// Whether the image supports the pose after its support pass: kConverged, or the reason why not. A
+/// run that searches also judges the probability, edge width and focal length. Edge width and focal
+/// length are valid only at a nearly correct pose.
 LocalizationStatus judgeSupport(const Workspace& measured, const LocalizerOptions& options,
                                 bool searches);
 

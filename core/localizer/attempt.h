@@ -12,32 +12,31 @@
 
 namespace boresight {
 
-/// One attempt of a run: the iterations from a seed until they converge or fail (Pham 2025,
-/// Sec. III-A). The first iteration compares renders rolled about the view axis and keeps the one
-/// with most inliers; windows and thresholds shrink from iteration to iteration (schedule.h); after
-/// the matching iterations the pose is refined on edges. A plain value: a copy continues with the
-/// same results.
+/// One attempt of a run: the iterations from a seed until they converge or fail (Pham 2025, Sec.
+/// III-A). The first iteration compares renders rolled about the view axis and keeps the one with
+/// most inliers; windows and thresholds shrink from iteration to iteration (schedule.h). After the
+/// matching iterations the pose is refined on edges. A plain value: a copy continues with the same
+/// results.
 class Attempt {
  public:
   Attempt() = default;
   /// `index`: number of the attempt, from 0. `iteration`: the first iteration to run.
   Attempt(int index, const Seed& seed, int iteration = 0);
-  /// Refines a pose on edges, without templates; within the seed's uncertainty. With `coarse_first`
+  /// Refines a pose on edges, without templates, within the seed's uncertainty. With `coarse_first`
   /// the first refinement is at the coarse level, where its search reaches farther.
   Attempt(int index, const Seed& seed, const Pose& camera_from_station, bool coarse_first,
           const LoopOptions& loop);
 
   /// Plan of the next pass.
   PassPlan plan(const RunContext& run) const;
-  /// Takes the outcome of that pass; kPose: the attempt has converged. Fills in the records'
+  /// Takes the outcome of the planned pass; kPose: the attempt has converged. Fills in the records'
   /// hypotheses, pose and corrections.
   Ruling take(const PassOutcome& outcome, const Agreement& agreement, const RunContext& run,
               std::span<Iteration, 2> records);
 
   /// Starts again from the seed with templates of another size: they may have caused the failure.
   void restart();
-  /// Continues a converged attempt as not converged, after a view was dropped. kFailed at the
-  /// iteration limit.
+  /// Reopens a converged attempt after a view was dropped. kFailed at the iteration limit.
   Ruling goOn(const RunContext& run);
 
   /// The attempt before its last iteration, which started from this pose; not a draft.
@@ -72,7 +71,7 @@ class Attempt {
   void startIteration();
 
   int index_ = 0;
-  int size_index_ = 0;  ///< which of the template sizes
+  int size_index_ = 0;  ///< index of the template size
   int iteration_ = 0;
   int hypothesis_ = 0;  ///< of the iteration
   int record_ = 0;

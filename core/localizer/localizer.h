@@ -23,12 +23,12 @@ namespace boresight {
 /// (PassMemory).
 ///
 /// Pass runs the stages. Policies decide which pass comes next: Attempt plans the iterations,
-/// PoseComparison the poses from which attempts start. A run that searches compares several refined
-/// poses and takes the one with the best evidence (PoseComparison); from a near seed it first
-/// refines the seed alone, and ends there when the pose is probable. At the end the final pose is
-/// compared with other poses that show about the same edges.
+/// PoseComparison the poses from which attempts start. A run that searches takes the refined pose
+/// with the best evidence (PoseComparison). From a near seed it first refines the seed alone, and
+/// ends there when the pose is probable. At the end the final pose is compared with other poses
+/// that show about the same edges.
 ///
-/// A caller with threads may share out the independent tasks of a stage:
+/// A caller with threads may distribute the independent tasks of a stage:
 ///
 ///     while (!finished) {
 ///       for task in 0 ... tasks() - 1, at the same time:  runTask(task, worker)
@@ -41,13 +41,12 @@ class Localizer {
   /// Largest number of workers.
   static constexpr int kMaxWorkers = PassMemory::kMaxWorkers;
 
-  /// `memory` (requiredBytes() of it) and everything `problem` points to must outlive the
-  /// localizer. `status()` reports
-  /// whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the ignore
-  /// mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, a quaternion not of unit
-  /// length, an uncertainty that is negative), kInvalidMesh, kArenaTooSmall. If it cannot run, the
-  /// first step ends the run as a fault. `kernels` (those that the memory was measured for) change
-  /// only the run time.
+  /// `memory` (requiredBytes() of it) and data of `problem` must outlive the localizer. `status()`
+  /// reports whether it can run: kInvalidOption, kInvalidImage (its size is not the camera's or the
+  /// ignore mask's), kInvalidCamera (not prepared), kInvalidPose (not finite, quaternion not of
+  /// unit length, negative uncertainty), kInvalidMesh, kArenaTooSmall. If it cannot run, the first
+  /// step ends the run as a fault. `kernels` (those that the memory was measured for) change only
+  /// the run time.
   Localizer(const LocalizationProblem& problem, const LocalizerOptions& options,
             std::span<std::byte> memory, int workers = 1, Kernels kernels = Kernels::kPortable);
 
@@ -64,15 +63,15 @@ class Localizer {
   void runTask(int task, int worker) { pass_.runTask(task, worker); }
 
   /// Restarts with another problem (such as the next image of a sequence) and other options,
-  /// without reallocating; what the problem points to must outlive the run. kInvalidPose,
-  /// kInvalidOption, kArenaTooSmall (it needs more memory): on each of them the old run continues.
+  /// without reallocating; data of the problem must outlive the run. On kInvalidPose,
+  /// kInvalidOption and kArenaTooSmall (more memory needed) the old run continues.
   Status restart(const LocalizationProblem& problem, const LocalizerOptions& options);
 
   /// Whether the next step starts an iteration.
   bool isBetweenIterations() const;
-  /// Takes other options for the iterations that follow. Returns false and changes nothing when not
-  /// between iterations, or when an option is out of range or must hold for a whole run
-  /// (firstFixedOption). Options that differ are included in the digest.
+  /// Takes other options for the iterations that follow. Returns false without effect when not
+  /// between iterations, or when an option is out of range or fixed for a run (firstFixedOption).
+  /// Changed options are included in the digest.
   [[nodiscard]] bool changeOptions(const LocalizerOptions& options);
 
   /// Leaves the matching to the caller, for methods other than WHS in the same loop; call before
@@ -82,10 +81,9 @@ class Localizer {
   void matchOutside(const SurfaceRender& surfaces) { pass_.matchOutside(surfaces); }
   /// Whether step() waits for matches: then the workspace's iteration holds render and templates.
   bool awaitsMatches() const { return pass_.needs() == PassNeed::kMatches; }
-  /// One entry per template, in the order of the templates; or any other items of the render, which
-  /// then replace the templates. Entries that are not finite count as not found. kCapacityExceeded
-  /// for more than templates.count, kInvalidOption when no matches are awaited; then nothing has
-  /// changed.
+  /// One entry per template, in the order of the templates; or other items of the render, which
+  /// replace the templates. Entries that are not finite count as not found. kCapacityExceeded for
+  /// more than templates.count, kInvalidOption when no matches are awaited; both change nothing.
   Status supplyMatches(std::span<const SuppliedMatch> supplied) {
     return pass_.supplyMatches(supplied);
   }

@@ -45,13 +45,13 @@ struct LoopOptions {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"loop.max_iterations", "", 1, 50, "Iterations of an attempt, at most."},
-          self.max_iterations);
     visit(
-        OptionInfo{"loop.max_attempts", "", 1, 3,
-                   "Attempts of a run without a search, at most: from the seed, with templates of "
-                   "the same, twice and half the size."},
-        self.max_attempts);
+        OptionInfo{"loop.max_iterations", "", 1, 50, "Largest number of iterations of an attempt."},
+        self.max_iterations);
+    visit(OptionInfo{"loop.max_attempts", "", 1, 3,
+                     "Largest number of attempts of a run without a search: from the seed, with "
+                     "templates of the same, twice and half the size."},
+          self.max_attempts);
     visit(
         OptionInfo{
             "loop.match_iterations", "", 1, 50,
@@ -66,9 +66,10 @@ struct LoopOptions {
                      "An image whose longer side is more than this starts at half its resolution "
                      "at least."},
           self.halved_size_px);
-    visit(OptionInfo{"loop.max_rolled_hypotheses", "", 1, 9,
-                     "Renders of the first iteration, rolled about the view axis, at most."},
-          self.max_rolled_hypotheses);
+    visit(
+        OptionInfo{"loop.max_rolled_hypotheses", "", 1, 9,
+                   "Largest number of renders of the first iteration, rolled about the view axis."},
+        self.max_rolled_hypotheses);
     visit(OptionInfo{"loop.enough_inliers", "", 0.0, 2.0,
                      "A first attempt tries no further rolled renders after one with this share of "
                      "inliers among its matches; above 1: it tries all."},
@@ -105,14 +106,13 @@ struct LoopOptions {
                      "A correction that moves the scene's box by less in the image is small, too."},
           self.converged_image_px);
     visit(OptionInfo{"loop.render_again_px", "px", 0.0, 100.0,
-                     "A refinement goes on with the last one's render while the scene's box has "
-                     "moved by less in the image since."},
+                     "A refinement keeps the last refinement's render while the scene's box has "
+                     "moved by less in the image."},
           self.render_again_px);
-    visit(
-        OptionInfo{
-            "loop.anchored", "", 0, 1,
-            "The seed's uncertainty holds what the image leaves open, and pulls early poses back."},
-        self.anchored);
+    visit(OptionInfo{"loop.anchored", "", 0, 1,
+                     "The seed's uncertainty constrains directions that the image leaves open, and "
+                     "early poses."},
+          self.anchored);
     visit(OptionInfo{"loop.leave_factor", "", 1.0, 10.0,
                      "A pose beyond this multiple of the seed's uncertainty ends the run."},
           self.leave_factor);
@@ -165,8 +165,8 @@ LocalizationProblem withoutUnusedInputs(LocalizationProblem problem,
                                         const LocalizerOptions& options);
 
 bool sameOptions(const LocalizerOptions& first, const LocalizerOptions& second);
-/// The first option in which `after` differs from `before` and that holds for a whole run, or
-/// nullptr: the test edges are detected once, and the memory is laid out once.
+/// The first option that differs and holds for a whole run, or nullptr: test edges are detected and
+/// memory is laid out once.
 const char* firstFixedOption(const LocalizerOptions& before, const LocalizerOptions& after);
 
 /// The loop of Pham 2025, Sec. III-A and III-B: full resolution from the start, whole-pixel peaks,

@@ -39,8 +39,7 @@ struct JointPose {
 /// render -> templates -> match -> pose, or render -> refine, or one of the measurements of a pose.
 /// It fills the plan's record and the digest. It contains no policy.
 ///
-/// A caller with threads may share out the tasks of a stage between two steps; step() runs the
-/// remaining tasks. The results have the same bits with any number of workers.
+/// Tasks are those of Localizer.
 class Pass {
  public:
   Pass() = default;
@@ -51,7 +50,7 @@ class Pass {
   Status create(const LocalizationProblem& problem, const LocalizerOptions& options,
                 std::span<std::byte> block, int workers, Kernels kernels);
 
-  /// Starts a pass; the last one must have ended.
+  /// Starts a pass; the previous pass must have ended.
   void begin(const PassPlan& plan);
   /// Whether a pass has begun and not ended.
   bool running() const { return running_; }
@@ -89,7 +88,7 @@ class Pass {
   const EdgeEquations& round() const { return round_; }
   /// The refinement stage, for a refinement of several views.
   EdgeRefinement& refinement() { return memory_.refinement; }
-  /// Ends a round after the refinement was moved; `ends`: it was the last one.
+  /// Ends a round after the refinement was moved; `ends`: this was the last round.
   void endRound(Status status, bool ends);
 
   /// Shows the record of a ruling, and counts it when it is complete.
@@ -106,7 +105,7 @@ class Pass {
   RunContext context() const {
     return {options_, problem_.camera, scene_, levels_, problem_.end_effector_in_camera_m};
   }
-  /// Whether candidates of the search wait to be refined; the next pass of its kind goes on.
+  /// Whether candidates of the search wait to be refined; the next search pass continues.
   bool searchIsSuspended() const { return memory_.search.isSuspended(); }
   /// The problem of the run.
   const LocalizationProblem& problem() const { return problem_; }
@@ -122,7 +121,7 @@ class Pass {
   const PassMemory& memory() const { return memory_; }
   /// The stages and their memory.
   PassMemory& memory() { return memory_; }
-  /// The record of an iteration, by its place in memory.
+  /// The record of an iteration, by its index in memory.
   const Iteration& recordAt(int index) const {
     return memory_.records[static_cast<std::size_t>(index)];
   }

@@ -66,7 +66,7 @@ class PassMemory {
   static Status measure(const ProblemSize& size, const LocalizerOptions& options, int workers,
                         Kernels kernels, MemoryUse& use);
   /// Lays everything out in `block` (aligned to Arena::kAlignment); `edges` is filled by the
-  /// detector. What the problem points to must outlive this. kArenaTooSmall and as measure().
+  /// detector. Data of the problem must outlive this. kArenaTooSmall, and errors of measure().
   Status create(const LocalizationProblem& problem, const LocalizerOptions& options, int workers,
                 Kernels kernels, std::span<std::byte> block, EdgeMap& edges);
 

@@ -23,7 +23,7 @@ namespace boresight {
 enum class PassKind : std::uint8_t {
   kEdges = 0,   ///< detects the edges of the image; once per run
   kNearSearch,  ///< refines the seed as a candidate of the search
-  kSearch,      ///< searches the whole object over the seed's uncertainty, or goes on with it
+  kSearch,      ///< searches the whole object over the seed's uncertainty, or continues that search
   kMatch,       ///< renders, selects templates, matches them, solves for the pose
   kRefine,      ///< renders, refines the pose on the edges of the image
   kEvidence,    ///< measures the image's evidence for the pose of the record
@@ -48,13 +48,13 @@ struct PassPlan {
   /// A refinement keeps the last render of its level when that is from a pose nearer than this; px.
   double keep_render_px = 0.0;
   std::int32_t most_samples = 0;  ///< edge places of a refinement; 0: as many as the options allow
-  bool anchored = false;          ///< whether the two below constrain a refinement
+  bool anchored = false;          ///< whether `anchor` and `matched` constrain a refinement
   PosePrior anchor;               ///< the seed with its uncertainty as a Gaussian
   PoseEstimate matched;           ///< from the latest templates
-  /// Poses at which a refinement ends when it comes as near as `known_px`.
+  /// A refinement ends within `known_px` of any of these poses.
   std::span<const PoseHypothesis> known;
   double known_px = 0.0;  ///< of the full image
-  /// Contours and regions of a pose hardly different from the record's; nullptr: to be measured.
+  /// Contours and regions of nearly the same pose as the record's; nullptr: to be measured.
   const PoseEvidence* evidence = nullptr;
 };
 
@@ -77,7 +77,7 @@ struct Ruling {
   /// Next action: another pass, a pose, or a failure.
   enum class Next : std::uint8_t { kPass = 0, kPose, kFailed };
 
-  Next next = Next::kPass;  ///< another pass, a pose to go on with, or a failure
+  Next next = Next::kPass;                                   ///< another pass, a pose, or a failure
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< why it failed
   Stage stage = Stage::kEdges;                               ///< the stage to report
   bool iteration_complete = false;                           ///< the shown record is complete

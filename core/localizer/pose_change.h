@@ -23,8 +23,8 @@ double rotationBetween_rad(const Pose& before, const Pose& after);
 /// both poses.
 double displacementBetween_px(const Pose& before, const Pose& after, const BoundingBox& scene,
                               const Camera& camera);
-/// Longer side of the bounding box of the scene's corners in the image, as far as it is inside; 0
-/// when none of them is seen.
+/// Longer side of the bounding box of the scene's corners, clipped to the image; 0 when no corner
+/// is seen.
 double longerSide_px(const Pose& camera_from_station, const BoundingBox& scene,
                      const Camera& camera);
 /// Whether the poses are distinct solutions: farther apart in the image than 3 % of the object's
@@ -37,7 +37,7 @@ bool isKnownPose(const Pose& camera_from_station, std::span<const PoseHypothesis
                  double nearer_px, const BoundingBox& scene, const Camera& camera);
 
 /// Displacement of the scene's box in the image at the limits of the seed's uncertainty: root of
-/// the sum over the axes of its squares.
+/// the sum of squares over the axes.
 double motionWithin_px(const Seed& seed, const BoundingBox& scene, const Camera& camera);
 
 /// The pose turned about the ray through the scene's middle, so that the scene stays where it is.

@@ -18,17 +18,17 @@ namespace boresight {
 /// Search policy. For a near seed it takes the refinement of the seed if convinces() holds.
 /// Otherwise it refines several poses of a run, measures the evidence of each, and takes the one
 /// with the best score. Hypotheses come from the candidates of the whole-object search, refined on
-/// edges; from templates matched around the first of them, where the object is too large for the
-/// search to resolve it; from the seed, where no pose is probable; and from restarts of the best
-/// pose along its two weakest directions, to both sides: a refinement may have stopped at
-/// neighbouring edges. An attempt that reaches a known hypothesis ends there. The run ends with the
-/// last iteration of the best hypothesis repeated, so that the records show it.
+/// edges; from templates matched around the first candidate, where the object is too large for the
+/// search; and from the seed, where no pose is probable. Restarts of the best pose along its two
+/// weakest directions, to both sides, add more: a refinement may have stopped at neighbouring
+/// edges. An attempt that reaches a known hypothesis ends there. The run ends with the last
+/// iteration of the best hypothesis repeated, so that the records show it.
 class PoseComparison {
  public:
   /// Next action after an attempt.
   enum class Next : std::uint8_t {
     kTry = 0,   ///< the attempt of next()
-    kReturn,    ///< the attempt of best(): its last iteration again
+    kReturn,    ///< the attempt of best() repeats its last iteration
     kSearch,    ///< the whole object is searched, and a new comparison begins with its candidates
     kConclude,  ///< the run ends: with the pose of best(), or as a failure
   };
@@ -43,14 +43,15 @@ class PoseComparison {
       : candidates_(candidates.first(std::min<std::size_t>(candidates.size(), kMostCandidates))),
         seed_(seed) {}
   /// The comparison of a near seed: takes the refinement of the only candidate, or of the seed
-  /// where there is none, if it convinces; the whole object is searched otherwise.
+  /// without one, if it convinces. Otherwise the whole object is searched.
   static PoseComparison ofNearSeed(std::span<const PoseCandidate> candidates, const Seed& seed) {
     PoseComparison comparison(candidates, seed);
     comparison.source_ = Source::kNearSeed;
     comparison.returns_ = comparison.searches_on_ = true;
     return comparison;
   }
-  /// The comparison of the candidates of a suspended search, which goes on if they do not convince.
+  /// The comparison of the candidates of a suspended search, which continues if they do not
+  /// convince.
   static PoseComparison ofFirst(std::span<const PoseCandidate> candidates, const Seed& seed) {
     PoseComparison comparison(candidates, seed);
     comparison.searches_on_ = true;
@@ -63,16 +64,16 @@ class PoseComparison {
   bool isKnown(const Pose& camera_from_station, int level, const RunContext& run) const;
   /// A refinement under this plan ends at known hypotheses.
   void endAtKnown(PassPlan& plan) const;
-  /// Evidence of the best hypothesis where the pose is hardly another one, else nullptr.
+  /// Evidence of the best hypothesis if the pose is nearly the same, else nullptr.
   const PoseEvidence* evidenceFor(const Pose& camera_from_station, const RunContext& run) const;
-  /// An attempt has converged on a pose; `measured` has its evidence, score and probability.
+  /// Takes the pose of a converged attempt; `measured` has its evidence, score and probability.
   Next takePose(const Attempt& attempt, const Pose& camera_from_station_before,
                 const PoseHypothesis& measured, const WeakDirections& weak, const RunContext& run);
-  /// An attempt has failed, left the seed's uncertainty, reached a known hypothesis, or does not
-  /// convince.
+  /// Takes an attempt that failed, left the seed's uncertainty, reached a known hypothesis, or does
+  /// not convince.
   Next takeFailure(const RunContext& run);
-  /// Whether the final pose, of this probability, needs no further search: after a whole one
-  /// always, else if its probability is kUndoubted and it lies within the stated uncertainty.
+  /// Whether the final pose needs no further search: always after a whole one, else if
+  /// `probability` is at least kUndoubted and the pose lies within the stated uncertainty.
   bool convinces(const Pose& camera_from_station, double probability) const;
   /// Whether there is a hypothesis.
   bool hasPose() const { return hypotheses_.size() > 0; }
@@ -81,11 +82,11 @@ class PoseComparison {
   /// The attempt that repeats the last iteration of the best hypothesis.
   Attempt best(int attempt, const LocalizerOptions& options);
 
-  /// All hypotheses in the order in which they were found.
+  /// All hypotheses in order of discovery.
   std::span<const PoseHypothesis> hypotheses() const { return hypotheses_.items(); }
-  /// Index of the best hypothesis; -1: there is none.
+  /// Index of the best hypothesis; -1: none.
   int bestIndex() const { return best_index_; }
-  /// Index of the best hypothesis that is another pose than the best one; -1: there is none.
+  /// Index of the best hypothesis that is distinct from the best one; -1: none.
   int competitorIndex(const RunContext& run) const;
   /// Score of the best hypothesis minus that of the competitor, which counts as 0 when negative.
   double gap(const RunContext& run) const;
@@ -124,8 +125,8 @@ class PoseComparison {
   Pose restarted_from_;
 };
 
-/// Whether the stated uncertainty moves the scene in the image so little, compared with its size
-/// there, that a refinement of the seed is likely to reach the right pose.
+/// Whether the stated uncertainty moves the scene in the image by little compared with its size
+/// there: a refinement of the seed then probably reaches the correct pose.
 bool isNear(const Seed& seed, const RunContext& run);
 
 /// Uncertainty of a candidate whose templates are matched, about the scene's centre: in rotation at

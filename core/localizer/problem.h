@@ -8,7 +8,7 @@
 
 namespace boresight {
 
-/// Input of one localization. The caller owns everything, which must outlive the run.
+/// Input of one localization. The caller owns all data, which must outlive the run.
 struct LocalizationProblem {
   ImageView image;                   ///< 8-bit gray, of the camera's size
   ColorView color;                   ///< of the same pixels; may be without data
@@ -17,7 +17,7 @@ struct LocalizationProblem {
   MeshView mesh;                     ///< the scene
   Pose camera_from_station_seed;     ///< where the search begins
   SeedUncertainty uncertainty;       ///< how far the truth may be from the seed
-  /// Fixed to the camera; its centre when no end effector is known. For
+  /// End effector, fixed to the camera; the camera's centre if unknown. For
   /// CorrectionPoint::kEndEffector.
   Eigen::Vector3d end_effector_in_camera_m = Eigen::Vector3d::Zero();
 };

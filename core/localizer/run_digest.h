@@ -16,7 +16,7 @@ namespace boresight {
 /// addresses, thread or memory figures. Images, mesh, renders and samples enter with their CRC-32.
 void digestOptions(const LocalizerOptions& options, DigestWriter& writer);
 void digestProblem(const LocalizationProblem& problem, DigestWriter& writer);
-/// A digest of both; the digest of a run begins with it.
+/// Digest of options and problem, the start of the digest of a run.
 std::array<std::uint8_t, 32> inputDigest(const LocalizerOptions& options,
                                          const LocalizationProblem& problem);
 void digestPose(const Pose& pose, DigestWriter& writer);

@@ -22,7 +22,7 @@ inline constexpr int kMinRefinements = 2;
 
 /// Pyramid levels of a run.
 struct RunLevels {
-  int fine = 0;    ///< of later iterations and refinements: one finer than the first iteration's
+  int fine = 0;    ///< of later iterations and refinements: one finer than `coarse`
   int coarse = 0;  ///< of the first iteration
 };
 RunLevels levelsOf(const ProblemSize& size, const LocalizerOptions& options);

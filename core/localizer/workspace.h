@@ -26,10 +26,11 @@ namespace boresight {
 struct Match {
   SearchWindow window;      ///< at the level; empty when the template could not be searched
   WhsNorms norms;           ///< edge and empty pixels of the template
-  WhsPeak peak;             ///< the best place and the second
-  double x = 0.0, y = 0.0;  ///< sub-pixel place at the level
+  WhsPeak peak;             ///< the best position and the second best
+  double x = 0.0, y = 0.0;  ///< sub-pixel position at the level
   bool searched = false;    ///< the window was searched; otherwise there is no peak
-  bool at_border = false;   ///< the peak lies on the window's border: the truth may lie beyond
+  bool at_border = false;   ///< the peak lies on the window's border; the correct position may lie
+                            ///< beyond
 };
 
 /// Matches of the templates of an iteration.
@@ -46,9 +47,9 @@ struct SuppliedMatch {
   SearchWindow window;        ///< where it was looked for, at the level
   double x = 0.0, y = 0.0;    ///< where it was found, px at the level
   double score = 0.0;         ///< [0, 2], higher is better; for display and records
-  double second_score = 0.0;  ///< of the best other place
-  bool has_second = false;    ///< there was another place
-  bool found = false;         ///< it was found at all
+  double second_score = 0.0;  ///< of the best other position
+  bool has_second = false;    ///< there was another position
+  bool found = false;         ///< the item was found
 };
 
 /// Why a run, or an iteration, ended.
@@ -125,7 +126,7 @@ struct Workspace {
   std::span<const PoseCandidate> candidates;  ///< of the search, the most evidence first
   EdgeSupport support;                        ///< of the latest pose that was measured
   PoseEvidence evidence;     ///< of the latest pose that was measured; empty without a search
-  double probability = 0.0;  ///< that this pose is right; 0 without a search
+  double probability = 0.0;  ///< that this pose is correct; 0 without a search
   /// Poses compared by the search. Valid until the run restarts.
   std::span<const PoseHypothesis> hypotheses;
   std::int32_t best_hypothesis = -1;  ///< index of the one with the best score

@@ -51,7 +51,7 @@ inline SignedPixel makeSignedPixel(int byte_offset, int shift, bool negative) {
 }
 
 /// 16-bit lanes: the counters of a word as integers. Counter x of the word is lane laneIndex(x):
-/// the order in which the transposition leaves them, so that nothing has to be moved.
+/// the order in which the transposition leaves them, so that no data is moved.
 inline constexpr int kLanes = 64;
 inline constexpr std::ptrdiff_t lanesBefore(int word) { return std::ptrdiff_t{kLanes} * word; }
 constexpr int laneIndex(int x) {

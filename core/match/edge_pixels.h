@@ -14,7 +14,7 @@
 namespace boresight {
 
 /// The masked-in edge pixels of a template as byte offsets into a band of test edges, one list for
-/// each shift of TestBand: the pixels of a list are counted without shifting bits, only their sum
+/// each shift of TestBand. The pixels of a list are counted without shifting bits; only their sum
 /// is shifted. Templates with more pixels than the capacity are listed some rows at a time.
 class EdgePixels {
  public:

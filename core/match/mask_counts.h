@@ -13,11 +13,11 @@
 namespace boresight {
 
 /// C = corr(M, I): the test edges under the mask, for a row of offsets. From one row of offsets to
-/// the next it changes by the test edges under the mask's upper and lower borders,
+/// the next C changes by the test edges under the mask's upper and lower borders,
 ///   C(x, y + 1) - C(x, y) = sum over (u, v) of [M(u, v - 1) - M(u, v)] I(x + u, y + v),
-/// so only borders are counted: those of one or two pixels one by one, longer ones by their two
-/// ends: from x to x + 1 the sum under a run changes by the pixels that enter and leave at its
-/// ends. A full mask needs four pixels a row of offsets. The first row, and every row of a mask
+/// so only borders are counted. Borders of one or two pixels are counted pixel by pixel, longer
+/// ones by their ends: from x to x + 1 the sum under a run changes by the pixels that enter and
+/// leave. A full mask needs four pixels a row of offsets. The first row, and every row of a mask
 /// whose borders are too many to list, is summed up from the ends of all its runs and one exact
 /// value.
 class MaskCounts {

@@ -16,9 +16,10 @@ namespace boresight {
 /// I); ties go to the smaller squared distance from the predicted place, then to raster order.
 ///
 /// The second best depends on the position of the best, which is known last. Consider two offsets
-/// seen so far whose blocks are so far apart that no exclusion square touches both: for any
-/// position of the best, one of the two stays eligible as second best, so an offset below both can
-/// be neither the best nor the second best. This is the bound below which offsets are skipped.
+/// seen so far whose blocks are so far apart that no exclusion square touches both. For any
+/// position of the best, one of the two stays eligible as second best. An offset below both can
+/// therefore be neither the best nor the second best. This is the bound below which offsets are
+/// skipped.
 class PeakTable {
  public:
   /// Offsets along a side of a block.

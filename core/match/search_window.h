@@ -8,7 +8,7 @@
 
 namespace boresight {
 
-/// Pixels of a level where the centre of a template may lie; both bounds belong to it.
+/// Pixels of a level where the centre of a template may lie, bounds included.
 struct SearchWindow {
   int x_min = 0, y_min = 0, x_max = -1, y_max = -1;  ///< px of the level
   /// Whether it holds no pixel.

@@ -19,7 +19,7 @@
 namespace boresight {
 
 /// Half-side of the square around the best place that is excluded from the second best: within it
-/// edges of the same place still match.
+/// the same edges still match.
 inline constexpr int kSecondPeakExclusion_px = 6;
 
 /// S in [0, 2] for display: S+ / c+ + S- / c-, a term whose count is 0 being 0.
@@ -35,8 +35,8 @@ WhsCounts whsCountsAt(const TemplateView& view, const BitImage& test_edges, int 
 /// predicted place (the template's own centre, or as given), then to raster order. The second best
 /// is the best among the 8x8 blocks of offsets (aligned to the window's corner) that do not touch
 /// the square of half-side `exclusion_px` around the best. Bit-sliced carry-save counters add the
-/// shifted rows of test edges for 64 offsets at once (EdgePixels, bit_counters.h), the mask term
-/// follows the mask's borders from row to row (MaskCounts), and only offsets above the bound of
+/// shifted rows of test edges for 64 offsets at once (EdgePixels, bit_counters.h). The mask term
+/// follows the mask's borders from row to row (MaskCounts). Only offsets above the bound of
 /// PeakTable are turned into integers. Scratch is allocated once.
 class WhsSearch {
  public:
@@ -88,8 +88,9 @@ class WhsSearch {
   int row_ = 0;                      ///< row of offsets, relative to the window
 };
 
-/// Sub-pixel place of the peak: one parabola per axis through the comparable scores at the peak and
-/// its two neighbours (clamped to +-0.5 px; 0 at the image border or where the parabola is flat).
+/// Sub-pixel position of the peak: one parabola per axis through the comparable scores at the peak
+/// and its two neighbours (clamped to +-0.5 px; 0 at the image border or where the parabola is
+/// flat).
 void subpixelPeak(const TemplateView& view, const BitImage& test_edges, const WhsPeak& peak,
                   double& x, double& y);
 

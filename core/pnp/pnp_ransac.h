@@ -63,8 +63,8 @@ class PnpRansac {
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
                PnpSolution& solution);
   /// The same from several views, at most kMaxPnpViews, which must outlive the steps: hypothesis
-  /// and solution are the first one's pose, scores and refits are over all views. A minimal
-  /// sample is of one view (places are compared in their own images), a guided one may be of any.
+  /// and solution are the first view's pose; scores and refits are over all views. A minimal sample
+  /// is from one view (places are compared in their own images), a guided one may be of any.
   Status begin(std::span<const Correspondence> correspondences, std::span<const PnpView> views,
                const PosePrior& hypothesis, double threshold_px, const PnpOptions& options,
                PnpSolution& solution);

@@ -11,7 +11,7 @@
 
 namespace boresight {
 
-/// Draws samples of three to five places without replacement, preferring well spread ones: a sample
+/// Draws samples of three to five places without replacement, preferring well spread ones. A sample
 /// nearly on a line or in one spot determines a pose badly, regardless of its matches.
 class SpreadSampler {
  public:

@@ -83,7 +83,7 @@ std::size_t encodeProblem(const LocalizationProblem& problem, const LocalizerOpt
 /// Reads the output of encodeProblem. Any bytes are allowed; they are rejected unless a Localizer
 /// accepts every value. Mesh and mask come from the arena, nothing points into `bytes`;
 /// `problem.image` remains empty for the caller to set. After a fault `problem` and `options` are
-/// not to be used.
+/// invalid.
 ProblemCheck decodeProblem(std::span<const std::uint8_t> bytes, Arena& arena,
                            LocalizationProblem& problem, LocalizerOptions& options);
 

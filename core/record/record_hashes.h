@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// Hashes that show whether two runs detected and rendered the same edges: SHA-256 over
-// big-endian values (FORMAT.md), the same wherever it is computed. Nothing allocates.
+// SPDX-License-Identifier: Apache-2.0 Hashes that show whether two runs detected and rendered the
+// same edges: SHA-256 over big-endian values (FORMAT.md), the same on every machine. Nothing
+// allocates.
 #pragma once
 
 #include <array>

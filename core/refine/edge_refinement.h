@@ -54,7 +54,7 @@ struct EdgeSample {
   std::int8_t normal_y = 0;  ///< likewise
   std::uint8_t kind = 0;     ///< EdgeKind bits
 
-  /// In the image, from the nearer surface outwards.
+  /// Normal in the image, from the nearer surface outwards.
   Eigen::Vector2d normal() const { return Eigen::Vector2d(normal_x, normal_y) / 127.0; }
 };
 
@@ -80,8 +80,8 @@ struct RefinementResult {
 /// Moves the pose so that the rendered edges meet the image's own (RAPID, Harris and Stennett 1990,
 /// with robust weights, Drummond and Cipolla 2002): places along the salient edges, searched along
 /// the line's normal for the largest derivative of the raw image, Tukey's weights, Gauss-Newton.
-/// Edges found are reused until the pose has moved so far that a search could give another result;
-/// the pose returned is at most that far from the pose of the last search.
+/// Edges found are reused until the pose has moved by kSearchAgain_px; the pose returned is at most
+/// that far from the pose of the last search.
 class EdgeRefinement {
  public:
   /// With fewer samples than this the spacing is reduced: a small object needs all its edge pixels.

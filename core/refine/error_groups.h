@@ -12,8 +12,8 @@
 
 namespace boresight {
 
-/// Weights of the errors: Tukey's, with 95 % efficiency on Gaussian ones (Huber 1981), in units of
-/// their scale, which is 1.4826 times their median size, and not less than `kMinScale_px`.
+/// Tukey's limit of the errors, in units of their scale: 95 % efficiency on Gaussian errors (Huber
+/// 1981). The scale is 1.4826 times their median size, at least `kMinScale_px`.
 inline constexpr double kTukey = 4.685;
 inline constexpr double kMadToSigma = 1.4826;
 inline constexpr double kMinScale_px = 0.15;
@@ -32,7 +32,7 @@ struct ErrorSums {
   Matrix6d squares = Matrix6d::Zero();    ///< of the sums of errors in the groups
   bool suffices = true;                   ///< every way of grouping has two groups or more
 
-  void add(const ErrorSums& other);  ///< Errors of different views are independent.
+  void add(const ErrorSums& other);  ///< Adds sums of another view
   /// The sums in the perturbation of `camera`'s pose as those of `first`'s; see inFirst() of
   /// NormalEquations.
   ErrorSums inFirst(const Pose& camera_from_first) const;
@@ -42,14 +42,14 @@ struct ErrorSums {
 
 /// The covariance of a robust least-squares pose from its measured residuals, where the residuals
 /// are not independent: nearby places share errors of the mesh; edges of one orientation share
-/// effects of the light, edges of one kind their rounded corners. Errors are summed up within a
-/// group before they are squared (the cluster-robust estimator, Liang and Zeger 1986), in three
-/// ways of grouping, whose sums are added (Cameron, Gelbach and Miller 2011, without subtracting
-/// the intersections: an error that is alone in all three counts three times, so that the
-/// covariance is rather too large): 8 x 8 cells; 8 directions by the sign of the gradient; 16
-/// directions by the kind of edge. An error common to all edges changes the pose and leaves no
-/// residual: an offset outwards (bevels, blur) and a shift of the image along each axis (light from
-/// one side, sampling) of kCommonOffset_px are added as if measured.
+/// effects of the light, edges of one kind their rounded corners. Errors are summed within a group
+/// before they are squared (the cluster-robust estimator, Liang and Zeger 1986). There are three
+/// ways of grouping: 8 x 8 cells; 8 directions by the sign of the gradient; 16 directions by the
+/// kind of edge. Their sums are added (Cameron, Gelbach and Miller 2011) without subtracting the
+/// intersections: an error alone in all three counts three times, so that the covariance is rather
+/// too large. An error common to all edges changes the pose and leaves no residual: an offset
+/// outwards (bevels, blur) and a shift of the image along each axis (light from one side, sampling)
+/// of kCommonOffset_px are added as if measured.
 class ErrorGroups {
  public:
   Status create(Arena& arena);  ///< Takes the sums from `arena`. kArenaTooSmall.

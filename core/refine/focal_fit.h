@@ -16,7 +16,7 @@ namespace boresight {
 /// wrong focal length has a wrong depth, which its residuals do not reveal.
 struct FocalFit {
   double change = 0.0;      ///< relative change of the focal length
-  double sigma = 0.0;       ///< one sigma of it
+  double sigma = 0.0;       ///< one sigma of the change
   bool determined = false;  ///< whether the edges determine the focal length together with the pose
 
   /// Whether the image determines the focal length well enough and contradicts the camera's.
@@ -27,8 +27,8 @@ struct FocalFit {
   /// Absolute value of the change.
   double magnitude() const { return change < 0.0 ? -change : change; }
 
-  /// A less certain focal length is not used: small or flat objects determine it only to 2 to 30 %,
-  /// so that errors of the mesh dominate.
+  /// Largest sigma of a usable focal length: small or flat objects reach only 2 to 30 %, so that
+  /// errors of the mesh dominate.
   static constexpr double kLargestSigma = 0.01;
   static constexpr double kLeastChange =
       0.004;                              ///< correct cameras of rendered stations: up to 0.0026

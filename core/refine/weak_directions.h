@@ -10,9 +10,9 @@
 
 namespace boresight {
 
-/// The two motions of a pose that move the edges least along their normals for the same motion in
-/// the image, such as along a handle or about the axis of a tube. Along them a refinement may have
-/// stopped at neighbouring edges.
+/// The two motions of a pose that move the edges least along their normals, for the same motion in
+/// the image: along a handle, about the axis of a tube. Along them a refinement may have stopped at
+/// neighbouring edges.
 struct WeakDirections {
   /// Offsets (rotation rad, translation m) about the pivot, camera axes; each moves the edge places
   /// by 1 px, root mean square.
@@ -22,7 +22,7 @@ struct WeakDirections {
   Eigen::Vector3d pivot_in_camera_m = Eigen::Vector3d::Zero();  ///< centre of the scene
   bool known = false;  ///< false when the samples determine no directions at all
 
-  /// A smaller share leaves a direction undetermined: the facets of a coarse tube show up to 0.1 of
+  /// A smaller share leaves a direction undetermined. The facets of a coarse tube show up to 0.1 of
   /// a turn about its axis, and agree with each other in a wrong turn.
   static constexpr double kUndetermined = 0.12;
   /// Whether the edges leave the direction undetermined.

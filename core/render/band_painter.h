@@ -41,13 +41,12 @@ class BandPainter {
   static BandPainter create(int max_width, int band_rows, Arena& arena);
 
   /// Begins with bands `first_band` ... end_band - 1, whose rows in `output` are clear. A row is
-  /// complete when the next one is drawn, so the painter completes the last row of the band before
-  /// its first one, and not its own last row unless the image ends there. Bands of a single row
-  /// cannot be divided.
+  /// complete when the next one is drawn: the painter completes the last row before its first band,
+  /// and its own last row only at the end of the image. Bands of a single row cannot be divided.
   void begin(const BandSource& source, int first_band, int end_band, EdgeRender& output);
   /// One slice: a band, or a part of one that holds very many faces; `done` when all bands are.
-  /// Complete rows are appended to the output. kCapacityExceeded when its pixels are not enough:
-  /// the rows before are valid, `done` set. kTooManyLayers behaves the same.
+  /// Complete rows are appended to the output. kCapacityExceeded (output full) and kTooManyLayers
+  /// set `done`; the rows before are valid.
   Status step(const BandSource& source, EdgeRender& output, bool& done);
 
   /// The first row that a painter of bands from `first_band` on completes.

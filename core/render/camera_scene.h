@@ -55,7 +55,7 @@ struct CameraScene {
   MeshView mesh;                           ///< not owned
   MeshAdjacency adjacency;                 ///< of the mesh
   std::size_t first_in_camera = 0;         ///< vertices from here on are fixed to the camera
-  BoundingBox station_box;                 ///< of the vertices before, station frame
+  BoundingBox station_box;                 ///< of the vertices before those, station frame
   BoundingBox camera_box;                  ///< of the others, camera frame
   std::span<FixedPixel> vertex_px;         ///< one per vertex of the mesh
   std::span<std::uint16_t> vertex_depth;   ///< one per vertex: floor((z - low_m) per_m)
@@ -98,8 +98,8 @@ struct CameraScene {
     return (face_flags[static_cast<std::size_t>(face)] & kNormalKnown) != 0;
   }
 
-  /// True when two faces share an edge over which the surface continues smoothly, and show the same
-  /// side: no salient edge separates them.
+  /// True when two faces share an edge over which the surface continues smoothly and show the same
+  /// side, without a salient edge between them.
   bool continues(std::int32_t face, std::int32_t other) const {
     const std::uint8_t flags = face_flags[static_cast<std::size_t>(face)];
     if (((flags ^ face_flags[static_cast<std::size_t>(other)]) & kFrontFacing) != 0) return false;

@@ -42,7 +42,7 @@ struct DrawnFace {
   return true;
 }
 
-/// 1/z where the ray meets the face's plane, rounded as it is compared; false where the near plane
+/// 1/z where the ray meets the face's plane, rounded as for comparisons; false where the near plane
 /// cuts the face off.
 [[nodiscard]] inline bool inverseDepthOn(const DrawnFace& drawn, double ray_x, double ray_y,
                                          float& inverse_depth) {

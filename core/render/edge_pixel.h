@@ -89,7 +89,7 @@ struct EdgeRender {
   std::int32_t pixel_count = 0;       ///< salient edge pixels
   /// Words for the largest image; `edges` and `mask` use the words that the current camera needs.
   std::span<std::uint64_t> edge_words;
-  std::span<std::uint64_t> mask_words;  ///< the same for the mask
+  std::span<std::uint64_t> mask_words;  ///< words of the mask
   Camera camera;                        ///< the camera at this level
   Pose camera_from_station;             ///< the pose rendered
 
@@ -120,7 +120,7 @@ class EdgePixelRange {
       findRow();
       return *this;
     }
-    /// Whether the end is not reached.
+    /// True before the end.
     bool operator!=(const Iterator& end) const { return index_ < end.index_; }
 
    private:
@@ -139,7 +139,7 @@ class EdgePixelRange {
   /// `render` must outlive the range.
   EdgePixelRange(const EdgeRender& render, std::int32_t stride)
       : render_(render), stride_(stride) {}
-  Iterator begin() const { return {render_, 0, stride_}; }                  ///< The first one
+  Iterator begin() const { return {render_, 0, stride_}; }                  ///< First pixel
   Iterator end() const { return {render_, render_.pixel_count, stride_}; }  ///< Behind the last
 
  private:

@@ -102,15 +102,14 @@ class EdgeRenderer {
                const SurfaceRender& surfaces = {}, const Pose& view_from_camera = Pose());
   /// One slice: some thousand vertices or faces, or a band; `done` when the render is complete.
   /// kCapacityExceeded when max_edge_pixels is not enough, kTooManyLayers when a band has more than
-  /// BandPainter::kMostLayers: the rows before are valid, `done` set.
-  /// With several workers it ends a phase all of whose tasks have been done.
+  /// BandPainter::kMostLayers: the rows before are valid, `done` set. With several workers, ends
+  /// the phase when all its tasks are done.
   Status step(bool& done);
 
-  /// A step for a caller that does not share out the tasks: does all tasks of the phase itself,
-  /// then step().
+  /// Runs all tasks of the phase, then step().
   Status stepWhole(bool& done);
 
-  /// Number of tasks in the current phase; 0 with one worker, whose steps do everything.
+  /// Number of tasks in the current phase; 0 with one worker.
   int tasks() const { return phase_ == Phase::kIdle ? 0 : task_count_; }
   /// Largest number of tasks in a phase with this number of workers.
   static int mostTasks(int workers) { return workers > 1 ? kTasksPerWorker * workers : 0; }

@@ -23,7 +23,7 @@ struct RasterBand {
 
   std::span<double> ray_x;         ///< x/z
   std::span<double> ray_y;         ///< y/z
-  std::span<float> inverse_depth;  ///< 1/z, 1/m; 0 where nothing is, or kUnknownDepth
+  std::span<float> inverse_depth;  ///< 1/z, 1/m; 0 for background, or kUnknownDepth
   std::span<std::int32_t> face;    ///< or kBackground, kInvalid
   std::span<std::uint8_t> valid;   ///< scratch, one row
   int stride = 0;                  ///< entries from a row to the next one

@@ -10,13 +10,12 @@
 
 namespace boresight {
 
-/// Undistorted rays of an image's pixels, interpolated on a coarse grid: the camera does not change
-/// between iterations, and unprojecting a distorted pixel is itself iterative. Interpolated (x/z,
-/// y/z) is within 1e-9 (1 + (x/z)^2 + (y/z)^2) of `unproject` where the model is smooth on the
-/// grid's scale: nodes every 16 px, Newton's polynomial through 4 x 4 of them, or within 2e-8
-/// through 6 x 6 where that is not enough. Cells in which that still misses by more, or that touch
-/// pixels outside the model's valid field, are unprojected pixel by pixel. Pinhole rays are
-/// computed.
+/// Undistorted rays of an image's pixels, interpolated on a coarse grid: the camera stays the same
+/// between iterations, and unprojecting a distorted pixel is iterative. Interpolated (x/z, y/z) is
+/// within 1e-9 (1 + (x/z)^2 + (y/z)^2) of `unproject` where the model is smooth on the grid's
+/// scale: nodes every 16 px, Newton's polynomial through 4 x 4 of them, or within 2e-8 through 6 x
+/// 6 where that is not enough. Other cells, and those that touch pixels outside the model's valid
+/// field, are unprojected pixel by pixel. Pinhole rays are computed directly.
 class RayGrid {
  public:
   /// Takes a grid for the camera from `arena`. kInvalidCamera, kArenaTooSmall.

@@ -51,14 +51,15 @@ struct PixelBox {
 };
 
 /// Faces this small are drawn by their vertices' fixed pixels: most of their pixels are clearly
-/// inside or outside, clearly nearer or farther, and only the others need the face's exact edges
-/// and plane. The result is that of `drawFace`, bit for bit, except that depths may stay unknown.
+/// inside or outside, clearly nearer or farther, and only the remaining pixels need the face's
+/// exact edges and plane. The result is that of `drawFace`, bit for bit, except that depths may
+/// stay unknown.
 class SmallFaces {
  public:
   /// Largest extent along each image axis.
   static constexpr int kLargest_px = 12;
 
-  /// Everything that is the same for all faces of a render.
+  /// Computes the data that all faces of a render share.
   SmallFaces(const CameraScene& scene, const RayGrid& rays);
   SmallFaces() = default;
 

@@ -80,16 +80,16 @@ inline bool normalsDiffer(const FaceCache::Plane& a, const FaceCache::Plane& b,
 struct SurfaceEnd {
   bool ends = false;       ///< false: the surface covers the whole way
   bool reached = false;    ///< the way leads over one connected surface to the target face
-  double s = 2.0;          ///< where it ends; beyond 1: it does not
+  double s = 2.0;          ///< where the surface ends; above 1: it does not end
   std::int32_t face = -1;  ///< the face that ends there
   std::int8_t edge = -1;   ///< the edge of that face
   Eigen::Vector3d line = Eigen::Vector3d::Zero();  ///< line . ray > 0 on the surface's side
 };
 
 /// Follows the surface from `start` over edges across which it continues smoothly and faces the
-/// camera: silhouettes of tessellated curved surfaces consist of slivers narrower than a pixel, and
-/// stopping at the first face's edge would shift them inwards. When `target` (-1: none) is
-/// reached, `s` and `line` are where the normal turns from the start's to the target's.
+/// camera. Silhouettes of tessellated curved surfaces consist of slivers narrower than a pixel;
+/// stopping at the first face's edge would shift them inwards. When `target` (-1: none) is reached,
+/// `s` and `line` are where the normal turns from the start's to the target's.
 SurfaceEnd traceSurface(const CameraScene& scene, FaceCache& faces, std::int32_t start,
                         const Eigen::Vector3d& ray_from, const Eigen::Vector3d& ray_to,
                         std::int32_t target);

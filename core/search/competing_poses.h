@@ -25,13 +25,13 @@ struct CompetingPose {
   bool mirrored = false;  ///< of the mesh's mirror image
 };
 
-/// Looks for poses that show about the same edges as the pose found: half turns about the principal
+/// Finds poses that show about the same edges as the pose found: half turns about the principal
 /// axes of the matched surface, the tilt of its flattest side reversed about the line of sight (the
 /// second pose of a plane: Oberkampf et al. 1996), and slides at which the outline lies near edges
 /// of its own render again (repeated features, long handles). Poses that the image supports about
 /// as well at a small scale are refined on its edges and compared with the pose found where the
 /// renders differ. A pose whose render is the same within some pixels of a small view does not
-/// compete: the mesh is symmetric as far as the image can tell.
+/// compete: in the image the mesh is symmetric.
 class CompetingPoseTest {
  public:
   static constexpr int kTurned = 4;                               ///< turned poses that are tested
@@ -50,7 +50,7 @@ class CompetingPoseTest {
 
   /// The competing poses whose renders differ visibly.
   std::span<const CompetingPose> poses() const { return competing_.items(); }
-  /// Adds a pose found by a search of its own.
+  /// Adds a pose found by a separate search.
   void add(const CompetingPose& pose) { competing_.add(pose); }
 
  private:

@@ -17,8 +17,8 @@
 namespace boresight {
 
 /// Searches the pose of the whole object over its seed's uncertainty, at most 60 % of the depth and
-/// 56 deg off the axis: outlines rendered for the view directions of a RotationGrid are turned,
-/// scaled and slid over maps of directed distances (SlideSums); the candidates are the poses whose
+/// 56 deg off the axis. Outlines rendered for the view directions of a RotationGrid are turned,
+/// scaled and slid over maps of directed distances (SlideSums). The candidates are the poses whose
 /// outlines lie nearest to the image's edges. Chamfer matching (Borgefors 1988) with directions
 /// (Olson and Huttenlocher 1997). The object is small in the search's image, and the grid is
 /// coarse: a compass search starts from each candidate.
@@ -35,7 +35,7 @@ class ObjectSearch {
                            EdgeRenderer& renderer, EdgeRender& render);
   /// One bounded slice; true when the candidates are complete.
   [[nodiscard]] bool step();
-  /// Faces the scene as for the search again; false when it is outside the image.
+  /// Restarts the search's view of the scene; false when it is outside the image.
   [[nodiscard]] bool beginView() {
     return view_edges_->begin(*problem_, problem_->camera_from_station_seed, view_size_);
   }

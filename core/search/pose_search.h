@@ -28,8 +28,8 @@ struct PoseCandidate {
 /// Finds candidate poses of the whole object: searches the seed's uncertainty (ObjectSearch),
 /// refines the poses on directed edges (OutlineRefinement), first at the search's scale, and
 /// measures their evidence. Each round refines fewer poses, those with most evidence, at finer
-/// scales. At first few poses are refined, and one at the finest scale; resume() refines as many as
-/// may be the right one, for a caller whom the first one does not convince.
+/// scales. At first few poses are refined, and one at the finest scale; resume() refines all that
+/// may be correct, for a caller that rejects the first candidate.
 class PoseSearch {
  public:
   static constexpr int kMaxCandidates = 6;      ///< that are refined at the finest scale
@@ -47,7 +47,7 @@ class PoseSearch {
   [[nodiscard]] bool step();
   /// Whether the search is over but has left poses to resume().
   bool isSuspended() const { return phase_ == Phase::kDone && !resumed_ && left_ > 0; }
-  /// Refines again, with the poses that were left; false when there is none.
+  /// Refines the poses that were left; false when there is none.
   [[nodiscard]] bool resume();
 
   /// The candidates by descending evidence; empty until complete.

@@ -62,8 +62,8 @@ class RotationGrid {
 
 /// Whether a rotation vector is in the box, or in it after a further rotation by at most
 /// `slack_rad` about each axis (to first order; the axes of both are those of the rotation vector).
-/// For a rotation vector beyond a half turn and the shorter one of the same rotation, the result is
-/// the same, as the box is symmetric and smaller than a full turn.
+/// A rotation vector beyond a half turn and the shorter vector of the same rotation give the same
+/// result, as the box is symmetric and smaller than a full turn.
 bool isNearBox(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& box_rad,
                const Eigen::Vector3d& slack_rad);
 

@@ -13,14 +13,14 @@
 namespace boresight {
 
 /// Sums of directed distances of an outline for all slides of it at the same time. The distances
-/// are rounded to steps of kStep_px, so that the sums of many places fit bytes, of which the
-/// compiler adds 16 at a time.
+/// are rounded to steps of kStep_px: sums of many places then fit bytes, and the compiler adds 16
+/// bytes at a time.
 class SlideSums {
  public:
   static constexpr int kMaxPlaces = 64;     ///< of an outline
   static constexpr int kMaxView_px = 183;   ///< sides of the maps
   static constexpr double kStep_px = 0.4;   ///< of the distances
-  static constexpr int kFarthestStep = 15;  ///< largest distance, in such steps
+  static constexpr int kFarthestStep = 15;  ///< largest distance, in kStep_px
 
   /// A place of an outline, px from the middle of the view.
   struct Place {
@@ -39,7 +39,7 @@ class SlideSums {
   /// Sums over at most kMaxPlaces places.
   void add(std::span<const Place> places);
 
-  /// Distance of a place of an edge of that direction, kStep_px; px from the middle of the view.
+  /// Distance to the edges of a direction, in kStep_px, at a place, px from the middle of the view.
   std::uint8_t at(int direction, double x_px, double y_px) const;
 
   int columns() const { return columns_; }  ///< slides along x

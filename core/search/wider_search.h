@@ -5,8 +5,8 @@
 
 namespace boresight {
 
-/// The same search over twice the seed's uncertainty: a seed may be farther off than stated, and a
-/// wrong pose within the stated range then explains less of the image than the correct one outside.
+/// The search over twice the seed's uncertainty: a seed may be farther off than stated. A wrong
+/// pose within the stated range then explains less of the image than the correct pose outside.
 SearchProblem widerSearch(const SearchProblem& problem);
 
 }  // namespace boresight

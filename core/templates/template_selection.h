@@ -59,10 +59,10 @@ struct TemplateSet {
 int templateSide(const TemplateOptions& options, double feature_size_m, double depth_m,
                  const Camera& camera, double attempt_factor);
 
-/// Picks places where edges of more than one direction meet (a straight edge slides along itself):
-/// in every cell of a square grid over the render, the edge pixel whose surrounding square has the
-/// largest smaller eigenvalue of the scatter of edge normals, sum of n n'. The cell size is the
-/// smallest one that yields no more than `options.count` templates. Pham 2025, Sec. III-A and
+/// Picks places where edges of more than one direction meet (a straight edge slides along itself).
+/// In every cell of a square grid over the render, this is the edge pixel whose surrounding square
+/// has the largest smaller eigenvalue of the scatter of edge normals, sum of n n'. The cell size is
+/// the smallest one that yields no more than `options.count` templates. Pham 2025, Sec. III-A and
 /// III-B, centres templates on edge pixels and states neither their number nor how they are chosen.
 /// `ignore` (full resolution, may be nullptr) belongs to the image at `level` 0.
 class TemplateSelector {

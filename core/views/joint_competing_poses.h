@@ -23,9 +23,9 @@ using JointCompetingPoses = FixedList<CompetingPose, CompetingPoseTest::kMostPos
 
 /// The poses that compete in every view, in the first view's camera frame: a view in whose image a
 /// pose does not compete excludes it. Margins are sums over the views; the similarity is the
-/// smallest of the views. `first_from_station`: the pose found; `scene`: station frame. Two views
-/// name the same pose when it moves the corners of the scene less in the image than a quarter of
-/// their distance from the pose found; mirror images of the mesh are the same.
+/// smallest of the views. `first_from_station`: the pose found; `scene`: station frame. Poses of
+/// two views count as the same when the scene's corners differ in the image by less than a quarter
+/// of their distance from the pose found; so do mirror images of the mesh.
 JointCompetingPoses jointCompetingPoses(std::span<const CompetingPosesOfView> views,
                                         const Pose& first_from_station, const BoundingBox& scene);
 

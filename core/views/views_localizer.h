@@ -17,8 +17,8 @@
 
 namespace boresight {
 
-/// Localization from several views at once. There is one attempt, and a pass for each view: at
-/// every iteration all views render and match (or look for edges) in their own images from the one
+/// Localization from several views at once. There is one attempt, and a pass for each view. At
+/// every iteration all views render and match (or search edges) in their own images from one
 /// hypothesis, and one pose is solved from all results:
 ///
 /// - matches: PnpRansac over the correspondences of all views;
@@ -29,13 +29,13 @@ namespace boresight {
 /// its render by the same angle about its own ray. A single view therefore gives the same bits as
 /// Localizer without a search.
 ///
-/// A view without enough matches, or whose matches disagree with the others', is left out (until
-/// the next matching iteration; from refinements, until the next attempt). A view without edge
+/// A view with too few matches, or with matches that disagree with the others', is left out until
+/// the next matching iteration (from refinements, until the next attempt). A view without edge
 /// support, or whose image is blurred, is dropped for the attempt, and the run refines without it.
 /// The result is the pose for which all remaining views have support.
 ///
 /// A run that searches does so in every view; attempts start from the candidates of all views, and
-/// from the best pose moved along the directions that all views together determine least. The
+/// from the best pose moved along the directions that the views together determine least. The
 /// result is ambiguous when another pose, or the mesh's mirror image, competes with it in every
 /// view (jointCompetingPoses). Matches from outside are not supported.
 class ViewsLocalizer {
@@ -71,9 +71,8 @@ class ViewsLocalizer {
   int viewCount() const { return static_cast<int>(views_.size()); }
   /// The pass of a view, for inspection; there is none when status() is not kOk.
   const Pass& view(int index) const { return views_[static_cast<std::size_t>(index)].pass; }
-  /// A view's record of the iteration that the first view's workspace shows: of rolled hypotheses
-  /// the same one. nullptr before the first iteration, and for a view that does not take part in
-  /// it.
+  /// A view's record of the iteration and rolled hypothesis that the first view's workspace shows.
+  /// nullptr before the first iteration, and for a view that does not take part in it.
   const Iteration* iterationOf(int index) const;
   /// SHA-256 over how the views are linked, each view's own digest and the result.
   std::array<std::uint8_t, 32> digest() const;

@@ -29,12 +29,12 @@ struct View {
   Pose camera_from_rig;  ///< mounting of the camera
 };
 
-/// Several views of one station, solved for the one pose that they share. The caller owns
-/// everything, which must outlive the run.
+/// Several views of one station, solved for their common pose. The caller owns all data, which must
+/// outlive the run.
 struct ViewsProblem {
-  std::span<const View> views;  ///< 1 ... kMaxViews; the first one leads
+  std::span<const View> views;  ///< 1 ... kMaxViews; the first is the reference
   Pose rig_from_station_seed;   ///< where the search begins
-  /// Per axis of the *first* view's seed camera frame, its pivot in it, as with a single view.
+  /// Per axis of the *first* view's seed camera frame, pivot included.
   SeedUncertainty uncertainty;
   /// Fixed to the first camera; see LocalizationProblem.
   Eigen::Vector3d end_effector_in_camera_m = Eigen::Vector3d::Zero();
@@ -51,8 +51,8 @@ struct ViewReport {
   std::int32_t edges_used = 0;       ///< of the latest refinement
   double edges_rms_px = 0.0;         ///< weighted residual, of the latest refinement
   EdgeSupport support;               ///< of the final pose; empty when it was not measured
-  double probability = 0.0;  ///< that the pose is right, by this view; 0 where none was searched
-  Pose camera_from_station;  ///< of this view
+  double probability = 0.0;          ///< that the pose is correct, by this view; 0 without a search
+  Pose camera_from_station;          ///< of this view
 
   /// Whether the view contributed to the pose.
   bool tookPart() const { return status == LocalizationStatus::kConverged; }

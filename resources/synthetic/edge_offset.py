@@ -143,7 +143,7 @@ def offsets(image, at, normal):
     peak = np.zeros_like(slope, dtype=bool)
     peak[:, 1:-1] = (slope[:, 1:-1] >= slope[:, :-2]) & (slope[:, 1:-1] > slope[:, 2:])
     peak &= (slope > MIN_CONTRAST) & (np.abs(middle) <= REACH_px)
-    # A peak beside one twice as high is its foot.
+    # A peak next to one twice as high is its foot.
     peak &= slope > 0.5 * slope.max(1, keepdims=True)
     distance = np.where(peak, np.abs(middle), np.inf)
     best = distance.argmin(1)

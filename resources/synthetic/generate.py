@@ -92,10 +92,10 @@ def start(options, log, *words):
 
 
 def environment(blender):
-    """Debian's Blender takes the first python3 of the PATH for its own: the one beside it."""
+    """Puts Blender's folder first in PATH: Debian's Blender takes the first python3 there."""
     made = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
-    beside = str(Path(shutil.which(blender)).resolve().parent)
-    return {**made, "PATH": beside + os.pathsep + made.get("PATH", "")}
+    folder = str(Path(shutil.which(blender)).resolve().parent)
+    return {**made, "PATH": folder + os.pathsep + made.get("PATH", "")}
 
 
 def make_meshes(options):

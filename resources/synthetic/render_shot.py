@@ -34,7 +34,7 @@ BOP_DEPTH_MM = 0.05  # one step of a BOP depth picture
 
 
 def set_up_cycles(seed):
-    """Path tracing on the processor: few samples, few bounces, what the filter needs beside."""
+    """Path tracing on the processor: few samples, few bounces, and what else the filter needs."""
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     cycles = scene.cycles

@@ -28,8 +28,8 @@ Annotations blindAnnotations(const Annotations& annotations);
 /// has none in `annotations`.
 bool isBlind(const AnnotationRounds& rounds, const Annotations& annotations);
 
-/// The rounds with these annotations added as a round with a name of its own, unless they have no
-/// image positions or equal a stored round. Loading another round then loses nothing.
+/// Adds these annotations as a separately named round, unless they have no image positions or equal
+/// a stored round. Loading another round then loses nothing.
 AnnotationRounds keepingAnnotations(AnnotationRounds rounds, const Annotations& annotations,
                                     const std::string& time);
 

@@ -24,9 +24,9 @@ struct BandPiece {
 };
 
 /// The 95 % band of the model's visible edges in the image under a pose's covariance (camera frame,
-/// left perturbation, rotation rad and translation m): each point moves by J xi in the image, of
-/// which the component across the edge counts. Points are about `step_px` apart. The scene is
-/// rendered once to find the visible edges; empty when it cannot be rendered.
+/// left perturbation, rotation rad and translation m): each point moves by J xi in the image; only
+/// the component across the edge counts. Points are about `step_px` apart. The scene is rendered
+/// once to find the visible edges; empty when it cannot be rendered.
 std::vector<BandPiece> edgeBand(const MeshSnapper& mesh, const Camera& camera,
                                 const Pose& camera_from_station, const Matrix6d& covariance,
                                 double step_px = 12.0);

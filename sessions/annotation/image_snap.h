@@ -39,9 +39,8 @@ struct EllipseSnap {
   double rms_px = 0.0;   ///< of these edges' distances from it
 };
 /// The ellipse around a position, such as that of a screw or hole: edges in all directions from it,
-/// at most `radius_px` away. The centre of an ellipse is not quite that of the circle that it
-/// shows: at a distance of 20 radii and 45 deg by some hundredth of its size. Empty when fewer than
-/// 60 % of the directions agree.
+/// at most `radius_px` away. Its centre differs from that of the projected circle: at 20 radii and
+/// 45 deg by about a hundredth of its size. Empty when fewer than 60 % of the directions agree.
 std::optional<EllipseSnap> snapToEllipse(const ImageView& image, const Eigen::Vector2d& inside,
                                          double radius_px);
 

@@ -33,7 +33,7 @@ struct SolvedAnnotation {
   /// reduced by the annotation's own influence on the pose (leverage).
   double normalized = 0.0;
 
-  /// The residual is so large that the annotator should check it.
+  /// Whether the annotator should check this residual.
   bool isOutlier() const { return projected && normalized > kOutlierSigmas; }
 };
 
@@ -66,7 +66,7 @@ struct AnnotationsSolution {
   std::optional<AmbiguousPose> ambiguous;
 };
 
-/// A solution, or one sentence that states why there is none and what to do.
+/// A solution, or one sentence with the reason for its absence and a remedy.
 struct AnnotationsResult {
   std::optional<AnnotationsSolution> solution;
   std::string reason;
@@ -80,7 +80,7 @@ struct AnnotationsResult {
 AnnotationsResult solveAnnotations(std::span<const AnnotatedView> views,
                                    const SolveAnnotationsOptions& options);
 
-/// Solves again without one annotation after the other; equal or robust weights are kept.
+/// Solves again with each annotation left out in turn; equal or robust weights are kept.
 std::vector<LeftOut> leaveOneOut(std::span<const AnnotatedView> views,
                                  const AnnotationsSolution& solution);
 

@@ -13,7 +13,7 @@
 
 namespace boresight::sessions {
 
-/// Failure of a child process; what() is the rest of a sentence that begins with its name.
+/// Failure of a child process; what() continues a sentence that begins with its name.
 class ChildError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

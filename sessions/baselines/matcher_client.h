@@ -20,17 +20,17 @@ struct PixelPair {
 };
 
 /// A matcher in a child process, over the protocol of resources/matchers/README.md. Every failure
-/// of it (no start, crash, timeout, invalid answer) is a MethodError of one sentence; the client
-/// cannot be used afterwards.
+/// (no start, crash, timeout, invalid answer) is a MethodError of one sentence; the client cannot
+/// be used afterwards.
 class MatcherClient {
  public:
   /// Starts the command and waits for its greeting.
   MatcherClient(const std::string& command, double start_timeout_s, const std::stop_token& stop);
 
-  /// Working size that it announced, px; 0 when it has none.
+  /// Working size that the matcher announced, px; 0: none.
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Name that it announced.
+  /// Name that the matcher announced.
   const std::string& name() const { return name_; }
 
   /// At most `most` pairs, all of them inside the images.

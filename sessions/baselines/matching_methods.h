@@ -28,7 +28,7 @@ std::unique_ptr<MatchingMethod> makeNcc(const NccOptions& options);
 /// that lie in their search windows, by the distance of their descriptors.
 std::unique_ptr<MatchingMethod> makeOrb(const OrbOptions& options);
 
-/// Images that an external matcher gets.
+/// Images that an external matcher receives.
 enum class ExternalFrames {
   kWhole,      ///< image and render as a whole (LoFTR-R of Pham 2025, Sec. V)
   kSubframes,  ///< from an attempt's second iteration on, in frames of the matcher's size (LoFTR-S)

@@ -15,7 +15,7 @@ struct SsdOptions {
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
     visit(OptionInfo{"ssd.masked", "", 0, 1,
-                     "Compares where the object was rendered only, not the background."},
+                     "Compares only pixels of the rendered object, not of the background."},
           self.masked);
     visit(OptionInfo{"ssd.equalized", "", 0, 1,
                      "Equalizes the histograms of image and render first."},
@@ -34,11 +34,11 @@ struct NccOptions {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"ncc.kind", "", 0, 1, "ccoeff_normed takes the means away before correlating.",
+    visit(OptionInfo{"ncc.kind", "", 0, 1, "ccoeff_normed subtracts the means before correlating.",
                      kNccKindNames},
           self.kind);
     visit(OptionInfo{"ncc.masked", "", 0, 1,
-                     "Correlates where the object was rendered only, not the background."},
+                     "Correlates only pixels of the rendered object, not of the background."},
           self.masked);
     visit(OptionInfo{"ncc.equalized", "", 0, 1,
                      "Equalizes the histograms of image and render first."},
@@ -57,17 +57,17 @@ struct OrbOptions {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"orb.features", "", 10, 1024, "Features of the render, at most."},
+    visit(OptionInfo{"orb.features", "", 10, 1024, "Largest number of features of the render."},
           self.features);
     visit(OptionInfo{"orb.image_features", "", 10, 100000,
-                     "Features of the image in all search windows, at most."},
+                     "Largest number of features of the image in all search windows."},
           self.image_features);
     visit(OptionInfo{"orb.levels", "", 1, 16, "Levels of ORB's own pyramid."}, self.levels);
     visit(OptionInfo{"orb.fast_threshold", "", 1, 255,
-                     "Least contrast of a corner, gray values. OpenCV's own is 20."},
+                     "Least contrast of a corner, gray values. OpenCV's default is 20."},
           self.fast_threshold);
     visit(OptionInfo{"orb.ratio", "", 0.1, 1.0,
-                     "The best distance must be below this share of the second best; 1: need not."},
+                     "The best distance must be below this share of the second best; 1: no limit."},
           self.ratio);
     visit(OptionInfo{"orb.equalized", "", 0, 1,
                      "Equalizes the histograms of image and render first."},
@@ -83,7 +83,7 @@ struct ExternalOptions {
 
   template <class Self, class Visitor>
   static void visitFields(Self& self, Visitor&& visit) {
-    visit(OptionInfo{"external.matches", "", 4, 1024, "Matches of an iteration, at most."},
+    visit(OptionInfo{"external.matches", "", 4, 1024, "Largest number of matches of an iteration."},
           self.matches);
     visit(OptionInfo{"external.start_timeout_s", "s", 0.1, 3600.0,
                      "The matcher must greet within this time."},

@@ -25,7 +25,7 @@ std::string methodNames();
 /// Setup of the methods other than WHS.
 struct MethodSetup {
   MethodOptions options;
-  std::string matcher;  ///< command of the external matcher; it serves `external` and `loftr-*`
+  std::string matcher;  ///< command of the external matcher of `external` and `loftr-*`
 };
 
 /// Localizes with a method chosen by name. Resources of a method (a child process) are reused by
@@ -34,9 +34,9 @@ class Methods {
  public:
   explicit Methods(const MethodSetup& setup) : setup_(setup) {}
 
-  /// As localize(), with the matches of the method; identical for WHS. A method with a capacity of
-  /// its own raises templates.count to it. MethodError when the method failed (this run is lost,
-  /// the next one may succeed), std::invalid_argument for an unknown name.
+  /// As localize(), with the matches of the method; identical for WHS. A method with its own
+  /// capacity raises templates.count to that capacity. MethodError when the method failed (this run
+  /// is lost, the next one may succeed), std::invalid_argument for an unknown name.
   LocalizationTrace localize(const std::string& method, const LocalizationProblem& problem,
                              const LocalizerOptions& options, const RunSettings& settings,
                              const std::stop_token& stop = {});

@@ -20,7 +20,7 @@ struct CalibratedValue {
   double sigma = 0.0;  ///< one sigma of `after`; not finite: not determined
 
   bool isDetermined() const;
-  /// The change over its sigma; 0 where it is not determined.
+  /// The change divided by its sigma; 0 where it is not determined.
   double changeInSigmas() const;
 };
 

@@ -184,7 +184,7 @@ std::optional<CalibrationSigma> CameraCalibration::sigma() const {
 CameraCalibration calibrateCamera(const Camera& camera, std::span<const CalibrationView> views,
                                   const FreeParameters& free) {
   const std::vector<int> indices = freeIndices(camera, free);
-  if (indices.empty()) throw std::invalid_argument("nothing of the camera is free");
+  if (indices.empty()) throw std::invalid_argument("no parameter of the camera is free");
   if (views.empty()) throw std::invalid_argument("there are no images with observations");
   Adjustment adjustment(camera, views, indices);
   CameraCalibration result;

@@ -28,7 +28,7 @@ struct FreeParameters {
 struct CameraCalibration {
   Camera camera;
   std::vector<CalibrationParameter> parameters;
-  /// Of the parameters in their order, without the directions that are not determined.
+  /// Of the parameters in their order, without undetermined directions.
   Eigen::MatrixXd covariance;
   std::vector<Undetermined> undetermined;
   std::vector<Pose> camera_from_station;  ///< by view
@@ -53,8 +53,8 @@ CameraCalibration calibrateCamera(const Camera& camera, std::span<const Calibrat
 CameraCalibration calibrateCameraOf(const Session& session, const std::string& case_id,
                                     ObservationSource source, const FreeParameters& free);
 
-/// The same session with the adjusted camera and its sigmas in all cases that have the camera of
-/// this one.
+/// The same session with the adjusted camera and its sigmas in all cases with the camera of this
+/// case.
 Session withCalibration(const Session& session, const std::string& case_id,
                         const CameraCalibration& calibration);
 

@@ -23,7 +23,7 @@ struct HandEye {
   Pose camera_from_end_effector;
   Pose base_from_station;
   /// Over (rotation rad, translation m) of camera_from_end_effector, left perturbation, camera
-  /// frame, without the directions that are not determined.
+  /// frame, without undetermined directions.
   Matrix6d covariance = Matrix6d::Zero();
   std::vector<CalibrationParameter> parameters;  ///< changes from the start, with sigmas
   std::vector<Undetermined> undetermined;

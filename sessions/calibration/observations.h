@@ -15,7 +15,7 @@ namespace boresight::sessions {
 struct PointObservation {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  /// Only the distance along it counts; zero: both coordinates count.
+  /// Only the distance along this normal counts; zero: both coordinates count.
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
   double sigma_px = 1.0;
 };

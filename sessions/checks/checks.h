@@ -32,7 +32,7 @@ inline constexpr int kConvergenceSeeds = 8;
 struct ConvergedPose {
   Pose camera_from_station;
   bool mirrored = false;  ///< of the station's mirror image about a plane through its box's middle
-  double coverage = 0.0;  ///< share of the edges that it predicts which the image shows, 0 to 1
+  double coverage = 0.0;  ///< share of its predicted edges that the image shows, 0 to 1
 };
 
 /// Poses reached from further seeds around the case's seed, with their edge coverage.
@@ -52,7 +52,7 @@ ConvergenceResult convergenceTest(
     const ReviewSubject& subject, int seeds, const std::stop_token& stop = {},
     const std::function<void(const ConvergenceResult&)>& after_each = {});
 
-/// Whether the check is one of the convergence test.
+/// Whether the check belongs to the convergence test.
 bool isConvergenceCheck(const std::string& check_id);
 /// Checks of the convergence test: enough seeds return to the pose, and none converges to another.
 void addConvergenceChecks(const std::optional<ConvergenceResult>& convergence,
@@ -78,15 +78,14 @@ void addOnboardCheck(const ReviewSubject& subject, std::vector<Check>& checks);
 /// Inliers of the last matching iteration; 0 when there was none.
 std::int32_t lastInliers(const LocalizationTrace& run);
 
-/// Index of the iteration to look at first: the last one that failed when the run did not converge,
-/// else the last one; -1 when there is none.
+/// Index of the iteration to open first: the last failed one of a run that did not converge, else
+/// the last one; -1: none.
 int iterationToOpen(const LocalizationTrace& run);
 
-/// Spread of points relative to that of others, in the direction where it is smallest: the smallest
-/// ratio of both standard deviations over all directions (a generalized eigenvalue). 1 when both
-/// spread alike, near 0 when the points lie on a line across which the others spread. Both
-/// deviations are increased by `floor_px` (squares add), so that others on a line require no spread
-/// across it. Nothing when there are fewer than two points of either.
+/// Spread of points relative to that of others: the smallest ratio of both standard deviations over
+/// all directions (a generalized eigenvalue). 1 for equal spreads, near 0 for points on a line
+/// across which the others spread. Both deviations are increased by `floor_px` (squares add), so
+/// that others on a line require no spread across it. Empty with fewer than two points of either.
 std::optional<double> leastSpread(std::span<const Eigen::Vector2d> points_px,
                                   std::span<const Eigen::Vector2d> others_px, double floor_px);
 
@@ -101,8 +100,8 @@ double medianOf(std::span<const double> values);
 void addImageChecks(const ReviewSubject& subject, const CheckLimits& limits,
                     std::vector<Check>& checks);
 
-/// Edge checks of the final pose, measured independently of the run's acceptance test: coverage,
-/// clutter, edge-coverage sensitivity, and whether the edges contradict the camera.
+/// Edge checks of the final pose, independent of the run's acceptance test: coverage, clutter,
+/// edge-coverage sensitivity, and agreement of edges and camera.
 void addEdgeChecks(const ReviewSubject& subject, const CheckLimits& limits,
                    const PredictedEdges& edges, std::vector<Check>& checks);
 
@@ -117,8 +116,8 @@ struct CameraFit {
 
 /// Least squares over the distances along the normals with Tukey's weights, linear about the pose.
 /// The sigmas account for common errors of edges (a bevel, a shadow): square tiles of the image
-/// count as one observation each (cluster-robust covariance, Liang and Zeger 1986). Nothing with
-/// fewer than 60 edges found or when these do not determine all nine unknowns.
+/// count as one observation each (cluster-robust covariance, Liang and Zeger 1986). Empty with
+/// fewer than 60 edges found, or when these do not determine all nine unknowns.
 std::optional<CameraFit> fitCamera(std::span<const LookedPlace> looked, const Camera& camera,
                                    const Pose& camera_from_station);
 

@@ -25,9 +25,9 @@ struct FoundEdge {
   double slope = 0.0;      ///< size of the derivative there, gray/px
 };
 
-/// Gradient of the raw image at a scale of its own (OpenCV's Gaussian and Scharr, independent of
-/// the localization's filters), with two queries: the edge of a given direction at a position, and
-/// all edges of a region.
+/// Gradient of the raw image at its own scale (OpenCV's Gaussian and Scharr, independent of the
+/// localization's filters), with two queries: the edge of a given direction at a position, and all
+/// edges of a region.
 class ImageEdges {
  public:
   /// Gradients of a region, which is cut to the image; ignored pixels (`ignore` may be nullptr)
@@ -70,7 +70,7 @@ struct EdgePlace {
   Eigen::Vector3d point_in_station_m = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();   ///< on the line, sub-pixel
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< of the line, unit
-  double length_px = 1.0;  ///< of the line that the pixel stands for: up to sqrt(2) on a diagonal
+  double length_px = 1.0;  ///< of the line that the pixel represents: up to sqrt(2) on a diagonal
   std::uint8_t kind = 0;   ///< EdgeKind bits
 };
 
@@ -120,8 +120,8 @@ struct FallOff {
   double coverage = 0.0;  ///< with the pose displaced this way, the mean of both senses
 };
 
-/// Edge evidence of a pose, measured on the raw image with filters of its own, from a render of the
-/// final pose.
+/// Edge evidence of a pose, measured on the raw image with independent filters, from a render of
+/// the final pose.
 struct EdgeEvidence {
   Share coverage;  ///< predicted length with an image edge nearby, of the length searched
   Share clutter;   ///< image edges on the station that no predicted edge explains
@@ -148,10 +148,9 @@ Share coverageOfPose(const LoadedCase& loaded, const Pose& camera_from_station);
 Share clutterOf(const ImageEdges& image, const PredictedEdges& edges,
                 const std::vector<LookedPlace>& looked);
 
-/// Evidence beyond chance: log of the odds that an edge is seen at a correct pose and where the
-/// same outline is displaced by a twentieth and a tenth of its size (16 ways), summed over at most
-/// 1500 places, of the sum expected at a correct pose. Negative: fewer edges are seen than by
-/// chance.
+/// Evidence beyond chance, as a share of that expected at a correct pose: log of the odds that an
+/// edge is seen at a correct pose and where the outline is displaced by a twentieth and a tenth of
+/// its size (16 ways), summed over at most 1500 places. Negative: fewer edges than by chance.
 Share evidenceOf(const ImageEdges& image, const std::vector<LookedPlace>& looked);
 
 /// The region in which a pose's edges are searched, including displaced ones.

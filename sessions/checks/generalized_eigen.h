@@ -8,8 +8,8 @@
 namespace boresight::sessions {
 
 /// Solutions of A x = lambda B x of symmetric matrices, B positive definite: lambda ascending, x
-/// with x' B x = 1 as columns. Nothing when B is not positive definite or a value is not finite.
-/// With B = V D V' they are those of the symmetric D^-1/2 V' A V D^-1/2.
+/// with x' B x = 1 as columns. Empty when B is not positive definite or a value is not finite. With
+/// B = V D V' they are those of the symmetric D^-1/2 V' A V D^-1/2.
 template <int kSize>
 std::optional<SymmetricEigen<kSize>> generalizedEigen(
     const Eigen::Matrix<double, kSize, kSize>& a, const Eigen::Matrix<double, kSize, kSize>& b) {

@@ -19,8 +19,8 @@ struct PrecisionFigure {
   CheckName check;                 ///< the check that judges it
   const char* where = "";          ///< "across the view axis"
   const char* unit = "";           ///< of the next three
-  std::optional<double> required;  ///< nothing: the requirement does not limit it
-  std::optional<double> found;     ///< by all causes together; nothing without a covariance
+  std::optional<double> required;  ///< empty: the requirement does not limit it
+  std::optional<double> found;     ///< by all causes together; empty without a covariance
   std::optional<double> by_image;  ///< by the image, or the annotations, alone
   std::string place;               ///< " at the end effector"; "" where it is the same everywhere
 
@@ -30,9 +30,8 @@ struct PrecisionFigure {
   std::string text() const { return ofLimitText(*found, *required, unit); }
 };
 
-/// The one measure of a pose's quality: the standard deviations that must fit into the requirement,
-/// with the mesh's scale and the calibration, at the end effector, or at the camera where that is
-/// not known.
+/// A pose's quality: the standard deviations that the requirement limits, including mesh scale and
+/// calibration, at the end effector, or at the camera if that is not known.
 struct PoseQuality {
   double sigmas = 3.0;                   ///< number of standard deviations that each figure is
   std::vector<PrecisionFigure> figures;  ///< always the same four, in the order of the checks

@@ -19,14 +19,14 @@ struct EdgePlace;
 
 /// Derivative of a pose fitted to edges by an error of the camera: d xi / d (focal length, cx, cy
 /// in px) of the least squares over the places' distances along their normals, -(J' J)^-1 J' K.
-/// Nothing when the places do not determine the pose.
+/// Empty when the places do not determine the pose.
 std::optional<Eigen::Matrix<double, 6, 3>> poseByCamera(std::span<const EdgePlace> places,
                                                         const Camera& camera,
                                                         const Pose& camera_from_station);
 
 /// Derivative of the pose by an error of the vectors of a CAHV camera: d xi / d (C, A, H, V ...), 6
-/// x 12, 18 or 21. The camera's frame stays where it is in the frame of the vectors, so that an
-/// error of C or A moves the pose as well. Empty also outside the CAHV family.
+/// x 12, 18 or 21. The camera's frame stays fixed in the frame of the vectors, so that an error of
+/// C or A moves the pose as well. Empty also outside the CAHV family.
 std::optional<Eigen::MatrixXd> poseByVectors(std::span<const EdgePlace> places,
                                              const Camera& camera, const Pose& camera_from_station);
 
@@ -49,8 +49,8 @@ struct EndEffectorPose {
   /// correct. A target planned from the seed as end_effector_seed_from_target is inverse(this) *
   /// end_effector_seed_from_target in the estimated frame.
   Pose end_effector_seed_from_end_effector_estimated;
-  /// Of both, over xi = (rotation rad, translation m), right perturbation, in the end effector's
-  /// frame: a_from_end_effector * Exp(xi). Zero when the camera's is.
+  /// Of both poses, over xi = (rotation rad, translation m), right perturbation, in the end
+  /// effector's frame: a_from_end_effector * Exp(xi). Zero when `covariance` is zero.
   Matrix6d covariance = Matrix6d::Zero();
 };
 
@@ -74,8 +74,8 @@ struct Correction {
   Matrix6d covariance = Matrix6d::Zero();                  ///< (rotation rad, translation m)
 };
 
-/// In the end effector's frame and in every frame that is joined to it; nothing for a case without
-/// an end effector.
+/// In the end effector's frame and in every frame that is joined to it; empty for a case without an
+/// end effector.
 std::vector<Correction> correctionsOf(const SessionCase& session_case,
                                       const Pose& camera_from_station, const Matrix6d& covariance);
 /// "correction to command in ARM_BASE: translation ... mm +- ..., rotation ... mrad +- ..."; for

@@ -23,7 +23,7 @@ struct Check {
   std::string id;     ///< stable, as files name it: "converged", "covariance_normal"
   std::string title;  ///< for display: "Sigma along the view axis"
   CheckState state = CheckState::kNotApplicable;
-  std::optional<double> figure;  ///< in `unit`; nothing where it is not a number
+  std::optional<double> figure;  ///< in `unit`; empty where it is not a number
   std::optional<double> limit;   ///< in `unit`
   LimitSide side = LimitSide::kAtMost;
   std::string unit;      ///< "mm", "mrad", "px", "%", or empty
@@ -64,8 +64,9 @@ Check notAskedCheck(const CheckName& name, const std::string& why);
 /// A number for a sentence: three significant digits, no exponent where it can be avoided.
 std::string sentenceNumber(double value);
 
-/// A readable table: state, check and figure, below each check that failed or is not applicable its
-/// sentence, and the counts of the states. With `all_sentences` every check's sentence follows it.
+/// A readable table: state, check and figure, the sentence of each check that failed or is not
+/// applicable, and the counts of the states. With `all_sentences` every check's sentence follows
+/// it.
 std::string checksText(std::span<const Check> checks, bool all_sentences = false);
 
 /// "22 passed, 1 failed, 5 not applicable".

@@ -121,7 +121,7 @@ struct CheckLimits {
   }
 };
 
-/// Limits under a name, and the requirement of cases that have none of their own.
+/// Named limits, and the requirement of cases without one.
 struct CheckPreset {
   std::string name;
   std::string help;  ///< one sentence: its purpose

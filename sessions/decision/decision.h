@@ -93,7 +93,7 @@ struct ReviewSettings {
 };
 
 nlohmann::ordered_json toJson(const Decision& decision);
-/// The reverse; the caller must check that the case exists. InputError.
+/// Inverse of toJson; the caller must check that the case exists. InputError.
 Decision readDecision(const JsonReader& json);
 
 /// A check with its state, figure, limit and sentence; the reason of its waiver, if any.
@@ -101,7 +101,7 @@ nlohmann::ordered_json toJson(const JudgedCheck& judged);
 JudgedCheck readJudgedCheck(const JsonReader& json);
 
 nlohmann::ordered_json toJson(const ReviewSettings& settings);
-/// The reverse. InputError, also for a preset or limit that does not exist.
+/// Inverse of toJson. InputError, also for a preset or limit that does not exist.
 ReviewSettings readReviewSettings(const JsonReader& json);
 
 /// {"picture", "mesh_scale", "calibration"}, six rows of six numbers each.

@@ -53,9 +53,8 @@ struct PlannedRun {
   int reseed = 0;
 };
 
-/// The runs that the options ask for, in the order of the dataset, then of seeds. InputError when a
-/// filter or `mesh_of` names something that is not in the dataset, or no case meets all filters. A
-/// shard may be empty.
+/// The runs of the options, in the order of the dataset, then of seeds. InputError when a filter or
+/// `mesh_of` is not in the dataset, or no case meets all filters. A shard may be empty.
 std::vector<PlannedRun> planBatch(const Dataset& dataset, const BatchOptions& options);
 
 /// Called for each finished run, by one thread at a time, in the order of finishing.
@@ -69,8 +68,8 @@ void runPlanned(const Dataset& dataset, const BatchOptions& options,
                 const std::vector<PlannedRun>& plan, const BatchProgress& progress,
                 const std::stop_token& stop = {});
 
-/// Plans and runs. The results are in the order of the plan, whatever the number of threads; after
-/// a stop, those that have not been run are missing.
+/// Plans and runs. The results are in the order of the plan; after a stop, runs that were not done
+/// are missing.
 std::vector<RunResult> runBatch(const Dataset& dataset, const BatchOptions& options,
                                 const BatchProgress& progress, const std::stop_token& stop = {});
 

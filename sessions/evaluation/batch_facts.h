@@ -29,7 +29,7 @@ struct MethodFacts {
   std::string options_sha256;  ///< optionsDigest over all of them
   double reseed_scale = 1.0;
   std::string mesh_of;  ///< deliberately wrong meshes: another station's,
-  std::string mirror;   ///< or mirrored across this axis; empty: the right ones
+  std::string mirror;   ///< or mirrored across this axis; empty: correct meshes
   std::string note;     ///< display text, e.g. the network that was used
 };
 
@@ -39,8 +39,8 @@ struct BatchRun {
   std::string began;  ///< UTC
   std::string ended;  ///< UTC; empty while it runs, and when it was killed
   std::string version;
-  std::string machine;    ///< its name
-  std::string processor;  ///< and how many it has
+  std::string machine;    ///< name
+  std::string processor;  ///< model and number
   std::string system;
   std::string command;
   std::string folder;  ///< in which the command was given

@@ -14,7 +14,7 @@ namespace boresight::sessions {
 
 /// Part of a BOP dataset to be read, and the declared uncertainty of its seeds.
 struct BopSelection {
-  /// Folder of scenes, e.g. "val"; empty: "test", or the only one there is.
+  /// Folder of scenes, e.g. "val"; empty: "test", or the only folder.
   std::string split = {};
   std::vector<int> scenes = {};   ///< empty: all
   std::vector<int> objects = {};  ///< empty: all
@@ -27,20 +27,19 @@ struct BopSelection {
                                      Eigen::Vector3d::Constant(10.0), UncertaintyPivot::kStation};
 };
 
-/// Reads a BOP dataset (bop_toolkit, bop_datasets_format.md) as ours: an object is a station
+/// Reads a BOP dataset (bop_toolkit, bop_datasets_format.md) as a Dataset: an object is a station
 /// (`obj_000001`, mesh in mm, its symmetries), an instance in an image is a case
 /// (`SCENE-IMAGE-OBJECT[-n]`). Of the split `test`, the targets of the challenge
 /// (test_targets_bop19.json); without such a list, instances that are at least 10 % visible
-/// (scene_gt_info.json). InputError: a split, scene or object that is not there, several splits
-/// without a choice, a scene without truth, a camera that is not a pinhole, images or models that
-/// are missing.
+/// (scene_gt_info.json). InputError: a missing split, scene, object, image or model, several splits
+/// without a choice, a scene without truth, a camera that is not a pinhole.
 Dataset readBopDataset(const std::filesystem::path& folder, const BopSelection& selection = {});
 
-/// A folder as a BOP dataset, anything else as a dataset.json (the selection does not matter then).
+/// Reads a folder as a BOP dataset, other paths as dataset.json (without the selection).
 Dataset openDataset(const std::filesystem::path& path, const BopSelection& selection = {});
 
 /// The completed runs of one method on a BOP dataset as lines of a results file: the score is the
-/// edge support, the time that of all runs in the image. Runs from further seeds are left out.
+/// edge support, the time is that of all runs in the image. Runs from further seeds are left out.
 /// InputError when a case is not of a BOP dataset.
 std::vector<BopResult> bopResults(const Dataset& dataset, std::span<const RunResult> runs);
 

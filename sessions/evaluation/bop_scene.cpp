@@ -80,7 +80,7 @@ void requireWritableAsBop(const std::filesystem::path& folder, const PosedImage&
                           std::set<int>& ids) {
   const std::string name = "image " + std::to_string(image.id);
   if (image.id < 0 || !ids.insert(image.id).second)
-    throw OutputError(folder / "scene_gt.json", name + " needs an id of its own");
+    throw OutputError(folder / "scene_gt.json", name + " needs a unique id");
   const bool distorted = image.camera.model != CameraModel::kPinhole &&
                          std::any_of(image.camera.distortion.begin(), image.camera.distortion.end(),
                                      [](double value) { return value != 0.0; });

@@ -24,7 +24,7 @@ struct BopObject {
 /// or negative id, and for files that cannot be written.
 void writeBopScene(const std::filesystem::path& folder, std::span<const BopObject> objects);
 
-/// Reads them back, several objects per image allowed; poses are equal within 1e-12. InputError.
+/// Reads such files, also with several objects per image; poses are equal within 1e-12. InputError.
 std::vector<BopObject> readBopScene(const std::filesystem::path& folder);
 /// The same from two files of any name.
 std::vector<BopObject> readBopScene(const std::filesystem::path& camera_file,

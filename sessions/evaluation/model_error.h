@@ -30,7 +30,7 @@ struct ModelView {
 double surfaceDistance_m(const Pose& camera_from_station_true,
                          const Pose& camera_from_station_estimated, const ModelView& model);
 /// MSPD, px: the same between their projections. Vertices that the camera cannot project under the
-/// truth do not count; one that only the estimate hides counts as an image diagonal. Nothing when
+/// truth do not count; one that only the estimate hides counts as an image diagonal. Empty when
 /// none can be projected.
 std::optional<double> projectionDistance_px(const Camera& camera,
                                             const Pose& camera_from_station_true,

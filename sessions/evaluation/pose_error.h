@@ -39,7 +39,7 @@ PoseError poseError(const Pose& camera_from_station_true, const Pose& camera_fro
 
 /// Mean over the vertices of the distance between their projections under estimate and truth, px.
 /// Vertices that the camera cannot project under the truth do not count; one that only the estimate
-/// puts behind the camera or outside its field counts as a whole image diagonal. Nothing when no
+/// puts behind the camera or outside its field counts as a whole image diagonal. Empty when no
 /// vertex can be projected under the truth.
 std::optional<double> projectionError(const Camera& camera, const Pose& camera_from_station_true,
                                       const Pose& camera_from_station_estimated,
@@ -88,18 +88,18 @@ const char* judgedPlace(const std::optional<Pose>& camera_from_end_effector);
 
 /// From a covariance over xi = (rotation rad, translation m) of the left perturbation in the camera
 /// frame. Translations are those of the end effector's origin p in the camera frame (the camera's
-/// centre without one): d = r x p + t. Nothing when the covariance is zero, not finite, or has a
+/// centre without one): d = r x p + t. Empty when the covariance is zero, not finite, or has a
 /// negative variance.
 std::optional<PoseSigma> poseSigma(const Matrix6d& covariance,
                                    const std::optional<Pose>& camera_from_end_effector);
 
 /// One sigma of projected points: root of the mean over the points of the variance of both
-/// coordinates together, px. Nothing when none of them projects.
+/// coordinates together, px. Empty when none of them projects.
 std::optional<double> projectionSigma(const Camera& camera, const Pose& camera_from_station,
                                       std::span<const Eigen::Vector3f> points_in_station_m,
                                       const Matrix6d& covariance);
 
-/// The largest part of the requirement that the error takes up; above 1: beyond it.
+/// Largest ratio of the error to a limit of the requirement; above 1: exceeded.
 double requirementShare(const PoseError& error, const Requirement& requirement);
 
 /// The one-sigma figure of a pose that exceeds the requirement most, as a clause: "10.4 mm across

@@ -18,7 +18,7 @@ struct SeenPoint {
 /// A solved image as other programs' formats describe it.
 struct PosedImage {
   int id = 0;        ///< of the image, not negative
-  std::string name;  ///< its file; where the format has one
+  std::string name;  ///< file name, where the format has one
   Camera camera;     ///< after prepareCamera
   Pose camera_from_station;
   /// Review status of the pose for formats with remarks. One line.

@@ -34,7 +34,7 @@ struct ResultsFacts {
 ResultsFacts readResultsFacts(const std::filesystem::path& file);
 
 /// Calls `take` for each run, with tags and without steps, ordered by dataset, then seed, then
-/// method, whatever order they were run in. InputError.
+/// method. InputError.
 void forEachRun(const std::filesystem::path& file, const std::function<void(RunResult&&)>& take);
 
 /// The iterations of a file's runs, one run at a time.
@@ -66,14 +66,15 @@ void addMethodFacts(SqlDatabase& database, const MethodFacts& method);
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names, const std::string& prefix = "");
 
-/// A results file that grows: each run is a transaction that is on the disk when `add` returns, so
-/// that a process may be killed at any time and another one may continue. A run is identified by
-/// its case, the number of its seed, and its method, whose options a file holds once: there are no
-/// duplicates. Not thread-safe.
+/// A results file that grows. Each run is a transaction that is on the disk when `add` returns: a
+/// process may be killed at any time, and another one may continue. Case, seed number and method
+/// identify a run; there are no duplicates. A file holds the options of a method once. Not
+/// thread-safe.
 class ResultsWriter {
  public:
   /// Creates the file, or continues an existing one. OutputError when it cannot be written, is not
-  /// a results file, another process is writing it, or its runs are of another dataset or version.
+  /// a results file, is being written by another process, or has runs of another dataset or
+  /// version.
   ResultsWriter(const std::filesystem::path& file, const DatasetFacts& dataset);
   ~ResultsWriter();
 

@@ -83,7 +83,7 @@ struct RunResult {
   std::string status;
   std::string message;  ///< why it did not converge; empty otherwise
   bool completed = false;
-  std::optional<bool> success;  ///< nothing without truth or requirement
+  std::optional<bool> success;  ///< empty without truth or requirement
   bool false_positive = false;
   bool gross_false_positive = false;
 
@@ -93,7 +93,8 @@ struct RunResult {
   std::int32_t matches = 0;  ///< of the last iteration that matched
   std::int32_t inliers = 0;
   double edge_support = 0.0;
-  /// Of runs with a search that found a pose: probability that it is right, and its evidence.
+  /// Of runs with a search that found a pose: probability that the pose is correct, and its
+  /// evidence.
   std::optional<double> probability;
   std::optional<double> evidence_nats;          ///< ContourEvidence::strongest_nats()
   std::optional<double> weakest_quadrant_nats;  ///< ContourEvidence::weakest_nats()
@@ -118,8 +119,7 @@ struct RunResult {
 };
 
 /// The poses that a run compared, as a JSON list: origin, score, probability and evidence of each.
-/// `share_of` gives the largest part of the requirement that a pose's error takes up, where it is
-/// known.
+/// `share_of` gives requirementShare() of a pose's error, where it is known.
 std::string comparedText(const LocalizationTrace& trace,
                          const std::function<std::optional<double>(const Pose&)>& share_of);
 

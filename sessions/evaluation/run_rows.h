@@ -24,7 +24,7 @@ struct Column {
   std::function<void(Row&, const SqlValue&, const std::filesystem::path&)> read = {};
 };
 
-/// The columns of a table, without id, keys and references, and rows made of them.
+/// The columns of a table, without id, keys and references, and rows built from them.
 template <class Row>
 struct RowTable {
   std::vector<Column<Row>> columns;
@@ -63,7 +63,7 @@ class RowReader {
     }
   }
 
-  /// The row that the statement is at. InputError.
+  /// The current row of the statement. InputError.
   Row read(const SqlStatement& statement, const std::filesystem::path& file) const {
     Row row;
     for (std::size_t i = 0; i < columns_.size(); ++i)

@@ -34,9 +34,9 @@ struct SequenceInputs {
 };
 
 /// Localizes the frames of a sequence one after the other, each from the last accepted pose
-/// (PoseFollower), in the memory of the first. A frame whose run does not converge is lost; so is
-/// one without an image or of another size, which has status "input_error", and one from whose seed
-/// the station is not seen ("bad_seed").
+/// (PoseFollower), in the memory of the first. A frame is lost when its run does not converge, its
+/// image is missing or of another size ("input_error"), or the station is not visible from its seed
+/// ("bad_seed").
 class Sequence {
  public:
   explicit Sequence(SequenceInputs inputs);

@@ -50,11 +50,11 @@ ExportReport exportColmap(const Session& session, const std::filesystem::path& f
                           const CasePoses& poses, const ExportProgress& progress = {});
 
 /// Writes a new folder with a BOP scene (bop_scene.h) of the poses: scene_gt.json,
-/// scene_camera.json, and in gray/ the 8-bit images as cameras without distortion would have taken
-/// them. Images are numbered as their files are (000012.png is 12) when all images of the session
-/// are, each differently; otherwise by the order of their cases in the session, from 1. Objects are
-/// the session's stations in their order, from 1. A `remark` in scene_gt.json names who validated a
-/// pose, or states that it is not validated. InputError when an image cannot be read; OutputError.
+/// scene_camera.json, and in gray/ the undistorted 8-bit images. Images are numbered by their file
+/// names (000012.png is 12) when all file names in the session are distinct numbers; otherwise by
+/// the order of their cases, from 1. Objects are the session's stations in their order, from 1. A
+/// `remark` in scene_gt.json names who validated a pose, or states that it is not validated.
+/// InputError when an image cannot be read; OutputError.
 ExportReport exportBop(const Session& session, const std::filesystem::path& folder,
                        const CasePoses& poses, const ExportProgress& progress = {});
 
@@ -67,7 +67,7 @@ ExportReport exportBopResults(const Session& session, const std::filesystem::pat
                               const ExportProgress& progress = {});
 inline constexpr const char* kNotValidatedName = "NOT-VALIDATED";
 
-/// Writes a case's annotations as points.json, or points.csv where the name ends so. InputError
+/// Writes a case's annotations as points.json, or points.csv, by the ending of the name. InputError
 /// when the case does not exist or has none; OutputError.
 void exportAnnotations(const Session& session, const std::string& case_id,
                        const std::filesystem::path& file);
@@ -85,15 +85,15 @@ struct ImportReport {
   std::vector<std::string> notes;     ///< data left out, and why
 };
 
-/// The annotations of a points.json or points.csv become the case's. InputError when the case has
+/// Sets the annotations of a case from points.json or points.csv. InputError when the case has
 /// others and they are not to be replaced.
 ImportReport importAnnotations(const Session& session, const std::string& case_id,
                                const std::filesystem::path& file, bool replace);
 
-/// The poses of a COLMAP text model become the truths of the cases whose images it names, by the
-/// names of `exportColmap` or by the ends of the images' paths. InputError when it names none, a
-/// name fits several cases, or a case has another truth that is not to be replaced. A camera that
-/// differs from the case's is noted, and the image left out: its pose holds for that camera only.
+/// Sets the truths of cases from a COLMAP text model, whose image names are those of `exportColmap`
+/// or ends of image paths. InputError when no name fits, a name fits several cases, or a case has
+/// another truth that is not to be replaced. A camera that differs from the case's is noted, and
+/// the image left out: its pose holds for that camera only.
 ImportReport importColmap(const Session& session, const std::filesystem::path& folder,
                           bool replace);
 

@@ -277,7 +277,7 @@ void writeColmapText(const std::filesystem::path& folder, std::span<const PosedI
     if (image.id < 1 || !ids.insert(image.id).second || !named)
       throw OutputError(folder / "images.txt", "image " + std::to_string(image.id) + " '" +
                                                    image.name +
-                                                   "' needs an id and a name of its own");
+                                                   "' needs a unique id and a unique name");
     if (isCahvFamily(image.camera.model))
       throw OutputError(folder / "cameras.txt",
                         "image " + std::to_string(image.id) + " '" + image.name +

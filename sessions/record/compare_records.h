@@ -43,8 +43,8 @@ struct FirstDifference {
 struct ComparisonLimits {
   double found_px = 1.0;  ///< a template found within this counts as found alike, px at its level
   double found_share = 0.8;   ///< of the templates that both searched at one place
-  double inlier_share = 0.7;  ///< of the inliers of either among these, those that both have
-  double pose_sigmas = 3.0;   ///< final poses apart, in sigmas of the first one's covariance
+  double inlier_share = 0.7;  ///< of the inliers of either run among these, share common to both
+  double pose_sigmas = 3.0;   ///< distance of the final poses, in sigmas of the first pose
 };
 
 /// One iteration of both runs. Templates are compared where both took one at the same pixel.
@@ -70,7 +70,7 @@ struct RecordComparison {
   std::vector<IterationComparison> iterations;  ///< those that both have
   double translation_mm = 0.0;                  ///< between the final poses
   double rotation_mrad = 0.0;
-  std::optional<double> pose_sigmas;  ///< nothing when one has no final pose or no covariance
+  std::optional<double> pose_sigmas;  ///< empty when one has no final pose or no covariance
   std::vector<std::string> beyond;    ///< which limits are exceeded, sentences
   std::vector<std::string> missing;   ///< data that either record lacks
 };

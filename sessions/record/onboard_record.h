@@ -19,7 +19,7 @@
 
 namespace boresight::sessions {
 
-/// An option as stored in the record, also if this program does not know it.
+/// An option as stored in the record, also if unknown to this program.
 struct RecordedOption {
   std::string name;
   OptionKind kind = OptionKind::kReal;
@@ -69,8 +69,8 @@ struct RecordedIteration {
   /// The figures of the iteration. When read from a record, its lists are empty, and of hypotheses
   /// that were not chosen only the roll is known.
   IterationTrace trace;
-  std::optional<RecordHash> render_sha256;                 ///< zeros: it failed; nothing: not known
-  std::optional<std::vector<RecordedTemplate>> templates;  ///< nothing: none, or not in the record
+  std::optional<RecordHash> render_sha256;                 ///< zeros: it failed; empty: not known
+  std::optional<std::vector<RecordedTemplate>> templates;  ///< empty: none, or not in the record
   std::optional<EdgeSupport> support;  ///< of an iteration whose pose was judged by it
 };
 
@@ -87,7 +87,7 @@ struct RecordedEnd {
 /// The content of a record before its first damage.
 struct OnboardRecord {
   std::optional<RecordedInputs> inputs;
-  std::vector<RecordedOptions> options;  ///< those that it started with, then changes
+  std::vector<RecordedOptions> options;  ///< those at the start, then changes
   std::optional<RecordedEdges> edges;
   std::vector<RecordedIteration> iterations;
   std::optional<RecordedEnd> end;
@@ -96,24 +96,24 @@ struct OnboardRecord {
   bool whole() const { return missing.empty(); }
 };
 
-/// Reads a record; any bytes are allowed. InputError (`file` names them) when they do not begin as
-/// a record of this version does.
+/// Reads a record; any bytes are allowed. InputError (`file` names them) unless they begin like a
+/// record of this version.
 OnboardRecord parseRecord(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 /// The same of a file; InputError.
 OnboardRecord readRecord(const std::filesystem::path& file);
 
 /// The onboard record that the flight side would have written for a run that was traced here, field
-/// for field. `given` is the input of the run: nullptr when only the trace is left, and then the
-/// hashes of the inputs are missing. `missing` also names edges, renders and templates that a
-/// summary does not have, and the end of a run that was halted.
+/// for field. `given` is the input of the run: nullptr when only the trace is left; the hashes of
+/// the inputs are then missing. `missing` also names edges, renders and templates that a summary
+/// does not have, and the end of a run that was halted.
 OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* given);
 
 /// An onboard run in the form of a local run, for all views. Poses, counts, templates, where they
 /// were found, inliers, support and end are the record's. Data that is not in the record is
 /// computed by the core from the ground's inputs, with the record's options and at the record's
 /// poses: the image's edges, renders, the templates' points, search windows; residuals are those of
-/// the recorded poses. Edge places of refinements, covariances but the last, and the counts behind
-/// matching scores are not known and stay empty (`recorded_scores` has the scores).
+/// the recorded poses. Edge places of refinements, covariances except the last, and the counts
+/// behind matching scores stay empty (`recorded_scores` has the scores).
 ///
 /// `ground` is the input of a run on the ground. `remarks` states whether it differs from the
 /// onboard input, and whether the record is truncated or of another program. With the same inputs
@@ -122,11 +122,11 @@ OnboardRecord recordOf(const LocalizationTrace& run, const LocalizationProblem* 
 LocalizationTrace replayRecord(const OnboardRecord& record, const LocalizationProblem& ground,
                                const std::stop_token& stop = {});
 
-/// The options of an onboard run as this program understands them.
+/// The options of an onboard run as read by this program.
 struct RecordedPlan {
   RunPlan plan;
-  /// Differences from the onboard options, sentences: options that this program does not know or
-  /// whose value it rejects, and options that the record lacks. All of these have their default.
+  /// Differences from the onboard options, sentences: unknown options, rejected values, and options
+  /// that the record lacks. All of these have their default.
   std::vector<std::string> remarks;
   bool has_options = false;  ///< false: the record has none, and all have their default
 };

@@ -45,7 +45,7 @@ struct PdfTextStyle {
 /// Output format of a canvas. A PNG has 2.5 pixels per point, on white.
 enum class CanvasFormat { kPdf, kSvg, kPng };
 
-/// A4, upright, unless another size is asked for. Not for several threads.
+/// A4 upright by default. Not thread-safe.
 class PdfCanvas {
  public:
   static constexpr double kWidth = 595.0;
@@ -67,7 +67,7 @@ class PdfCanvas {
               const PdfTextStyle& style = {});
 
   void line(double x0, double y0, double x1, double y1, const PdfColor& color, double width = 0.6);
-  /// `dashes`: lengths drawn and left out in turn, pt; empty: a whole line.
+  /// `dashes`: lengths drawn and left out in turn, pt; empty: a solid line.
   void polyline(const std::vector<std::array<double, 2>>& points, const PdfColor& color,
                 double width, const std::vector<double>& dashes = {});
   void circle(double x, double y, double radius, const PdfColor& color, bool filled);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// The report of a pose: two pages of PDF for those who sign or read it.
+// SPDX-License-Identifier: Apache-2.0 Report of a pose: two PDF pages.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +19,9 @@ namespace boresight::sessions {
 
 struct PoseReport {
   const Session* session = nullptr;
-  HandedPose pose;  ///< with its checks, judged or as they are now
+  HandedPose pose;  ///< with its checks, as judged or current
   std::shared_ptr<const LoadedCase> loaded;
-  std::optional<LocalizationTrace> trace;  ///< of the pose's run; none of a pose from annotations
+  std::optional<LocalizationTrace> trace;  ///< of the pose's run; empty for a pose from annotations
 };
 
 /// The data to report of a case: its pose, measured again (checkedPose), its image and its run.

@@ -25,11 +25,10 @@ struct RunProvenance {
   std::vector<std::string> warnings;  ///< printed before the run
 };
 
-/// result.json (`boresight-result`, version 1): status, pose, covariance, the pose in the
-/// frames that have names (as in validated_pose.json), one line per iteration, errors against a
-/// truth, seconds per stage, and the provenance: hashes of every input (of an image the file's and
-/// the 8-bit pixels'), options, version, digest. InputError when an input is no longer there to be
-/// hashed.
+/// result.json (`boresight-result`, version 1): status, pose, covariance, the pose in the frames
+/// that have names (as in validated_pose.json), one line per iteration, errors against a truth,
+/// seconds per stage, and the provenance: hashes of every input (of an image the file's and the
+/// 8-bit pixels'), options, version, digest. InputError when an input to be hashed is missing.
 nlohmann::ordered_json resultJson(const LocalizationTrace& trace,
                                   const std::optional<PoseError>& error,
                                   const RunProvenance& provenance);

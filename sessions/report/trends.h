@@ -42,7 +42,7 @@ struct TrendPoint {
 /// named in `remarks`. InputError.
 std::vector<TrendPoint> trendOf(std::span<const std::filesystem::path> sessions,
                                 std::vector<std::string>& remarks);
-/// The same of one session, without flags of outliers. Once stopped it returns what it has.
+/// The same of one session, without flags of outliers. After a stop, returns the points so far.
 std::vector<TrendPoint> trendOf(const Session& session, const std::filesystem::path& file,
                                 std::vector<std::string>& remarks,
                                 const std::stop_token& stop = {});

@@ -24,7 +24,7 @@ struct AnnotationConcern {
   /// Annotations of the case that a robust solution gives less than half the weight, by id.
   /// Determined when the residuals are too large or the solution is robust.
   std::vector<std::string> suspects;
-  bool robust = false;  ///< the solution itself weighs annotations
+  bool robust = false;  ///< the solution itself is robust
 };
 AnnotationConcern annotationConcern(const CaseAnnotationsSolution& solution,
                                     const PoseQuality& quality);

@@ -67,8 +67,8 @@ struct QueueRow {
   std::shared_ptr<const ReviewSubject> subject;
 };
 
-/// Checks a case's last run with the inputs as they are now. Reads its files and its trace;
-/// failures to read are reported in `trouble`. std::invalid_argument when there is no such case.
+/// Checks a case's last run with the current inputs. Reads its files and its trace; failures to
+/// read are reported in `trouble`. std::invalid_argument when there is no such case.
 QueueRow queueRow(const Session& session, const std::string& case_id);
 /// The same for inputs that were read already (nullptr: they could not be read, for `reason`).
 QueueRow queueRow(const Session& session, const std::string& case_id,
@@ -97,9 +97,8 @@ std::vector<QueueRow> queueRows(const Session& session, int jobs = 1,
                                 const std::stop_token& stop = {},
                                 const QueueProgress& progress = {});
 
-/// Rows for the runs of a results file that become cases of its session (session_of_results.h), in
-/// the order and with the texts of that session's queue. Reads only the file: neither dataset nor
-/// images. InputError.
+/// Rows for the runs of a results file that become cases of its session (session_of_results.h), as
+/// in that session's queue. Reads only the file: neither dataset nor images. InputError.
 std::vector<QueueRow> resultsQueue(const std::filesystem::path& results_file);
 
 /// A readable table, in the order of the rows.

@@ -75,8 +75,8 @@ bool samePerson(const std::string& text, const std::string& other);
 /// Reasons for waiving failed checks, by check id.
 using CheckWaivers = std::map<std::string, std::string>;
 
-/// Why this pose cannot be validated now, or "": the run did not converge, it is stale (inputs or
-/// options have changed since), or it is not the case's last one.
+/// Why this pose cannot be validated now, or "": the run did not converge, is stale (inputs or
+/// options have changed since), or is not the case's last run.
 std::string validationConcern(const Session& session, const ReviewSubject& subject);
 
 /// Validates a pose: requires a name, a comment, and every check passed or waived with a reason;

@@ -30,8 +30,8 @@ struct RunSide {
   int checks_failed = 0;
   /// Against the truth; empty when that is not known or the run did not converge.
   std::optional<PoseError> error;
-  /// The largest part of the requirement that the error takes up; above 1: beyond it. Also empty
-  /// when the truth's own sigma exceeds the requirement: such a truth is not used.
+  /// requirementShare() of the error. Also empty when the truth's own sigma exceeds the
+  /// requirement: such a truth is not used.
   std::optional<double> error_share;
 };
 
@@ -55,7 +55,7 @@ std::vector<OptionChangeText> optionChanges(const LocalizerOptions& before,
 /// "pnp.min_inliers 12 -> 100"; more than three are counted.
 std::string optionChangesText(std::span<const OptionChangeText> changes);
 
-/// How far apart two poses of a case are.
+/// Distance between two poses of a case.
 struct PoseDistance {
   double translation_mm = 0.0;          ///< at the end effector, else at the camera
   double rotation_deg = 0.0;            ///< whole angle
@@ -68,7 +68,7 @@ std::string poseDistanceText(const PoseDistance& distance);
 
 /// A run of a list, next to the run before it.
 struct RunListLine {
-  std::string changed;  ///< "inputs, pnp.min_inliers 12 -> 100"; empty: nothing, or the first run
+  std::string changed;  ///< "inputs, pnp.min_inliers 12 -> 100"; empty: no change, or the first run
   std::optional<PoseDistance> moved;  ///< empty unless both runs converged
 };
 /// In the order of the runs of one case. Lines of a trace that cannot be read are empty.
@@ -91,24 +91,24 @@ struct RunDifference {
   std::string why;  ///< a clause: the reason for `change`
 };
 
-/// The two last runs of a case, the earlier one first; nothing when there are fewer.
+/// The two last runs of a case, the earlier one first; empty when there are fewer.
 struct RunPair {
   const RunRecord* before = nullptr;  ///< both point into the session
   const RunRecord* after = nullptr;
 };
 std::optional<RunPair> lastTwoRuns(const Session& session, const std::string& case_id);
 
-/// Compares two runs of one case. The checks of both are made with the inputs and limits as they
-/// are now. With a known truth, a correct pose (within the requirement) is better than a failed
-/// run, which is better than a wrong pose; of two wrong poses the nearer one is better, if by a
-/// tenth of the requirement. Otherwise the checks decide, from best to worst: all passed, fewer
-/// failed, a failed run. InputError when a trace cannot be read; std::invalid_argument when the
-/// runs are not of one case of the session.
+/// Compares two runs of one case. Both are checked with the current inputs and limits. With a known
+/// truth, a correct pose (within the requirement) is better than a failed run, which is better than
+/// a wrong pose; of two wrong poses the nearer one is better, if nearer by a tenth of the
+/// requirement. Otherwise the checks decide, from best to worst: all passed, fewer failed, a failed
+/// run. InputError when a trace cannot be read; std::invalid_argument when the runs are not of one
+/// case of the session.
 RunDifference compareRuns(const Session& session, const std::string& before_digest,
                           const std::string& after_digest,
                           std::shared_ptr<const LoadedCase> loaded);
 
-/// Better, worse or same, and why, by the rules above.
+/// Sets `change` and `why` by the rules above.
 void judgeChange(RunDifference& difference);
 
 /// One line of a table: label and both values.

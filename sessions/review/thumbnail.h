@@ -7,9 +7,9 @@
 
 namespace boresight::sessions {
 
-/// A small picture of a pose: the part of the image that holds the station, of this size, with the
-/// station's edges from that pose. The core renders them at the picture's own resolution, so that
-/// they stay sharp. The whole image when the station is not visible. The sizes are at least 8 px.
+/// A small picture of a pose: the part of the image that holds the station, with the station's
+/// edges from that pose. The core renders them at the picture's own resolution, so that they stay
+/// sharp. The whole image when the station is not visible. The sizes are at least 8 px.
 ColorImage poseThumbnail(const ImageView& image, const Camera& camera, const MeshView& mesh,
                          const Pose& camera_from_station, int width_px, int height_px,
                          const ColorBgr& color = kResultColor);

@@ -42,7 +42,7 @@ struct HandedPoses {
   std::vector<HandedPose> poses;
   std::vector<std::string> notes;  ///< cases without a pose
 };
-/// The same for several cases (all of them when none is named), in the order of the session.
+/// The same for several cases (all when none is named), in the order of the session.
 HandedPoses handedPoses(const Session& session, const std::vector<std::string>& case_ids);
 
 struct MeasuredPose {
@@ -61,7 +61,7 @@ MeasuredPose measurePose(const Session& session, const HandedPose& pose, int con
 
 /// A pose to hand over, with all measurable data measured again.
 struct CheckedPose {
-  HandedPose pose;        ///< with its checks: as they were judged, else as they are now
+  HandedPose pose;        ///< with its checks: as judged, else current
   Session session;        ///< that was measured: sessionOfCase
   ReviewSubject subject;  ///< as measured
 };
@@ -119,11 +119,11 @@ struct VerifyReport {
   /// waived. One sentence each.
   std::vector<std::string> not_proved;
 
-  /// Whether everything that was measured is as stated; the pose may still be NOT VALIDATED.
+  /// Whether all measurements are as stated; the pose may still be NOT VALIDATED.
   bool good() const;
 };
 
-/// Where to look for what a validated_pose.json names.
+/// Locations of the files that a validated_pose.json names.
 struct VerifyPlaces {
   std::optional<std::filesystem::path> folder = std::nullopt;
   std::optional<std::filesystem::path> signers = std::nullopt;
@@ -131,10 +131,10 @@ struct VerifyPlaces {
 /// Checks a validated_pose.json: its signature, the files that it names by their hashes, whether
 /// the decision in it still holds, and whether all members follow from each other. With `run_again`
 /// the run is repeated (the annotations are solved again), and its digest, pose, covariance,
-/// matches and every check are compared with what is stated; with `convergence_again` the
-/// convergence test, too. Files that are not where the document names them are looked for below
-/// `places.folder`, by their hashes; with `places.signers` those who decided must have signed the
-/// file with their keys (key_signature.h). InputError when the file is not a validated_pose.json.
+/// matches and every check are compared with the file; with `convergence_again` also the
+/// convergence test. Missing files are searched below `places.folder` by their hashes; with
+/// `places.signers` the deciders must have signed the file with their keys (key_signature.h).
+/// InputError when the file is not a validated_pose.json.
 VerifyReport verifyPose(const std::filesystem::path& file, bool run_again,
                         bool convergence_again = false, const VerifyPlaces& places = {});
 

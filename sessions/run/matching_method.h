@@ -40,8 +40,8 @@ class MethodError : public std::runtime_error {
 };
 
 /// Replaces WHS in the localizer's loop: computes correspondences between a render and an image.
-/// Renderer, templates, schedule and pose solver are the core's. To add one, derive from this, and
-/// name it in methods.cpp. One run at a time.
+/// Renderer, templates, schedule and pose solver are the core's. To add a method, derive from this
+/// class, and name it in methods.cpp. One run at a time.
 class MatchingMethod {
  public:
   virtual ~MatchingMethod() = default;
@@ -53,7 +53,7 @@ class MatchingMethod {
   /// where there is no place), or any other items of the render, at most options.templates.count.
   /// MethodError.
   virtual void match(const MatchQuery& query, std::vector<SuppliedMatch>& found) = 0;
-  /// Largest number of correspondences that it returns; 0: one per template.
+  /// Largest number of correspondences returned; 0: one per template.
   virtual int capacity() const { return 0; }
 };
 

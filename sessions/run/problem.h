@@ -25,8 +25,8 @@ LocalizationProblem problemOf(const GrayImage& image, const BitImage* ignore, co
 /// `problem` without inputs that the run does not use (withoutUnusedInputs).
 RecordInputs recordInputs(const LocalizationProblem& problem);
 
-/// Why a run from this seed is pointless, or "": the matched parts lie behind the camera, or
-/// nothing of them is inside the image. Whether the visible part suffices is decided by the run.
+/// Why a run from this seed is pointless, or "": the matched parts lie behind the camera or outside
+/// the image. Whether the visible part suffices is decided by the run.
 std::string seedConcern(const Camera& camera, const MeshView& mesh,
                         const Pose& camera_from_station_seed);
 

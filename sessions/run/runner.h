@@ -28,13 +28,13 @@ struct RunSettings {
   /// 1 ... Localizer::kMaxWorkers; 0: one per core, and one where there is a memory limit.
   int threads = 0;
   /// Instructions that the inner loops use. With a memory limit always the portable ones: wide
-  /// registers need more memory, and the limit is that of a machine without them.
+  /// registers need more memory, and the limit is for a machine without them.
   Kernels kernels = bestKernels();
   /// If given, receives the onboard record of the run, from its first block to its last.
   RecordWriter* onboard_record = nullptr;
   /// If given, replaces WHS and thereby changes the result.
   MatchingMethod* method = nullptr;
-  /// Reflectance of each part in the render that `method` gets; empty: all alike.
+  /// Reflectance of each part in the render for `method`; empty: equal.
   std::span<const double> albedo_of_part = {};
 };
 
@@ -47,17 +47,16 @@ struct JointResult {
 /// How far a step goes.
 enum class StepUntil { kStage, kIteration, kEnd };
 
-/// The one loop around Localizer::step() and ViewsLocalizer::step() on the ground: takes memory for
-/// the whole run, steps with all threads, times, and keeps a trace. It halts as requested (after a
-/// stage, after an iteration, at the end, or between two slices when it is stopped), and can
-/// continue from there. Neither halting nor recording changes a bit of the result. One calling
-/// thread at a time.
+/// The loop around Localizer::step() and ViewsLocalizer::step() on the ground: takes memory for the
+/// whole run, steps with all threads, times, and keeps a trace. It halts after a stage, after an
+/// iteration, at the end, or between two slices when stopped, and can continue. Neither halting nor
+/// recording changes a bit of the result. One calling thread at a time.
 class Runner {
  public:
-  /// What `problem` points to must outlive the object. A problem or plan that cannot run, or not
-  /// within the limit (kArenaTooSmall), results in a finished trace with kFault and without
-  /// iterations. With a limit the localizer gets all that the inputs leave of it. Throws
-  /// std::bad_alloc, and MethodError when the method, if any, cannot begin.
+  /// Data of `problem` must outlive the object. A problem or plan that cannot run, or exceeds the
+  /// limit (kArenaTooSmall), results in a finished trace with kFault and without iterations. With a
+  /// limit, the localizer gets the memory that the inputs leave. Throws std::bad_alloc, and
+  /// MethodError when the method, if any, cannot begin.
   Runner(const LocalizationProblem& problem, const RunPlan& plan, const RunSettings& settings = {});
   /// Several views that are solved as one (core/views). `case_ids` name them in their order. Of the
   /// settings, only threads and kernels are used.
@@ -75,12 +74,12 @@ class Runner {
   void advance(StepUntil until, const std::stop_token& stop = {});
 
   bool finished() const { return trace().finished; }
-  /// Everything up to now; of the first view, if there are several.
+  /// Trace so far; of several views, that of the first.
   const LocalizationTrace& trace() const { return traces().front(); }
-  /// One per view in their order, each as if it were a run of its own. Iterations are those of the
-  /// first view's loop; in one that a view had no part in, its trace holds the pose of the others
-  /// in its camera and nothing else. Times are of all views together; a digest is that of all views
-  /// together and the view's number.
+  /// One per view in their order, each like a separate run. Iterations are those of the first
+  /// view's loop; for an iteration without the view, its trace holds only the pose of the others,
+  /// in its camera frame. Times are of all views together; a digest combines the digest of all
+  /// views and the view's number.
   const std::vector<LocalizationTrace>& traces() const;
   /// Of several views, once they have finished.
   const JointResult& joint() const;
@@ -103,7 +102,7 @@ inline LocalizationTrace localize(const LocalizationProblem& problem, const RunP
 }
 
 /// Number of threads of one of `jobs` runs at the same time: `asked`; for 0 one within a memory
-/// limit (each thread needs memory of its own), else the share of the machine's cores.
+/// limit (each thread needs memory), else the share of the machine's cores.
 int threadsOf(int asked, std::size_t memory_limit, int jobs = 1);
 
 /// Bytes of a problem's data: image, ignore mask, mesh.

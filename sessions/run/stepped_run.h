@@ -47,7 +47,7 @@ std::unique_ptr<SteppedRun> stepSeveralViews(const ViewsProblem& problem,
                                              const std::vector<std::string>& case_ids,
                                              const RunSettings& settings);
 
-/// A run that cannot begin.
+/// Ends a run that cannot begin.
 void refuse(LocalizationTrace& trace, Status fault);
 
 }  // namespace boresight::sessions

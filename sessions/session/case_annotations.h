@@ -25,7 +25,7 @@ struct CaseAnnotations {
   std::vector<AnnotatedView> views;   ///< cameras prepared; `name` is the case's id
   bool rigid = false;                 ///< several: the pose is the rig's
   bool robust = false;                ///< the session's choice
-  Requirement requirement;            ///< of the case itself, as is the next
+  Requirement requirement;            ///< of the case itself, like the next member
   std::optional<Pose> camera_from_end_effector;
 };
 
@@ -42,13 +42,13 @@ struct CaseAnnotationsSolution {
   AnnotationsResult result;
   std::vector<LeftOut> left_out;  ///< of a solution, by its annotations
 
-  /// The pose of the case itself (of view 0), or nothing.
+  /// The pose of the case itself (of view 0), or empty.
   std::optional<Pose> camera_from_station() const;
-  /// Its covariance from the annotations alone: left perturbation, camera frame.
+  /// Covariance of that pose from the annotations alone: left perturbation, camera frame.
   std::optional<Matrix6d> covariance() const;
   /// sigmaExcessText() of its one sigma; "" when it meets the requirement.
   std::string sigmaExcess() const;
-  /// The other pose that explains coplanar annotations, or nothing.
+  /// The other pose that explains coplanar annotations, or empty.
   std::optional<Pose> ambiguous_camera_from_station() const;
   /// Normalized residuals (in standard deviations) of the outliers among the case's own
   /// annotations, by id; none without a solution.

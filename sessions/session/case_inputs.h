@@ -13,28 +13,28 @@
 
 namespace boresight::sessions {
 
-/// The four files that make a case.
+/// The four input files of a case.
 enum class InputKind { kImage, kCamera, kMesh, kSeed };
 inline constexpr int kInputKinds = 4;
 
 /// An input that a run would reject.
 struct InputConcern {
-  InputKind kind = InputKind::kImage;  ///< the one that is most likely wrong
+  InputKind kind = InputKind::kImage;  ///< the input most likely wrong
   std::string text;                    ///< one sentence
 };
 
 /// Whether the mesh's format fixes its unit: metres, of glTF and GLB.
 bool statesUnit(const std::filesystem::path& mesh);
 
-/// Why requireRunnable() rejects a case, or nothing. Nothing also for a case without a seed, which
-/// is to be annotated.
+/// Why requireRunnable() rejects a case; empty when it accepts it, and for a case without a seed,
+/// which is to be annotated.
 std::optional<InputConcern> inputConcern(const LoadedCase& loaded);
 
 /// Validation of one file of a new case.
 struct JudgedFile {
   std::string text;     ///< description: "1024 x 1024 px, 8 bit"; empty: not given
-  std::string problem;  ///< why it cannot be used, or does not fit the others; empty: it can
-  std::shared_ptr<const GrayImage> image;  ///< of the image: as the core gets it
+  std::string problem;  ///< why it cannot be used, or does not fit the others; empty: usable
+  std::shared_ptr<const GrayImage> image;  ///< of the image, as passed to the core
 };
 /// By `InputKind`.
 using JudgedFiles = std::array<JudgedFile, kInputKinds>;

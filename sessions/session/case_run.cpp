@@ -115,15 +115,16 @@ RunPlan planOf(const RunRecord& run, const Session& session, const fs::path& fil
   const SessionCase& session_case = knownCase(session, run.case_id);
   const std::string place = "run " + run.digest;
   if (run.inputs_sha256 != inputsDigest(session_case))
-    throw InputError(file, place, "the inputs of case " + run.case_id + " are no longer its own");
+    throw InputError(file, place,
+                     "the inputs of case " + run.case_id + " have changed since the run");
   if (run.together && run.together->inputs_sha256 != viewsDigest(session, casesOf(*run.together)))
     throw InputError(file, place,
                      "it was made " + togetherText(run.together->views, run.case_id) +
-                         ", and one of these views is no longer there as it was");
+                         ", and one of these views has changed or is missing");
   if (run.rerun) return *run.rerun;
   const LocalizerOptions options = caseOptions(session, session_case, file);
   if (run.options_sha256 != optionsDigest(options))
-    throw InputError(file, place, "the session's options are no longer its own");
+    throw InputError(file, place, "the session's options have changed since the run");
   return options;
 }
 

@@ -53,7 +53,7 @@ void requireRunnable(const LoadedCase& loaded);
 /// inputs or options that cannot be run.
 LocalizationTrace runCase(const Session& session, const LoadedCase& loaded,
                           RecordLevel level = RecordLevel::kFull, const std::stop_token& stop = {});
-/// The same with a plan of its own instead of the session's options.
+/// The same with a plan instead of the session's options.
 LocalizationTrace runCase(const LoadedCase& loaded, const RunPlan& plan,
                           RecordLevel level = RecordLevel::kFull, const std::stop_token& stop = {});
 /// The same, with the inputs read first.
@@ -64,10 +64,10 @@ LocalizationTrace runCase(const Session& session, const std::string& case_id,
 /// InputError when the case's inputs or the session's options have changed since the run.
 RunPlan planOf(const RunRecord& run, const Session& session, const std::filesystem::path& file);
 
-/// Writes the trace into the session's folder of runs, unless a run of the same digest is there
-/// already, and returns its record. `session` is the one that ran. OutputError; std::logic_error
-/// for a run that was stopped. `from`: digest of the run that it continued, for a run that changed
-/// options on the way.
+/// Writes the trace into the session's folder of runs, unless a run with this digest exists, and
+/// returns its record. `session` is the one that ran. OutputError; std::logic_error for a run that
+/// was stopped. `from`: digest of the run that it continued, for a run that changed options on the
+/// way.
 RunRecord storeRun(const Session& session, const std::string& case_id,
                    const LocalizationTrace& trace, const std::filesystem::path& session_file,
                    const std::string& from = {});
@@ -79,7 +79,7 @@ Session withRun(const Session& session, RunRecord run);
 /// The trace of a run. InputError when the file is missing, damaged, of another run, or does not
 /// end as the record states.
 LocalizationTrace loadRun(const RunRecord& run);
-/// The same for display, with the views that were solved together with it.
+/// The same for display, with the views that were solved with it.
 LocalizationTrace loadSnapshot(const RunRecord& run);
 
 }  // namespace boresight::sessions

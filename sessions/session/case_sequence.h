@@ -21,17 +21,17 @@ namespace boresight::sessions {
 /// A sequence whose first frame starts from a case's seed.
 struct SequenceOrder {
   std::filesystem::path images;                  ///< folder, list or video
-  SessionCase session_case;                      ///< all of its inputs but its image
+  SessionCase session_case;                      ///< all inputs but the image
   DeclaredUncertainty motion = assumedMotion();  ///< between two frames, at most
   std::string profile = "default";
   LocalizerOptions options;       ///< with the case's feature size
   RunSettings settings;           ///< a summary of each run is kept, whatever its level
   std::filesystem::path results;  ///< SQLite; an existing file of the same sequence is continued
-  std::string command;            ///< that asked for it, for the results
+  std::string command;            ///< that started the sequence, for the results
 };
 
-/// Reads mesh and mask. Strokes of the mask are drawn for `image`, the case's own: pixels that they
-/// ignore by its gray values are ignored in all frames. InputError, also of a camera whose
+/// Reads mesh and mask. Strokes of the mask are drawn for `image`, the image of the case: pixels
+/// ignored by its gray values are ignored in all frames. InputError, also of a camera whose
 /// distortion folds back and of a seed from which the station is not visible; `places` names both.
 SequenceInputs sequenceInputs(const SequenceOrder& order, const InputPlaces& places,
                               const GrayImage* image = nullptr);
@@ -46,7 +46,7 @@ class CaseSequence {
   CaseSequence(const CaseSequence&) = delete;
   CaseSequence& operator=(const CaseSequence&) = delete;
 
-  /// The result of the next frame; nothing after the last one and after a stop. OutputError.
+  /// The result of the next frame; empty after the last one and after a stop. OutputError.
   std::optional<RunResult> next(const std::stop_token& stop = {});
 
   /// Number of frames as the source states it; 0 where it states none.
@@ -79,11 +79,11 @@ struct SequenceRow {
   std::int64_t number = 0;  ///< from 1
   std::string name;
   bool accepted = false;
-  std::optional<double> probability;  ///< that the pose is right
+  std::optional<double> probability;  ///< that the pose is correct
   std::optional<double> moved_mm;     ///< since the last accepted frame, of the station's centre
   std::optional<double> turned_deg;   ///< since the last accepted frame
   double seconds = 0.0;               ///< of the run
-  std::string reason;                 ///< why it is lost; empty otherwise
+  std::string reason;                 ///< why the frame is lost; empty otherwise
   Pose camera_from_station;           ///< of an accepted frame
 };
 /// `centre_in_station_m` is that of the matched parts.

@@ -44,7 +44,7 @@ void applyStrokes(const MaskStrokes& strokes, const ImageView& image, IgnoreMask
 
 /// The case with these strokes in place of its own; unchanged when there is no such case.
 Session withStrokes(const Session& session, const std::string& case_id, MaskStrokes strokes);
-/// One more stroke, after the others.
+/// Appends a stroke.
 Session withStroke(const Session& session, const std::string& case_id, MaskStroke stroke);
 
 /// Strokes that leave no pixel ignored: none or, where the case has a mask image, one stroke that

@@ -31,7 +31,7 @@ std::vector<Finding> checkInputs(const Session& session);
 /// image with its label where the label is another file. InputError.
 std::string inputSha256(const std::filesystem::path& file);
 
-/// A file that was moved, and where it is now.
+/// A moved file and its new path.
 struct Relink {
   std::filesystem::path missing;
   std::filesystem::path found;
@@ -39,7 +39,7 @@ struct Relink {
   bool operator==(const Relink&) const = default;
 };
 
-/// Looks for missing files below the folder of the session: first at the ends of their paths, then
+/// Searches missing files below the folder of the session: first at the ends of their paths, then
 /// everywhere by name (at most 100000 entries), then by extension. Only a file with the right hash
 /// counts.
 std::vector<Relink> findMissing(const Session& session, const std::filesystem::path& session_file);
@@ -47,12 +47,12 @@ std::vector<Relink> findMissing(const Session& session, const std::filesystem::p
 /// The same session with each missing path replaced by the found one; hashes stay.
 Session relinked(const Session& session, const std::vector<Relink>& relinks);
 
-/// The same session with the hashes that the case's files have now: the operator accepts
-/// them. Runs of the case become stale. InputError when a file cannot be read.
+/// The same session with the current hashes of the case's files: the operator accepts them. Runs of
+/// the case become stale. InputError when a file cannot be read.
 Session acceptingInputs(const Session& session, const std::string& case_id);
 
-/// Reads the image by this rule, which may differ from the session's. InputError when it cannot be
-/// read, or its files differ from those of the session.
+/// Reads the image by `eight_bit`, which may differ from the session's. InputError when it cannot
+/// be read, or its files differ from those of the session.
 GrayImage readKnownImage(const ImageInput& image, const ImageReadOptions& eight_bit);
 
 /// Reads the meshes of a case that are in use. InputError, also for files that differ from those of
@@ -80,7 +80,7 @@ struct Conversion {
   std::string case_id;
   ImageInput image;
 };
-/// The session with these images, except for cases that have another file by now.
+/// The session with these images, except for cases whose image was replaced meanwhile.
 Session withConversions(const Session& session, const std::vector<Conversion>& conversions);
 
 }  // namespace boresight::sessions

@@ -25,8 +25,8 @@ std::string meshScaleText(const InputSigmas& sigmas);
 /// "0.02 % and 0.5 px, assumed", "..., by the camera's covariance".
 std::string calibrationText(const InputSigmas& sigmas);
 
-/// The same session with these sigmas stated (nothing: assumed): the mesh's for all cases of the
-/// same parts as this case, the camera's for all cases of the same camera.
+/// The same session with these sigmas stated (empty: assumed): the mesh's for all cases of the same
+/// parts as this case, the camera's for all cases of the same camera.
 Session withInputSigmas(const Session& session, const std::string& case_id,
                         const std::optional<double>& mesh_scale_sigma,
                         const std::optional<CalibrationSigma>& calibration_sigma);

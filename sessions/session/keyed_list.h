@@ -104,7 +104,7 @@ class SharedValue {
 
   const T& operator*() const { return *value_; }
   const T* operator->() const { return value_.get(); }
-  /// Whether both are copies of one and the same value.
+  /// Whether both share one value.
   bool sharesWith(const SharedValue& other) const { return value_ == other.value_; }
 
   bool operator==(const SharedValue& other) const {

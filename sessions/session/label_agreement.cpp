@@ -57,8 +57,8 @@ std::string cameraConcern(const SessionCase& session_case, const CameraFile& lab
           label.reference->camera_from_reference.rotation);
   if (apart_m <= kAgreeing_m && turned_rad <= kAgreeing_rad) return "";
   return "the camera is not that of the image's label: in " + frameText(label.reference->frame) +
-         " it stands " + fixedText(1e3 * apart_m, 1) + " mm and " +
-         fixedText(turned_rad / kDegree_rad, 2) + " deg from there";
+         " it differs by " + fixedText(1e3 * apart_m, 1) + " mm and " +
+         fixedText(turned_rad / kDegree_rad, 2) + " deg";
 }
 
 /// What the label says of the transform's two frames, as target_from_source.

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// A pose of the station in the frames that files gave by name.
+// SPDX-License-Identifier: Apache-2.0 A pose of the station in the frames that files name.
 #pragma once
 
 #include <optional>
@@ -14,12 +13,12 @@ namespace boresight::sessions {
 struct NamedPose {
   FrameName frame;
   Pose reference_from_station;  ///< of that frame
-  /// Left perturbation in that frame; nothing where none was given.
+  /// Left perturbation in that frame; empty: not given.
   std::optional<Matrix6d> covariance = std::nullopt;
   std::string joined_by;  ///< the transforms between the frame and the camera model
 };
 
-/// The pose in every frame that is joined to the camera, that of the seed last; nothing for a case
+/// The pose in every frame that is joined to the camera, that of the seed last; empty for a case
 /// without frames. `covariance`: of the pose, left perturbation in the camera frame; the
 /// transforms' covariances are added to it.
 std::vector<NamedPose> namedPoses(const SessionCase& session_case, const Pose& camera_from_station,
@@ -31,8 +30,8 @@ nlohmann::ordered_json toJson(const std::vector<NamedPose>& poses);
 /// "reference_from_station in SITE_FRAME (194)": title of the pose's matrix.
 std::string namedPoseTitle(const NamedPose& pose);
 
-/// In which frames the camera model, the seed and the truth were given, and how these are joined;
-/// nothing for a case without frames.
+/// Frames of camera model, seed and truth, and how these are joined; empty for a case without
+/// frames.
 std::vector<LabelItem> frameLines(const SessionCase& session_case);
 
 }  // namespace boresight::sessions

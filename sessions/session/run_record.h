@@ -12,8 +12,7 @@
 namespace boresight::sessions {
 
 /// The plan of a run that continued another run with other options, or that started with options
-/// other than the session's (those of an onboard record). It suffices to repeat the run, even
-/// without the other run.
+/// other than the session's. It suffices to repeat the run, even without the other run.
 struct RerunRecord : RunPlan {
   std::string from;  ///< digest of the run whose first iterations it has; empty: a halted run
 
@@ -25,8 +24,9 @@ struct Session;
 /// Record of a run that was solved together with other views of the case's rig; it suffices to
 /// repeat all of them.
 struct TogetherRecord {
-  std::vector<ViewOutcome> views;  ///< in their order, this case's among them; the first one led
-  std::string inputs_sha256;       ///< viewsDigest of them when they ran
+  std::vector<ViewOutcome> views;  ///< in their order, this case's among them; the first is the
+                                   ///< reference
+  std::string inputs_sha256;       ///< viewsDigest when they ran
 
   bool operator==(const TogetherRecord&) const = default;
 };
@@ -42,8 +42,8 @@ struct RunRecord {
   std::string inputs_sha256;   ///< inputsDigest of the case that ran
   std::string options_sha256;  ///< optionsDigest of the options at the end of the run
   std::optional<RerunRecord> rerun =
-      std::nullopt;  ///< of a run that changed options on the way
-  /// Of a run that was solved for together with other views of the case's rig.
+      std::nullopt;  ///< of a run that changed options
+  /// Of a run that was solved together with other views of the case's rig.
   std::optional<TogetherRecord> together = std::nullopt;
 
   bool operator==(const RunRecord&) const = default;

@@ -68,9 +68,9 @@ struct SessionCase {
   /// At least one is matched; each has a place in the scene by the case's frames.
   std::vector<MeshInput> parts;
   std::optional<double> feature_size_m;
-  /// Relative, one sigma; nothing: kAssumedMeshScaleSigma. No input of a run.
+  /// Relative, one sigma; empty: kAssumedMeshScaleSigma. No input of a run.
   std::optional<double> mesh_scale_sigma;
-  /// Nothing: the defaults of CalibrationSigma. No input of a run.
+  /// Empty: the defaults of CalibrationSigma. No input of a run.
   std::optional<CalibrationSigma> calibration_sigma;
   /// Of the camera's vectors, in its own frame: used instead of calibration_sigma. No input of a
   /// run.
@@ -85,7 +85,7 @@ struct SessionCase {
   /// Of a truth that was given in a named frame. No input of a run.
   std::optional<FrameName> truth_frame;
   /// Of a truth that was measured (by annotations): left perturbation, camera frame, of the
-  /// annotations alone. Nothing: it is exact. No input of a run.
+  /// annotations alone. Empty: exact. No input of a run.
   std::optional<Matrix6d> truth_covariance;
   std::optional<Pose> camera_from_station_working;  ///< nudged by hand; no input of a run
   std::optional<InputFile> ignore;                  ///< mask image
@@ -98,7 +98,7 @@ struct SessionCase {
   /// Between named frames, without loops (frame_tree.h); `file` is a name alone. An input of a run
   /// only where they place a part.
   std::vector<FrameTransform> frames;
-  /// landmarks.json with the station's named points, absolute; may not be there yet. No input of a
+  /// landmarks.json with the station's named points, absolute; may not exist yet. No input of a
   /// run, and annotators add to it: the session does not store its hash.
   std::optional<std::filesystem::path> landmarks;
 
@@ -112,7 +112,7 @@ std::vector<PartSource> partsOf(const SessionCase& session_case);
 
 /// Whether two cases have the same scene: parts, their states, and the frames that place them.
 bool sameScene(const SessionCase& a, const SessionCase& b);
-/// Whether two cases have the same meshes in the same places, whatever their states.
+/// Whether two cases have the same meshes in the same places, in any states.
 bool sameMeshes(const SessionCase& a, const SessionCase& b);
 
 /// Sets the truth of a case and drops all data about a former truth.
@@ -163,8 +163,7 @@ struct Session {
   bool operator==(const Session&) const = default;
 };
 
-/// The last run of a case that has this digest, or any when that is empty; nullptr when there is
-/// none.
+/// The last run of a case with this digest, or with any if `digest` is empty; nullptr: none.
 const RunRecord* findRun(const Session& session, const std::string& case_id,
                          const std::string& digest);
 /// The case of this id. InputError when there is none.
@@ -176,7 +175,7 @@ Session withChanged(const Session& session, const std::string& case_id,
 Session withCase(const Session& session, SessionCase changed);
 /// The id itself when no case has it, else with the first free number from 2 on: "bc-2".
 std::string freeCaseId(const Session& session, const std::string& id);
-/// The same session without a case and all that refers to it.
+/// The same session without a case and all its data.
 Session withoutCase(const Session& session, const std::string& case_id);
 /// The same session with a case's annotation; an empty one is removed.
 Session withAnnotations(const Session& session, const std::string& case_id, Annotation annotation);
@@ -203,7 +202,7 @@ LocalizerOptions caseOptions(const Session& session, const SessionCase& session_
 /// places, seed, uncertainty; not names, truth, tags or requirement.
 std::string inputsDigest(const SessionCase& session_case);
 
-/// Differences of a run from a run with the present inputs and options.
+/// Differences of a run from a run with the current inputs and options.
 struct Staleness {
   bool inputs_changed = false;
   bool options_changed = false;

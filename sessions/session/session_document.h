@@ -31,7 +31,7 @@ struct Recovery : Journal {
 ///     {"format": "boresight-journal", "version": 1, "base_sha256": "...", "time": "...",
 ///      "edits": ["...", ...], "session": {"format": "boresight-session", ...}}
 ///
-/// OutputError; then the former journal is as it was.
+/// OutputError; then the former journal is unchanged.
 void writeJournal(const std::filesystem::path& file, const Journal& journal,
                   const std::string& session_text);
 
@@ -57,32 +57,31 @@ class SessionDocument {
   bool modified() const { return !(session_ == saved_); }      ///< differs from the file
   bool readOnly() const { return !read_only_reason_.empty(); }
   const std::string& readOnlyReason() const { return read_only_reason_; }
-  /// Notes on how it opened: a lock that a killed program left, a journal that
-  /// was set aside.
+  /// Notes on opening: a lock that a killed program left, a journal set aside.
   const std::vector<std::string>& notices() const { return notices_; }
 
   /// Unsaved edits of a program that was killed; they must be accepted or declined before anything
   /// can be edited or saved.
   const std::optional<Recovery>& recovery() const { return recovery_; }
-  /// The recovered session becomes the document's, not yet saved. OutputError.
+  /// Takes the recovered session, not yet saved. OutputError.
   void acceptRecovery();
-  /// The journal is set aside under another name. OutputError.
+  /// Sets the journal aside under another name. OutputError.
   void declineRecovery();
 
   /// Makes `next` the session after it is written to the journal; `text` describes the edit.
   /// OutputError when it cannot be written, the document is read-only, or a recovery waits;
   /// InputError when `next` is not a session that a file could hold (two cases of one id, an option
-  /// out of range). Then nothing has changed. A `next` equal to the present value is no edit.
+  /// out of range). Then nothing has changed. A `next` equal to the current value is no edit.
   void apply(const Session& next, const std::string& text);
 
   /// Writes the file and drops the journal. OutputError, also when another program has changed the
-  /// file meanwhile; then file and journal are as they were.
+  /// file meanwhile; then file and journal are unchanged.
   void save();
   /// Resets the session to the content of the file, with nothing left to recover. OutputError when
   /// the document is read-only.
   void discardChanges();
   /// Saves under another name, replacing an existing file, and continues there; traces of runs are
-  /// copied. The former file stays as it was last saved. OutputError leaves the document as it was.
+  /// copied. The former file stays as it was last saved. OutputError leaves the document unchanged.
   void saveAs(const std::filesystem::path& file);
 
  private:
@@ -98,13 +97,13 @@ class SessionDocument {
   Session session_;
   Session saved_;
   std::unique_ptr<FileLock> lock_;
-  std::optional<Journal> journal_;  ///< nothing while there are no edits
+  std::optional<Journal> journal_;  ///< empty while there are no edits
   std::optional<Recovery> recovery_;
   std::string read_only_reason_;
   std::vector<std::string> notices_;
 };
 
-/// One edit as undo and redo need it: the whole values before and after, which share their cases.
+/// One edit for undo and redo: the whole values before and after, which share their cases.
 struct SessionCommand {
   std::string text;  ///< "Move the seed of bc"
   Session before;
@@ -124,7 +123,7 @@ class SessionHistory {
 
   /// Performs an edit; undone edits can no longer be redone. An edit without changes is ignored.
   void perform(const Session& after, const std::string& text);
-  void undo();  ///< nothing when there is nothing to undo
+  void undo();  ///< no effect when there is nothing to undo
   void redo();
 
   bool canUndo() const { return done_ > 0; }

@@ -29,21 +29,21 @@ struct SavedSession {
   std::string file_sha256;
 };
 
-/// InputError (file, field, reason) when it is missing or wrong in any way. The inputs that it
-/// names are not read (input_check.h).
+/// InputError (file, field, reason) when it is missing or invalid. The inputs that it names are not
+/// read (input_check.h).
 SavedSession readSessionFile(const std::filesystem::path& file);
 
-/// Writes atomically and returns the hash of what was written. OutputError; then the old file is
-/// as it was.
+/// Writes atomically and returns the hash of the bytes. OutputError; then the old file is
+/// unchanged.
 std::string writeSessionFile(const std::filesystem::path& file, const Session& session);
 
 class PathWriter;
 
 nlohmann::ordered_json toJson(const SessionCase& session_case, const PathWriter& path);
-/// The reverse; does not detect duplicate ids. InputError.
+/// Inverse of toJson; does not detect duplicate ids. InputError.
 SessionCase readSessionCase(const JsonReader& json);
 
-/// The parts of a case as its fingerprint (inputsDigest) has them.
+/// The parts of a case as included in inputsDigest.
 nlohmann::ordered_json fingerprintParts(const SessionCase& session_case);
 
 /// {"target", "source", "target_from_source", "covariance", "origin", "comment", "file", "sha256"}:
@@ -60,12 +60,11 @@ inline constexpr int kSessionVersion = 1;
 /// read back as the same bits. OutputError when a text is not UTF-8.
 nlohmann::ordered_json toJson(const Session& session, const std::filesystem::path& file);
 
-/// The same as text: a session has exactly one text, so that its SHA-256 identifies it.
+/// The same as text: each session has exactly one text, whose SHA-256 identifies it.
 std::string sessionText(const Session& session, const std::filesystem::path& file);
 
-/// The reverse. InputError (file, field, reason): another format, a newer version, a member that
-/// this version does not know, an id given twice, a reference to a case that does not exist, values
-/// out of range, options that do not exist.
+/// Inverse of toJson. InputError (file, field, reason): another format, a newer version, unknown
+/// members or options, a duplicate id, a reference to a missing case, values out of range.
 Session readSession(const JsonReader& json);
 
 }  // namespace boresight::sessions

@@ -11,7 +11,7 @@
 
 namespace boresight::sessions {
 
-/// Files that make one case. Nothing of them is guessed.
+/// Files of one case. No file is guessed.
 struct CaseFiles {
   std::string id;               ///< "": the image's name without extension
   std::filesystem::path image;  ///< "": none yet, of a sequence; then `camera` is needed
@@ -35,8 +35,8 @@ struct CaseFiles {
   std::optional<Requirement> requirement;
 };
 
-/// A case with the hashes of its files as they are now, and the notes for the operator (a seed that
-/// states no uncertainty, a matrix that is not quite a rotation).
+/// A case with the current hashes of its files, and notes for the operator (a seed without
+/// uncertainty, a matrix that is not quite a rotation).
 struct MadeCase {
   SessionCase made;
   std::vector<std::string> notes;

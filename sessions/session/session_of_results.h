@@ -15,12 +15,12 @@ namespace boresight::sessions {
 struct ListedResult {
   std::string status;  ///< RunResult::status
   bool completed = false;
-  /// requirementShare() of its error; nothing without truth or requirement.
+  /// requirementShare() of its error; empty without truth or requirement.
   std::optional<double> error_share;
 };
 ListedResult listedResult(const RunResult& run);
 
-/// As one of a case's tags, "result:converged:0.37" or "result:pnp_failed", and back; nothing when
+/// As one of a case's tags, "result:converged:0.37" or "result:pnp_failed", and back; empty when
 /// there is no such tag.
 std::string resultTag(const ListedResult& result);
 std::optional<ListedResult> listedResult(const SessionCase& session_case);
@@ -28,11 +28,11 @@ std::optional<ListedResult> listedResult(const SessionCase& session_case);
 /// "bc-000012", or "bc-000012 seed 3" for a further seed.
 std::string resultCaseId(const RunResult& run);
 
-/// A session of the cases of a results file's runs of WHS, each with the seed that its run began
-/// from and a tag with its outcome; profile and options are those of the runs, so that a run here
-/// repeats the listed one bit for bit. The worst come first: failed runs, then by error share;
-/// rejected inputs are left out. InputError when the file or the dataset that it names cannot be
-/// read, the dataset has changed, there are no such runs, or their meshes were deliberately wrong.
+/// A session of a results file's runs of WHS, one case per run, with the run's seed and a tag with
+/// its outcome. Profile and options are those of the runs: a new run repeats the listed one bit for
+/// bit. The worst come first: failed runs, then by error share; rejected inputs are left out.
+/// InputError when the file or the dataset that it names cannot be read, the dataset has changed,
+/// there are no such runs, or their meshes were deliberately wrong.
 Session sessionOfResults(const std::filesystem::path& results_file);
 
 }  // namespace boresight::sessions

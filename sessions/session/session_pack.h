@@ -16,7 +16,7 @@ struct PackedFile {
   std::string sha256;          ///< of its bytes
 };
 
-/// Content of the archive of a session: in a folder of the session's name the session, `inputs/`
+/// Content of the archive of a session: a folder of the session's name with the session, `inputs/`
 /// with every file that it names (once, below the beginning of its hash, so that equal names do not
 /// collide), and the traces of its runs.
 struct SessionPack {
@@ -33,7 +33,7 @@ struct SessionPack {
 /// Nothing is written.
 SessionPack planPack(const Session& session, const std::filesystem::path& session_file);
 
-/// Writes the zip archive, which is read again before it gets its name. InputError when a file has
+/// Writes the zip archive, and reads it again before it is renamed. InputError when a file has
 /// changed since it was planned; OutputError.
 void writePack(const SessionPack& pack, const std::filesystem::path& archive);
 

@@ -19,8 +19,8 @@ namespace boresight::sessions {
 /// they can.
 std::string whyAlone(const Session& session, const std::string& case_id);
 
-/// Views of one rig, read, to be run as one; immutable. The first one leads: seed and uncertainty
-/// are its case's.
+/// Views of one rig, read, to be run as one; immutable. Seed and uncertainty are those of the first
+/// view's case.
 struct LoadedViews {
   std::vector<std::shared_ptr<const LoadedCase>> cases;
   std::vector<View> views;  ///< point into the cases
@@ -48,7 +48,7 @@ std::shared_ptr<const LoadedViews> loadViews(std::shared_ptr<const LoadedCase> f
 std::vector<LocalizationTrace> runViews(const Session& session, const std::string& case_id,
                                         const std::stop_token& stop = {});
 
-/// Stores the result of each view, as storeRun does, as a run of its own case that names the
+/// Stores the result of each view, as storeRun does, as a run of the view's case that names the
 /// others.
 std::vector<RunRecord> storeViews(const Session& session,
                                   const std::vector<LocalizationTrace>& views,

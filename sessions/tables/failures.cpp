@@ -69,9 +69,9 @@ std::string verdictText(Astray astray) {
       // by Astray
       "",
       "",
-      "No iteration was nearer to the truth than the seed: its matches led away.",
-      "It went a part of the way, and never came near.",
-      "It was near the truth, and did not end there or was refused there.",
+      "No iteration was nearer to the truth than the seed: the matches moved the pose away.",
+      "Some iteration was nearer to the truth, but none was near.",
+      "It was near the truth, but did not end there or was rejected there.",
       ""};
   return kTexts[static_cast<std::size_t>(astray)];
 }

@@ -42,7 +42,7 @@ inline constexpr std::pair<const char*, double InstructionCount::*> kCountedStag
 std::vector<InstructionCount> readInstructionCounts(const std::filesystem::path& file);
 
 /// Minutes at 200 MHz and one instruction per cycle: the means of each station's runs, added up
-/// over the stations, as in the paper's Table III; with the paper's rows where asked for.
+/// over the stations, as in the paper's Table III; with the paper's rows if requested.
 Table flightTable(std::span<const InstructionCount> counts, bool with_paper);
 
 }  // namespace boresight::sessions

@@ -15,7 +15,7 @@
 namespace boresight::sessions {
 
 /// A count of runs with its percent and the one-sided 95 % bounds of Clopper and Pearson, which
-/// treat runs as independent. Nothing without runs.
+/// treat runs as independent. Empty without runs.
 struct CountedShare {
   std::int64_t count = 0;
   std::int64_t runs = 0;
@@ -70,8 +70,8 @@ extern const std::array<ErrorColumn, 4> kErrorColumns;
 /// runs, each seed once).
 std::vector<MethodFigures> methodFigures(std::span<const RunResult> runs);
 
-/// Percent of judged runs that completed within `factor` times the requirement; nothing when none
-/// was judged.
+/// Percent of judged runs that completed within `factor` times the requirement; empty when none was
+/// judged.
 std::optional<double> percentWithin(std::span<const RunResult* const> runs, double factor);
 
 /// Seconds of wall time, over all runs of a method that were carried out.
@@ -100,7 +100,7 @@ const char* rangeText(bool far);
 
 /// "errors": mean / std / max per station and method; "success": completed, success, and within the
 /// requirement axis by axis; "tolerance": success against multiples of the requirement; "times":
-/// mean seconds per step. With the paper's rows where asked for and known.
+/// mean seconds per step. With the paper's rows if requested and known.
 Table errorTable(std::span<const RunResult> runs, bool with_paper);
 Table successTable(std::span<const RunResult> runs, bool with_paper);
 Table toleranceTable(std::span<const RunResult> runs);

@@ -28,13 +28,13 @@ CurvePoints shareBelow(std::vector<double> values, std::size_t of);
 CurvePoints successAgainstTolerance(std::span<const RunResult* const> runs,
                                     std::span<const double> factors);
 
-/// How far a seed is from the truth: millimetres (normal and lateral together) or milliradians (the
-/// whole angle).
+/// Distance of a seed from the truth: millimetres (normal and lateral together) or milliradians
+/// (the whole angle).
 enum class SeedMeasure { kDistance_mm, kAngle_mrad };
 std::optional<double> seedMeasure(const RunResult& run, SeedMeasure measure);
 
-/// Judged runs in `bins` groups of equal size (as far as they divide), by how far their seeds are:
-/// the mean of that, and the percent of successful ones.
+/// Judged runs in `bins` groups of about equal size by seed error: the mean seed error and the
+/// percent of successful runs of each.
 CurvePoints successAgainstSeed(std::span<const RunResult* const> runs, SeedMeasure measure,
                                int bins);
 
@@ -49,7 +49,7 @@ std::vector<double> geometricSteps(double low, double high, int count);
 inline constexpr const char* kErrorFigure = "error_distribution";
 /// Success against multiples of the requirement.
 inline constexpr const char* kToleranceFigure = "success_tolerance";
-/// Success against how far the seed was, in mm and in mrad.
+/// Success against the seed's error, in mm and in mrad.
 inline constexpr const char* kSeedFigure = "success_seed_error";
 /// Lateral error against seconds: each run, and the medians of each method.
 inline constexpr const char* kTimeFigure = "time_accuracy";
@@ -59,7 +59,7 @@ struct Figure {
   std::vector<std::uint8_t> bytes;
 };
 
-/// All four. Methods have colours and dashes of their own, WHS a whole blue line. std::bad_alloc or
+/// All four. Each method has its own colour and dashes, WHS a solid blue line. std::bad_alloc or
 /// std::runtime_error when they cannot be drawn.
 std::vector<Figure> resultFigures(std::span<const RunResult> runs, CanvasFormat format);
 
@@ -99,11 +99,11 @@ std::vector<Failure> failuresOf(const std::vector<std::filesystem::path>& files,
 inline constexpr const char* kFailureFigure = "failures";
 
 /// Each failure's image around its station with the edges of the seed (red), of the truth (blue)
-/// and of what the run ended with (green; where it did not complete, of its iteration nearest to
-/// the truth, of its first one where none was nearer than the seed, or of its last without truth),
-/// and its story beneath. One PDF, "failures", or a picture a page, "failures_1", ... Where images
-/// cannot be read (or the dataset was a BOP folder) the reason replaces the picture. Empty without
-/// failures. std::bad_alloc or std::runtime_error when they cannot be drawn.
+/// and of the final pose (green; of a run that did not complete: its iteration nearest to the
+/// truth, its first one where none was nearer than the seed, or its last without truth), and its
+/// story below. One PDF, "failures", or a picture a page, "failures_1", ... Where images cannot be
+/// read (or the dataset was a BOP folder) the reason replaces the picture. Empty without failures.
+/// std::bad_alloc or std::runtime_error when they cannot be drawn.
 std::vector<Figure> failureSheets(std::span<const Failure> failures, CanvasFormat format);
 
 }  // namespace boresight::sessions

@@ -15,13 +15,12 @@
 
 namespace boresight::sessions {
 
-/// Runs of any number of methods. A run's `method` is the name under which it is shown: where files
-/// have a method with other options, its profile follows, and where that does not distinguish them,
-/// the file's name.
+/// Runs of any number of methods. A run's `method` is its displayed name. Where files have a method
+/// with different options, the profile follows, or the file's name if the profile is the same.
 struct ResultsSet {
   std::vector<ResultsFacts> files;
   std::vector<RunResult> runs;
-  std::map<std::string, MethodFacts> methods;  ///< by the name under which it is shown
+  std::map<std::string, MethodFacts> methods;  ///< by displayed name
 
   /// The methods in the order of the paper, others before WHS by name.
   std::vector<std::string> methodNames() const;
@@ -36,7 +35,7 @@ struct ResultsFilter {
   bool takes(const RunResult& run) const;
 };
 
-/// InputError when a file is not a results file, or the same run is in two of them with the same
+/// InputError when a file is not a results file, or two files hold the same run with the same
 /// options: it would count twice.
 ResultsSet readResultsSet(const std::vector<std::filesystem::path>& files,
                           const ResultsFilter& filter = {});
@@ -65,8 +64,8 @@ struct ResultsDifference {
 
 /// Pairs runs by case, seed and method; by case and seed alone where each set has one method. With
 /// truth and requirement known, a correct pose is better than a failed run, which is better than a
-/// wrong pose; of two wrong poses the nearer one is better, if by a tenth of the requirement.
-/// Otherwise a run that completed is better than one that did not.
+/// wrong pose; of two wrong poses the nearer one is better, if nearer by a tenth of the
+/// requirement. Otherwise a run that completed is better than one that did not.
 ResultsDifference compareResults(const ResultsSet& before, const ResultsSet& after);
 
 /// The pairs that changed or, with `all`, all of them.

@@ -22,9 +22,9 @@ struct StationRuns {
 /// By station, near before far. Runs whose input was rejected are left out.
 std::vector<StationRuns> stationRuns(std::span<const RunResult> runs);
 
-/// A limit of a requirement; nothing when the requirement lacks it.
+/// A limit of a requirement; empty when the requirement lacks it.
 using RequirementLimit = std::optional<double> (*)(const Requirement&);
-/// The limit where all runs share it; nothing when they differ.
+/// The limit where all runs share it; empty when they differ.
 std::optional<double> sharedLimit(std::span<const RunResult* const> runs, RequirementLimit limit);
 
 }  // namespace boresight::sessions

@@ -111,8 +111,8 @@ Table demonstrationTable(std::span<const RunResult> runs, double required) {
                {"runs needed"},
                {"runs missing"}},
               {},
-              {"Runs needed: independent runs that demonstrate the required rate with as many "
-               "failures.",
+              {"Runs needed: independent runs that demonstrate the required rate with this number "
+               "of failures.",
                kBoundsNote}};
   for (const RunGroup& group : runGroups(runs)) {
     const CountedShare success = figuresOf(group.runs).success;

@@ -17,8 +17,8 @@ namespace boresight::sessions {
 Table strataTable(std::span<const RunResult> runs);
 
 /// Whether the runs demonstrate a success rate, for each station, near or far, and method: the rate
-/// that they do demonstrate (one-sided 95 % Clopper-Pearson), the runs that the required rate needs
-/// with as many failures, and how many more that is. `required`: share, above 0 and below 1.
+/// demonstrated (one-sided 95 % Clopper-Pearson), the runs that the required rate needs with this
+/// number of failures, and the number missing. `required`: share, above 0 and below 1.
 Table demonstrationTable(std::span<const RunResult> runs, double required);
 
 }  // namespace boresight::sessions

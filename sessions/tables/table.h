@@ -17,7 +17,7 @@ struct TableColumn {
   int decimals = 0;  ///< of its numbers, as text
 };
 
-/// Text, or the numbers of a column's parts; a part without one shows as "-".
+/// Text, or the numbers of a column's parts; a part without a number shows as "-".
 struct TableCell {
   // NOLINTBEGIN: rows are lists of texts and numbers
   TableCell(std::string shown) : text(std::move(shown)) {}
@@ -43,9 +43,9 @@ struct Table {
 
 enum class TableFormat { kText, kCsv, kLatex };
 
-/// Text: columns of equal width, parts as "a / b / c", notes below. CSV (RFC 4180): each part a
-/// column of its own, numbers in full precision, empty where there is none, notes left out. LaTeX:
-/// a `table` with a `tabular` that needs no packages.
+/// Text: columns of equal width, parts as "a / b / c", notes below. CSV (RFC 4180): one column per
+/// part, numbers in full precision, empty where there is none, notes left out. LaTeX: a `table`
+/// with a `tabular` that needs no packages.
 std::string tableText(const Table& table, TableFormat format);
 
 }  // namespace boresight::sessions

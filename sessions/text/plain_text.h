@@ -23,7 +23,7 @@ std::string oneLine(std::string_view text);
 /// The text without leading and trailing blanks, tabs and line ends.
 std::string_view trimmed(std::string_view text);
 
-/// A to Z as a to z, and the reverse, whatever the locale.
+/// A to Z as a to z, and the reverse, in any locale.
 std::string lowerCase(std::string_view text);
 std::string upperCase(std::string_view text);
 

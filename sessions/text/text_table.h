@@ -27,8 +27,9 @@ std::string percentText(double share, int decimals = 0);
 /// "98.7 %"; "> 99.9 %" where rounding would claim certainty.
 std::string probabilityPercent(double probability);
 
-/// A cell of a CSV file (RFC 4180): quoted where it must be. Text that a spreadsheet would take for
-/// a formula (it begins with = + - @, a tab or a line end, and is not a number) gets a ' in front.
+/// A cell of a CSV file (RFC 4180): quoted where it must be. A ' is put before text that a
+/// spreadsheet would read as a formula (it begins with = + - @, a tab or a line end, and is not a
+/// number).
 std::string csvField(const std::string& text);
 
 /// The text of a cell, without the ' that `csvField` puts in front of formulas. Quotes are already

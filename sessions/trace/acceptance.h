@@ -17,8 +17,7 @@ const CompetingPose* closestCompetingPose(const LocalizationTrace& trace);
 /// Origin of a hypothesis, for the middle of a sentence: "candidate 2 of the search".
 std::string originText(const PoseHypothesis& hypothesis);
 
-/// How many times as likely a difference of evidence makes a pose: "12 times", "more than 1000
-/// times".
+/// A difference of evidence as a likelihood ratio: "12 times", "more than 1000 times".
 std::string timesText(double nats);
 
 /// Of a run that hasProbability(), for the middle of a sentence: "the probability that the pose is

@@ -16,8 +16,7 @@ enum class AlternativeKind : std::uint8_t {
   kCompeting,  ///< a pose that shows about the same edges as the run's result
 };
 
-/// A pose that a run compared with the one with which it continued. Figures that its kind does not
-/// have are NaN.
+/// A pose compared with the pose with which the run continued. Figures that its kind lacks are NaN.
 struct Alternative {
   AlternativeKind kind = AlternativeKind::kRolled;
   std::int32_t iteration = -1;  ///< that compared it, an index into the run's; -1: competing
@@ -37,13 +36,13 @@ struct Alternative {
   double margin_nats = kUnknown;  ///< evidence of the result beyond a competing pose's
   bool mirrored = false;          ///< a competing pose of the mesh's mirror image
   double score = kUnknown;        ///< of a compared pose, PoseEvidence::score()
-  double probability = kUnknown;  ///< that a compared pose is right
+  double probability = kUnknown;  ///< that a compared pose is correct
   HypothesisOrigin origin = HypothesisOrigin::kCandidate;  ///< of a compared pose
 };
 
 /// The alternatives of a run so far: its competing poses, the poses that it compared (the best one
-/// that is not the result first, the others by descending score), then iteration by iteration the
-/// rolled hypotheses of those that had several.
+/// that is not the result first, the others by descending score), then by iteration the rolled
+/// hypotheses, where there were several.
 std::vector<Alternative> alternativesOf(const LocalizationTrace& run);
 
 }  // namespace boresight::sessions

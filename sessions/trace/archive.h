@@ -60,9 +60,9 @@ class ArchiveWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads what ArchiveWriter wrote, and blocks of onboard records; InputError where bytes are
-/// missing or impossible. A list grows with the bytes available, so that a wrong count cannot
-/// exhaust the memory.
+/// Reads output of ArchiveWriter, and blocks of onboard records; InputError where bytes are missing
+/// or impossible. A list grows with the bytes available, so that a wrong count cannot exhaust the
+/// memory.
 class ArchiveReader {
  public:
   ArchiveReader(std::filesystem::path file, std::span<const std::uint8_t> bytes)

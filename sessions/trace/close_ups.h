@@ -17,7 +17,7 @@ struct CloseUp {
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
   /// Between rendered and seen edge, along the normal: median over the places within the patch.
   double distance_px = 0.0;
-  double found_share = 0.0;  ///< of the places within the patch, those where an edge was found
+  double found_share = 0.0;  ///< share of the places within the patch with an edge found
 };
 
 /// The best place of each quarter of the edges that a refinement used, in reading order; none of a

@@ -24,7 +24,7 @@ inline constexpr double kLineTolerance_px = 0.03;
 /// pixel of a line; ends that meet are extended to the corner. `level` is that of the render.
 EdgeLines edgeLines(const RenderTrace& render, int level);
 
-/// Length in pixels of the lines in a box, nearly.
+/// Approximate length in pixels of the lines in a box.
 double lengthWithin(const EdgeLines& lines, const Eigen::AlignedBox2d& box_px);
 
 }  // namespace boresight::sessions

@@ -7,8 +7,8 @@
 
 namespace boresight::sessions {
 
-/// Copies the core's record of an iteration up to the stage that it reached: data beyond it still
-/// has the values of an earlier iteration and is left out.
+/// Copies the core's record of an iteration up to the stage reached; later data is that of an
+/// earlier iteration and is left out.
 IterationTrace recordIteration(const Iteration& iteration, Stage reached, RecordLevel level);
 
 /// Copies the poses that a run has compared so far.
@@ -21,9 +21,8 @@ RenderTrace recordRender(const EdgeRender& render);
 /// With kSummary: thresholds and count alone.
 EdgeMapTrace recordEdgeMap(const EdgeMap& edges, RecordLevel level = RecordLevel::kFull);
 
-/// The test edges of an image as in a run with these options, in memory of its own. `ignore` (the
-/// image's size) may be nullptr. The core's statuses are returned as they are. Throws
-/// std::bad_alloc.
+/// The test edges of an image as in a run with these options, in separate memory. `ignore` (the
+/// image's size) may be nullptr. Returns the core's status. Throws std::bad_alloc.
 Status detectEdges(const ImageView& image, const BitImage* ignore, const EdgeOptions& options,
                    EdgeMapTrace& output);
 

@@ -17,7 +17,7 @@ namespace boresight::sessions {
 
 /// Blue, green, red, as OpenCV keeps them.
 using ColorBgr = std::array<std::uint8_t, 3>;
-/// The colours of the window, told apart also without red or green (Okabe and Ito 2008).
+/// The colours of the window, distinct also without red or green (Okabe and Ito 2008).
 ///@{
 inline constexpr ColorBgr kSeedColor = {0, 159, 230};     ///< orange
 inline constexpr ColorBgr kResultColor = {233, 180, 86};  ///< blue
@@ -41,7 +41,7 @@ struct OverlayLayer {
 
 /// The image in gray with the layers drawn over it in their order, each rendered by the core at
 /// full resolution, and a legend in the upper left corner if any of them has a label. A layer that
-/// cannot be rendered (its pose behind the camera) is named so in the legend.
+/// cannot be rendered (its pose behind the camera) is marked so in the legend.
 ColorImage drawOverlay(const ImageView& image, const Camera& camera, const MeshView& mesh,
                        std::span<const OverlayLayer> layers);
 

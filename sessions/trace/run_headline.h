@@ -7,7 +7,8 @@
 
 namespace boresight::sessions {
 
-/// How a run ended, for one line: a word or two, and a sentence with what was measured and needed.
+/// How a run ended, for one line: a word or two, and a sentence with the values measured and
+/// needed.
 struct RunHeadline {
   std::string head;
   std::string sentence;

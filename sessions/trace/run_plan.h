@@ -18,7 +18,7 @@ struct OptionChange {
 };
 
 /// The options of a whole run: those that it starts with, and those that it changes to later. The
-/// same plan on the same inputs gives the same digest, wherever it is run.
+/// same plan on the same inputs gives the same digest on every machine.
 struct RunPlan {
   LocalizerOptions options;
   std::vector<OptionChange> changes;  ///< by increasing iteration, each at least 1
@@ -36,8 +36,8 @@ struct RunPlan {
 };
 
 /// The plan of a run that follows `plan` before `iteration` and has `options` from there on.
-/// Options that are in force there anyway are no change, so that the digest stays the same; from
-/// iteration 0 on it is a new run.
+/// Options already in force there are no change, so that the digest stays the same; from iteration
+/// 0 on it is a new run.
 RunPlan continuedPlan(const RunPlan& plan, std::int32_t iteration, const LocalizerOptions& options);
 
 /// Why a plan cannot be run (an option out of its range, one that holds for a whole run, changes

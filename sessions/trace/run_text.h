@@ -11,15 +11,15 @@ namespace boresight::sessions {
 /// One line per iteration: kind, level, templates, matches, inliers, threshold, correction, rms.
 std::string iterationTable(const LocalizationTrace& trace);
 
-/// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m
-/// and one sigma per axis where a covariance is given (not all zero), which holds at the camera,
-/// the rig's origin (a `name` that begins with "rig"), or `place`. `name` heads it.
+/// The pose as rotation vector (deg), quaternion (wxyz, w >= 0) and matrix, with its centre in m. A
+/// covariance that is not zero adds one sigma per axis, at the camera, the rig's origin (a `name`
+/// that begins with "rig"), or `place`. `name` heads it.
 std::string poseText(const Pose& pose, const Matrix6d& covariance,
                      const std::string& name = "camera_from_station",
                      const std::string& place = "");
 
-/// Why a run ended as it did: what was measured, what was needed, and what to try. One sentence or
-/// two; empty for a run that converged.
+/// Why a run failed: the values measured and needed, and what to try. One sentence or two; empty
+/// for a run that converged.
 std::string explanation(const LocalizationTrace& trace);
 
 /// High-water mark of memory by stage, compared with the limit if there is one.

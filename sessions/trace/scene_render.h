@@ -19,8 +19,8 @@ class SceneRenderer {
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  /// The mesh must outlive the renderer. kInvalidMesh and the core's other statuses come back as
-  /// they are. Throws std::bad_alloc.
+  /// The mesh must outlive the renderer. Returns the core's status, such as kInvalidMesh. Throws
+  /// std::bad_alloc.
   Status create(const Camera& camera, const MeshView& mesh);
   /// Starts a render, whether or not the one before was done; the surfaces must outlive its steps.
   Status begin(const Pose& camera_from_station, const SurfaceRender& surfaces = {});

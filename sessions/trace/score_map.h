@@ -26,7 +26,7 @@ struct ScoreMap {
 };
 
 /// The map of one template of an iteration that was recorded in full, by the core's own function.
-/// Nothing when the template was not searched, its level's edges are missing, or it was stopped
+/// Empty when the template was not searched, its level's edges are missing, or it was stopped
 /// (checked between two rows of the window).
 std::optional<ScoreMap> scoreMap(const EdgeMapTrace& edges, const IterationTrace& iteration,
                                  int template_index, const std::stop_token& stop = {});

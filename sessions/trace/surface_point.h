@@ -23,14 +23,14 @@ struct RayHit {
 };
 
 /// The faces of a mesh in a tree of boxes (bounding volume hierarchy, split at the median of the
-/// widest axis), so that a ray is tested against few of them: microseconds for a hundred thousand.
+/// widest axis), so that a ray is tested against few faces: microseconds for a hundred thousand.
 class FaceTree {
  public:
   /// `mesh` must outlive it, and be valid.
   explicit FaceTree(const MeshView& mesh);
 
   /// The first face along a ray, seen from either side, nearer than `farthest` (in lengths of
-  /// `direction`); nothing when it misses all.
+  /// `direction`); empty when it misses all.
   std::optional<RayHit> firstHit(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction,
                                  double farthest = std::numeric_limits<double>::infinity()) const;
 
@@ -63,7 +63,7 @@ struct SurfacePoint {
 };
 
 /// The nearest surface on the ray through a pixel, over all faces (some milliseconds for a hundred
-/// thousand); nothing where the ray meets none or the camera has no ray there.
+/// thousand); empty where the ray meets none or the camera has no ray there.
 std::optional<SurfacePoint> surfacePointAt(const Camera& camera, const MeshView& mesh,
                                            const Pose& camera_from_station,
                                            const Eigen::Vector2d& pixel);

@@ -24,7 +24,7 @@ struct BitMap {
   BitImage view() const;
 };
 
-/// A render for the core's functions, with edge pixels of its own.
+/// A render for the core's functions, with its own edge pixels.
 struct RenderView {
   std::vector<PackedEdgePixel> pixels;
   EdgeRender render;  ///< points to `pixels` and to the trace
@@ -175,8 +175,8 @@ struct IterationTrace {
   double rms_px() const;
 };
 
-/// A run as far as it has come: its inputs, everything in between, and how it ended. Cheap to copy:
-/// iterations are shared by all copies and never change.
+/// A run so far: its inputs, all intermediate results, and its end. Cheap to copy: iterations are
+/// shared by all copies and never change.
 struct LocalizationTrace {
   std::string version;       ///< of the program that made it
   LocalizerOptions options;  ///< that it started with
@@ -185,7 +185,7 @@ struct LocalizationTrace {
   Pose camera_from_station_seed;
   SeedUncertainty uncertainty;
 
-  std::shared_ptr<const EdgeMapTrace> edges;  ///< nullptr until the test edges are there
+  std::shared_ptr<const EdgeMapTrace> edges;  ///< nullptr until the test edges are complete
   /// Of all attempts, in order; the last one may be under way (`IterationTrace::reached`).
   std::vector<std::shared_ptr<const IterationTrace>> iterations;
   std::int32_t attempts = 1;
@@ -198,7 +198,7 @@ struct LocalizationTrace {
   std::vector<CompetingPose> competing_poses;  ///< of the pose that converged
   EdgeSupport support;
   PoseEvidence evidence;     ///< of the same pose, of runs that search
-  double probability = 0.0;  ///< that it is right, of runs that search
+  double probability = 0.0;  ///< that it is correct, of runs that search
   EdgeWidth edge_width;      ///< where the same pose has its edges, of runs that search
   FocalFit focal;            ///< at the same pose, of runs that search
   LocalizationStatus status = LocalizationStatus::kRunning;  ///< kRunning: it was stopped
@@ -217,7 +217,7 @@ struct LocalizationTrace {
   bool replayed = false;        ///< from an onboard record (sessions/record/onboard_record.h)
   /// Of a replayed run, sentences: unknown values, and differences between ground and onboard.
   std::vector<std::string> remarks;
-  /// For a view that was solved together with others: all of them, the leading view first.
+  /// For a view that was solved together with others: all of them, the reference view first.
   std::vector<ViewOutcome> views;
   std::size_t own_view = 0;  ///< index of this run's view
 

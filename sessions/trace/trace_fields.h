@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0
-// The fields of every record in the order in which a trace file holds them; some blocks of onboard
-// records have the same order. `Self` is a record, or a const record when writing; the archive is
-// an ArchiveWriter or an ArchiveReader. Structured bindings take the core's records apart, so that
-// a new member there does not compile here until it has its place in the file.
+// SPDX-License-Identifier: Apache-2.0 The fields of every record in the order in which a trace file
+// holds them; some blocks of onboard records have the same order. `Self` is a record, or a const
+// record when writing; the archive is an ArchiveWriter or an ArchiveReader. Structured bindings
+// decompose the core's records: a new member there does not compile until it is added here.
 #pragma once
 
 #include <cmath>

@@ -26,7 +26,7 @@ struct AnnotationAim {
   std::optional<Eigen::Vector3d> point_in_station_m;
   std::optional<sessions::ModelEdge> edge;     ///< of the station
   std::vector<Eigen::Vector2d> edge_on_image;  ///< projection of the edge
-  std::optional<sessions::ImageSnap> snap;     ///< of the image; nothing: the pointer's position
+  std::optional<sessions::ImageSnap> snap;     ///< of the image; empty: the pointer's position
   QString text;                                ///< name of the snap, for the operator
   int found = 0;                               ///< number of snap candidates
   int chosen = 0;                              ///< index of the candidate used

@@ -25,7 +25,7 @@ struct AnnotationLook {
   std::string selected;
   std::map<std::string, double> outliers;  ///< normalized residual by id
   Camera camera;
-  /// Predicts the position of annotations without image side. Nothing: these are not drawn.
+  /// Predicts the position of annotations without image side. Empty: these are not drawn.
   std::optional<Pose> camera_from_station = {};
 };
 
@@ -45,9 +45,9 @@ QColor annotationColor(const AnnotationState& state);
 std::vector<Mark> withState(Mark sign, const AnnotationState& state);
 
 /// One sign for each annotation, its item being the index of the point, or the number of points
-/// plus the index of the line. A complete pair is a target, a locked one a square, one without its
-/// station side a circle with "?", one without its image side a dashed diamond where the pose
-/// predicts it, a disabled one is struck through, an outlier has a triangle round it.
+/// plus the index of the line. A complete pair is a target, a locked pair a square. A pair without
+/// its station side is a circle with "?"; without its image side it is a dashed diamond at the
+/// predicted position. Disabled pairs are struck through; outliers have a triangle round them.
 std::vector<Mark> annotationSigns(const sessions::Annotations& annotations,
                                   const AnnotationLook& look);
 

@@ -61,8 +61,8 @@ struct AnnotationAnswer {
 
 /// State of annotating: the annotations of the current case, the selected annotation, the
 /// incomplete pair, and the solved pose. Views report where the operator pointed; the controller
-/// edits the document, with names that Undo shows, and has the pose solved again after each edit on
-/// a worker thread. Snapping and solving are computed in sessions/.
+/// edits the document, with names for Undo, and solves the pose again after each edit on a worker
+/// thread. Snapping and solving are computed in sessions/.
 class AnnotationController : public QObject {
   Q_OBJECT
 
@@ -84,13 +84,13 @@ class AnnotationController : public QObject {
   const SolutionPtr& solution() const { return answer_.solution; }
   /// Whether the annotations have changed since that solution was requested.
   bool stale() const { return stale_; }
-  /// The solved pose of the current case, stale or not; nothing where there is none.
+  /// The solved pose of the current case, stale or not; empty where there is none.
   std::optional<Pose> solvedPose() const;
   const AnnotationAnswer& answer() const { return answer_; }
   bool robust() const { return document_.session().robust_annotations; }
   /// Whether the other cases of the rig are solved with this one.
   bool together() const { return together_; }
-  /// Standard deviation that new annotations get, px per axis.
+  /// Standard deviation of new annotations, px per axis.
   double sigma_px() const { return sigma_px_; }
   /// Named points of the station, from the case's file of landmarks.
   const std::vector<sessions::Landmark>& landmarks() const { return landmarks_; }
@@ -127,8 +127,8 @@ class AnnotationController : public QObject {
   void confirm(const sessions::Proposal& proposal, const Eigen::Vector2d& pixel);
   /// Number of proposals that the station does not hide.
   int seenProposals() const;
-  /// Annotates those for which the image shows a corner or an ellipse near the prediction, as one
-  /// step of Undo, and reports the number left to be placed by hand.
+  /// Annotates the seen proposals where the image shows a corner or an ellipse near the prediction,
+  /// as one step of Undo; reports the number left to place by hand.
   void confirmSeen();
   /// Begins a new pair with the landmark's station side; its image position is clicked next.
   void begin(const sessions::Landmark& landmark);
@@ -151,10 +151,10 @@ class AnnotationController : public QObject {
 
  Q_SIGNALS:
   void modeChanged();
-  void annotationsChanged();  ///< any of them, also during a gesture
+  void annotationsChanged();  ///< any annotation, also during a gesture
   void selectionChanged();
   void solutionChanged();  ///< also when it becomes stale; includes proposals and rounds
-  /// One sentence for the operator: what was rejected, and what to do.
+  /// One sentence for the operator: the rejection and a remedy.
   void told(const QString& sentence);
 
  private:

@@ -19,7 +19,7 @@ namespace boresight::ui {
 class Document;
 class StationSnapper;
 
-/// A pose that the annotated one is compared with.
+/// A pose to compare with the annotated pose.
 struct ComparedPose {
   QString name;
   Pose camera_from_station;
@@ -98,7 +98,7 @@ class AnnotationPanel : public QWidget {
 
  Q_SIGNALS:
   void openCaseRequested(const QString& case_id);
-  /// The keyboard focus should go to the image.
+  /// Requests the keyboard focus for the image.
   void imageRequested();
 
  protected:

@@ -38,9 +38,9 @@ class AnnotationTool : public QObject {
 
   /// Target of a click now; side kNone when a click has no effect.
   const AnnotationAim& aim() const { return aim_; }
-  /// Position of the pointer, or of the annotation that is moved by keys; px. Nothing: none.
+  /// Position of the pointer, or of the annotation that is moved by keys; px. Empty: none.
   const std::optional<QPointF>& focus() const { return focus_; }
-  /// camera_from_station of the edges on which the station is picked; nothing in a blind round.
+  /// camera_from_station of the edges on which the station is picked; empty in a blind round.
   std::optional<Pose> stationPose() const;
 
   /// Texts are kept outside `taken` (widget).
@@ -70,7 +70,7 @@ class AnnotationTool : public QObject {
   bool move(const QPointF& place, Qt::KeyboardModifiers modifiers);
   bool release(const QMouseEvent& event);
   void dragTo(const QPointF& pixel);
-  /// Keys that a shortcut of the window must not take away while the operator annotates.
+  /// Keys that shortcuts of the window must not take while the operator annotates.
   static bool isOwnKey(const QKeyEvent& event);
   bool keyPress(const QKeyEvent& event);
   bool nudge(const QKeyEvent& event);

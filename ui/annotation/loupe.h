@@ -40,10 +40,10 @@ void paintLoupeFoot(QPainter& painter, const QWidget& loupe, const QString& text
 
 class ImageView;
 
-/// A piece of the image, magnified, in a corner of the image view away from the pointer: image
-/// pixels as squares, in their own contrast, under a cross at a sub-pixel position, with
-/// annotations and rendered edges as the view shows them. The magnification counts screen pixels
-/// per image pixel; Ctrl+wheel over the view changes it.
+/// A magnified part of the image in a corner of the image view away from the pointer: image pixels
+/// as squares, stretched in contrast, under a cross at a sub-pixel position. Annotations and
+/// rendered edges are drawn as in the view. The magnification counts screen pixels per image pixel;
+/// Ctrl+wheel over the view changes it.
 class Loupe : public QWidget {
   Q_OBJECT
 
@@ -62,8 +62,8 @@ class Loupe : public QWidget {
   bool isSwitchedOn() const { return on_; }
   void setSwitchedOn(bool on);
 
-  /// Shows a position (px) under the cross; `aim` is the target of a click there. Nothing: the
-  /// loupe hides.
+  /// Shows a position (px) under the cross; `aim` is the target of a click there. Empty: the loupe
+  /// hides.
   void lookAt(const std::optional<QPointF>& pixel, const AnnotationAim& aim);
   const std::optional<QPointF>& place() const { return pixel_; }
   /// Between image pixels and this widget's coordinates.

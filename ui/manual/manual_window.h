@@ -23,8 +23,8 @@ QStringList manualPages(const QString& folder);
 /// Text of a file in UTF-8; "" when it cannot be read.
 QString manualText(const QString& file);
 
-/// The manual in a window of its own: its pages, and a field that finds words on this and, after
-/// the last place, on the next page that has them. Without a manual it shows a sentence.
+/// The manual in a separate window: its pages, and a search field that continues on the next page
+/// with a match. Without a manual it shows a sentence.
 class ManualWindow : public QMainWindow {
   Q_OBJECT
 

@@ -76,7 +76,7 @@ std::vector<TableColumn<AnnotationRow>> annotationColumns() {
       {tr("Z, mm"), tr("Point of the station, station frame; of a line the edge's start."), 3,
        coordinate(2)},
       {tr("Station place"),
-       tr("What the station has there: corner, circle centre, edge, or bare surface."), -1,
+       tr("Feature of the station there: corner, circle centre, edge, or bare surface."), -1,
        [](AnnotationRef annotation) { return annotation.station_kind; }},
       {tr("dx, px"),
        tr("Seen minus predicted, to the right; of a line the distance of its first end across the "

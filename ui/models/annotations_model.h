@@ -34,7 +34,7 @@ struct AnnotationRow {
 };
 
 /// The annotations of one image, points before lines, one row each, with their results in the
-/// solved pose. Edits are reported, not made: the owner of the annotations answers by setting them
+/// solved pose. Edits are only reported: the owner of the annotations answers by setting them
 /// again.
 class AnnotationsModel : public RowsModel<AnnotationRow> {
   Q_OBJECT

@@ -29,7 +29,7 @@ struct TableColumn {
         sort(std::move(sort_)) {}
 
   QString title;
-  QString help;  ///< with the unit: tool tip of the head, and of cells without one of their own
+  QString help;  ///< with the unit: tool tip of the head, and of cells without their own
   int decimals;  ///< of its numbers; -1: text
   Value value;   ///< a number (NaN: none) or a text
   Value sort;    ///< sort key, if it is not the value

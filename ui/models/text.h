@@ -10,13 +10,13 @@
 
 namespace boresight::ui {
 
-/// For table cells: a fixed number of decimals, always with a dot; nothing for NaN.
+/// For table cells: a fixed number of decimals, always with a dot; empty for NaN.
 QString numberText(double value, int decimals);
 
-/// For table cells: "98.7 %", "> 99.9 %"; nothing for NaN.
+/// For table cells: "98.7 %", "> 99.9 %"; empty for NaN.
 QString probabilityCell(double probability);
 
-/// 1, 2 or 5 times a power of ten, not below the value by more than rounding: the end of a scale or
+/// The least of 1, 2 or 5 times a power of ten not below the value (up to rounding), for the end of
 /// an axis. 1 for values that are not above zero.
 double roundedUp(double value);
 

@@ -37,8 +37,8 @@ class Plot : public QWidget {
     QString name;
     QColor color;
   };
-  /// Above the plot, in the colours and with the signs that they are drawn with. Along a low axis
-  /// the names would be cut, and a legend would take room.
+  /// Names above the plot, in the colours and with the signs of the curves. Along a low axis the
+  /// names would be cut, and a legend would take room.
   void nameQuantities(const Quantity& first, const Quantity& second);
   void changeEvent(QEvent* event) override;
 

@@ -18,7 +18,7 @@ class Document;
 class TaskRunner;
 
 /// The current case's onboard record: attached by an edit of the document, read and replayed on a
-/// worker thread, shown instead of the ground's run on request, and compared with it whenever
+/// worker thread. Shown instead of the ground's run on request, and compared with it whenever
 /// either changes.
 class OnboardController : public QObject {
   Q_OBJECT

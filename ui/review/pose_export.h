@@ -36,7 +36,7 @@ QString inSessionFolder(const Document& document, const QString& name);
 std::filesystem::path askForNewFile(QWidget& window, const QString& title, const QString& proposed,
                                     const QString& filter);
 
-/// Exports poses to be handed over. Poses that are not validated are named so in the file and its
+/// Exports poses to be handed over. Poses that are not validated are marked so in the file and its
 /// name. noted() is emitted when an export is done; the runner reports progress and failures.
 class PoseExport : public QObject {
   Q_OBJECT

@@ -22,8 +22,8 @@
 
 namespace boresight::ui {
 
-/// A value for each case of a session, computed on a worker thread one case at a time, and computed
-/// again when its key (of all inputs) changes. The previous value is shown until then.
+/// A value for each case of a session, computed on a worker thread one case at a time, again when
+/// its key (of all inputs) changes. Until then the previous value is shown.
 template <class Value>
 class CaseByCase {
  public:
@@ -128,11 +128,11 @@ class CaseByCase {
 
 class Document;
 
-/// A case of the queue as it is shown.
+/// A case of the queue as shown.
 struct QueueEntry {
   sessions::QueueRow row;  ///< before its check, only data of the session
   QImage thumbnail;
-  bool checked = false;  ///< whether the row is of the document's present state
+  bool checked = false;  ///< whether the row is of the document's current state
 };
 
 /// A case's last run against the one before.

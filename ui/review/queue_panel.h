@@ -84,7 +84,7 @@ class QueuePanel : public QWidget {
   QString nextOpen() const;
 
  public Q_SLOTS:
-  /// Asks for the chosen case, at the iteration that failed or at the last one.
+  /// Requests the chosen case, at the iteration that failed or at the last one.
   void openChosen();
   void next();
   void previous();

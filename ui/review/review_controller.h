@@ -49,7 +49,7 @@ class ReviewController : public QObject {
   void setSource(sessions::PoseSource source);
 
   const std::vector<sessions::Check>& checks() const { return checks_; }
-  /// Whether the checks are of the document's present state.
+  /// Whether the checks are of the document's current state.
   bool isCurrent() const { return current_; }
   bool isBusy() const { return checks_runner_.isBusy() || convergence_runner_.isBusy(); }
   /// Why there is nothing to check and what to do, or empty.

@@ -16,7 +16,7 @@
 
 namespace boresight::ui {
 
-/// Several cases that are run one after another.
+/// Progress of several cases that run one after another.
 struct BatchProgress {
   int done = 0;
   int of = 0;
@@ -34,9 +34,9 @@ struct BatchSummary {
   int count() const;  ///< of the cases that were run
 };
 
-/// Runs cases in the background, whatever case the views show: inputs are read, run and recorded
-/// on a thread of its own. One case at a time, so that its owner stores it before the next begins;
-/// a stop takes effect at any time, also in between.
+/// Runs cases in the background, whatever case the views show: inputs are read, run and recorded on
+/// a separate thread. One case at a time, so that its owner stores it before the next begins; a
+/// stop takes effect at any time, also in between.
 class Batch : public QObject {
   Q_OBJECT
 

@@ -20,7 +20,7 @@ struct ExportJob {
   int of = 0;  ///< 0: nothing to count
 };
 
-/// Writes files on a thread of its own, one after the other: the views do not wait for them.
+/// Writes files on a separate thread, one after the other: the views do not wait for them.
 class ExportRunner : public QObject {
   Q_OBJECT
 
@@ -30,8 +30,8 @@ class ExportRunner : public QObject {
 
   explicit ExportRunner(QObject* parent = nullptr);
 
-  /// `write(progress)` makes a value, `done(value)` takes it on this object's thread; if it throws,
-  /// failed() is emitted.
+  /// `write(progress)` returns a value, `done(value)` takes it on this object's thread; if it
+  /// throws, failed() is emitted.
   template <class Write, class Done>
   void start(const QString& name, const QString& detail, Write write, Done done) {
     add({name, detail}, [this, write = std::move(write), done = std::move(done)](

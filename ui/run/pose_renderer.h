@@ -15,8 +15,8 @@
 namespace boresight::ui {
 
 /// Renders the salient edges of a pose that the operator moves, on a worker thread. During a move
-/// the newest pose is drawn at half resolution, and poses in between are left out; when the pose
-/// rests it is drawn at full resolution, which the next move interrupts.
+/// the newest pose is drawn at half resolution, and poses in between are left out. A pose at rest
+/// is drawn at full resolution, which the next move interrupts.
 class PoseRenderer : public QObject {
   Q_OBJECT
 

@@ -23,7 +23,7 @@ struct SequenceProgress {
   QString summary;            ///< "22 of 24 frames accepted, 2 lost: 10, 11"
 };
 
-/// Localizes the frames of a sequence on a thread of its own. Each frame is stored before it is
+/// Localizes the frames of a sequence on a separate thread. Each frame is stored before it is
 /// reported: a stop keeps the stored frames, and the next start continues after them.
 class SequenceRunner : public QObject {
   Q_OBJECT

@@ -17,7 +17,7 @@ namespace boresight::ui {
 
 /// A worker thread for tasks of views, which run in the order of their requests. Each kind of task
 /// has a key: of one key only the newest task is used; an older one is stopped and its results are
-/// dropped. Tasks that must not wait for others have a runner of their own.
+/// dropped. Tasks that must not wait for others need a separate runner.
 class TaskRunner : public QObject {
   Q_OBJECT
 
@@ -33,7 +33,7 @@ class TaskRunner : public QObject {
   /// failed() is emitted.
   void run(const QString& key, Work work);
 
-  /// `work(stop_token)` makes a value, `done(value)` takes it on this object's thread.
+  /// `work(stop_token)` returns a value, `done(value)` takes it on this object's thread.
   template <class Make, class Done>
   void start(const QString& key, Make make, Done done) {
     run(key, [make = std::move(make), done = std::move(done)](const std::stop_token& stop,

@@ -56,7 +56,7 @@ class SceneLoupe : public QWidget {
   double magnification() const { return magnification_; }
   void setMagnification(double magnification);
 
-  /// Shows a pixel of the canvas under the cross; nothing: the loupe hides.
+  /// Shows a pixel of the canvas under the cross; empty: the loupe hides.
   void lookAt(const SceneShot& shot, const std::optional<QPointF>& pixel);
   const std::optional<QPointF>& place() const { return pixel_; }
   /// Whether the newest position is drawn.
@@ -79,9 +79,9 @@ class SceneLoupe : public QWidget {
 };
 
 /// Annotating in the scene. While the operator places annotations, a click sets the station side:
-/// the corner, edge, circle centre or named point shown next to the pointer, or with Alt held the
-/// surface; Tab changes to another snap candidate. In line mode it is the highlighted edge.
-/// Otherwise a click on an annotation selects it.
+/// the corner, edge, circle centre or named point shown next to the pointer. With Alt held it sets
+/// a point of the surface; Tab changes to another snap candidate. In line mode it is the
+/// highlighted edge. Otherwise a click on an annotation selects it.
 class SceneAnnotator : public QObject {
   Q_OBJECT
 

@@ -22,7 +22,7 @@ enum class SceneBackend {
   kPicture,  ///< the core; when no OpenGL context is available
 };
 
-/// Sets the surface format that VTK wants. Call before the application object is created.
+/// Sets the surface format that VTK requires. Call before the application object is created.
 void prepareSceneSurface();
 
 /// VTK on window systems that it is built for, when a context of at least OpenGL 3.2 can be
@@ -65,7 +65,7 @@ class SceneCanvas {
 
 /// Drawn by VTK; needs an OpenGL context.
 std::unique_ptr<SceneCanvas> makeVtkCanvas(QWidget* parent);
-/// Drawn by the core; needs nothing.
+/// Drawn by the core; needs no OpenGL.
 std::unique_ptr<SceneCanvas> makePictureCanvas(QWidget* parent);
 
 /// The scene drawn without OpenGL: the core renders surfaces and salient edges, plain Qt draws

@@ -37,7 +37,7 @@ std::vector<SceneAnnotation> sceneAnnotations(const AnnotationController& contro
 /// Draws annotations and the aim over the scene. Hidden ones are drawn faintly.
 class SceneAnnotationPainter {
  public:
-  /// `mesh` may be nullptr: nothing hides anything.
+  /// `mesh` may be nullptr: no annotation is hidden.
   SceneAnnotationPainter(QPainter& painter, const Viewpoint& view,
                          const sessions::MeshSnapper* mesh);
 
@@ -76,9 +76,9 @@ class SceneOverlay : public QWidget {
   void setView(const Viewpoint& view);
   /// Sets a line at the top, e.g. that the view is undistorted.
   void setNote(const QString& note);
-  /// Sets the point at which another view points; nothing: none.
+  /// Sets the point under another view's pointer; empty: none.
   void setHovered(const std::optional<Eigen::Vector3d>& at_m);
-  /// Sets the point that was clicked last; nothing after a change of the case.
+  /// Sets the point that was clicked last; empty after a change of the case.
   void setAnnotation(const std::optional<Eigen::Vector3d>& at_m);
   /// Drawn over the scene's names, below notes.
   void setOver(std::function<void(QPainter&)> over);

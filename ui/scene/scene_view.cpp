@@ -245,9 +245,9 @@ void SceneView::updateNote() {
   QString note;
   if (navigation_->throughCamera() && !content_->empty()) {
     if (backdrop_.isNull())
-      note = tr("Taking the lens distortion out of the image ...");
+      note = tr("Removing the lens distortion from the image ...");
     else if (content_->one->source.camera.model != CameraModel::kPinhole)
-      note = tr("Undistorted: the image is shown as a camera without lens distortion sees it");
+      note = tr("Undistorted: the image is shown without lens distortion");
     if (role_ == PoseRole::kTruth && !content_->one->source.camera_from_station_truth)
       note = tr("This case has no truth; the view uses the shown pose");
   } else if (backend_ == SceneBackend::kPicture && !content_->empty()) {

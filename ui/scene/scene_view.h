@@ -54,13 +54,13 @@ class SceneView : public QWidget {
   void setThroughRole(PoseRole role);
   void setShown(const SceneShown& shown);
   void setMeshOpacity(double opacity);
-  /// Shows the present view state at once, without waiting for the event loop.
+  /// Shows the current view state at once, without waiting for the event loop.
   void refresh();
-  /// Marks a point of the station in the scene; nothing: none.
+  /// Marks a point of the station in the scene; empty: none.
   void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  Q_SIGNALS:
-  /// The point of the station under the pointer, or nothing.
+  /// The point of the station under the pointer, or empty.
   void stationPlaceHovered(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  protected:

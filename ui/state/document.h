@@ -26,7 +26,7 @@ class Document : public QObject {
   const sessions::Session& session() const;
   std::filesystem::path file() const;
   bool isModified() const { return document_ && document_->modified(); }
-  /// Whether it was made by dropping files and never saved under a name of its own.
+  /// Whether it was created by dropping files and never saved under a name.
   bool isUntitled() const { return untitled_; }
   /// Why it cannot be edited, or empty.
   QString readOnlyReason() const;
@@ -34,13 +34,13 @@ class Document : public QObject {
   /// Unsaved edits of a program that was killed, waiting for a decision.
   const std::optional<sessions::Recovery>* recovery() const;
 
-  /// Each of these returns whether it was done.
+  /// Each of these returns whether it succeeded.
   bool open(const std::filesystem::path& file);
   bool create(const std::filesystem::path& file, const sessions::Session& session);
-  /// Creates a session in the folder for sessions without a name; saveAs() gives it one.
+  /// Creates a session in untitledFolder(); saveAs() names it.
   bool createUntitled(const sessions::Session& session);
   bool save();
-  /// Also makes the last edit that could not be written, if any.
+  /// Also applies the last edit that could not be written, if any.
   bool saveAs(const std::filesystem::path& file);
   void close();
   /// Removes an untitled session with its runs; nothing is open afterwards.
@@ -69,7 +69,7 @@ class Document : public QObject {
 
   /// The folder of sessions without a name.
   static std::filesystem::path untitledFolder();
-  /// The newest session without a name that no program has open, or nothing.
+  /// The newest session without a name that no program has open, or empty.
   static std::optional<std::filesystem::path> leftUntitled();
   /// Removes such a session with its runs.
   static void removeUntitled(const std::filesystem::path& file);
@@ -83,7 +83,7 @@ class Document : public QObject {
   void writeFailed(const QString& message);
 
  private:
-  /// An edit that could not be written to the journal; the next saveAs() makes it.
+  /// An edit that could not be written to the journal; the next saveAs() applies it.
   struct Refused {
     sessions::Session after;
     QString text;

@@ -125,9 +125,9 @@ class ViewState : public QObject {
   std::optional<sessions::Alternative> alternative_;
 };
 
-/// camera_from_station of that role as the views have it: the run's seed (the case's before a run),
-/// the iteration under the cursor (before or after it, according to the shown stage), the nudged
-/// pose, the truth, the pose solved from annotations. Empty when there is none.
+/// camera_from_station of that role in the views: the run's seed (the case's before a run), the
+/// pose before or after the cursor's iteration (by the shown stage), the nudged pose, the truth, or
+/// the pose solved from annotations. Empty when there is none.
 std::optional<Pose> poseOf(const ViewState& state, PoseRole role);
 
 /// The document's case that the views show, or nullptr.

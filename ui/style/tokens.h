@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// The look of the program as constants: colours, lines on the image, sizes. The style sheet
-// (ui/style/boresight.qss) names the colours as @name@ and gets them from here.
+// SPDX-License-Identifier: Apache-2.0 The look of the program as constants: colours, lines on the
+// image, sizes. The style sheet (ui/style/boresight.qss) names the colours as @name@ and takes them
+// from here.
 #pragma once
 
 #include <array>
@@ -88,7 +88,7 @@ inline constexpr Theme kDarkTheme = {
     .overlay_line = 0x45494F,
 };
 
-/// Badges of a case's state, each with an icon of its own. The same in both themes.
+/// Badges of a case's state, each with its own icon. The same in both themes.
 inline constexpr QRgb kBadgeNew = 0x8A929B;
 inline constexpr QRgb kBadgeRunning = 0x0B62C4;
 inline constexpr QRgb kBadgeConverged = 0x0072B2;
@@ -169,7 +169,7 @@ constexpr const Measures& measuresFor(int window_width) {
   return window_width >= kWideWindow ? kWide : kNarrow;
 }
 
-/// Fonts, the first that there is; sizes in points. The program brings its own one.
+/// Fonts, the first one available; sizes in points. The program includes its own.
 inline constexpr std::array<const char*, 4> kFontFamilies = {"Inter Tabular", "Inter", "Noto Sans",
                                                              "DejaVu Sans"};
 inline constexpr double kTextSize = 10;

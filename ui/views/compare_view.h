@@ -32,8 +32,8 @@ class CompareView : public QWidget {
   ImageView& view() { return *view_; }
   /// Names of the choices, in the order of the box.
   QStringList choices() const;
-  /// How far the second canvas' pose is from the shown one, and the options in which their runs
-  /// differ, a line each.
+  /// Distance of the second canvas' pose from the shown one, and the options in which their runs
+  /// differ, one per line.
   const QStringList& difference() const { return picture_.difference; }
   /// Shows the canvas with this run of the case.
   void showRun(const std::string& digest);

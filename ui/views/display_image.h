@@ -27,8 +27,8 @@ inline constexpr double kClippedShare = 0.005;
 /// distinct levels.
 sessions::GrayLevels automaticLevels(const sessions::ImageSamples& samples);
 
-/// Levels with which an image is shown at first: images of more than 8 bits are stretched
-/// automatically, and those of 8 bits that use less than half of their range.
+/// Levels with which an image is shown at first: automatic for images of more than 8 bits, and for
+/// images of 8 bits that use less than half of their range.
 sessions::GrayLevels firstLevels(const sessions::ImageSamples& samples,
                                  const sessions::GrayLevels& automatic);
 
@@ -106,7 +106,7 @@ class BitPixmaps {
   /// of its pixels covers at least `bits_per_pixel` of them, so that drawing it drops none. Sets
   /// `step`.
   const QImage& at(double bits_per_pixel, int& step);
-  /// Whether that picture is made already.
+  /// Whether that picture is already computed.
   bool has(double bits_per_pixel) const;
 
  private:

@@ -57,7 +57,7 @@ class ImagePanel : public QWidget {
   /// Sets the marks of a layer that no run fills.
   void setMarks(LayerId id, std::vector<Mark> marks);
   void setLines(LayerId id, LinesPtr lines);
-  /// Marks a point of the station in the image; nothing: none.
+  /// Marks a point of the station in the image; empty: none.
   void showStationPlace(const std::optional<Eigen::Vector3d>& point_in_station_m);
 
  public Q_SLOTS:
@@ -69,7 +69,7 @@ class ImagePanel : public QWidget {
   void stylesChanged();
   /// For the status bar: pixel, gray value, and the station point where the shown pose covers it.
   void placeText(const QString& text);
-  /// The point of the station under the pointer, or nothing.
+  /// The point of the station under the pointer, or empty.
   void stationPlaceHovered(const std::optional<Eigen::Vector3d>& point_in_station_m);
   void allLayersRequested();
   /// A template was clicked.

@@ -29,7 +29,7 @@ class ImageView : public QWidget {
 
   explicit ImageView(QWidget* parent = nullptr);
 
-  /// 8-bit gray; a null image shows nothing but a hint. Keeps the zoom when the size stays.
+  /// 8-bit gray; a null image shows only a hint. Keeps the zoom when the size stays.
   void setImage(const QImage& gray);
   /// Sets the gray levels for the values of the grid, when the picture is stretched.
   void setValues(const QImage& gray) { values_ = gray; }
@@ -50,11 +50,11 @@ class ImageView : public QWidget {
   /// Layers are drawn only left of this share of the width; none: everywhere.
   void setSwipe(std::optional<double> share);
   const std::optional<double>& swipe() const { return swipe_; }
-  /// Sets the position of another view's pointer, drawn as a cross. Nothing: none.
+  /// Sets the position of another view's pointer, drawn as a cross. Empty: none.
   void setLinkedCursor(const std::optional<QPointF>& pixel);
   const std::optional<QPointF>& linkedCursor() const { return linked_cursor_; }
-  /// Whether what is on the screen shows the image and layers as they are now. Where they take long
-  /// to draw, several events draw them, and meanwhile the former picture is shown in its new place.
+  /// Whether the screen shows the current image and layers. Slow drawing is split among several
+  /// events; meanwhile the former picture is shown at its new position.
   bool isDrawn() const { return !outdated_ || !isVisible(); }
   /// Hides all layers temporarily (blinking).
   void setLayersHidden(bool hidden);

@@ -123,8 +123,8 @@ struct Layer {
   std::vector<LayerBits> bits;
   std::vector<Mark> marks;
   LinesPtr lines;
-  std::optional<LineToken> line;  ///< present look of the lines, instead of the layer's own
-  QString name;                   ///< name of its present content, instead of the layer's name
+  std::optional<LineToken> line;  ///< current look of the lines, instead of the layer's own
+  QString name;                   ///< name of its current content, instead of the layer's name
   bool faded = false;             ///< drawn faintly while other layers are compared
 
   bool isShown() const { return style.visible && style.opacity > 0.0; }
@@ -145,7 +145,7 @@ std::vector<LayerBits> maskBits(const std::shared_ptr<const sessions::IterationT
 std::vector<LayerBits> agreementBits(const std::shared_ptr<const sessions::AgreementMaps>& maps,
                                      int level);
 
-/// The chosen template, and from the search on its window; nothing when none is chosen.
+/// The chosen template, and from the search on its window; empty when none is chosen.
 std::vector<Mark> chosenMarks(const sessions::IterationTrace& iteration, int selected_template,
                               bool searched);
 std::vector<Mark> templateMarks(const sessions::IterationTrace& iteration, int selected_template);

@@ -13,8 +13,8 @@ class QTreeView;
 
 namespace boresight::ui {
 
-/// Keeps a table or a tree from scrolling sideways: when it is too narrow, dispensable columns are
-/// hidden, the first of the list first, and shown again when there is room. Once the operator has
+/// Keeps a table or a tree from scrolling sideways. When it is too narrow, dispensable columns are
+/// hidden, the first of the list first; they reappear when there is room. Once the operator has
 /// chosen columns, those stay. Belongs to the view.
 class ColumnFitter : public QObject {
   Q_OBJECT

@@ -5,8 +5,8 @@
 
 namespace boresight::ui {
 
-/// A panel that scrolls in a low dock. Docks that insist on the height of their panels squeeze each
-/// other, or make the window larger than the screen.
+/// A panel that scrolls in a low dock. Docks as high as their panels squeeze each other, or make
+/// the window larger than the screen.
 class PanelArea final : public QScrollArea {
   Q_OBJECT
 

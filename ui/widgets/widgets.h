@@ -48,7 +48,7 @@ class EmptyHint : public QLabel {
   Q_OBJECT
 
  public:
-  /// The view must have its model already; a hint shows while that has at most `least_rows` rows.
+  /// The view must have its model already; a hint shows while it has at most `least_rows` rows.
   explicit EmptyHint(QAbstractItemView& view, int least_rows = 0);
 
  protected:

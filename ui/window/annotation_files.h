@@ -43,7 +43,7 @@ class AnnotationFiles : public QObject {
                                               const std::filesystem::path&, bool);
   /// Exports the annotated poses of all cases to a new folder; noted() is emitted when done.
   void exportPoses(Exporter exporter, const QString& title, const QString& name);
-  /// Makes the poses of the folder the truths of the cases that it names.
+  /// Sets the truths of cases from the poses of the folder.
   void importPoses(Importer importer, const QString& title);
   void openLandmarks();
   /// Saves the station's landmarks with the annotations of this image; the case then uses this

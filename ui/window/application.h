@@ -25,7 +25,7 @@ void prepareApplication(bool without_display);
 void nameApplication(QApplication& application);
 
 /// Tests the installed program on the included example, without a display: one line per test, then
-/// "N passed, N failed". Returns how many failed.
+/// "N passed, N failed". Returns the number of failed tests.
 int runSelfTest(std::ostream& output);
 
 /// Content of a picture of the program.
@@ -37,7 +37,7 @@ struct ScreenshotOrder {
                        ///< image; "": none
   int iteration = -2;  ///< index to show; -1: the seed; -2: the last
   int hypothesis = 0;  ///< row under Hypotheses to show, from 1; 0: none
-  std::optional<Workspace> workspace = {};  ///< nothing: the one in which the session opens
+  std::optional<Workspace> workspace = {};  ///< empty: the one in which the session opens
   double* share = nullptr;  ///< receives the share of the window that shows the image
 };
 

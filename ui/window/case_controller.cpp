@@ -430,7 +430,7 @@ void CaseController::runRest() {
       ids << fromText(each->id);
   }
   if (ids.isEmpty())
-    Q_EMIT failed(tr("Every case has a run with its present inputs and options."));
+    Q_EMIT failed(tr("Every case has a run with its current inputs and options."));
   else
     runAll(ids);
 }

@@ -44,11 +44,11 @@ class CaseController : public QObject {
   QString staleness() const;
   /// Why the case cannot be run together with other views, one sentence; empty when it can.
   QString whyAlone() const;
-  /// The batch under way, from reading its first case to storing its last run; else nothing.
+  /// The batch under way, from reading its first case to storing its last run; else empty.
   const std::optional<BatchProgress>& batch() const { return batch_.progress(); }
   /// How the last batch ended; empty while one runs, and from the next run on.
   const std::optional<BatchSummary>& lastBatch() const { return batch_.summary(); }
-  /// Input that a run of the shown case would reject; nothing while that is not known.
+  /// Input that a run of the shown case would reject; empty while that is not known.
   const std::optional<sessions::InputConcern>& inputConcern() const { return input_concern_; }
   /// Why the shown case cannot be run, or empty.
   QString whyNotRunnable() const;
@@ -60,7 +60,7 @@ class CaseController : public QObject {
   /// Runs the case that is being read as soon as it is loaded.
   void runOnceLoaded() { run_when_loaded_ = sessions::StepUntil::kEnd; }
   /// Keeps the shown run's iterations before this one and computes the following ones with the
-  /// present options.
+  /// current options.
   void rerunFrom(int iteration);
   /// Runs the case by this plan instead of the session's options.
   void runPlan(const boresight::sessions::RunPlan& plan);
@@ -70,10 +70,10 @@ class CaseController : public QObject {
   void reset();
   /// Runs cases in the background: the shown case stays, and its run is shown when it has ended.
   void runAll(const QStringList& ids);
-  /// Runs the cases that have no run with their present inputs and options.
+  /// Runs the cases that have no run with their current inputs and options.
   void runRest();
-  /// Runs the case to its end together with the other views of its rig, as one pose; each gets a
-  /// run of its own.
+  /// Runs the case to its end together with the other views of its rig, as one pose; each gets its
+  /// own run.
   void runTogether();
   /// Cases of ended runs that could not be stored in the session's folder (no room); they are
   /// stored as soon as the session is saved, there or elsewhere.

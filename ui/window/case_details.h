@@ -52,7 +52,7 @@ class CaseDetails : public QObject {
   TaskRunner& tasks_;
   sessions::Session session_;
   std::map<std::string, QImage> thumbnails_;          ///< by hash of the file; null: cannot be read
-  std::map<std::string, std::optional<Pose>> poses_;  ///< by digest of the run; nothing: no result
+  std::map<std::string, std::optional<Pose>> poses_;  ///< by digest of the run; empty: no result
   bool reading_ = false;
   std::size_t next_ = 0;  ///< next case to read, first for its picture, then for its run
   QTimer pause_;          ///< between two signals

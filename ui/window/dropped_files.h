@@ -26,8 +26,8 @@ struct DroppedFiles {
   std::string missing() const;
   bool isCase() const;         ///< an image, a camera, a mesh and a seed
   bool isSeedless() const;     ///< an image, a camera and a mesh, which can be annotated
-  int count() const;           ///< of the four that make a case
-  bool hasCamera() const;      ///< a file of its own, or the label of the image
+  int count() const;           ///< of the four files of a case
+  bool hasCamera() const;      ///< a separate file, or the label of the image
   bool isRecordAlone() const;  ///< an onboard record without files of a case
   /// Whether these files start a new case, independent of an earlier drop: a whole case, or another
   /// image together with further files.

@@ -7,8 +7,8 @@ namespace boresight::ui {
 
 class MainWindow;
 
-/// The share of the window that shows the image, 0 .. 1: the part of the image that is inside its
-/// view and not covered by another widget.
+/// The share of the window, 0 .. 1, that shows the image: its part inside the view that no other
+/// widget covers.
 double imageShare(MainWindow& window);
 
 }  // namespace boresight::ui

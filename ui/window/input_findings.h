@@ -15,9 +15,9 @@ namespace boresight::ui {
 
 class Banner;
 
-/// Compares the files of a session with the hashes in the session once its first case is read,
-/// reports missing and changed files, and on request searches for moved files below the session's
-/// folder or accepts changed ones. Hashing may take long, so it has a runner of its own.
+/// Compares the files of a session with its hashes once its first case is read, and reports missing
+/// and changed files. On request it searches moved files below the session's folder or accepts
+/// changed ones. Hashing may take long, so it has a separate runner.
 class InputFindings : public QObject {
   Q_OBJECT
 

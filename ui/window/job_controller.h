@@ -23,8 +23,7 @@ class JobController : public QObject {
 
   Job job() const;
   void update();
-  /// Stops everything that runs: a run, a batch (also between two cases), a sequence, a convergence
-  /// test.
+  /// Stops all jobs: a run, a batch (also between two cases), a sequence, a convergence test.
   void stop();
 
  private:

@@ -12,7 +12,7 @@ namespace boresight::ui {
 
 class LevelsPanel;
 
-/// Makes a changed rule for the conversion of images to 8 bit an edit of the document. The images
+/// Changes the rule for the conversion of images to 8 bit by an edit of the document. The images
 /// are read on a worker thread first, as the document stores the hash of their 8-bit pixels.
 class LevelsController : public QObject {
   Q_OBJECT
@@ -35,8 +35,8 @@ class ImagePanel;
 class MaskEditor;
 class MaskPanel;
 
-/// Makes strokes drawn on the image and requests of the panel edits of the document, and shows the
-/// document's state in both. A stroke belongs to the case on whose image it was drawn.
+/// Turns strokes drawn on the image and requests of the panel into edits of the document, and shows
+/// the document's state in both. A stroke belongs to the case on whose image it was drawn.
 class MaskController : public QObject {
   Q_OBJECT
 

@@ -44,7 +44,7 @@ std::vector<TableColumn<sessions::SequenceRow>> sequenceColumns() {
       {tr("Image"), tr("Name of the image."), -1, [](Row row) { return fromText(row.name); }},
       {tr("State"), tr("Accepted, or lost: the next frame starts from the last accepted pose."), -1,
        [tr](Row row) { return row.accepted ? tr("✓ accepted") : tr("✗ lost"); }},
-      {tr("Probability"), tr("Probability that the pose is right; – for a frame without a pose."),
+      {tr("Probability"), tr("Probability that the pose is correct; – for a frame without a pose."),
        0,
        [](Row row) {
          return row.probability ? probabilityCell(*row.probability) : QStringLiteral("–");
@@ -108,7 +108,7 @@ SequenceDialog::SequenceDialog(const WindowParts& parts, QWidget* parent)
       results_(named(new QLineEdit, "sequenceResults")),
       run_(named(new QPushButton(iconOf(Icon::kRun), tr("Run")), "sequenceRun")),
       cancel_(named(new QPushButton(iconOf(Icon::kStop), tr("Cancel")), "sequenceCancel",
-                    tr("End the run; the frames so far stay, and Run goes on from there"))),
+                    tr("End the run; stored frames are kept, and Run continues after them"))),
       progress_(named(new QLabel, "sequenceProgress")),
       banner_(named(new Banner, "sequenceBanner")),
       table_(named(new QTableView, "sequenceFrames")),
@@ -143,8 +143,8 @@ QWidget* SequenceDialog::buildForm() {
   motion_mm_ = motionField("sequenceMotion", 1e3 * motion.translation_m.x(), kMostMotion, tr("mm"));
   motion_deg_ = motionField("sequenceTurn", motion.rotation_deg.x(), kMostTurn_deg, tr("deg"));
   const QString tip =
-      tr("Largest motion between two images as seen from the camera: along and "
-         "about each axis, about the station's centre. Rather too large.");
+      tr("Largest motion between two images as seen from the camera: along and about each axis, "
+         "about the station's centre. Prefer values that are too large.");
   for (QWidget* each : {motion_mm_, motion_deg_}) each->setToolTip(tip);
   const auto button = [this](const char* name, const QString& text, auto ask) {
     auto* push = named(new QPushButton(text), name);
@@ -302,7 +302,7 @@ void SequenceDialog::showOutcome() {
     return banner_->setMessage(QStringLiteral("✗"), problem_, Banner::Tone::kBad);
   if (!ended) return;
   QString text = tr("%1.").arg(now.summary);
-  if (parts_.sequence.isStopped()) text += tr(" Cancelled; Run goes on.");
+  if (parts_.sequence.isStopped()) text += tr(" Cancelled; Run continues.");
   const bool any = now.lost < now.done;
   if (!any) text += tr(" The first: %1.").arg(fromText(parts_.sequence.rows().front().reason));
   banner_->setMessage(!any            ? QStringLiteral("✗")

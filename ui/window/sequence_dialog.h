@@ -33,8 +33,8 @@ class SequenceModel : public RowsModel<sessions::SequenceRow> {
 };
 
 /// Localizes the shown case's station in a sequence of images: asks for images, motion and results,
-/// lists the frames as they come, and shows the chosen frame with the outline of its pose. Closing
-/// it does not stop the run.
+/// lists the completed frames, and shows the chosen frame with the outline of its pose. Closing it
+/// does not stop the run.
 class SequenceDialog : public QDialog {
   Q_OBJECT
 

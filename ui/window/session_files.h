@@ -30,7 +30,7 @@ void noteRecentFile(const std::filesystem::path& file);
 /// A session's file name with the suffix of sessions: "sol" becomes "sol.boresight.json".
 std::filesystem::path sessionFileName(std::filesystem::path file);
 
-/// The units that a mesh can be in, the likely ones first.
+/// Units of a mesh, the likely ones first.
 inline constexpr std::array<const char*, 5> kMeshUnits = {"m", "mm", "cm", "in", "ft"};
 /// "m: 412 mm across"; the unit alone when the extent is not known.
 QString meshUnitText(const char* unit, const std::optional<double>& extent);
@@ -56,7 +56,7 @@ class SessionFiles : public QObject {
   /// Files of a case that is not complete yet.
   const DroppedFiles& collected() const { return collected_; }
   FilesSituation situation() const;
-  /// Largest extent of the collected mesh in the file's own numbers; nothing until it is measured.
+  /// Largest extent of the collected mesh in the file's own numbers; empty until it is measured.
   const std::optional<double>& meshExtent() const { return mesh_extent_; }
   /// Description of the collected files, and why some cannot be used; empty until they are read.
   const sessions::JudgedFiles& judged() const { return judged_; }
@@ -72,7 +72,7 @@ class SessionFiles : public QObject {
   /// Creates a case without a seed.
   void makeSeedless();
   void forgetCollected();
-  /// Whether a case becomes a session of its own or is added to the open one.
+  /// Whether a case becomes a new session or is added to the open one.
   void setMakesNewSession(bool makes) { makes_new_session_ = makes; }
   /// Opens an example session under a new name and runs it.
   void openExample(const std::filesystem::path& file);

@@ -30,7 +30,7 @@ struct Fixed {
 /// Keys that are no actions of a menu: those of the image, the scene, tables and the field for
 /// nudging, each where the pointer or the focus is.
 constexpr std::array<Fixed, 33> kFixed = {{
-    {QT_TR_NOOP("Esc"), QT_TR_NOOP("Stop what runs")},
+    {QT_TR_NOOP("Esc"), QT_TR_NOOP("Stop all jobs")},
     {QT_TR_NOOP("Image: wheel"), QT_TR_NOOP("Zoom at the cursor")},
     {QT_TR_NOOP("Image: drag"), QT_TR_NOOP("Move the image")},
     {QT_TR_NOOP("Image: double click, 0"), QT_TR_NOOP("Show the whole image")},

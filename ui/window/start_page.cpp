@@ -31,7 +31,7 @@ constexpr SlotText kSlotTexts[StartPage::kSlotCount] = {
      QT_TR_NOOP("json or cahvor; an image's label may have it")},
     {Icon::kCube, QT_TR_NOOP("Mesh"), QT_TR_NOOP("ply, obj, stl, gltf or glb")},
     {Icon::kTarget, QT_TR_NOOP("Seed"),
-     QT_TR_NOOP("A pose (json): where is the camera, roughly? Annotations can give it later.")},
+     QT_TR_NOOP("The camera's approximate pose (json). Annotations can give it later.")},
 };
 
 QLabel* heading(const QString& title, const QString& caption) {
@@ -162,7 +162,7 @@ void StartPage::buildSlot(int index) {
   column->addStretch(1);
   if (index == kSeed) {
     seedless_ = named(new QPushButton(iconOf(Icon::kPencil), tr("Without a seed")), "makeSeedless",
-                      tr("Make the case now, and annotate it: the solved pose can be its seed"));
+                      tr("Create the case now, and annotate it: the solved pose can be its seed"));
     connect(seedless_, &QPushButton::clicked, &files_, &SessionFiles::makeSeedless);
     column->addWidget(seedless_);
   }
@@ -251,8 +251,7 @@ QWidget* StartPage::buildExamples() {
   auto* column = new QVBoxLayout(box);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(8);
-  column->addWidget(
-      heading(tr("Examples"), tr("ready to run; the shipped files stay as they are")));
+  column->addWidget(heading(tr("Examples"), tr("ready to run; the shipped files are not changed")));
   auto* frame = card();
   auto* rows = new QVBoxLayout(frame);
   rows->setContentsMargins(12, 8, 12, 8);

@@ -123,11 +123,11 @@ void WindowDocks::linkViews(const WindowParts& parts) {
   QObject::connect(&image, &ImagePanel::stationPlaceHovered, &scene, &SceneView::showStationPlace);
   QObject::connect(&scene, &SceneView::stationPlaceHovered, &image, &ImagePanel::showStationPlace);
   image.tools().addAction(&gizmo.action());
-  auto* beside = new CanvasFrame(compare);
+  auto* frame = new CanvasFrame(compare);
   compare.show();  // as soon as its frame is
-  image.setBeside(beside);
-  QObject::connect(&compare, &CompareView::chosen, beside, [beside](bool onboard_run) {
-    beside->setSource(onboard_run ? CanvasSource::kOnboard : CanvasSource::kOnly);
+  image.setBeside(frame);
+  QObject::connect(&compare, &CompareView::chosen, frame, [frame](bool onboard_run) {
+    frame->setSource(onboard_run ? CanvasSource::kOnboard : CanvasSource::kOnly);
   });
   QObject::connect(&parts.onboard, &OnboardController::changed, &compare,
                    [this, &onboard = parts.onboard] {

@@ -22,7 +22,7 @@ JobStrip::JobStrip(QWidget* parent)
       count_(named(new QLabel, "jobCount")),
       left_(named(new QLabel, "jobLeft")),
       stop_(named(new QPushButton(iconOf(Icon::kStop), tr("Stop")), "jobStop",
-                  tr("Stop what runs, also between two cases of a batch (Esc, F8)"))),
+                  tr("Stop all jobs, also between two cases of a batch (Esc, F8)"))),
       step_(named(new QPushButton, "jobStep")),
       detail_(named(new QLabel, "jobDetail")),
       place_(named(new QLabel, "place")),

@@ -22,7 +22,7 @@ constexpr Remedy kMasked = {
     Step::kMask,
     QT_TR_NOOP("Part of the station is hidden, or edges are everywhere: print, shadows")};
 constexpr Remedy kMarks = {Step::kAnnotate,
-                           QT_TR_NOOP("Nothing is known of the pose: four points give a seed")};
+                           QT_TR_NOOP("The pose is unknown: four points give a seed")};
 constexpr Remedy kSheet = {Step::kInputs,
                            QT_TR_NOOP("Wrong mesh, unit, camera or calibration: see the warnings")};
 constexpr Remedy kOthers = {

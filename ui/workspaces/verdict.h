@@ -38,7 +38,7 @@ struct FilesSituation {
   int added = 0;  ///< of four
   QString missing;
   QString problem = {};  ///< why a file cannot be used, or empty
-  QString next = {};     ///< the file to choose next: "camera"; empty: all are there
+  QString next = {};     ///< the file to choose next: "camera"; empty: all are present
 };
 
 /// The annotations of the case.
@@ -51,7 +51,7 @@ struct AnnotationSituation {
   QString concern;       ///< why the pose is not good enough, or empty
   QStringList suspects;  ///< annotations that fit badly
   bool robust = false;   ///< the solution gives these little weight
-  bool blind = false;    ///< nothing is solved until all is placed
+  bool blind = false;    ///< nothing is solved until all are placed
   int unplaced = 0;      ///< in the image
 };
 
@@ -90,7 +90,7 @@ struct Situation {
   ReviewSituation review;
   std::shared_ptr<const sessions::RecordComparison> comparison;
   QString not_compared;     ///< why there is no comparison
-  bool can_repeat = false;  ///< the onboard record has what a run on the ground needs
+  bool can_repeat = false;  ///< the onboard record suffices for a run on the ground
 };
 
 Verdict verdictOf(const Situation& situation);

@@ -16,7 +16,7 @@ class QToolButton;
 namespace boresight::ui {
 
 /// Bar above every workspace: the status of the shown case in a sentence, and the next step. A
-/// badge counts the warnings on the inputs; a click lists them below it, and moves nothing.
+/// badge counts the warnings on the inputs; a click lists them over the workspace below it.
 class VerdictBar : public QFrame {
   Q_OBJECT
 

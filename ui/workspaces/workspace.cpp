@@ -20,7 +20,7 @@ constexpr int kAnnotationTable = 220;
 std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
   return {{
       {QT_TRANSLATE_NOOP("Workspace", "Start"),
-       QT_TRANSLATE_NOOP("Workspace", "Make a case from files, open a session or an example"),
+       QT_TRANSLATE_NOOP("Workspace", "Create a case from files, open a session or an example"),
        false,
        {},
        {},
@@ -34,7 +34,7 @@ std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
        {},
        {"scene", "closeUps", "result"}},
       {QT_TRANSLATE_NOOP("Workspace", "Diagnose"),
-       QT_TRANSLATE_NOOP("Workspace", "Find out why a run failed, and what helps"),
+       QT_TRANSLATE_NOOP("Workspace", "Find the cause of a failed run, and a remedy"),
        true,
        {{"inspector", kRight, kWide.diagnose_side},
         {"remedies", kRight, kWide.diagnose_side, "inspector"},
@@ -58,7 +58,7 @@ std::array<WorkspaceInfo, kWorkspaceCount> makeInfos() {
        {{"review", kRight, kNarrow.review_side}},
        {"review", "queue"}},
       {QT_TRANSLATE_NOOP("Workspace", "Onboard"),
-       QT_TRANSLATE_NOOP("Workspace", "Compare what the spacecraft computed with a ground run"),
+       QT_TRANSLATE_NOOP("Workspace", "Compare the onboard run with a ground run"),
        true,
        {{"onboard", kBottom, 260}},
        {{"onboard", kBottom, 200}},

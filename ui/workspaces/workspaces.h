@@ -59,7 +59,7 @@ class Workspaces : public QObject {
   std::vector<QDockWidget*> docks_;
   Workspace current_ = Workspace::kStart;
   bool narrow_ = true;
-  std::array<std::array<QByteArray, kWorkspaceCount>, 2> states_;  ///< empty: as at first
+  std::array<std::array<QByteArray, kWorkspaceCount>, 2> states_;  ///< empty: default
   bool placing_ = false;
   bool shown_ = false;
 };

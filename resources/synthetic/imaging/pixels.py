@@ -16,7 +16,7 @@ def smooth(lights, guides):
     """Edge-stopping wavelet filter (Dammertz 2010) of pictures of the same scene.
 
     `lights` are (picture, levels, relative, absolute): how far it is filtered, and what difference
-    to a neighbour counts as noise at first, of the local mean and besides (a number or a
+    to a neighbour counts as noise at first, of the local mean and in addition (a number or a
     picture); both halve with every level, as the noise does. `guides` are (picture, sigma) without noise: what differs in them is not mixed.
     """
     pictures = [picture for picture, *_ in lights]

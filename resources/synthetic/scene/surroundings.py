@@ -160,7 +160,7 @@ def deck(station, generator):
         angle, distance = generator.uniform(0, 2 * math.pi), generator.uniform(235, 520)
         width, depth, height = generator.uniform(30, 120, 3)
         material = ("paint", "bracket", "foil")[int(generator.integers(0, 3))]
-        # Down into the ground: some stand beside the deck.
+        # Down into the ground: some stand next to the deck.
         made[material].add(shapes.box(width, depth, -1500, low + height,
                                       distance * math.cos(angle), distance * math.sin(angle),
                                       generator.uniform(0, 3.1)))

@@ -12,7 +12,7 @@
 namespace boresight::sessions {
 
 /// A text file of camera calibration (.cahv, .cahvor, .cahvore): vectors in a frame that the file
-/// does not name, for pixels counted from the centre of the top-left one.
+/// does not name. The centre of the top-left pixel is (0, 0).
 struct CahvorFile {
   CahvModel cahv;
   int width = 0;
@@ -27,8 +27,8 @@ struct CahvorFile {
 /// Whether the file has one of these extensions.
 bool isCahvorFile(const std::filesystem::path& file);
 
-/// InputError with the line's key: a key that is missing or given twice, numbers that are not
-/// finite or too few, a covariance that is not symmetric or of another size.
+/// InputError with the line's key: a missing or duplicate key, numbers that are not finite or too
+/// few, a covariance that is not symmetric or of another size.
 CahvorFile readCahvorFile(const std::filesystem::path& file);
 /// The camera of such a file; its reference frame has no name.
 CameraFile readCahvorCamera(const std::filesystem::path& file);

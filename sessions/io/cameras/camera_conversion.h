@@ -15,8 +15,8 @@ namespace boresight::sessions {
 /// poses remain valid; with the approximation error.
 struct FittedCamera {
   Camera camera;  ///< prepared
-  /// Over pixels all across the image and along its whole border: between the pixel of the given
-  /// camera and where the fitted one sees the same point.
+  /// Largest distance between the pixels of the given and the fitted camera for the same point,
+  /// over the image and its border.
   double worst_error_px = 0.0;
   Eigen::Vector2d worst_pixel = Eigen::Vector2d::Zero();
   double rms_error_px = 0.0;
@@ -34,8 +34,8 @@ struct FittedCamera {
 /// Kannala-Brandt; or a pinhole, whose error is the whole distortion). A camera whose entrance
 /// pupil moves has no equivalent for all distances at once: the fit is for points `distance_m` from
 /// the camera's centre, infinity for the rays alone. Fields of more than 120 deg are fitted from
-/// the inside out, from several starts; the smallest mean square wins, pixels that the fitted
-/// camera does not see counted as 20 px off. std::invalid_argument for a model of the CAHV family,
+/// the inside out, from several starts. The smallest mean square wins; pixels that the fitted
+/// camera does not see count as 20 px off. std::invalid_argument for a model of the CAHV family,
 /// whose vectors are exact as they are; std::runtime_error with a sentence when no such camera can
 /// replace it: a mirrored image, or a fit that fails.
 FittedCamera fitCamera(const Camera& given, CameraModel model,

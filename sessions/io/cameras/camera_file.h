@@ -112,7 +112,7 @@ Camera readCamera(const JsonReader& json);
 /// The members of camera.json without format and version; reading it back gives the same bits. The
 /// vectors of the CAHV family are then those in the camera's own frame.
 nlohmann::ordered_json toJson(const Camera& camera);
-/// The same with vectors in the reference frame: reading them back gives the same but for rounding.
+/// The same with vectors in the reference frame: reading them back is exact up to rounding.
 nlohmann::ordered_json toJson(const CameraFile& file);
 
 /// Writes camera.json; OutputError.

@@ -27,7 +27,7 @@ struct FrameTransform {
   FrameName target;
   FrameName source;
   Pose target_from_source;
-  /// Over (rotation rad, translation m), left perturbation, target frame; nothing: exact.
+  /// Over (rotation rad, translation m), left perturbation, target frame; empty: exact.
   std::optional<Matrix6d> covariance = std::nullopt;
   TransformSource origin = TransformSource::kUnstated;
   std::string comment;  ///< source, not empty; by default the name of its file

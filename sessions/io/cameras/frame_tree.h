@@ -46,8 +46,8 @@ struct FrameChain {
 class FrameTree {
  public:
   FrameTree() = default;
-  /// InputError about the file of the transform that closes a loop, with both ways and the
-  /// difference between them.
+  /// InputError about the file of the transform that closes a loop, with both paths and their
+  /// difference.
   explicit FrameTree(std::vector<FrameTransform> transforms);
 
   /// Empty when the frames are not joined.
@@ -65,10 +65,10 @@ struct FrameRow {
   FrameName frame;
   int parent = -1;  ///< index of the parent's row, before this one; -1: CAMERA, or a frame not
                     ///< joined with it
-  /// The transform that joins the two, in either direction; empty without a parent.
+  /// The transform between frame and parent, in either direction; empty without a parent.
   std::optional<FrameTransform> transform;
   Pose parent_from_frame;
-  std::optional<Vector6d> sigma;  ///< (rad, m) per axis of the parent; nothing: exact
+  std::optional<Vector6d> sigma;  ///< (rad, m) per axis of the parent; empty: exact
 };
 
 /// All frames of a tree: CAMERA and the frames joined with it, then the others. Parents come first.

@@ -35,7 +35,7 @@ struct PoseFile {
   /// |R'R - I| (Frobenius) of the matrix in the file, before it was projected to a rotation.
   double rotation_deviation = 0.0;
   std::optional<DeclaredUncertainty> uncertainty;
-  /// Over (rotation rad, translation m), left perturbation, camera frame; nothing: not stated.
+  /// Over (rotation rad, translation m), left perturbation, camera frame; empty: not stated.
   std::optional<Matrix6d> covariance = std::nullopt;
   /// Of a pose that was given as `reference_from_station`; the name may be empty.
   std::optional<FrameName> station_frame = std::nullopt;
@@ -73,8 +73,8 @@ Matrix6d readCovariance(const JsonReader& json);
 /// Translations 0 .. 1000 m, rotations 0 .. 180 deg; `pivot` is "camera" where it is not given.
 DeclaredUncertainty readUncertainty(const JsonReader& json);
 
-/// A line for the operator when the matrix was noticeably not a rotation (deviation above 1e-6,
-/// more than single precision explains), else empty.
+/// A line for the operator when the matrix deviates from a rotation by more than 1e-6 (more than
+/// single precision explains), else empty.
 std::string projectionNote(double rotation_deviation);
 
 /// The uncertainty in the core's form: radians, and the pivot in the seed camera's frame, which for

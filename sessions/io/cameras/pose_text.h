@@ -15,8 +15,7 @@ enum class MatrixOrder { kRowMajor, kColumnMajor };
 enum class QuaternionOrder { kWxyz, kXyzw };
 enum class LengthUnit { kMetre, kMillimetre };
 
-/// The unit quaternion with w >= 0 (and, at half turns, the first other part that is not 0
-/// positive).
+/// The unit quaternion with w >= 0 (at half turns, with the first nonzero of x, y, z positive).
 Eigen::Quaterniond shownQuaternion(const Eigen::Quaterniond& rotation);
 
 /// The pose in one form, with names that state its direction, order and units, exact enough to be

@@ -5,12 +5,12 @@
 
 namespace boresight::sessions {
 
-/// Whether the object is the metadata that accompanies a raw image of Mars 2020 (an entry of the
-/// mission's public image feed): it has `camera_model_component_list`.
+/// Whether the object is the metadata of a raw image of Mars 2020 (an entry of the mission's public
+/// image feed): it has `camera_model_component_list`.
 bool isRawMetadata(const JsonReader& json);
 
-/// The camera of such an image, in ROVER_NAV_FRAME (site, drive). The components describe the image
-/// as it is: sub-frame and scale are applied already. InputError.
+/// The camera of such an image, in ROVER_NAV_FRAME (site, drive). Sub-frame and scale are already
+/// applied to the components. InputError.
 CameraFile readRawMetadata(const JsonReader& json);
 
 }  // namespace boresight::sessions

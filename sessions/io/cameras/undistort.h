@@ -17,13 +17,12 @@ struct UndistortedImage {
   ImageView view() const { return {pixels.data(), camera.width, camera.height, camera.width}; }
 };
 
-/// The pinhole camera that replaces it: same centre, size, focal lengths and principal point, no
-/// distortion.
+/// The pinhole camera with the same centre, size, focal lengths and principal point, no distortion.
 Camera pinholeOf(const Camera& camera);
 
-/// The image resampled (bilinear) through the core's own camera model, so that a render without
-/// distortion from the same pose lies on it. A pinhole image comes back as it is. The image must
-/// have the camera's size.
+/// The image resampled (bilinear) through the core's camera model; a render without distortion from
+/// the same pose lies on it. A pinhole image is returned unchanged. The image must have the
+/// camera's size.
 UndistortedImage undistort(const Camera& camera, const ImageView& image);
 
 }  // namespace boresight::sessions

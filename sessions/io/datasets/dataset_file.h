@@ -91,7 +91,7 @@ struct Case {
   std::optional<Pose> truth_camera_from_station;
   /// Of a truth that was given in a named frame.
   std::optional<FrameName> truth_frame = std::nullopt;
-  std::optional<Matrix6d> truth_covariance = std::nullopt;  ///< nothing: it is exact
+  std::optional<Matrix6d> truth_covariance = std::nullopt;  ///< empty: it is exact
   std::optional<Rig> rig;
   std::vector<std::string> tags;
   /// Values in force for the case: its own, otherwise its seed's (uncertainty), its station's or
@@ -123,8 +123,8 @@ struct Dataset {
   const Case* findCase(const std::string& id) const;
 };
 
-/// InputError with the place in the file: formats, ranges, references to stations and cameras that
-/// do not exist, ids given twice, a mesh without a unit.
+/// InputError with the place in the file: formats, ranges, references to missing stations and
+/// cameras, duplicate ids, a mesh without a unit.
 Dataset readDataset(const std::filesystem::path& file);
 
 /// InputError when an image, mask or mesh that the dataset names does not exist; called before a
@@ -136,9 +136,9 @@ nlohmann::ordered_json toJson(const Requirement& requirement);
 
 /// The image of a case; InputError also when its size is not the camera's.
 GrayImage readCaseImage(const Dataset& dataset, const Case& dataset_case);
-/// Nothing when the case has no mask.
+/// Empty when the case has no mask.
 std::optional<IgnoreMask> readCaseMask(const Dataset& dataset, const Case& dataset_case);
-/// The scene of a station in its own state, all of whose parts are placed in STATION or CAMERA.
+/// The scene of a station in its default state; all parts are placed in STATION or CAMERA.
 SceneMesh readStationScene(const Station& station);
 
 /// The frames that a case's poses and parts may be given in.

@@ -12,8 +12,8 @@
 
 namespace boresight::sessions {
 
-/// Purpose of a file that is read or written. Files of all uses but the first two are kept up to
-/// date by the program itself: each may be replaced by a file of the same use.
+/// Purpose of a file that is read or written. The program updates files of all uses but the first
+/// two: each may be replaced by a file of the same use.
 enum class FileUse {
   kInput,
   kFree,  ///< may be replaced: only its type was read, or this process wrote it
@@ -28,11 +28,12 @@ enum class FileUse {
 /// two uses counts as an input. Files that are not regular are not remembered.
 void noteInput(const std::filesystem::path& file, FileUse use = FileUse::kInput);
 
-/// Remembers that this process has written `output`: it may do so again, also after reading it.
+/// Remembers that this process has written `output`: it may be written again, also after being
+/// read.
 void noteOutput(const std::filesystem::path& output, FileUse use = FileUse::kInput);
 
-/// Throws OverwriteError when `output` is a file that was noted, under whatever name, symbolic or
-/// hard link, and is not replaced by one of the same use.
+/// Throws OverwriteError when `output` is a noted file, by any name, symbolic or hard link, and is
+/// not replaced by one of the same use.
 void requireNoInput(const std::filesystem::path& output, FileUse use = FileUse::kInput);
 
 inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;

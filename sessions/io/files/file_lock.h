@@ -13,7 +13,7 @@ struct LockHolder {
   std::int64_t process = 0;
   std::string host;
   std::string time;  ///< UTC, when it was opened
-  /// When the process began, in clock ticks since its host started: process numbers are used again.
+  /// When the process began, in clock ticks since its host started: process numbers are reused.
   std::int64_t process_start = 0;
 
   bool operator==(const LockHolder&) const = default;
@@ -22,7 +22,7 @@ struct LockHolder {
 };
 
 /// The right to write a session, held as long as the object lives: an exclusive flock on the lock
-/// file, which names the holder. The kernel drops the flock when the holder dies, however it dies.
+/// file, which names the holder. The kernel drops the flock when the holder ends, however it ends.
 class FileLock {
  public:
   /// Takes the lock unless another process holds it. OutputError when the lock file cannot be
@@ -51,8 +51,8 @@ class FileLock {
 /// The holder named in a lock file; empty when the file is missing, empty or not a lock file.
 std::optional<LockHolder> readLockFile(const std::filesystem::path& lock_file);
 
-/// Whether the holder is known to have ended: its process is of this host and is no longer there.
-/// Nothing can be known of another host's processes.
+/// Whether the holder is known to have ended: its process was on this host and no longer exists.
+/// Processes of other hosts are unknown.
 bool hasEnded(const LockHolder& holder);
 
 }  // namespace boresight::sessions

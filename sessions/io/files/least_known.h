@@ -7,8 +7,8 @@
 
 namespace boresight::sessions {
 
-/// The motion of the station that is far less certain than all others under a pose's covariance, as
-/// a clause: "4.6 deg (1 sigma) about the station's z axis", "12.0 mm (1 sigma) along the station's
+/// The motion of the station that is by far the least certain under a pose's covariance, as a
+/// clause: "4.6 deg (1 sigma) about the station's z axis", "12.0 mm (1 sigma) along the station's
 /// direction (0.71, 0.71, 0.00)". "" when no motion stands out. For rotations and translations
 /// alike, the largest sigma must be at least 5 times the next; a rotation is reported before a
 /// translation. The covariance is over (rotation rad, translation m) of the left perturbation in

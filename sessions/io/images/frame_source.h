@@ -24,15 +24,15 @@ class FrameSource {
   virtual ~FrameSource() = default;
   /// Number of frames; of a video as its file states it, 0 where it states none.
   virtual std::int64_t count() const = 0;
-  /// The next frame; nothing after the last one.
+  /// The next frame; empty after the last one.
   virtual std::optional<Frame> next() = 0;
   /// Skips the next frame without reading its image; does nothing after the last one.
   virtual void skip() = 0;
 };
 
 /// The images of a folder (PNG, JPEG, TIFF and the labelled formats, by the ends of their names),
-/// or those that a text file lists, one a line, relative to it; empty lines and lines that begin
-/// with # are skipped. Names of a folder are ordered with their numbers by value: 9 before 10.
+/// or of a text file, one path a line, relative to the file. Empty lines and lines that begin with
+/// # are skipped. Names of a folder are ordered with their numbers by value: 9 before 10.
 /// InputError when there is no such folder or file, no image, or an image twice.
 std::unique_ptr<FrameSource> openImages(const std::filesystem::path& folder_or_list,
                                         const ImageReadOptions& options = {});

@@ -22,8 +22,7 @@
 
 namespace boresight::sessions {
 
-/// While it lives, GDAL's messages in this thread are kept here and never go to stderr; its
-/// settings are restored afterwards.
+/// Keeps GDAL's messages of this thread off stderr; the destructor restores GDAL's settings.
 class GdalQuiet {
  public:
   explicit GdalQuiet(bool vicar_in_pds3 = false) {
@@ -60,7 +59,7 @@ class GdalQuiet {
   std::vector<std::pair<const char*, std::string>> settings_;
 };
 
-/// Files in GDAL's memory, in a folder of their own. The bytes must outlive them.
+/// Files in GDAL's memory, in a separate folder. The bytes must outlive them.
 class GdalMemory {
  public:
   GdalMemory() {

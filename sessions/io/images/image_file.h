@@ -44,7 +44,7 @@ struct ImageReadOptions {
   std::vector<std::uint8_t> table = {};
   /// The table given by two numbers; not together with `table`.
   std::optional<GrayLevels> levels = {};
-  /// The samples are such a mosaic: their colours are interpolated first (OpenCV, edge-aware).
+  /// The samples are a Bayer mosaic: colours are interpolated first (OpenCV, edge-aware).
   std::optional<BayerPattern> bayer = {};
 
   bool operator==(const ImageReadOptions&) const = default;
@@ -81,7 +81,7 @@ struct GrayImage {
 
 /// Reads a PNG, JPEG or TIFF of 8 or 16 bits, gray or colour, or an image with a VICAR, PDS3 or
 /// PDS4 label of any samples (label_samples.h converts them to 16 bits; the depth is then that of
-/// the label), whatever its name; alpha is dropped, an orientation tag is not applied (calibration
+/// the label), with any name. Alpha is dropped; an orientation tag is not applied (calibration
 /// belongs to the stored pixels). Rule: colour by luma (9798 R + 19235 G + 3735 B + 16384) >> 15 on
 /// the samples, then floor(v * 255 / (2^n - 1) + 0.5) or the given table; a sample above 2^n - 1
 /// contradicts the stated depth and is rejected. InputError when the file is missing, empty,

@@ -11,7 +11,7 @@ namespace boresight::sessions {
 
 /// The image of pixels in memory, 8 bits of gray or of blue, green and red; as readImage would read
 /// it from a file with these pixels. Colour whose channels are equal everywhere is gray. `file` is
-/// where they come from; its hash stays empty. InputError for a size beyond the limits.
+/// their source; its hash stays empty. InputError for a size beyond the limits.
 GrayImage grayImageOf(const std::filesystem::path& file, const cv::Mat& pixels);
 
 }  // namespace boresight::sessions

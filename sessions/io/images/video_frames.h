@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// A target of its own (boresight_video): OpenCV's video library loads some 60 others.
+// SPDX-License-Identifier: Apache-2.0 A separate target (boresight_video): OpenCV's video library
+// loads some 60 others.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ std::unique_ptr<FrameSource> openVideo(const std::filesystem::path& file);
 std::unique_ptr<FrameSource> openFrames(const std::filesystem::path& images,
                                         const ImageReadOptions& options = {});
 
-/// One frame of `openFrames`, counted from 1; nothing when there are fewer. InputError.
+/// One frame of `openFrames`, counted from 1; empty when there are fewer. InputError.
 std::optional<Frame> readFrame(const std::filesystem::path& images, std::int64_t number,
                                const ImageReadOptions& options = {});
 

@@ -22,7 +22,7 @@ struct Config {
   OptionList options;
 };
 
-/// The options of a profile: "default" or "paper"; nothing for another name.
+/// The options of a profile: "default" or "paper"; empty for another name.
 std::optional<LocalizerOptions> profileOptions(const std::string& name);
 /// "default, paper", for messages.
 const char* profileNames();
@@ -36,11 +36,11 @@ std::string optionsDigest(const LocalizerOptions& options);
 
 /// {name: value, ...}; a number that is not finite throws std::logic_error when written.
 nlohmann::ordered_json toJson(const OptionList& options);
-/// The reverse: each member must be true/false, a number, or a string.
+/// Inverse of toJson: each member must be true/false, a number, or a string.
 OptionList readOptions(const JsonReader& json);
 
-/// Sets the options that the config names. InputError (file, options.NAME, reason) when one does
-/// not exist or cannot have its value; then `options` is as before.
+/// Sets the options that the config names. InputError (file, options.NAME, reason) when an option
+/// does not exist or cannot have its value; then `options` is unchanged.
 template <class Options>
 void applyConfig(Options& options, const Config& config) {
   Options changed = options;

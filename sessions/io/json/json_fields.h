@@ -31,13 +31,13 @@ bool isSha256Text(const std::string& text);
 
 /// {rotation_wxyz, translation_m}: reads back as the same bits.
 nlohmann::ordered_json exactPoseJson(const Pose& pose);
-/// The reverse. InputError.
+/// Inverse of exactPoseJson. InputError.
 Pose readExactPose(const JsonReader& json);
 /// 64 lower-case hexadecimal digits. InputError.
 std::string readSha256(const JsonReader& json);
 /// UTC, in the format of utcNowText(). InputError.
 std::string readTime(const JsonReader& json);
-/// A text that localizationStatusText gives; InputError for any other.
+/// A text of localizationStatusText; InputError for any other.
 std::string readRunStatus(const JsonReader& json);
 
 /// Functions that write and read a member's value.
@@ -157,7 +157,7 @@ class FieldWriter {
   void optionalPath(const char* key, const std::optional<std::filesystem::path>& value, FileUse) {
     if (value) path(key, *value);
   }
-  /// Writes a struct with `fields` of its own, as do the functions below.
+  /// Writes a struct that has `fields`, as do the functions below.
   template <class T>
   void object(const char* key, const T& value) {
     json_[key] = fieldsJson(value, paths_);

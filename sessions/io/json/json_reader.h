@@ -40,15 +40,15 @@ class JsonUse {
 };
 
 /// A value inside a JSON document together with its place, e.g. `cases[3].seed`. Every accessor
-/// throws InputError (file, place, reason) when the value is not of the requested kind, so that a
-/// reader needs no error handling of its own. Points into the document, which must outlive it.
+/// throws InputError (file, place, reason) when the value is not of the requested kind, so that
+/// readers need no error handling. Points into the document, which must outlive it.
 class JsonReader {
  public:
   JsonReader(const std::filesystem::path& file, const nlohmann::json& value, std::string place)
       : JsonReader(file, value, std::move(place), nullptr) {}
 
   /// The result of `read` for this value. InputError for each member that `read` did not access: a
-  /// misspelt one would be ignored, and lost when the file is written again.
+  /// misspelt member would be ignored, and lost when the file is written again.
   template <class Read>
   auto whole(Read&& read) const {
     JsonUse use;
@@ -68,7 +68,7 @@ class JsonReader {
   bool has(std::string_view key) const { return find(key).has_value(); }
   /// Member of an object; must exist.
   JsonReader at(std::string_view key) const;
-  /// Member of an object, or nothing. A null counts as absent.
+  /// Member of an object, or empty. A null counts as absent.
   std::optional<JsonReader> find(std::string_view key) const;
   std::vector<std::pair<std::string, JsonReader>> members() const;  ///< of an object, by key
   std::vector<JsonReader> elements() const;                         ///< of an array
@@ -141,8 +141,8 @@ std::string numberText(double value);
 inline constexpr std::size_t kMaxJsonBytes = 64 * kMegabyte;
 inline constexpr std::size_t kMaxJsonDepth = 64;
 
-/// A parsed JSON file. Rejected, each with the place in the file: anything that is not JSON or not
-/// UTF-8, a key given twice, NaN or infinity, numbers that do not fit a double, more than
+/// A parsed JSON file. Rejected, each with the place in the file: text that is not JSON or not
+/// UTF-8, a duplicate key, NaN or infinity, numbers that do not fit a double, more than
 /// `kMaxJsonDepth` levels. Comments are not JSON.
 class JsonDocument {
  public:

@@ -24,7 +24,7 @@ using OptionList = std::vector<std::pair<std::string, OptionValue>>;
 
 enum class OptionKind { kBoolean, kInteger, kReal, kChoice };
 
-/// Everything about one option of a given struct: for panels, help texts, files.
+/// Description of one option of a struct: for panels, help texts, files.
 struct OptionDescription {
   std::string name;
   std::string unit;
@@ -122,7 +122,7 @@ void withOption(Options& options, const std::string& name, Convert&& convert) {
   if (!found) throw OptionError(name, "unknown option");
 }
 
-/// Sets one option; OptionError leaves it as it was.
+/// Sets one option; on OptionError it is unchanged.
 template <class Options>
 void applyOption(Options& options, const std::string& name, const OptionValue& value) {
   withOption(options, name,

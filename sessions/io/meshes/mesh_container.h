@@ -40,9 +40,9 @@ struct MeshDeclaration {
   bool needs_plain_ply = false;
 };
 
-/// Checks that the bytes are of the format that the extension promises, and complete as far as the
-/// format shows it (PLY: every element is present; STL: the facets or `endsolid`; GLB: the stated
-/// length; a truncated OBJ is not detected). Importers accept truncated files silently. InputError.
+/// Checks that the bytes have the extension's format, and are complete as far as the format shows
+/// (PLY: every element is present; STL: the facets or `endsolid`; GLB: the stated length; a
+/// truncated OBJ is not detected). Importers accept truncated files silently. InputError.
 MeshDeclaration checkMeshContainer(const std::filesystem::path& file,
                                    std::span<const std::uint8_t> bytes, MeshFormat format);
 

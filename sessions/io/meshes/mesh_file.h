@@ -38,7 +38,7 @@ struct MeshInfo {
   Eigen::Vector3d maximum_m = Eigen::Vector3d::Zero();
 
   double diagonal_m() const { return (maximum_m - minimum_m).norm(); }
-  /// A line for each thing that the operator should know: parts left out, an unusual size.
+  /// Lines for the operator: parts left out, an unusual size.
   std::vector<std::string> notes() const;
 };
 
@@ -49,8 +49,7 @@ struct Mesh {
   MeshInfo info;
 };
 
-/// Metres per unit for "m", "dm", "cm", "mm", "um", "in", "ft", "yd", "km"; nothing for other
-/// names.
+/// Metres per unit for "m", "dm", "cm", "mm", "um", "in", "ft", "yd", "km"; empty for other names.
 std::optional<double> metresPerUnit(const std::string& unit);
 
 /// Reads PLY, OBJ, STL, glTF or GLB. `unit` ("" = not given) is required for formats that carry

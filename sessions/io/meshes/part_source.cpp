@@ -90,7 +90,7 @@ std::size_t partOfName(std::span<const PartSource> parts, const std::string& nam
     throw InputError(file, place, "there is no part '" + name + "'; there are: " + known);
   if (std::count_if(parts.begin(), parts.end(), named) > 1)
     throw InputError(file, place,
-                     "several parts are called '" + name + "': give each a 'name' of its own");
+                     "several parts are called '" + name + "': give each a unique 'name'");
   return static_cast<std::size_t>(found - parts.begin());
 }
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// Parts of a station as files describe them, and the state that each is in.
+// SPDX-License-Identifier: Apache-2.0 Parts of a station as files describe them, and their states.
 #pragma once
 
 #include <filesystem>
@@ -35,7 +34,7 @@ struct PartState {
 
 /// "matched", "occludes", "ignored", or "off".
 std::string partStateText(const PartState& state);
-/// The state after "off", "on", or a role, which also switches the part on; nothing for other text.
+/// The state after "off", "on", or a role, which also switches the part on; empty for other text.
 std::optional<PartState> changedState(const PartState& state, std::string_view change);
 /// The texts that changedState accepts, for help and messages.
 inline constexpr const char* kStateChanges = "off, on, matched, occludes, ignored";
@@ -63,8 +62,8 @@ std::string partText(const PartSource& part);
 /// Whether any part is matched.
 bool anyMatched(std::span<const PartSource> parts);
 
-/// Index of the part of this name. InputError about `file` and `place` when none, or several, have
-/// it.
+/// Index of the part of this name. InputError about `file` and `place` when no part, or several,
+/// have it.
 std::size_t partOfName(std::span<const PartSource> parts, const std::string& name,
                        const std::filesystem::path& file, const std::string& place);
 
@@ -77,13 +76,13 @@ struct PartConcern {
 /// to both; or it is matched and fixed to the camera.
 PartConcern partConcern(const PartSource& part, const FrameTree& frames);
 
-/// The part in frame STATION or CAMERA, whichever fewer transforms join to its frame. InputError
-/// when there is a partConcern.
+/// The part in STATION or CAMERA, whichever fewer transforms join to its frame. InputError when
+/// there is a partConcern.
 PartSource placedPart(const PartSource& part, const FrameTree& frames);
 
 /// "CAMERA", or {"name", "index"} of a frame with an index.
 nlohmann::ordered_json partFrameJson(const FrameName& frame);
-/// The reverse. InputError.
+/// Inverse of partFrameJson. InputError.
 FrameName readPartFrame(const JsonReader& json);
 
 /// `role`, or `match` of older files, and `present`. InputError when both are given.

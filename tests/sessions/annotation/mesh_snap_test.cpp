@@ -43,7 +43,7 @@ TEST_F(MeshSnapTest, PlacesOfTheStation_AreNamedByWhatIsThere) {
   EXPECT_EQ(snapper.kindAt({-0.1, 0.0123, 0.0}), MeshSnapKind::kEdge);
   EXPECT_EQ(snapper.kindAt(snapper.circles()[0].centre_in_station_m), MeshSnapKind::kCircle);
   EXPECT_EQ(snapper.kindAt({-0.05, -0.05, 0.0}), std::nullopt) << "the bare face";
-  EXPECT_EQ(snapper.kindAt({-0.1, 0.1, 0.001}), std::nullopt) << "beside the corner";
+  EXPECT_EQ(snapper.kindAt({-0.1, 0.1, 0.001}), std::nullopt) << "next to the corner";
 }
 
 TEST_F(MeshSnapTest, SnapsToACorner) {

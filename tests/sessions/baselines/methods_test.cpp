@@ -138,7 +138,7 @@ TEST(ExternalMethod, OneThatFailsCostsItsRunAlone) {
     for (int i = 0; i < 2; ++i)
       EXPECT_THROW(methods.localize("external", example.problem(), matchesAlone(), summary()),
                    sessions::MethodError)
-          << what << ": a new one is started, and fails anew";
+          << what << ": a new matcher is started, and fails again";
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that version 1.0 wrote, which every later version reads with the same content. They are
-// never changed: a format that changes gets files of its own beside them.
+// never changed: a format that changes gets separate files next to them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -120,12 +120,12 @@ TEST(CaseRun, RunWithChangedOptions_IsRepeatedFromItsRecord) {
   const sessions::RunPlan read = sessions::planOf(reread.runs[1], reread, file);
   EXPECT_EQ(sessions::runCase(*loaded, read).digest, record.digest);
   EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[0], reread, file); }),
-              HasSubstr("the session's options are no longer its own"));
+              HasSubstr("the session's options have changed since the run"));
   SessionCase moved = *reread.cases[0];
   moved.camera_from_station_seed.translation_m.x() += 1e-6;
   const Session elsewhere = withCase(reread, moved);
   EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[1], elsewhere, file); }),
-              HasSubstr("are no longer its own"));
+              HasSubstr("have changed since the run"));
 }
 
 TEST(CaseRun, StoredRun_IsNamedByItsDigestAndInputs) {

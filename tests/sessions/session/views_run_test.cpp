@@ -154,7 +154,7 @@ TEST_F(ViewsRunTest, WhatAnotherViewDependsOnMakesItStale) {
   EXPECT_THAT(folder_.message([&] {
     (void)sessions::repeatRun(session_.runs[0], withCase(session_, masked), file());
   }),
-              HasSubstr("one of these views is no longer there as it was"));
+              HasSubstr("one of these views has changed or is missing"));
 }
 
 TEST_F(ViewsRunTest, ABlackViewIsLeftOutAndSaysWhy) {

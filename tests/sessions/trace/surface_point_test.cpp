@@ -75,10 +75,10 @@ TEST(SurfacePointAt, PartFixedToTheCamera_HidesTheStation) {
     pose.translation_m = {0.1, 0.0, distance_m};
     const bool hidden = distance_m > 0.2;
     EXPECT_EQ(surfacePointAt(camera, mesh.view(), pose, {110.0, 99.5}).has_value(), !hidden);
-    const auto beside = surfacePointAt(camera, mesh.view(), pose, {90.0, 99.5});
-    ASSERT_TRUE(beside);
-    EXPECT_EQ(beside->face, 0);
-    EXPECT_NEAR(beside->depth_m, distance_m, 1e-12);
+    const auto visible = surfacePointAt(camera, mesh.view(), pose, {90.0, 99.5});
+    ASSERT_TRUE(visible);
+    EXPECT_EQ(visible->face, 0);
+    EXPECT_NEAR(visible->depth_m, distance_m, 1e-12);
   }
   // A tree in the station frame has the station's faces only.
   const auto hit = FaceTree(mesh.view()).firstHit({0.05, 0.0, 0.5}, {0.0, 0.0, -1.0});

@@ -77,7 +77,7 @@ TEST_F(SequenceDialogTest, Cancel_KeepsTheFramesAndRunGoesOn) {
   const int kept = rows();
   EXPECT_GE(kept, 2);
   EXPECT_LT(kept, 30);
-  EXPECT_TRUE(test::has(banner(), "Cancelled; Run goes on."));
+  EXPECT_TRUE(test::has(banner(), "Cancelled; Run continues."));
   EXPECT_EQ(sessions::readResults(results_).runs.size(), static_cast<std::size_t>(kept));
   follow(folder_.path() / "long");
   EXPECT_EQ(rows(), 30);

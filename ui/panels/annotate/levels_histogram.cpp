@@ -23,8 +23,8 @@ LevelsHistogram::LevelsHistogram(DisplayImage& display, QWidget* parent)
   setObjectName(QStringLiteral("histogram"));
   setMinimumHeight(72);
   setToolTip(
-      tr("Drag the handles: what is left of the first is shown black, what is right of the "
-         "second white. Display only: runs do not change."));
+      tr("Drag the handles: levels below the first are shown black, levels above the second white. "
+         "Display only: runs do not change."));
   setAccessibleName(tr("Histogram of the gray levels"));
   connect(&display_, &DisplayImage::levelsChanged, this, [this] {
     setEnabled(display_.samples() && !display_.showsCore());

@@ -12,8 +12,8 @@
 
 namespace boresight::ui {
 
-/// Gray levels: the display of the image, which changes no run, and the conversion of the file's
-/// samples to the 8 bits of the core, which is an edit of the document.
+/// Gray levels of the display, which changes no run, and of the conversion of the file's samples to
+/// the 8 bits of the core, an edit of the document.
 class LevelsPanel : public QWidget {
   Q_OBJECT
 

@@ -13,8 +13,8 @@
 namespace boresight::ui {
 
 /// The ignore mask of the case: tools to draw on the image, pixels above a level, and the strokes
-/// made so far, which can be named, copied to the camera's other cases, and removed. It only
-/// requests edits; the document makes them.
+/// so far, to be named, copied to the camera's other cases, and removed. It only requests edits;
+/// the document makes them.
 class MaskPanel : public QWidget {
   Q_OBJECT
 

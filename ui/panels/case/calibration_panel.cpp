@@ -33,9 +33,9 @@ QStringList rowOf(const sessions::CalibratedValue& value) {
 QString summaryText(const sessions::CameraCalibration& calibration,
                     const std::vector<sessions::CalibratedValue>& values) {
   QStringList lines = {
-      CalibrationPanel::tr("%n image(s), rms %1 px, noise factor %2 (1: residuals as the sigmas "
-                           "say).",
-                           "", static_cast<int>(calibration.camera_from_station.size()))
+      CalibrationPanel::tr(
+          "%n image(s), rms %1 px, noise factor %2 (1: residuals as the sigmas state).", "",
+          static_cast<int>(calibration.camera_from_station.size()))
           .arg(numberText(calibration.rms_px, 3), numberText(calibration.noise_factor, 2))};
   if (const std::string change = sessions::changeText(values); !change.empty())
     lines.prepend(fromText(change));
@@ -71,9 +71,10 @@ void CalibrationPanel::forget(const QString& reason) {
   ui_.parameters->setRowCount(0);
   ui_.use->setEnabled(false);
   ui_.calibrate->setEnabled(state_.currentCase() != nullptr);
-  ui_.summary->setText(!reason.isEmpty() ? reason
-                                         : tr("Many images of the station, annotated or localized, "
-                                              "say how the camera is."));
+  ui_.summary->setText(
+      !reason.isEmpty()
+          ? reason
+          : tr("Estimates the camera from many images of the station, annotated or localized."));
 }
 
 void CalibrationPanel::calibrate() {

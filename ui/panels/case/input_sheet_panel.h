@@ -39,7 +39,7 @@ class JudgementDialog : public QDialog {
  public:
   JudgementDialog(const sessions::SessionCase& session_case, QWidget* parent);
 
-  /// With its former orientation; nothing: poses are judged at the camera.
+  /// With its former orientation; empty: poses are judged at the camera.
   std::optional<Pose> cameraFromEndEffector() const;
   /// A requirement in pixels is kept.
   std::optional<sessions::Requirement> requirement() const;
@@ -58,7 +58,7 @@ class InputSheetPanel : public QWidget {
  public:
   explicit InputSheetPanel(QWidget* parent = nullptr);
 
-  /// Nothing: no case is open.
+  /// Empty: no case is open.
   void setSheet(const std::optional<sessions::InputSheet>& sheet);
   /// The whole sheet as lines of text.
   QString text() const;

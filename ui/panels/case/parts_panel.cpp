@@ -30,8 +30,7 @@ PartsPanel::PartsPanel(Document& document, ViewState& state, QWidget* parent)
   table_->horizontalHeaderItem(kPresent)->setToolTip(
       tr("Whether the part is there: which sleeves are filled, a lid closed"));
   table_->horizontalHeaderItem(kRole)->setToolTip(
-      tr("matched: its edges are looked for; occludes: it hides what is behind it; ignored: as if "
-         "it were not there"));
+      tr("matched: its edges are searched; occludes: it hides parts behind it; ignored: not used"));
   new ColumnFitter(*table_, {kMesh, kFrame});
   table_->setAccessibleName(tr("Parts of the station"));
   auto* column = new QVBoxLayout(this);

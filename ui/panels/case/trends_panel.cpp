@@ -39,9 +39,9 @@ std::vector<TableColumn<TrendPoint>> trendColumns() {
     columns.push_back(
         {tr(kFigureTitles[figure]),
          figure == kResidual
-             ? tr("Residual of the last iteration. !: stands out among the runs of its station.")
+             ? tr("Residual of the last iteration. !: outlier among the runs of its station.")
              : tr("Correction along or about an axis of the end effector, else of the camera. !: "
-                  "stands out among the runs of its station."),
+                  "outlier among the runs of its station."),
          3, [figure](const TrendPoint& point) { return point.figures[figure]; }});
   columns.push_back({tr("Review"), tr("Review status of the case."), -1,
                      [](const TrendPoint& point) { return fromText(point.review); }});

@@ -19,7 +19,7 @@ namespace boresight::ui {
 class Document;
 class DoublePlot;
 
-/// Corrections and residuals, one row a case with a converged run, in the order of time.
+/// Corrections and residuals, one row per case with a converged run, in the order of time.
 class TrendsModel : public RowsModel<sessions::TrendPoint> {
   Q_OBJECT
 

@@ -71,7 +71,7 @@ std::vector<TableColumn<Alternative>> alternativeColumns() {
           "is ambiguous.")
            .arg(kLeastGap),
        2, [](Row row) { return row.score; }},
-      {tr("Probability"), tr("Probability that a compared pose is right."), 0,
+      {tr("Probability"), tr("Probability that a compared pose is correct."), 0,
        [](Row row) { return probabilityCell(row.probability); },
        [](Row row) { return row.probability; }},
       {tr("Inliers"), tr("Matches that agree with its pose."), 0,

@@ -11,8 +11,8 @@ class QTableView;
 
 namespace boresight::ui {
 
-/// The poses that a run compared with those with which it continued, one row each: competing poses
-/// first, then compared poses, then rolled hypotheses by iteration.
+/// The alternatives of a run, one row each: competing poses first, then compared poses, then rolled
+/// hypotheses by iteration.
 class AlternativesModel : public RowsModel<sessions::Alternative> {
   Q_OBJECT
 

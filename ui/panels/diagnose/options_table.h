@@ -18,8 +18,8 @@ struct OptionRow {
   bool isChanged() const { return now.value != by_default.value; }
 };
 
-/// Options as a table: a row per option, bold where it differs from its default. An edit is
-/// reported and not made: the owner of the options answers with new rows.
+/// Options as a table: a row per option, bold where it differs from its default. An edit is only
+/// reported: the owner of the options answers with new rows.
 class OptionsModel : public RowsModel<OptionRow> {
   Q_OBJECT
 
@@ -41,7 +41,7 @@ class OptionsModel : public RowsModel<OptionRow> {
   Qt::ItemFlags flags(const QModelIndex& index) const override;
 
  Q_SIGNALS:
-  /// The value that an option should get, as text.
+  /// The requested value of an option, as text.
   void edited(const std::string& name, const std::string& value);
 
  protected:
@@ -59,8 +59,8 @@ class OptionsTable : public QTableView {
   OptionsModel& options() { return model_; }
   void setOptions(const std::vector<sessions::OptionDescription>& current,
                   const std::vector<sessions::OptionDescription>& by_default);
-  /// Shows the options whose name or help holds every word; all of these, or only those that differ
-  /// from their default.
+  /// Shows the options whose name or help holds every word; with `changed_only` only those that
+  /// differ from their default.
   void setFilter(const QString& words, bool changed_only);
 
  Q_SIGNALS:

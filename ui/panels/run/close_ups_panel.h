@@ -25,8 +25,8 @@ class CloseUpView : public QWidget {
 
   explicit CloseUpView(ImagePanel& image);
 
-  /// Nothing: an empty field. Of a rejected pose the found share is shown: the distance of the few
-  /// edges found there looks as good as a right pose's.
+  /// Empty: an empty field. Of a rejected pose the found share is shown: the distance of the few
+  /// edges found looks as good as a correct pose's.
   void setPlace(const std::optional<sessions::CloseUp>& place, bool rejected = false);
   /// "0.12 px", "13 % found".
   QString figureText() const;

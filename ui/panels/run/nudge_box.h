@@ -35,7 +35,7 @@ struct NudgeFrame {
 /// the pivot are those of the given pose.
 Pose nudged(const Pose& camera_from_station, const Vector6d& offset, const NudgeFrame& frame);
 
-/// The offset that `nudged` would need to get from the first pose to the second.
+/// The offset for `nudged` from the first pose to the second.
 Vector6d nudgeBetween(const Pose& camera_from_station_base, const Pose& camera_from_station,
                       const NudgeFrame& frame);
 
@@ -73,7 +73,7 @@ class NudgeController : public QObject {
   /// From the base to the nudged pose (rotation rad, translation m); zero while nothing is nudged.
   Vector6d offset() const;
 
-  /// Moves by steps (of rotation, then translation) from the present pose.
+  /// Moves by steps (of rotation, then translation) from the current pose.
   void nudgeBy(const Vector6d& steps);
   /// Moves to this offset from the base.
   void setOffset(const Vector6d& offset);

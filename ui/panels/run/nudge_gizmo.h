@@ -20,11 +20,11 @@ class NudgeController;
 class ViewState;
 
 /// Moves the seed on the image in six degrees of freedom: a drag inside the ring moves it in the
-/// image plane, one on the ring rolls it about the view axis, one on the circle below the ring
-/// tilts it, one on the diamond above the ring and the wheel change its distance. Arrows move it by
-/// a pixel and Page Up and Down by a hundredth of the distance; with Ctrl they turn it by a step.
-/// Shift: ten times as far, Alt: a tenth. Enter uses the pose as seed, Escape drops it, then the
-/// tool. One drag is one step of Undo. The distance from the seed is shown while it changes.
+/// image plane, on the ring it rolls, on the circle below the ring it tilts. A drag on the diamond
+/// above the ring, or the wheel, changes its distance. Arrows move it by a pixel and Page Up and
+/// Down by a hundredth of the distance; with Ctrl they turn it by a step. Shift: ten times as far,
+/// Alt: a tenth. Enter uses the pose as seed, Escape drops it, then the tool. One drag is one step
+/// of Undo. The distance from the seed is shown while it changes.
 class NudgeGizmo : public QObject {
   Q_OBJECT
 
@@ -51,7 +51,7 @@ class NudgeGizmo : public QObject {
 
   /// The nudged pose, else the seed: a rejected pose is not a start.
   Pose pose() const;
-  /// Of the station's middle, on the widget; nothing where it is behind the camera.
+  /// Of the station's middle, on the widget; empty where it is behind the camera.
   std::optional<QPointF> centre() const;
   Part partAt(const QPointF& place) const;
   void press(const QPointF& pixel);

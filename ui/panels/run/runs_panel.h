@@ -18,9 +18,9 @@ namespace boresight::ui {
 class Document;
 class ViewState;
 
-/// The runs of the shown case, pinned ones first, then the newest, each with what changed since the
-/// run before it. Each can be opened in every view or compared with the shown one. Pins are stored
-/// in the program's settings.
+/// The runs of the shown case, pinned ones first, then the newest, each with its changes since the
+/// run before. Each can be opened in every view or compared with the shown one. Pins are stored in
+/// the program's settings.
 class RunsPanel : public QWidget {
   Q_OBJECT
 

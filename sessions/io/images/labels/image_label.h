@@ -31,10 +31,10 @@ struct LabelFrame {
 struct LabelSubframe {
   int first_sample = 0;  ///< of the detector, counted from 0
   int first_line = 0;
-  double samples_per_pixel = 1.0;  ///< detector samples that one pixel of the image stands for
+  double samples_per_pixel = 1.0;  ///< detector samples per image pixel
   double lines_per_pixel = 1.0;
 
-  /// Whether the image is the whole detector as it is.
+  /// Whether the image is the whole detector at full resolution.
   bool whole() const {
     return first_sample == 0 && first_line == 0 && samples_per_pixel == 1.0 &&
            lines_per_pixel == 1.0;
@@ -48,8 +48,8 @@ struct ImageLabel {
   std::vector<LabelItem> identifiers;
   int width = 0;  ///< of the image, px
   int height = 0;
-  /// The camera of the image as it is stored: sub-frame and down-sampling applied, pixels counted
-  /// from the centre of the top-left one. Empty with the reason in `camera_remark`.
+  /// The camera of the image as it is stored: sub-frame and down-sampling applied; the centre of
+  /// the top-left pixel is (0, 0). Empty with the reason in `camera_remark`.
   std::optional<CameraFile> camera;
   /// One sentence: the label has no camera model, or one that does not fit the image.
   std::string camera_remark;

@@ -16,8 +16,8 @@ namespace boresight::sessions {
 
 /// Known facts on a mission's labels and on the instrument of an image.
 struct LabelDetector {
-  /// Labels state the model of the image as it was cut and averaged: the mission's own programs
-  /// read it without an offset (planetary.md names the evidence).
+  /// Labels state the model of the cut and averaged image: the mission's programs read it without
+  /// an offset (planetary.md names the evidence).
   bool model_of_subframe = false;
   int width = 0;  ///< upper bound of the detector's samples; 0: not known
   int height = 0;

@@ -21,8 +21,8 @@ const char* labelFormatName(LabelFormat format);  ///< "VICAR", "PDS3", "PDS4"
 /// The label that the bytes begin with, if any.
 std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes);
 
-/// The whole number after KEY = in the text of a VICAR or PDS3 label, e.g. 1024 for NL=1024;
-/// nothing where the label states none.
+/// The whole number after KEY = in the text of a VICAR or PDS3 label, e.g. 1024 for NL=1024; empty
+/// where the label states none.
 std::optional<std::int64_t> statedInteger(std::string_view label, std::string_view key);
 
 /// A file that an image with a label consists of, read once.
@@ -43,7 +43,7 @@ struct LabelFiles {
   std::shared_ptr<const nlohmann::json> elements;  ///< of PDS4: readXmlLabel's tree
   std::string remark;  ///< which of several PDS4 arrays is read; else empty
 
-  /// The first part as GDAL gets it: exponents D become E; a PDS4 label keeps only the array that
+  /// The first part as passed to GDAL: exponents D become E; a PDS4 label keeps only the array that
   /// is read.
   std::span<const std::uint8_t> labelBytes() const {
     return rewritten.empty() ? parts.front().bytes : rewritten;
@@ -70,7 +70,7 @@ XmlLabel readXmlLabel(const std::filesystem::path& file, std::string_view text);
 inline constexpr int kMostLabelBands = 64;
 
 /// The file that holds the label of this image: the file itself, or a label next to it that names
-/// it (same name, ending .lbl or .xml). Nothing when there is no label or it cannot be read.
+/// it (same name, ending .lbl or .xml). Empty when there is no label or it cannot be read.
 std::optional<std::filesystem::path> labelFileOf(const std::filesystem::path& file);
 
 /// Reads the label and the file of its pixels, which must be in the same folder. InputError:

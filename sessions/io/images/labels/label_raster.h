@@ -32,8 +32,8 @@ struct LabelPicture {
 /// An image with a label, opened by GDAL from bytes in memory: no other file is read.
 struct LabelRaster {
   LabelPicture picture;
-  /// Of VICAR and PDS3 GDAL's JSON, with IMAGE at the top also where the label has it in an
-  /// OBJECT = FILE; of PDS4 the tree of readXmlLabel.
+  /// VICAR and PDS3: GDAL's JSON, with IMAGE at the top also if the label has it in an OBJECT =
+  /// FILE. PDS4: the tree of readXmlLabel.
   nlohmann::json label;
   nlohmann::json vicar_label;  ///< of the VICAR header inside a PDS3 file; else null
   /// Reads a row of a band (both from 0), exact in double. InputError.

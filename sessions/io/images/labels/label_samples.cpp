@@ -210,7 +210,7 @@ void requirePicture(const LabelFiles& files, const LabelRaster& raster,
   if (bands != 1 && bands != 3)
     throw InputError(files.file, "the image has " + std::to_string(bands) +
                                      " bands; 1 (gray) or 3 (red, green, blue) are needed: write "
-                                     "the wanted band into a file of its own");
+                                     "the wanted band into a separate file");
   if (bands == 3 && !reading.derived_type.empty())
     throw InputError(files.file,
                      "the label calls this a " + reading.derived_type + ", not a colour image");

@@ -26,7 +26,7 @@ struct InvalidValue {
 void addInvalidValues(const nlohmann::json* stated, bool floating, int sample_bits,
                       std::vector<InvalidValue>& values);
 
-/// The samples of an image with a label as 8 or 16 bits of gray, by a rule that is stated.
+/// The samples of an image with a label as 8 or 16 bits of gray, by the stated rule.
 struct LabelSamples {
   std::string container;  ///< "VICAR", "PDS3", "PDS4"
   int width = 0;
