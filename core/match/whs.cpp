@@ -12,8 +12,7 @@ namespace boresight {
 namespace {
 
 bool imageIsWhole(const BitImage* image) {
-  return image != nullptr && image->width > 0 && image->height > 0 &&
-         image->words_per_row >= BitImage::wordsPerRow(image->width) &&
+  return image != nullptr && image->words_per_row >= BitImage::wordsPerRow(image->width) &&
          image->words.size() >= static_cast<std::size_t>(image->words_per_row) *
                                     static_cast<std::size_t>(image->height);
 }

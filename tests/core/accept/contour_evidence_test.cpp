@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,7 +15,7 @@ namespace {
 
 constexpr int kSide = 160;
 
-/// The outline of a square in an image of directed edges.
+/// Directed edges and a meter with their memory.
 class ContourEvidenceTest : public testing::Test {
  protected:
   ContourEvidenceTest() : direction_(kSide * kSide, DirectedEdges::kNone), block_(1 << 20) {
@@ -22,84 +24,11 @@ class ContourEvidenceTest : public testing::Test {
     Arena arena(block_);
     meter_.create(direction_.size(), arena);
   }
-  void set(int x, int y, std::uint8_t value) {
-    direction_[static_cast<std::size_t>(y * kSide + x)] = value;
-  }
-  /// Calls `visit(x, y, direction)` along a square of 80 px.
-  template <class Visit>
-  static void visitSquare(Visit&& visit) {
-    for (int i = 40; i < 120; ++i) {
-      visit(40, i, 0);
-      visit(119, i, 0);
-      visit(i, 40, 4);
-      visit(i, 119, 4);
-    }
-  }
-  void drawSquare() {
-    visitSquare([&](int x, int y, int d) { set(x, y, static_cast<std::uint8_t>(d)); });
-  }
-  ContourEvidence measure(int shift_px = 0, int turned = 0) {
-    meter_.clear();
-    visitSquare([&](int x, int y, int d) {
-      meter_.add({static_cast<std::int16_t>(x + shift_px), static_cast<std::int16_t>(y + shift_px),
-                  static_cast<std::uint8_t>((d + turned) % kEdgeDirections), true});
-    });
-    meter_.begin(edges_);
-    return meter_.measure(80.0);
-  }
-
   std::vector<std::uint8_t> direction_;
   std::vector<std::byte> block_;
   DirectedEdges edges_;
   ContourEvidenceMeter meter_;
 };
-
-TEST_F(ContourEvidenceTest, OutlineOnItsEdges_IsStrongEvidence) {
-  drawSquare();
-  const ContourEvidence evidence = measure();
-  EXPECT_EQ(evidence.places, 320);
-  EXPECT_EQ(evidence.outline_places, 320);
-  EXPECT_GT(evidence.outline_nats, 0.8);
-  EXPECT_GT(evidence.weakest_nats(), 0.7);
-}
-
-TEST_F(ContourEvidenceTest, ImageWithoutEdges_GivesNegativeEvidence) {
-  // Everything is far from edges, around the places as well: nearly log(0.4).
-  EXPECT_NEAR(measure().outline_nats, std::log(0.4), 0.01);
-}
-
-TEST_F(ContourEvidenceTest, DisplacedOrTurnedOutline_IsNoEvidence) {
-  drawSquare();
-  EXPECT_LT(measure(7).outline_nats, 0.1);
-  EXPECT_LT(measure(0, 4).outline_nats, 0.0) << "edges of other directions";
-}
-
-TEST_F(ContourEvidenceTest, EdgesEverywhere_GiveNoEvidence) {
-  Random random(5);
-  for (auto& direction : direction_)
-    if (random.below(3) == 0) direction = static_cast<std::uint8_t>(random.below(8));
-  drawSquare();
-  EXPECT_LT(measure().outline_nats, 0.45);
-}
-
-TEST_F(ContourEvidenceTest, MissingCorner_IsTheWeakestQuadrant) {
-  drawSquare();
-  for (int i = 30; i < 80; ++i)
-    for (int j = 30; j < 80; ++j) set(i, j, DirectedEdges::kNone);
-  const ContourEvidence evidence = measure();
-  EXPECT_LT(evidence.weakest_nats(), 0.0);
-  EXPECT_GT(evidence.outline_nats, 0.3);
-  EXPECT_EQ(evidence.weakest_nats(), evidence.quadrant_nats[0]);
-}
-
-TEST_F(ContourEvidenceTest, UnknownPixels_DoNotCount) {
-  drawSquare();
-  for (int y = 0; y < 80; ++y)
-    for (int x = 0; x < kSide; ++x) set(x, y, DirectedEdges::kUnseen);
-  const ContourEvidence evidence = measure();
-  EXPECT_LT(evidence.places, 320 / 2 + 10);
-  EXPECT_GT(evidence.outline_nats, 0.7);
-}
 
 TEST_F(ContourEvidenceTest, NoPlaces_GiveZero) {
   meter_.clear();
@@ -110,53 +39,132 @@ TEST_F(ContourEvidenceTest, NoPlaces_GiveZero) {
   EXPECT_EQ(evidence.weakest_nats(), 0.0);
 }
 
-/// The expectation of the evidence at random right poses, by drawing intervals from
-/// m = 0.6 p + 0.4 b with b counted by hand.
-TEST_F(ContourEvidenceTest, Expectation_IsTheMeanOverDrawnIntervals) {
-  drawSquare();
-  Random random(9);
-  for (auto& direction : direction_)
-    if (random.below(12) == 0) direction = static_cast<std::uint8_t>(random.below(8));
-  std::vector<std::uint8_t> distance(direction_.size());
-  const EvidencePlace place{60, 60, 0, false};
-  distanceToDirection(edges_, 0, distance);
-  const double window_px = 30.0;  // no sample of the window is the place itself
-  const PlaceEvidence measured = evidenceOfPlace(place, edges_, distance, window_px);
-  // The nats of each interval, read by placing a distance of that interval at the place.
-  const double p[4] = {0.50, 0.33, 0.17, 0.0};
-  double share[4];
-  double nats[4];
-  const std::uint8_t inside[4] = {5, 18, 30, 50};
-  const auto at = static_cast<std::size_t>(60 * kSide + 60);
-  for (int k = 0; k < 4; ++k) {
-    distance[at] = inside[k];
-    nats[k] = evidenceOfPlace(place, edges_, distance, window_px).nats;
-  }
-  // exp(nats) = (0.6 p + 0.4 b) / b, solved for b; the rest is in the last interval.
-  double around = 1.0;
-  for (int k = 0; k < 4; ++k) {
-    const double b = k < 3 ? 0.6 * p[k] / (std::exp(nats[k]) - 0.4) : around;
-    around -= b;
-    share[k] = 0.6 * p[k] + 0.4 * b;
-  }
-  double expected_nats = 0.0;
-  for (int k = 0; k < 4; ++k) expected_nats += share[k] * nats[k];
-  EXPECT_NEAR(measured.expected_nats, expected_nats, 1e-9);
-  EXPECT_GT(expected_nats, 0.0);
+/// Interval of a distance: up to 1.2, 2.3 and 3.6 px, and beyond.
+std::size_t intervalOf(int distance) {
+  return distance <= 12 ? 0 : distance <= 23 ? 1 : distance <= 36 ? 2 : 3;
 }
 
-TEST_F(ContourEvidenceTest, RightPoseAmongPrint_HasItsShareOfLittleEvidence) {
-  drawSquare();
-  const ContourEvidence plain = measure();
-  Random random(5);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
-      if (random.below(4) == 0 && edges_.at(x, y) == DirectedEdges::kNone)
-        set(x, y, static_cast<std::uint8_t>(random.below(8)));
-  const ContourEvidence print = measure();
-  EXPECT_LT(print.strongest_nats(), 0.6 * plain.strongest_nats());
-  EXPECT_GT(print.shareOfExpected(), 0.8);
-  EXPECT_LT(measure(7).shareOfExpected(), 0.5 * print.shareOfExpected());
+PlaceEvidence placeByDefinition(const EvidencePlace& place, const DirectedEdges& edges,
+                                std::span<const std::uint8_t> distance, double window_px) {
+  constexpr std::array<double, 4> kAtRightPoses = {0.50, 0.33, 0.17, 0.0};
+  const auto distanceAt = [&](int x, int y) {
+    return distance[static_cast<std::size_t>(y * edges.width + x)];
+  };
+  const auto sampleOffset = [&](int i) {
+    return static_cast<int>(std::floor(window_px * ((i + 0.5) / 12.0 - 0.5)));
+  };
+  std::array<double, 4> around = {1.0, 1.0, 1.0, 1.0};
+  double all = 4.0;
+  for (int i = 0; i < 144; ++i) {
+    const int x = place.x + sampleOffset(i % 12);
+    const int y = place.y + sampleOffset(i / 12);
+    if (x < 0 || y < 0 || x >= edges.width || y >= edges.height ||
+        edges.at(x, y) == DirectedEdges::kUnseen)
+      continue;
+    around[intervalOf(distanceAt(x, y))] += 1.0;
+    all += 1.0;
+  }
+  PlaceEvidence evidence;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double background = around[k] / all;
+    const double expected = 0.6 * kAtRightPoses[k] + 0.4 * background;
+    const double nats = std::log(expected / background);
+    if (k == intervalOf(distanceAt(place.x, place.y))) evidence.nats = nats;
+    evidence.expected_nats += expected * nats;
+  }
+  return evidence;
+}
+
+/// An image that is small enough for its distances to be kept, and one that is not.
+TEST_F(ContourEvidenceTest, RandomEdgesAndPlaces_MatchTheDefinition) {
+  Random random(9);
+  const auto below = [&random](int end) {
+    return static_cast<int>(random.below(static_cast<std::uint32_t>(end)));
+  };
+  for (int trial = 0; trial < 8; ++trial) {
+    edges_.width = trial % 2 == 0 ? 61 : 121;
+    edges_.height = trial % 2 == 0 ? 43 : 90;
+    for (auto& direction : direction_)
+      direction = static_cast<std::uint8_t>(below(12) == 0 ? below(8) : DirectedEdges::kNone);
+    for (int y = 20; y < 30; ++y)
+      for (int x = 10; x < 30; ++x)
+        direction_[static_cast<std::size_t>(y * edges_.width + x)] = DirectedEdges::kUnseen;
+    std::vector<EvidencePlace> places;
+    for (int i = 0; i < 300; ++i)
+      places.push_back({static_cast<std::int16_t>(below(edges_.width + 6) - 3),
+                        static_cast<std::int16_t>(below(edges_.height + 6) - 3),
+                        static_cast<std::uint8_t>(below(8)), below(3) == 0});
+    // Corners of the image, and places of which one quadrant has few.
+    places.push_back({0, 0, 1, true});
+    places.push_back({static_cast<std::int16_t>(edges_.width - 1),
+                      static_cast<std::int16_t>(edges_.height - 1), 7, false});
+    meter_.begin(edges_);
+    for (const double size_px : {30.0, 170.0}) {
+      meter_.clear(2.5);
+      for (const EvidencePlace& place : places) meter_.add(place);
+      const ContourEvidence measured = meter_.measure(size_px);
+      double middle_x = 0.0;
+      double middle_y = 0.0;
+      for (const EvidencePlace& place : places) {
+        middle_x += place.x / static_cast<double>(places.size());
+        middle_y += place.y / static_cast<double>(places.size());
+      }
+      ContourEvidence sum;
+      std::vector<std::uint8_t> distance(direction_.size());
+      for (const EvidencePlace& place : places) {
+        if (place.x < 0 || place.y < 0 || place.x >= edges_.width || place.y >= edges_.height ||
+            edges_.at(place.x, place.y) == DirectedEdges::kUnseen)
+          continue;
+        distanceToDirection(edges_, place.direction, distance);
+        const PlaceEvidence of = placeByDefinition(place, edges_, distance, 0.2 * size_px);
+        const std::size_t quadrant =
+            (place.x > middle_x ? 1u : 0u) + (place.y > middle_y ? 2u : 0u);
+        ++sum.places;
+        sum.edges_nats += of.nats;
+        sum.expected_nats += of.expected_nats;
+        ++sum.quadrant_places[quadrant];
+        sum.quadrant_nats[quadrant] += of.nats;
+        if (!place.outline) continue;
+        ++sum.outline_places;
+        sum.outline_nats += of.nats;
+        sum.outline_expected_nats += of.expected_nats;
+      }
+      ASSERT_GT(sum.outline_places, 50);
+      EXPECT_EQ(measured.place_length_px, 2.5);
+      EXPECT_EQ(measured.places, sum.places);
+      EXPECT_EQ(measured.outline_places, sum.outline_places);
+      EXPECT_EQ(measured.quadrant_places, sum.quadrant_places);
+      EXPECT_NEAR(measured.edges_nats, sum.edges_nats / sum.places, 1e-12);
+      EXPECT_NEAR(measured.expected_nats, sum.expected_nats / sum.places, 1e-12);
+      EXPECT_NEAR(measured.outline_nats, sum.outline_nats / sum.outline_places, 1e-12);
+      EXPECT_NEAR(measured.outline_expected_nats, sum.outline_expected_nats / sum.outline_places,
+                  1e-12);
+      for (std::size_t q = 0; q < 4; ++q)
+        EXPECT_NEAR(measured.quadrant_nats[q], sum.quadrant_nats[q] / sum.quadrant_places[q],
+                    1e-12);
+    }
+  }
+}
+
+TEST(ContourEvidence, Summaries_FollowTheirDefinitions) {
+  ContourEvidence evidence;
+  EXPECT_EQ(evidence.shareOfExpected(), 0.0);
+  evidence.places = 100;
+  evidence.place_length_px = 3.0;
+  evidence.edges_nats = 0.5;
+  evidence.outline_nats = 0.3;
+  evidence.expected_nats = 0.25;
+  EXPECT_EQ(evidence.shareOfExpected(), 2.0);
+  evidence.outline_expected_nats = 0.1;
+  EXPECT_NEAR(evidence.shareOfExpected(), 3.0, 1e-12);
+  EXPECT_EQ(evidence.total_nats(), 150.0);
+  EXPECT_EQ(evidence.strongest_nats(), 0.5);
+  evidence.quadrant_nats = {-1.0, 0.2, 0.9, 0.4};
+  evidence.quadrant_places = {9, 10, 41, 40};
+  EXPECT_EQ(evidence.weakest_nats(), 0.2) << "quadrants with a tenth of the places";
+  evidence.outline_nats = 0.6;
+  evidence.quadrant_places = {};
+  EXPECT_EQ(evidence.weakest_nats(), 0.6);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/accept/pose_evidence.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -21,18 +22,24 @@ PoseEvidence evidenceWith(double share, double region_nats, double edge_support)
   return evidence;
 }
 
-TEST(PoseEvidence, Probability_GrowsWithEachOfItsParts) {
-  for (int part = 0; part < 3; ++part) {
-    double before = 0.0;
-    for (int i = 1; i <= 10; ++i) {
-      const double grown = 0.1 * i;
-      const PoseEvidence evidence = evidenceWith(part == 0 ? grown : 0.9, part == 1 ? grown : 0.4,
-                                                 part == 2 ? 0.04 * i : 0.3);
-      EXPECT_GT(evidence.probability(), before) << part << ' ' << i;
-      EXPECT_LE(evidence.probability(), 1.0);
-      before = evidence.probability();
-    }
-  }
+/// The logistic function of resources/evidence/trust.md, within its limits and beyond them.
+TEST(PoseEvidence, Probability_IsTheFittedLogisticFunction) {
+  for (const double share : {-0.5, 0.4, 0.9, 1.4, 1.6})
+    for (const double expected_nats : {0.1, 0.4, 3.0})
+      for (const double region_nats : {-0.8, 0.4, 1.2})
+        for (const double support : {0.0, 0.01, 0.03, 0.3, 0.6}) {
+          PoseEvidence evidence;
+          ContourEvidence& finest = evidence.contours[1];
+          finest.expected_nats = finest.outline_expected_nats = expected_nats;
+          finest.edges_nats = finest.outline_nats = share * expected_nats;
+          evidence.region.nats = region_nats;
+          evidence.edge_support = support;
+          const double log_support =
+              std::log(std::max(0.02, support) / std::max(0.15, expected_nats));
+          const double sum = -3.49 + 3.78 * std::min(1.5, share) + 0.98 * region_nats +
+                             2.41 * std::clamp(log_support, -2.5, 0.2);
+          EXPECT_NEAR(evidence.probability(), 1.0 / (1.0 + std::exp(-sum)), 1e-12);
+        }
 }
 
 TEST(PoseEvidence, NothingMeasured_IsImprobable) {
@@ -40,20 +47,16 @@ TEST(PoseEvidence, NothingMeasured_IsImprobable) {
   EXPECT_GT(evidenceWith(1.5, 1.0, 0.6).probability(), 0.95);
 }
 
-/// Twice the length of explained edges counts more than a better mean over fewer edges.
-TEST(PoseEvidence, Score_PrefersThePoseThatExplainsMore) {
-  PoseEvidence few = evidenceWith(1.2, 0.5, 0.5);
-  PoseEvidence many = evidenceWith(1.0, 0.5, 0.5);
-  for (ContourEvidence& view : many.contours) view.place_length_px = 2.0;
-  EXPECT_GT(many.score(), few.score());
-  few.edge_support += 0.1;
-  EXPECT_GT(few.score(), evidenceWith(1.2, 0.5, 0.5).score());
-}
-
-TEST(PoseEvidence, Means_AreOverTheViews) {
-  PoseEvidence evidence = evidenceWith(1.0, 0.0, 0.0);
+TEST(PoseEvidence, ScoreAndMeans_FollowTheirDefinitions) {
+  PoseEvidence evidence = evidenceWith(1.0, 0.0, 0.7);
   evidence.contours[0].outline_nats = 0.8;
+  evidence.contours[0].quadrant_places = {500, 0, 0, 0};
+  evidence.contours[0].quadrant_nats = {-0.6, 0.0, 0.0, 0.0};
+  evidence.contours[1].place_length_px = 2.0;
   EXPECT_DOUBLE_EQ(evidence.strongest_nats(), 0.6);
+  EXPECT_DOUBLE_EQ(evidence.weakest_nats(), (-0.6 + 0.4) / 2.0);
+  EXPECT_DOUBLE_EQ(evidence.score(),
+                   0.03 * (0.4 * 500 * 2.0) / 8.0 + 0.6 + 0.5 * evidence.weakest_nats() + 0.7);
   EXPECT_EQ(&evidence.finest(), &evidence.contours[1]);
 }
 

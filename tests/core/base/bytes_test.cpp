@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/bytes.h"
-#include "core/base/crc32.h"
 
 namespace boresight {
 namespace {
@@ -69,12 +68,6 @@ TEST(Bytes, ReadsPastTheEnd_GiveZeroAndFail) {
   EXPECT_EQ(reader.u8(), 0u);  // nothing more, although three bytes are there
   EXPECT_TRUE(reader.take(0).empty());
   EXPECT_FALSE(reader.fits(0, 1));
-}
-
-TEST(Crc32, HasTheCheckValueOfItsCatalogue) {
-  // CRC-32/ISO-HDLC of "123456789".
-  const std::array<std::uint8_t, 9> digits = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
-  EXPECT_EQ(crc32(digits), 0xcbf43926u);
 }
 
 }  // namespace

@@ -210,31 +210,6 @@ TEST(DetectEdges, EverythingIgnoredHasNoEdges) {
     EXPECT_EQ(detect(image.view(), &*ignore, options).edge_count, 0);
 }
 
-TEST(DetectEdges, AFlatImageHasNoEdges) {
-  Random random(59);
-  const TestImage image = makeImage(Pattern::kConstant, {100, 60}, random);
-  for (const EdgeOptions& options : someOptions()) {
-    const MapCopy map = detect(image.view(), nullptr, options);
-    EXPECT_EQ(map.edge_count, 0);
-  }
-}
-
-TEST(DetectEdges, FindsTheOutlineOfASquare) {
-  TestImage image = blankImage(120, 100);
-  for (int y = 30; y < 70; ++y)
-    for (int x = 40; x < 90; ++x) image.at(x, y) = 200;
-  EdgeOptions options;
-  options.equalization = Equalization::kOff;
-  TestArena arena;
-  EdgeMap map;
-  ASSERT_EQ(detectEdges(image.view(), nullptr, options, *arena, map), Status::kOk);
-  // The first of two equal neighbours across the step, hence the pixel before it.
-  for (int y = 36; y < 64; ++y)
-    for (int x = 0; x < 120; ++x) EXPECT_EQ(map.level[0].get(x, y), x == 39 || x == 89) << x;
-  for (int x = 46; x < 84; ++x)
-    for (int y = 0; y < 100; ++y) EXPECT_EQ(map.level[0].get(x, y), y == 29 || y == 69) << y;
-}
-
 TEST(EdgeOptions, EachFieldOutOfRangeIsRefused) {
   Random random(60);
   const TestImage image = makeImage(Pattern::kNoise, {20, 20}, random);

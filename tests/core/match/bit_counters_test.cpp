@@ -163,7 +163,8 @@ TEST_P(BitCounters, PrefixSums_AddTheCountersToTheLeft) {
     for (int x = 0; x < 64 * kWords; ++x) row.set(x, x < 64 ? largest : dice.below(largest + 1));
     for (int words = 1; words <= kWords; ++words) {
       std::uint16_t lanes[kLanes * kWords];
-      std::uint32_t totals[kWords];
+      std::uint32_t totals[kWords + 1];
+      totals[words] = 77;
       kernels_.planesToPrefixSums(row.row, words, lanes, totals);
       for (int word = 0; word < words; ++word) {
         std::uint32_t expected = 0;
@@ -173,6 +174,7 @@ TEST_P(BitCounters, PrefixSums_AddTheCountersToTheLeft) {
         }
         ASSERT_EQ(totals[word], expected);
       }
+      ASSERT_EQ(totals[words], 77u) << "nothing beyond the words";
     }
   }
 }

@@ -203,6 +203,7 @@ TEST(WhsSearch, InvalidTemplatesAndWindows_AreRefused) {
   EXPECT_EQ(statusWith([&] { problem.exclusion_px = -1; }), Status::kInvalidOption);
   EXPECT_EQ(statusWith([&] { problem.window.x_max = 200; }), Status::kCapacityExceeded);
   EXPECT_EQ(statusWith([&] { problem.window.y_max = 200; }), Status::kCapacityExceeded);
+  EXPECT_EQ(statusWith([&] { problem.window.x_max = problem.window.y_max = 199; }), Status::kOk);
   EXPECT_EQ(statusWith([&] { problem.view.side_px = 66; }), Status::kCapacityExceeded);
   EXPECT_EQ(statusWith([] {}), Status::kOk);
   WhsSearch fresh;
@@ -238,6 +239,20 @@ TEST(WhsSearch, TemplatesAboveTheListCapacity_AreSearchedRowsAtATime) {
                           noise(side + 130, side + 40, 0.5, dice), side);
     ASSERT_GT(whsNorms(problem.view).edges, 3 * 6144);
     ASSERT_EQ(run(owned.search, problem), peakOfMap(problem));
+  }
+}
+
+/// Bars of a pixel's height, whose 510 upper and lower sides have the 1020 ends that are listed.
+TEST(WhsSearch, MaskWithTheMostEndsOfRuns_IsSearchedAsByDefinition) {
+  Dice dice;
+  OwnedSearch owned(512, 20);
+  for (const int side : {508, 510, 512}) {
+    OwnedBits mask(side, side);
+    for (int y = 0; y < side; y += 2)
+      for (int x = 100; x < 110; ++x) mask.image.set(x, y);
+    const Problem problem(noise(side, side, 0.3, dice), mask, noise(side + 9, side + 9, 0.3, dice),
+                          side);
+    ASSERT_EQ(run(owned.search, problem), peakOfMap(problem)) << side;
   }
 }
 

@@ -123,26 +123,6 @@ TEST(SubpixelPeak, FollowsDisplacedEdges) {
   }
 }
 
-TEST(SubpixelPeak, IsTheTopOfTheParabola) {
-  Dice dice;
-  const OwnedBits bits = noise(80, 80, 0.1, dice);
-  const OwnedBits mask = noise(80, 80, 0.9, dice);
-  const OwnedBits test = noise(100, 100, 0.1, dice);
-  const TemplateView view{&bits.image, &mask.image, 40, 40, 32};
-  const WhsPeak peak = whsPeakReference(view, test.image, {30, 30, 60, 60}, 40, 40, 2);
-  const WhsNorms norms = whsNorms(view);
-  const auto value = [&](int x, int y) {
-    return static_cast<double>(whsComparable(whsCountsAt(view, test.image, x, y), norms));
-  };
-  double x = 0.0, y = 0.0;
-  subpixelPeak(view, test.image, peak, x, y);
-  const double middle = value(peak.x, peak.y);
-  const double left = value(peak.x - 1, peak.y), right = value(peak.x + 1, peak.y);
-  const double above = value(peak.x, peak.y - 1), below = value(peak.x, peak.y + 1);
-  EXPECT_NEAR(x, peak.x + 0.5 * (left - right) / (left - 2.0 * middle + right), 1e-9);
-  EXPECT_NEAR(y, peak.y + 0.5 * (above - below) / (above - 2.0 * middle + below), 1e-9);
-}
-
 /// Top of the parabola through the scores at -1, 0, 1, as the definition has it.
 double topThrough(std::int64_t left, std::int64_t middle, std::int64_t right) {
   const std::int64_t curvature = left - 2 * middle + right;
@@ -181,25 +161,6 @@ TEST(SubpixelPeak, EqualsTheDefinitionForRandomInput) {
     ASSERT_EQ(x, expected_x) << "trial " << trial << " side " << side;
     ASSERT_EQ(y, expected_y) << "trial " << trial << " side " << side;
   }
-}
-
-TEST(SubpixelPeak, StaysAtTheBorderAndWhereNothingCurves) {
-  Dice dice;
-  const OwnedBits bits = noise(64, 64, 0.2, dice);
-  const TemplateView view{&bits.image, &bits.image, 32, 32, 32};
-  WhsPeak peak;
-  peak.x = 16;
-  peak.y = 48;
-  double x = 0.0, y = 0.0;
-  subpixelPeak(view, bits.image, peak, x, y);
-  EXPECT_EQ(x, 16.0);
-  EXPECT_EQ(y, 48.0);
-  const OwnedBits empty(64, 64);
-  peak.y = 32;
-  peak.x = 32;
-  subpixelPeak(view, empty.image, peak, x, y);
-  EXPECT_EQ(x, 32.0);
-  EXPECT_EQ(y, 32.0);
 }
 
 }  // namespace

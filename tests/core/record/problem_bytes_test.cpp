@@ -256,15 +256,6 @@ TEST(ProblemBytes, DamageWithAValidChecksum_IsRefusedOrRuns) {
   EXPECT_GT(accepted, 50);
 }
 
-TEST(ProblemBytes, NoiseIsRefused) {
-  Random random(3);
-  for (int round = 0; round < 500; ++round) {
-    Bytes noise(random.below(400));
-    for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random.next() >> 24);
-    EXPECT_NE(Decoded(noise).fault(), ProblemFault::kNone);
-  }
-}
-
 TEST(ProblemBytes, EveryFaultHasAText) {
   for (int fault = 0; fault <= static_cast<int>(ProblemFault::kArenaTooSmall); ++fault)
     EXPECT_STRNE(problemFaultText(static_cast<ProblemFault>(fault)), "unknown");

@@ -18,8 +18,7 @@ namespace {
 
 /// Runs a case and records it into `out`; how often that took memory from the heap.
 int recordRun(const Case& scene, std::span<std::uint8_t> out, std::span<const std::uint8_t>& bytes,
-              bool& complete) {
-  const LocalizerOptions options;
+              bool& complete, const LocalizerOptions& options = {}) {
   OwnedRun run(scene.problem(), options);
   const int before = heapAllocations();
   RecordWriter record(out);
@@ -157,6 +156,26 @@ TEST(RecordWriter, HashesEdgesAndRendersPixelByPixel) {
   EXPECT_TRUE(differsBy([](EdgePixel& pixel) { pixel.kind ^= kEdgeCrease; }));
   EXPECT_TRUE(differs(render.mask.row(render.mask.height / 2)[1]));
   EXPECT_EQ(renderHash(render), whole);
+}
+
+/// A record with other bytes for the same run cannot be compared with those received before.
+TEST(SameBits, OfRecords) {
+  const auto sumOf = [](const Case& scene, const LocalizerOptions& options) {
+    std::vector<std::uint8_t> memory(1 << 18);
+    std::span<const std::uint8_t> bytes;
+    bool complete = false;
+    recordRun(scene, memory, bytes, complete, options);
+    EXPECT_TRUE(complete);
+    return crc32(bytes);
+  };
+  Case rolled = occludedCase(4);
+  rolled.uncertainty.rotation_rad.z() = 0.6;
+  Case failed = stationCase(3);
+  const Picture noise = noisePicture(512, 512, 2);
+  failed.picture = &noise;
+  EXPECT_EQ(sumOf(stationCase(3), {}), 1201373144u);
+  EXPECT_EQ(sumOf(rolled, paperProfile()), 179653557u);
+  EXPECT_EQ(sumOf(failed, withoutSearch()), 5415202u);
 }
 
 TEST(RecordWriter, NeverWritesBeyondItsMemory) {

@@ -100,7 +100,7 @@ TEST(EdgeRefinement, SmallMotion_ReusesTheEdges) {
             0.02);
 }
 
-TEST(EdgeRefinement, UsesExactlyTheCountedBytes) {
+TEST(EdgeRefinement, CountsAndRms_FollowFromTheSamples) {
   const Case scene = stationCase(1);
   Refined refined;
   refined.pass(scene, poseOff(scene, 1.0, 9), 3.0);

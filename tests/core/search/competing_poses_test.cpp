@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/accept/pose_evidence.h"
 #include "core/base/math.h"
+#include "core/edges/direction_distance.h"
 #include "tests/core/localizer/rail_scene.h"
 
 namespace boresight::test {
@@ -39,23 +41,26 @@ struct Shown {
   Shown& operator=(const Shown&) = delete;
 };
 
+SearchProblem searchFrom(const LocalizationProblem& from) {
+  return {from.image,
+          from.color,
+          from.ignore,
+          from.camera,
+          from.mesh,
+          matchedBounds(from.mesh),
+          from.camera_from_station_seed,
+          from.uncertainty};
+}
+
 std::vector<CompetingPose> competingOf(const Case& scene) {
-  const LocalizationProblem from = scene.problem();
-  const SearchProblem problem{from.image,
-                              from.color,
-                              from.ignore,
-                              from.camera,
-                              from.mesh,
-                              matchedBounds(from.mesh),
-                              from.camera_from_station_seed,
-                              from.uncertainty};
+  const SearchProblem problem = searchFrom(scene.problem());
   std::vector<std::byte> block(16 << 20);
   Arena arena(block);
   MeshAdjacency adjacency;
   EdgeRenderer renderer;
   CompetingPoseTest test;
-  EXPECT_EQ(buildAdjacency(from.mesh, arena, adjacency), Status::kOk);
-  EXPECT_EQ(renderer.create(from.mesh, adjacency, CompetingPoseTest::kLongestView_px,
+  EXPECT_EQ(buildAdjacency(problem.mesh, arena, adjacency), Status::kOk);
+  EXPECT_EQ(renderer.create(problem.mesh, adjacency, CompetingPoseTest::kLongestView_px,
                             CompetingPoseTest::kLongestView_px, RenderOptions(), arena),
             Status::kOk);
   EXPECT_EQ(test.create(ColorView::kChannels, arena), Status::kOk);
@@ -64,6 +69,61 @@ std::vector<CompetingPose> competingOf(const Case& scene) {
     while (!test.step() && steps < 100000) ++steps;
   EXPECT_LT(steps, 100000);
   return {test.poses().begin(), test.poses().end()};
+}
+
+/// Similarity and margin of two poses by their definition, from renders in the finest view.
+CompetingPose comparedPlainly(const Case& scene, const Pose& found, const Pose& other) {
+  const SearchProblem problem = searchFrom(scene.problem());
+  std::vector<std::byte> block(4 << 20);
+  Arena arena(block);
+  ViewEdges view;
+  (void)view.create(CompetingPoseTest::kLongestView_px, ColorView::kChannels, arena);
+  ViewSize size;
+  size.span_px = kEvidenceSpan_px[0];
+  size.margin_px = kViewMargin * size.span_px;
+  size.most_px = CompetingPoseTest::kLongestView_px;
+  EXPECT_TRUE(view.begin(problem, found, size));
+  while (!view.step()) {
+  }
+  const DirectedEdges& image = view.edges();
+  const auto pixels = static_cast<std::size_t>(image.width * image.height);
+  std::vector<std::uint8_t> direction[2];
+  DirectedEdges marks[2] = {image, image};
+  for (int k = 0; k < 2; ++k) {
+    direction[k].assign(pixels, DirectedEdges::kNone);
+    marks[k].direction = direction[k];
+    const Rendering render =
+        renderEdges(scene.solid, view.view().camera, view.inView(k == 0 ? found : other));
+    for (const EdgePixel& pixel : render.edges.eachPixel())
+      direction[k][static_cast<std::size_t>(pixel.y * image.width + pixel.x)] =
+          static_cast<std::uint8_t>(edgeDirectionOf(pixel.normal_x, pixel.normal_y));
+  }
+  double share[2] = {};
+  double nats[2] = {};
+  std::vector<std::uint8_t> to_image(pixels);
+  std::vector<std::uint8_t> to_other(pixels);
+  for (int k = 0; k < 2; ++k) {
+    int all = 0;
+    int alone = 0;
+    for (int d = 0; d < kEdgeDirections; ++d) {
+      distanceToDirection(image, d, to_image);
+      distanceToDirection(marks[1 - k], d, to_other);
+      for (std::size_t i = 0; i < pixels; ++i) {
+        if (direction[k][i] != d || image.direction[i] == DirectedEdges::kUnseen) continue;
+        ++all;
+        if (to_other[i] * kDistanceUnit_px < 3.05) continue;
+        ++alone;
+        const int at = static_cast<int>(i);
+        nats[k] += evidenceOfPlace(
+                       {static_cast<std::int16_t>(at % image.width),
+                        static_cast<std::int16_t>(at / image.width), static_cast<std::uint8_t>(d)},
+                       image, to_image, kEvidenceWindow * view.view().span_px)
+                       .nats;
+      }
+    }
+    share[k] = alone / static_cast<double>(all);
+  }
+  return {other, 1.0 - 0.5 * (share[0] + share[1]), (nats[0] - nats[1]) / kAlongEdge_px, false};
 }
 
 TEST(CompetingPoses, MeshSymmetricUnderAHalfTurn_HasNoCompetingPose) {
@@ -84,6 +144,12 @@ TEST(CompetingPoses, PoseTurnedByHalfATurn_CompetesWithTheTruthWhichHasMoreEvide
   ASSERT_FALSE(competing.empty());
   EXPECT_LT(competing[0].margin_nats, -5.0);
   EXPECT_LT(competing[0].similarity, 0.95);
+  for (const CompetingPose& pose : competing) {
+    const CompetingPose plain =
+        comparedPlainly(shown.scene, shown.scene.truth, pose.camera_from_station);
+    EXPECT_NEAR(pose.similarity, plain.similarity, 1e-3);  // poses are rounded
+    EXPECT_NEAR(pose.margin_nats, plain.margin_nats, 0.01 * std::abs(plain.margin_nats));
+  }
   EXPECT_LT(meanDisplacement_px(shown.scene.solid, shown.scene.camera, truth,
                                 competing[0].camera_from_station),
             2.0);

@@ -132,16 +132,5 @@ TEST(RotationGrid, NearRotations_AreThoseOfTheFormula) {
   EXPECT_GT(near, 10000);
 }
 
-TEST(RotationGrid, RotationsFarFromTheBox_AreNotNear) {
-  const Eigen::Vector3d box_rad(0.1, 0.2, 0.3);
-  EXPECT_TRUE(isNearBox(box_rad, box_rad, Eigen::Vector3d::Zero()));
-  for (int axis = 0; axis < 3; ++axis) {
-    Eigen::Vector3d beyond = Eigen::Vector3d::Zero();
-    beyond[axis] = box_rad[axis] + 0.05;
-    EXPECT_FALSE(isNearBox(beyond, box_rad, Eigen::Vector3d::Constant(0.04)));
-    EXPECT_TRUE(isNearBox(beyond, box_rad, Eigen::Vector3d::Constant(0.06)));
-  }
-}
-
 }  // namespace
 }  // namespace boresight

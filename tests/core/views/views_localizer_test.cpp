@@ -357,16 +357,6 @@ TEST(ViewsLocalizer, BlackImages_Fail) {
   expectSamePose(run.localizer->result().rig_from_station, scene.seed);
 }
 
-TEST(ViewsLocalizer, RepeatedRun_HasTheSameDigest) {
-  const Case scene = stationCase(2);
-  ViewsRun first_run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
-  ViewsRun second_run(scene, {viewOf(scene), secondView(scene)}, defaultProfile());
-  first_run.finish();
-  second_run.finish();
-  EXPECT_STREQ(hexText(first_run.localizer->digest()).data(),
-               hexText(second_run.localizer->digest()).data());
-}
-
 TEST(ViewsLocalizer, InvalidOptionsViewsAndCameras_AreRefused) {
   const Case scene = stationCase(1);
   LocalizerOptions invalid = defaultProfile();
