@@ -10,9 +10,9 @@ boresight_packages=(
   help2man pybind11-dev python3-dev python3-numpy
 )
 
-# Other compilers, and an emulator for what one of them makes: the tests that need them are skipped,
-# visibly, where they are not.
-boresight_optional_packages=(clang g++-powerpc-linux-gnu qemu-user poppler-utils doxygen
+# Another compiler, and an emulator for what it makes: the tests that need them are skipped, visibly,
+# where they are not.
+boresight_optional_packages=(g++-powerpc-linux-gnu qemu-user poppler-utils doxygen
   openssh-client python3-matplotlib)
 
 # missingPackages PACKAGE...: those that are not installed, one a line.

@@ -11,6 +11,7 @@ case "${1:-}" in
   --all)
     presets=(release asan tsan)
     export BORESIGHT_ALL=1  # also cases of full size, where there is data
+    boresight_optional_packages+=(clang)  # a third compiler, and the one of the sanitizers
     boresight_optional_packages+=(blender python3-numpy)  # renders what resources/synthetic makes
     boresight_optional_packages+=(slurm-wlm munge)  # a cluster of one machine, for resources/slurm
     boresight_optional_packages+=(dpkg-dev mmdebstrap lintian)  # a new Debian, for the packages that cpack makes

@@ -9,8 +9,8 @@
 #                                32-bit big-endian processor that is emulated
 #   whs ARGUMENT...              whs of BUILD itself with further arguments
 #   whs_all ARGUMENT...          the same
-# debug, native and whs_all run only with BORESIGHT_ALL set. With it, powerpc computes every case,
-# not two.
+# debug, native, clang and whs_all run only with BORESIGHT_ALL set. With it, powerpc computes every
+# case, not two.
 # Exit status 77: a compiler or the emulator is not installed, and nothing was compared.
 set -euo pipefail
 cases="$2" build="$3"
@@ -56,6 +56,7 @@ case "$1" in
     buildDriver native -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=-march=native
     ;;
   clang)
+    requireAll clang
     requireProgram clang++ clang
     buildDriver clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang \
       -DCMAKE_CXX_COMPILER=clang++
