@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,14 @@ void sealRecord(std::vector<std::uint8_t>& bytes) {
 
 using Path = std::filesystem::path;
 
-void readMetres(const Path& file) { (void)sessions::readMesh(file, "m"); }
+/// A mesh that is read is valid, however damaged its file is.
+void readMetres(const Path& file) {
+  const sessions::Mesh mesh = sessions::readMesh(file, "m");
+  const std::vector<std::uint16_t> part_of_face(mesh.faces.size(), 0);
+  const ScenePart part;
+  if (validateMesh({mesh.vertices_m, mesh.faces, part_of_face, {&part, 1}}) != Status::kOk)
+    throw std::logic_error("the mesh that was read is invalid");
+}
 
 /// For poses in frames of their own.
 sessions::PoseFrames roverFrames() {

@@ -131,35 +131,32 @@ TEST(ColmapText, FisheyesProjectAsColmapDoes) {
 
 TEST(ColmapText, NamesWhatIsWrong) {
   const TemporaryFolder folder;
-  const auto error = [&folder](const std::string& cameras, const std::string& images) {
-    folder.write("cameras.txt", cameras);
-    folder.write("images.txt", images);
-    return folder.message([&] { (void)readColmapText(folder / ""); });
-  };
-  const std::string camera = "1 PINHOLE 10 10 9 9 5 5\n";
-  EXPECT_EQ(error("1 FOV 10 10 9 9 5 5 1\n", "x"),
-            "cameras.txt: line 1: no camera model matches FOV; undistort the images with COLMAP's "
-            "image_undistorter and read its model");
-  EXPECT_EQ(
-      error("1 THIN_PRISM_FISHEYE 10 10 9 9 5 5 0.1 0 0 0.001 0 0 0 0\n", "x"),
-      "cameras.txt: line 1: no camera model matches THIN_PRISM_FISHEYE with tangential or "
-      "thin-prism terms; undistort the images with COLMAP's image_undistorter and read its model");
-  EXPECT_EQ(error("1 CATADIOPTRIC 10 10 9 9 5 5 1\n", "x"),
-            "cameras.txt: line 1: no camera model matches CATADIOPTRIC; undistort the images with "
-            "COLMAP's image_undistorter and read its model");
-  EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5\n", "x"), "cameras.txt: line 1: cy is missing");
-  EXPECT_EQ(error("1 PINHOLE 10 10 9 9 5 5 5\n", "x"),
-            "cameras.txt: line 1: has extra values: '5'");
-  EXPECT_EQ(error("1 PINHOLE 10 10 0 9 5 5\n", "x"),
-            "cameras.txt: line 1: the parameters are not those of a camera");
-  EXPECT_EQ(error(camera, "\n1 1 0 0 0 0 0 1 2 a.png\n\n"),
-            "images.txt: line 2: there is no camera 2");
-  EXPECT_EQ(error(camera, "1 1 1 0 0 0 0 1 1 a.png\n\n"),
-            "images.txt: line 1: the quaternion has not the length 1");
-  EXPECT_EQ(error(camera, "1 1 0 0 0 0 0 nan 1 a.png\n\n"),
-            "images.txt: line 1: the translation: 'nan' is not a number");
-  EXPECT_EQ(error(camera, "1 1 0 0 0 0 0 1 1\n\n"),
-            "images.txt: line 1: the image's name is missing");
+  const std::string remedy =
+      "; undistort the images with COLMAP's image_undistorter and read its model";
+  const std::pair<const char*, std::string> cameras[] = {
+      {"FOV 10 10 9 9 5 5 1", "no camera model matches FOV" + remedy},
+      {"THIN_PRISM_FISHEYE 10 10 9 9 5 5 0.1 0 0 0.001 0 0 0 0",
+       "no camera model matches THIN_PRISM_FISHEYE with tangential or thin-prism terms" + remedy},
+      {"CATADIOPTRIC 10 10 9 9 5 5 1", "no camera model matches CATADIOPTRIC" + remedy},
+      {"PINHOLE 10 10 9 9 5", "cy is missing"},
+      {"PINHOLE 10 10 9 9 5 5 5", "has extra values: '5'"},
+      {"PINHOLE 10 10 0 9 5 5", "the parameters are not those of a camera"}};
+  folder.write("images.txt", "x");
+  const auto message = [&] { return folder.message([&] { (void)readColmapText(folder / ""); }); };
+  for (const auto& [camera, refusal] : cameras) {
+    folder.write("cameras.txt", std::string("1 ") + camera + "\n");
+    EXPECT_EQ(message(), "cameras.txt: line 1: " + refusal);
+  }
+  folder.write("cameras.txt", "1 PINHOLE 10 10 9 9 5 5\n");
+  const std::pair<const char*, const char*> images[] = {
+      {"\n1 1 0 0 0 0 0 1 2 a.png", "line 2: there is no camera 2"},
+      {"1 1 1 0 0 0 0 1 1 a.png", "line 1: the quaternion has not the length 1"},
+      {"1 1 0 0 0 0 0 nan 1 a.png", "line 1: the translation: 'nan' is not a number"},
+      {"1 1 0 0 0 0 0 1 1", "line 1: the image's name is missing"}};
+  for (const auto& [image, refusal] : images) {
+    folder.write("images.txt", std::string(image) + "\n\n");
+    EXPECT_EQ(message(), std::string("images.txt: ") + refusal);
+  }
 }
 
 TEST(ColmapText, RefusesWhatItCouldNotReadBack) {

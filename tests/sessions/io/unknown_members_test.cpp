@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sessions/io/cameras/camera_conversion.h"
 #include "sessions/io/cameras/frame_transform.h"
 #include "sessions/io/cameras/pose_file.h"
 #include "sessions/io/datasets/dataset_file.h"
@@ -17,115 +16,98 @@
 namespace boresight::sessions {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
-const json kIdentity = json::parse("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]");
-constexpr const char* kUnknown = "is not known to this version of the format";
+const std::string kUnknown = "is not known to this version of the format";
 
-json camera() {
-  return json::parse(
-      R"({"format": "boresight-camera", "version": 1, "model": "brown_conrady", "width": 8,
-          "height": 6, "fx": 10, "fy": 10, "cx": 3.5, "cy": 2.5, "dist": [0, 0, 0, 0]})");
-}
+constexpr const char* kCamera =
+    R"({"format": "boresight-camera", "version": 1, "model": "brown_conrady", "width": 8,
+        "height": 6, "fx": 10, "fy": 10, "cx": 3.5, "cy": 2.5, "dist": [0, 0, 0, 0]})";
+constexpr const char* kVectors =
+    R"({"format": "boresight-camera", "version": 1, "model": "cahv", "width": 8, "height": 6,
+        "C": [0, 0, 0], "A": [0, 0, 1], "H": [10, 0, 3.5], "V": [0, 10, 2.5],
+        "reference_frame": {"name": "ROVER", "index": [1]},
+        "subframe": {"first_sample": 0, "first_line": 0, "scale": 1}})";
+constexpr const char* kPose =
+    R"({"format": "boresight-pose", "version": 1,
+        "camera_from_station": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]],
+        "uncertainty": {"translation_m": [1, 1, 1], "rotation_deg": [1, 1, 1], "pivot": "camera"}})";
+constexpr const char* kTransform =
+    R"({"format": "boresight-transform", "version": 1, "target": {"name": "SITE"},
+        "source": {"name": "ROVER"}, "comment": "by hand",
+        "target_from_source": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})";
+constexpr const char* kDataset =
+    R"({"format": "boresight-dataset", "version": 1,
+        "requirement": {"normal_mm": 0.4, "lateral_mm": 0.4},
+        "stations": {"bc": {"mesh": "bc.ply", "mesh_unit": "m"}},
+        "cameras": {"left": {"model": "pinhole", "width": 8, "height": 6, "fx": 10, "fy": 10,
+                             "cx": 3.5, "cy": 2.5}},
+        "cases": [{"id": "a", "station": "bc", "image": "a.png", "camera": "left",
+          "rig": {"id": "r", "camera_from_rig": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+          "truth": {"camera_from_station": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+          "seed": {"camera_from_station": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}}]})";
 
-json vectors() {
-  return json::parse(
-      R"({"format": "boresight-camera", "version": 1, "model": "cahv", "width": 8, "height": 6,
-          "C": [0, 0, 0], "A": [0, 0, 1], "H": [10, 0, 3.5], "V": [0, 10, 2.5],
-          "reference_frame": {"name": "ROVER", "index": [1]},
-          "subframe": {"first_sample": 0, "first_line": 0, "scale": 1}})");
-}
-
-json pose() {
-  return {{"format", "boresight-pose"},
-          {"version", 1},
-          {"camera_from_station", kIdentity},
-          {"uncertainty",
-           {{"translation_m", {1, 1, 1}}, {"rotation_deg", {1, 1, 1}}, {"pivot", "camera"}}}};
-}
-
-json transformFile() {
-  return {{"format", "boresight-transform"}, {"version", 1},
-          {"target", {{"name", "SITE"}}},    {"source", {{"name", "ROVER"}}},
-          {"target_from_source", kIdentity}, {"comment", "by hand"}};
-}
-
-json dataset() {
-  json result = {{"format", "boresight-dataset"},
-                 {"version", 1},
-                 {"requirement", {{"normal_mm", 0.4}, {"lateral_mm", 0.4}}}};
-  result["stations"]["bc"] = {{"mesh", "bc.ply"}, {"mesh_unit", "m"}};
-  result["cameras"]["left"] = camera();
-  result["cameras"]["left"].erase("format");
-  result["cameras"]["left"].erase("version");
-  result["cases"] = {{{"id", "a"},
-                      {"station", "bc"},
-                      {"image", "a.png"},
-                      {"camera", "left"},
-                      {"rig", {{"id", "r"}, {"camera_from_rig", kIdentity}}},
-                      {"truth", {{"camera_from_station", kIdentity}}},
-                      {"seed", {{"camera_from_station", kIdentity}}}}};
-  return result;
-}
+using Read = void (*)(const fs::path&);
+constexpr Read kReadCamera = [](const fs::path& file) { (void)readCameraFile(file); };
+constexpr Read kReadPose = [](const fs::path& file) { (void)readPose(file); };
+constexpr Read kReadDataset = [](const fs::path& file) { (void)readDataset(file); };
 
 class UnknownMembers : public testing::Test {
  protected:
-  template <class Read>
-  std::string refusal(Read&& read, const json& file) const {
-    const auto written = folder_.write("f.json", file.dump());
-    return folder_.message([&] { (void)read(written); });
-  }
-  /// Expects that a member which the format does not have is refused in each of these objects.
-  template <class Read>
-  void expectRefused(Read&& read, const json& file, std::initializer_list<const char*> objects) {
-    EXPECT_EQ(refusal(read, file), "(nothing)");
-    for (const char* object : objects) {
-      json changed = file;
-      changed[json::json_pointer(object)]["wrong"] = 1;
-      EXPECT_THAT(refusal(read, changed), testing::HasSubstr(std::string("wrong: ") + kUnknown))
-          << object;
-    }
+  std::string refusal(Read read, const json& content) const {
+    const fs::path file = folder_.write("f.json", content.dump());
+    return folder_.message([&] { read(file); });
   }
 
   const test::TemporaryFolder folder_;
 };
 
-const auto kReadCamera = [](const std::filesystem::path& file) { return readCameraFile(file); };
-const auto kReadPose = [](const std::filesystem::path& file) { return readPose(file); };
-
 TEST_F(UnknownMembers, OfEveryObject_AreRefused) {
-  expectRefused(kReadCamera, camera(), {""});
-  expectRefused(kReadCamera, vectors(), {"", "/subframe", "/reference_frame"});
-  expectRefused(kReadPose, pose(), {"", "/uncertainty"});
-  expectRefused(readConfig, {{"format", "boresight-config"}, {"version", 1}}, {""});
-  expectRefused([](const auto& file) { return readFrameTransforms(file); }, transformFile(), {"", "/target", "/source"});
-  expectRefused(readDataset, dataset(),
-                {"", "/cases/0", "/cases/0/rig", "/cases/0/seed", "/stations/bc", "/requirement"});
+  const struct {
+    Read read;
+    const char* file;
+    std::vector<const char*> objects;
+  } formats[] = {
+      {kReadCamera, kCamera, {""}},
+      {kReadCamera, kVectors, {"", "/subframe", "/reference_frame"}},
+      {kReadPose, kPose, {"", "/uncertainty"}},
+      {[](const fs::path& file) { (void)readConfig(file); },
+       R"({"format": "boresight-config", "version": 1})",
+       {""}},
+      {[](const fs::path& file) { (void)readFrameTransforms(file); },
+       kTransform,
+       {"", "/target", "/source"}},
+      {kReadDataset,
+       kDataset,
+       {"", "/cases/0", "/cases/0/rig", "/cases/0/seed", "/stations/bc", "/requirement"}}};
+  for (const auto& format : formats) {
+    const json good = json::parse(format.file);
+    EXPECT_EQ(refusal(format.read, good), "(nothing)");
+    for (const char* object : format.objects) {
+      json changed = good;
+      changed[json::json_pointer(object)]["wrong"] = 1;
+      EXPECT_THAT(refusal(format.read, changed), testing::HasSubstr("wrong: " + kUnknown))
+          << format.file << object;
+    }
+  }
 }
 
 TEST_F(UnknownMembers, Refusal_NamesTheMembersThatAreNotGiven) {
-  json misspelt = pose();
+  json misspelt = json::parse(kPose);
   misspelt["uncertainty"]["pivott"] = "camera";
   misspelt["uncertainty"].erase("pivot");
   EXPECT_EQ(refusal(kReadPose, misspelt),
-            std::string("f.json: uncertainty.pivott: ") + kUnknown + ", which also has: pivot");
-}
-
-TEST_F(UnknownMembers, OfACameraThatWasFittedAreKnown) {
-  const Camera given = readCamera(folder_.write("f.json", camera().dump()));
-  FittedCamera fitted;
-  fitted.camera = given;
-  writeFittedCamera(folder_ / "fitted.json", fitted, given, "left.IMG", 0.5);
-  EXPECT_EQ(readCamera(folder_ / "fitted.json"), given);
+            "f.json: uncertainty.pivott: " + kUnknown + ", which also has: pivot");
 }
 
 TEST_F(UnknownMembers, OfADatasetDoNotIncludeTheHeadOfAFileThatWasCopiedIn) {
-  json given = dataset();
-  given["cameras"]["left"] = camera();
-  given["cases"][0]["seed"] = pose();
-  EXPECT_EQ(refusal(readDataset, given), "(nothing)");
+  json given = json::parse(kDataset);
+  given["cameras"]["left"] = json::parse(kCamera);
+  given["cases"][0]["seed"] = json::parse(kPose);
+  EXPECT_EQ(refusal(kReadDataset, given), "(nothing)");
   given["cases"][0]["seed"]["format"] = "boresight-camera";
-  EXPECT_EQ(refusal(readDataset, given),
+  EXPECT_EQ(refusal(kReadDataset, given),
             "f.json: cases[0].seed.format: is 'boresight-camera', not 'boresight-pose'");
 }
 

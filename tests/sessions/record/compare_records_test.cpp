@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <span>
 
 #include "tests/sessions/record/recorded_run.h"
@@ -26,43 +25,42 @@ TEST(CompareRecords, ARunIsEqualToItself) {
   EXPECT_FALSE(found.first);
   EXPECT_EQ(found.translation_mm, 0.0);
   EXPECT_THAT(comparisonText(found), testing::HasSubstr("equal to the bit"));
-  const RecordedRun again = recordRun(exampleRun().problem, recordedOptions());
-  EXPECT_EQ(compareRecords(reference(), again.record).verdict, RunVerdict::kEqual);
 }
 
 /// Each change of one value in a copy is the first difference found.
 TEST(CompareRecords, NamesTheFirstThingThatDiffers) {
-  struct Change {
+  const struct Change {
     RunPart part;
-    std::function<void(OnboardRecord&)> make;
-  };
-  const std::vector<Change> changes = {
-      {RunPart::kMask, [](auto& run) { run.inputs->sha256.ignore[3] ^= 1; }},
-      {RunPart::kScene, [](auto& run) { run.inputs->sha256.scene[31] ^= 128; }},
-      {RunPart::kCamera, [](auto& run) { run.inputs->sha256.camera[0] ^= 1; }},
+    void (*make)(OnboardRecord&);
+  } changes[] = {
+      {RunPart::kMask, [](OnboardRecord& run) { run.inputs->sha256.ignore[3] ^= 1; }},
+      {RunPart::kScene, [](OnboardRecord& run) { run.inputs->sha256.scene[31] ^= 128; }},
+      {RunPart::kCamera, [](OnboardRecord& run) { run.inputs->sha256.camera[0] ^= 1; }},
       {RunPart::kSeed,
-       [](auto& run) { run.inputs->camera_from_station_seed.translation_m.z() += 1e-15; }},
-      {RunPart::kSeed, [](auto& run) { run.inputs->uncertainty.rotation_rad.x() *= 2.0; }},
-      {RunPart::kSeed, [](auto& run) { run.inputs->end_effector_in_camera_m.x() += 0.1; }},
-      {RunPart::kOptions, [](auto& run) { run.options.front().options[5].bits ^= 1; }},
-      {RunPart::kOptions, [](auto& run) { run.options.front().options.pop_back(); }},
-      {RunPart::kEdges, [](auto& run) { run.edges->sha256[9] ^= 4; }},
-      {RunPart::kEdges, [](auto& run) { run.edges->high_threshold += 1.0; }},
-      {RunPart::kEdges, [](auto& run) { --run.edges->edge_count; }},
-      {RunPart::kRender, [](auto& run) { ++run.iterations[0].trace.edge_pixel_count; }},
-      {RunPart::kRender, [](auto& run) { (*run.iterations[0].render_sha256)[0] ^= 1; }},
-      {RunPart::kTemplates, [](auto& run) { ++(*run.iterations[0].templates)[7].x; }},
-      {RunPart::kMatches, [](auto& run) { (*run.iterations[0].templates)[2].score += 1e-6F; }},
+       [](OnboardRecord& run) { run.inputs->camera_from_station_seed.translation_m.z() += 1e-15; }},
+      {RunPart::kSeed, [](OnboardRecord& run) { run.inputs->uncertainty.rotation_rad.x() *= 2.0; }},
+      {RunPart::kSeed, [](OnboardRecord& run) { run.inputs->end_effector_in_camera_m.x() += 0.1; }},
+      {RunPart::kOptions, [](OnboardRecord& run) { run.options[0].options[5].bits ^= 1; }},
+      {RunPart::kOptions, [](OnboardRecord& run) { run.options[0].options.pop_back(); }},
+      {RunPart::kEdges, [](OnboardRecord& run) { run.edges->sha256[9] ^= 4; }},
+      {RunPart::kEdges, [](OnboardRecord& run) { run.edges->high_threshold += 1.0; }},
+      {RunPart::kEdges, [](OnboardRecord& run) { --run.edges->edge_count; }},
+      {RunPart::kRender, [](OnboardRecord& run) { ++run.iterations[0].trace.edge_pixel_count; }},
+      {RunPart::kRender, [](OnboardRecord& run) { (*run.iterations[0].render_sha256)[0] ^= 1; }},
+      {RunPart::kTemplates, [](OnboardRecord& run) { ++(*run.iterations[0].templates)[7].x; }},
+      {RunPart::kMatches,
+       [](OnboardRecord& run) { (*run.iterations[0].templates)[2].score += 1e-6F; }},
       {RunPart::kInliers,
-       [](auto& run) {
-         auto& value = (*run.iterations[0].templates)[4];
-         value.inlier = !value.inlier;
+       [](OnboardRecord& run) {
+         bool& inlier = (*run.iterations[0].templates)[4].inlier;
+         inlier = !inlier;
        }},
       {RunPart::kPose,
-       [](auto& run) { run.iterations[0].trace.camera_from_station.translation_m.x() += 1e-16; }},
-      {RunPart::kEnd, [](auto& run) { run.end->covariance(0, 0) *= 1.0 + 1e-15; }},
-      {RunPart::kDigest,
-       [](auto& run) { run.end->digest[0] = run.end->digest[0] == 'a' ? 'b' : 'a'; }},
+       [](OnboardRecord& run) {
+         run.iterations[0].trace.camera_from_station.translation_m.x() += 1e-16;
+       }},
+      {RunPart::kEnd, [](OnboardRecord& run) { run.end->covariance(0, 0) *= 1.0 + 1e-15; }},
+      {RunPart::kDigest, [](OnboardRecord& run) { run.end->digest[0] ^= 1; }},
   };
   for (const Change& change : changes) {
     OnboardRecord changed = reference();

@@ -16,40 +16,35 @@ TEST(PlainText, KeepsWhatIsShown) {
   EXPECT_EQ(plainText(""), "");
 }
 
-TEST(PlainText, HasBlanksForControlCharacters) {
-  EXPECT_EQ(plainText("a\x1b[31mb\nc\td\re\x7f"), "a [31mb c d e ");
-  EXPECT_EQ(plainText(std::string("a\0b", 3)), "a b");
-  EXPECT_EQ(plainText("a\xc2\x80z \xc2\x9b"
-                      "31m \xc2\x9f."),
-            "a z  31m  .")
-      << "U+0080, U+009B and U+009F";
-  EXPECT_EQ(plainText("\xc2\xa0"), "\xc2\xa0") << "U+00A0 is the first behind them";
-}
-
-TEST(PlainText, DirectionMarksAndLineSeparators_BecomeBlanks) {
-  EXPECT_EQ(plainText("a\xe2\x80\xae"
-                      "b\xe2\x81\xa6"
-                      "c\xe2\x80\x8f"
-                      "d\xd8\x9c"
-                      "e"),
-            "a b c d e")
-      << "U+202E, U+2066, U+200F, U+061C";
-  EXPECT_EQ(plainText("a\xe2\x80\xa8"
-                      "b\xe2\x80\xa9"
-                      "c"),
-            "a b c")
-      << "U+2028, U+2029";
-}
-
-TEST(PlainText, HasBlanksForBytesThatAreNotUtf8) {
-  EXPECT_EQ(plainText("a\x9b"
-                      "31m"),
-            "a 31m")
-      << "a control sequence of a terminal of eight bits";
-  EXPECT_EQ(plainText("\xc0\x9b."), "  .") << "overlong";
-  EXPECT_EQ(plainText("\xe0\x82\x9b."), "   .") << "overlong";
-  EXPECT_EQ(plainText("\xe2\x80"), "  ") << "cut";
-  EXPECT_EQ(plainText("\xff\xfe"), "  ");
+/// Text in place of whose other characters blanks are shown.
+TEST(PlainText, HasBlanksForWhatIsNotShown) {
+  const struct {
+    std::string text;
+    const char *shown, *reason;
+  } cases[] = {{"a\x1b[31mb\nc\td\re\x7f", "a [31mb c d e ", "control characters"},
+               {{"a\0b", 3}, "a b", "zero"},
+               {"a\xc2\x80z \xc2\x9b"
+                "31m \xc2\x9f.",
+                "a z  31m  .", "U+0080, U+009B and U+009F"},
+               {"\xc2\xa0", "\xc2\xa0", "U+00A0 is the first behind them"},
+               {"a\xe2\x80\xae"
+                "b\xe2\x81\xa6"
+                "c\xe2\x80\x8f"
+                "d\xd8\x9c"
+                "e",
+                "a b c d e", "marks of direction: U+202E, U+2066, U+200F, U+061C"},
+               {"a\xe2\x80\xa8"
+                "b\xe2\x80\xa9"
+                "c",
+                "a b c", "separators: U+2028, U+2029"},
+               {"a\x9b"
+                "31m",
+                "a 31m", "a control sequence of a terminal of eight bits"},
+               {"\xc0\x9b.", "  .", "overlong"},
+               {"\xe0\x82\x9b.", "   .", "overlong"},
+               {"\xe2\x80", "  ", "cut"},
+               {"\xff\xfe", "  ", "no UTF-8"}};
+  for (const auto& each : cases) EXPECT_EQ(plainText(each.text), each.shown) << each.reason;
 }
 
 TEST(OneLine, MergesBlanks) {

@@ -28,10 +28,15 @@ class Overlay : public testing::Test {
     const auto first = 3 * static_cast<std::size_t>(y * image.width + x);
     return {image.bgr[first], image.bgr[first + 1], image.bgr[first + 2]};
   }
+  /// Columns of row 250, below the legend, that have the colour.
+  static std::vector<int> columnsOf(const ColorImage& image, const ColorBgr& color) {
+    std::vector<int> columns;
+    for (int x = 0; x < image.width; ++x)
+      if (at(image, x, 250) == color) columns.push_back(x);
+    return columns;
+  }
   static Pose shifted(double x_m, double z_m = 1.0) {
-    Pose pose;
-    pose.translation_m = {x_m, 0.0, z_m};
-    return pose;
+    return {Eigen::Quaterniond::Identity(), {x_m, 0.0, z_m}};
   }
 
   const Camera camera_ = test::makePinhole(kWidth, kHeight, 1000.0);
@@ -43,26 +48,14 @@ class Overlay : public testing::Test {
   const std::vector<ScenePart> parts_ = std::vector<ScenePart>(1);
 };
 
-/// Columns of row `y`, right of the legend, that have the colour.
-std::vector<int> columnsOf(const ColorImage& image, int y, const ColorBgr& color) {
-  std::vector<int> columns;
-  for (int x = 0; x < image.width; ++x) {
-    const auto first = 3 * static_cast<std::size_t>(y * image.width + x);
-    if (image.bgr[first] == color[0] && image.bgr[first + 1] == color[1] &&
-        image.bgr[first + 2] == color[2])
-      columns.push_back(x);
-  }
-  return columns;
-}
-
 TEST_F(Overlay, DrawsEachPoseInItsColour) {
   const ColorImage image =
       draw({{"seed", shifted(0.05), kSeedColor}, {"result", shifted(0.0), kResultColor}});
   ASSERT_EQ(image.width, kWidth);
   ASSERT_EQ(image.height, kHeight);
   // Row 250 crosses the upright sides: of the result at 299.5 +- 100, of the seed 50 px further.
-  const std::vector<int> result = columnsOf(image, 250, kResultColor);
-  const std::vector<int> seed = columnsOf(image, 250, kSeedColor);
+  const std::vector<int> result = columnsOf(image, kResultColor);
+  const std::vector<int> seed = columnsOf(image, kSeedColor);
   ASSERT_FALSE(result.empty());
   ASSERT_FALSE(seed.empty());
   EXPECT_NEAR(result.front(), 199.5, 2.0);
@@ -75,15 +68,15 @@ TEST_F(Overlay, DrawsEachPoseInItsColour) {
 TEST_F(Overlay, ThinLayer_LeavesTheLayerBelowVisible) {
   const ColorImage image =
       draw({{"result", shifted(0.0), kResultColor}, {"truth", shifted(0.0), kTruthColor, true}});
-  const std::vector<int> truth = columnsOf(image, 250, kTruthColor);
-  const std::vector<int> result = columnsOf(image, 250, kResultColor);
+  const std::vector<int> truth = columnsOf(image, kTruthColor);
+  const std::vector<int> result = columnsOf(image, kResultColor);
   ASSERT_FALSE(truth.empty());
   ASSERT_FALSE(result.empty());
   EXPECT_EQ(result.front(), truth.front() - 1);
   EXPECT_EQ(result.back(), truth.back() + 1);
 }
 
-TEST_F(Overlay, HasALegendOnlyWithLayers) {
+TEST_F(Overlay, HasALegendOnlyWithLayersAndIsWrittenAsItIs) {
   const ColorImage plain = draw({});
   for (const std::uint8_t value : plain.bgr) ASSERT_EQ(value, kGray);
   const ColorImage image = draw({{"seed", shifted(0.0), kSeedColor}});
@@ -91,20 +84,18 @@ TEST_F(Overlay, HasALegendOnlyWithLayers) {
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 150; ++x) bright += at(image, x, y)[0] > kGray + 60 ? 1 : 0;
   EXPECT_GT(bright, 20);
-}
-
-TEST_F(Overlay, LeavesOutWhatCannotBeRendered) {
-  const ColorImage image = draw({{"behind", shifted(0.0, -1.0), kSeedColor}});
-  EXPECT_TRUE(columnsOf(image, 250, kSeedColor).empty());
-}
-
-TEST_F(Overlay, IsWrittenAsAPictureOfTheSameSize) {
   const test::TemporaryFolder folder;
-  writeColorPng(folder / "overlay.png", draw({{"seed", shifted(0.0), kSeedColor}}));
+  writeColorPng(folder / "overlay.png", image);
   const GrayImage read = readImage(folder / "overlay.png");
   EXPECT_EQ(read.width, kWidth);
   EXPECT_EQ(read.height, kHeight);
   EXPECT_EQ(read.channels, 3);
+  EXPECT_EQ(read.color, image.bgr);
+}
+
+TEST_F(Overlay, LeavesOutWhatCannotBeRendered) {
+  const ColorImage image = draw({{"behind", shifted(0.0, -1.0), kSeedColor}});
+  EXPECT_TRUE(columnsOf(image, kSeedColor).empty());
 }
 
 }  // namespace

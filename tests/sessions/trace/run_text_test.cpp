@@ -7,15 +7,15 @@
 #include "core/base/math.h"
 #include "sessions/text/text_table.h"
 #include "sessions/trace/run_headline.h"
+#include "tests/sessions/trace/expect_contained.h"
 #include "tests/support/example_run.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::editIteration;
-using testing::AllOf;
+using test::expectContained;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Not;
 
 std::shared_ptr<const EdgeMapTrace> edgesOf(std::int32_t count) {
@@ -45,20 +45,11 @@ LocalizationTrace endedWith(LocalizationStatus status) {
   return trace;
 }
 
-TEST(PoseText, SaysWhereItsSigmasAre) {
-  const Matrix6d covariance = 1e-6 * Matrix6d::Identity();
-  EXPECT_THAT(
-      poseText(Pose(), covariance),
-      HasSubstr("1 sigma at the camera, along and about its x y z: 1.0000 1.0000 1.0000 mm"));
-  EXPECT_THAT(poseText(Pose(), covariance, "rig_from_station"),
-              HasSubstr("1 sigma at the rig's origin"));
-}
-
 TEST(RunHeadline, SaysInALineWhatWasMeasuredAndNeeded) {
   LocalizationTrace trace = *test::exampleRun();
   const RunHeadline converged = runHeadline(trace);
   EXPECT_EQ(converged.head, "Converged");
-  EXPECT_THAT(converged.sentence, AllOf(HasSubstr("iterations"), HasSubstr("needed).")));
+  expectContained(converged.sentence, {"iterations", "needed)."});
   trace.status = LocalizationStatus::kNotSupported;
   EXPECT_EQ(runHeadline(trace).head, "Rejected");
   EXPECT_THAT(runHeadline(trace).sentence, HasSubstr("needed. The seed may be turned"));
@@ -67,25 +58,27 @@ TEST(RunHeadline, SaysInALineWhatWasMeasuredAndNeeded) {
   EXPECT_THAT(runHeadline(trace).sentence, HasSubstr("The pose left the seed's uncertainty"));
 }
 
-TEST(Explanation, IsEmptyForAConvergedRun) {
-  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kConverged)), IsEmpty());
-}
-
 TEST(Explanation, NamesWhatWasMeasuredAndNeeded) {
-  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewEdges)),
-              AllOf(HasSubstr("has 7 edge pixels"), HasSubstr("needed 12")));
-  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewTemplates)),
-              AllOf(HasSubstr("5 of 64 px"), HasSubstr("needed 6")));
-  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kTooFewMatches)),
-              AllOf(HasSubstr("4 of 5"), HasSubstr("needed 6")));
+  EXPECT_EQ(explanation(endedWith(LocalizationStatus::kConverged)), "");
+  const struct {
+    LocalizationStatus status;
+    const char *measured, *needed;
+  } cases[] = {{LocalizationStatus::kTooFewEdges, "has 7 edge pixels", "needed 12"},
+               {LocalizationStatus::kTooFewTemplates, "5 of 64 px", "needed 6"},
+               {LocalizationStatus::kTooFewMatches, "4 of 5", "needed 6"},
+               {LocalizationStatus::kPnpFailed, "4 matches", "3 inliers at 8.0 px"},
+               {LocalizationStatus::kIterationLimit, "12.300 mm", "2.000 deg"}};
+  for (const auto& [status, measured, needed] : cases)
+    expectContained(explanation(endedWith(status)), {measured, needed});
+  LocalizationTrace trace = endedWith(LocalizationStatus::kPnpFailed);
+  trace.edges = edgesOf(0);
+  EXPECT_THAT(explanation(trace), HasSubstr("image has no edges"));
+  trace = endedWith(LocalizationStatus::kFault);
+  trace.fault = Status::kCapacityExceeded;
+  EXPECT_THAT(explanation(trace), HasSubstr("render.max_edge_pixels"));
   LocalizationTrace without_templates = endedWith(LocalizationStatus::kTooFewMatches);
   editIteration(without_templates, 0, [](IterationTrace& last) { last.template_count = 0; });
-  EXPECT_THAT(explanation(without_templates),
-              AllOf(HasSubstr("too few matches"), HasSubstr("4, needed 6")));
-  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kPnpFailed)),
-              AllOf(HasSubstr("4 matches"), HasSubstr("3 inliers at 8.0 px")));
-  EXPECT_THAT(explanation(endedWith(LocalizationStatus::kIterationLimit)),
-              AllOf(HasSubstr("12.300 mm"), HasSubstr("2.000 deg")));
+  expectContained(explanation(without_templates), {"too few matches", "4, needed 6"});
 }
 
 TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
@@ -94,8 +87,7 @@ TEST(Explanation, NamesTheAxisThatLeftTheUncertainty) {
   editIteration(trace, 0, [](IterationTrace& last) {
     last.camera_from_station.translation_m = {0.030, -0.035, 0.0};
   });
-  EXPECT_THAT(explanation(trace),
-              AllOf(HasSubstr("35.00 mm along y"), HasSubstr("allowed 30.00 mm")));
+  expectContained(explanation(trace), {"35.00 mm along y", "allowed 30.00 mm"});
   editIteration(trace, 0, [](IterationTrace& last) {
     last.camera_from_station.rotation = rotationExp(Eigen::Vector3d(0.0, 0.0, 20.0 * kDegree_rad));
   });
@@ -108,10 +100,9 @@ TEST(Explanation, GivesTheShareOfSupportedEdges) {
   trace.support.covered = 30;
   trace.support.seen = 400;
   trace.support.explained = 80;
-  EXPECT_THAT(explanation(trace),
-              AllOf(HasSubstr(fixedText(100.0 * trace.support.share(), 1) + " %, needed"),
-                    HasSubstr("15.0 % of the rendered edges are seen"),
-                    HasSubstr("20.0 % of the edges seen")));
+  expectContained(explanation(trace),
+                  {fixedText(100.0 * trace.support.share(), 1) + " %, needed",
+                   "15.0 % of the rendered edges are seen", "20.0 % of the edges seen"});
 }
 
 TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
@@ -127,7 +118,8 @@ TEST(Explanation, SaysHowFarTheClosestCompetingPoseIs) {
   trace.competing_poses[1].margin_nats = -7.5;
   EXPECT_THAT(explanation(trace), HasSubstr("better: it is more than 1000 times more likely"));
   trace.competing_poses[1].mirrored = true;
-  EXPECT_THAT(explanation(trace), HasSubstr("the mirror image of the mesh is more than 1000 times more likely"));
+  EXPECT_THAT(explanation(trace),
+              HasSubstr("the mirror image of the mesh is more than 1000 times more likely"));
 }
 
 TEST(Explanation, SaysThatAnotherPoseHasAboutTheSameScore) {
@@ -141,62 +133,50 @@ TEST(Explanation, SaysThatAnotherPoseHasAboutTheSameScore) {
   trace.competitor = 1;
   trace.gap = 0.0625;
   trace.competing_poses.clear();
-  EXPECT_THAT(explanation(trace), AllOf(HasSubstr("another pose, 12.0 mm and 0.00 deg away"),
-                                        HasSubstr("lower by 0.06, needed 0.15")));
+  expectContained(explanation(trace),
+                  {"another pose, 12.0 mm and 0.00 deg away", "lower by 0.06, needed 0.15"});
 }
 
 TEST(Explanation, SaysWhichFocalLengthTheEdgesAskFor) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kCameraMismatch);
   trace.focal = {-0.0187, 0.0012, true};
-  EXPECT_THAT(explanation(trace),
-              AllOf(HasSubstr("1.9 % shorter than the camera's"), HasSubstr("one sigma 0.12 %")));
-}
-
-TEST(Explanation, BlamesAnImageWithoutEdges) {
-  LocalizationTrace trace = endedWith(LocalizationStatus::kPnpFailed);
-  trace.edges = edgesOf(0);
-  EXPECT_THAT(explanation(trace), HasSubstr("image has no edges"));
-}
-
-TEST(Explanation, NamesTheOptionThatACapacityNeeds) {
-  LocalizationTrace trace = endedWith(LocalizationStatus::kFault);
-  trace.fault = Status::kCapacityExceeded;
-  EXPECT_THAT(explanation(trace), HasSubstr("render.max_edge_pixels"));
+  expectContained(explanation(trace), {"1.9 % shorter than the camera's", "one sigma 0.12 %"});
 }
 
 TEST(IterationTable, HasOneLineForEachIteration) {
   LocalizationTrace trace = endedWith(LocalizationStatus::kConverged);
   const std::string matched = iterationTable(trace);
-  EXPECT_THAT(matched, AllOf(HasSubstr("match"), HasSubstr("12.300"), HasSubstr("8.0")));
+  expectContained(matched, {"match", "12.300", "8.0"});
   EXPECT_THAT(matched, Not(HasSubstr("refine")));
   trace.iterations.push_back(trace.iterations.back());
   editIteration(trace, 1, [](IterationTrace& refined) {
     refined.kind = IterationKind::kRefine;
     refined.refinement.used_count = 4321;
   });
-  EXPECT_THAT(iterationTable(trace), AllOf(HasSubstr("refine"), HasSubstr("4321")));
+  expectContained(iterationTable(trace), {"refine", "4321"});
 }
 
-TEST(PoseText, LabelsTheQuaternionAndKeepsItsScalarPositive) {
+TEST(PoseText, LabelsTheQuaternionAndSaysWhereItsSigmasAre) {
   Pose pose;
   pose.rotation = Eigen::Quaterniond(-0.5, 0.5, -0.5, 0.5);
   EXPECT_THAT(poseText(pose, Matrix6d::Zero()),
-              AllOf(HasSubstr("wxyz 0.500000000 -0.500000000 0.500000000 -0.500000000"),
-                    Not(HasSubstr("sigma"))));
-}
-
-TEST(PoseText, GivesSigmasInMillimetresAndMilliradians) {
+              HasSubstr("wxyz 0.500000000 -0.500000000 0.500000000 -0.500000000"))
+      << "its scalar is positive";
+  EXPECT_THAT(poseText(pose, Matrix6d::Zero()), Not(HasSubstr("sigma")));
   Matrix6d covariance = Matrix6d::Zero();
   covariance(0, 0) = 4e-6;  // rotation about x: 2 mrad
   covariance(5, 5) = 9e-8;  // translation along z: 0.3 mm
   EXPECT_THAT(poseText(Pose(), covariance),
-              HasSubstr("0.0000 0.0000 0.3000 mm, 2.0000 0.0000 0.0000 mrad"));
+              HasSubstr("1 sigma at the camera, along and about its x y z: 0.0000 0.0000 0.3000 "
+                        "mm, 2.0000 0.0000 0.0000 mrad"));
+  EXPECT_THAT(poseText(Pose(), covariance, "rig_from_station"),
+              HasSubstr("1 sigma at the rig's origin"));
 }
 
 TEST(RunStatusText, ExplainsARunThatFailed) {
-  EXPECT_THAT(runStatusText(endedWith(LocalizationStatus::kTooFewEdges)),
-              AllOf(HasSubstr("Did not converge. Too few salient edges: the render has 7"),
-                    testing::EndsWith(".")));
+  const std::string text = runStatusText(endedWith(LocalizationStatus::kTooFewEdges));
+  EXPECT_THAT(text, HasSubstr("Did not converge. Too few salient edges: the render has 7"));
+  EXPECT_TRUE(text.ends_with("."));
 }
 
 TEST(RunStatusText, ConvergedRun_StatesItsEvidence) {
@@ -204,9 +184,8 @@ TEST(RunStatusText, ConvergedRun_StatesItsEvidence) {
   trace.covariance(3, 3) = 4e-10;  // 0.02 mm
   trace.support.rendered = trace.support.covered = 10;
   trace.support.seen = trace.support.explained = 10;
-  EXPECT_THAT(runStatusText(trace),
-              AllOf(HasSubstr("Converged in 1 iteration,"), HasSubstr("0.020, 0.000, 0.000 mm"),
-                    HasSubstr("Edge support is 100.0 %")));
+  expectContained(runStatusText(trace), {"Converged in 1 iteration,", "0.020, 0.000, 0.000 mm",
+                                         "Edge support is 100.0 %"});
   trace.options.support.gate = false;
   EXPECT_THAT(runStatusText(trace), Not(HasSubstr("Edge support")));
 }
@@ -217,7 +196,7 @@ TEST(RunStatusText, SaysHowFarARunIs) {
   trace = endedWith(LocalizationStatus::kRunning);
   EXPECT_EQ(runStatusText(trace), "Iteration 1 is complete.");
   trace.last_under_way = true;
-  EXPECT_THAT(runStatusText(trace), AllOf(HasSubstr("last complete stage"), HasSubstr("render")));
+  expectContained(runStatusText(trace), {"last complete stage", "render"});
 }
 
 TEST(RunStatusText, NamesTheOtherViews) {

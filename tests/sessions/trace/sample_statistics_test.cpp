@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sessions/run/runner.h"
-#include "tests/support/example_case.h"
+#include "tests/support/example_run.h"
 
 namespace boresight::sessions {
 namespace {
@@ -30,40 +29,33 @@ TEST(SampleStatistics, CountByKindAndBin) {
   samples.push_back(sampleOf(5.0, 0.0, kEdgeOccluding | kEdgeCrease));
   samples.push_back(sampleOf(0.1, 0.8, kEdgeBorder | kEdgeOccluding));
   samples.push_back(EdgeSample{});  // nothing found
-  const SampleStatistics sample_statistics = sampleStatistics(iteration, 5);
-  EXPECT_EQ(sample_statistics.all.places, 5);
-  EXPECT_EQ(sample_statistics.all.found, 4);
-  EXPECT_EQ(sample_statistics.all.used, 2);
-  EXPECT_EQ(sample_statistics.creases.places, 3);
-  EXPECT_EQ(sample_statistics.creases.found, 2);
-  EXPECT_EQ(sample_statistics.occluding.found, 1);
-  EXPECT_EQ(sample_statistics.border.used, 1);
-  EXPECT_EQ(sample_statistics.found_in_bin, (std::vector<std::int32_t>{1, 0, 2, 0, 1}));
-  EXPECT_EQ(sample_statistics.used_in_bin, (std::vector<std::int32_t>{0, 0, 2, 0, 0}));
-  EXPECT_DOUBLE_EQ(sample_statistics.all.foundShare(), 0.8);
+  const SampleStatistics statistics = sampleStatistics(iteration, 5);
+  EXPECT_EQ(statistics.all.places, 5);
+  EXPECT_EQ(statistics.all.found, 4);
+  EXPECT_EQ(statistics.all.used, 2);
+  EXPECT_EQ(statistics.creases.places, 3);
+  EXPECT_EQ(statistics.creases.found, 2);
+  EXPECT_EQ(statistics.occluding.found, 1);
+  EXPECT_EQ(statistics.border.used, 1);
+  EXPECT_EQ(statistics.found_in_bin, (std::vector<std::int32_t>{1, 0, 2, 0, 1}));
+  EXPECT_EQ(statistics.used_in_bin, (std::vector<std::int32_t>{0, 0, 2, 0, 0}));
+  EXPECT_DOUBLE_EQ(statistics.all.foundShare(), 0.8);
+  const SampleStatistics none = sampleStatistics(IterationTrace{}, 3);
+  EXPECT_EQ(none.all.places, 0);
+  EXPECT_EQ(none.all.foundShare(), 0.0);
 }
 
 TEST(SampleStatistics, AgreeWithWhatTheRunCounted) {
-  const test::ExampleCase example("os");
-  const LocalizationTrace run = localize(example.problem(), defaultProfile(), RecordLevel::kFull);
-  const IterationTrace& last = *run.iterations.back();
+  const IterationTrace& last = *test::exampleTrace().iterations.back();
   ASSERT_EQ(last.kind, IterationKind::kRefine);
-  const SampleStatistics sample_statistics = sampleStatistics(last, 21);
-  EXPECT_EQ(sample_statistics.all.places, last.refinement.sample_count);
-  EXPECT_EQ(sample_statistics.all.found, last.refinement.found_count);
-  EXPECT_EQ(sample_statistics.all.used, last.refinement.used_count);
-  EXPECT_EQ(std::accumulate(sample_statistics.found_in_bin.begin(),
-                            sample_statistics.found_in_bin.end(), 0),
-            sample_statistics.all.found);
-  EXPECT_EQ(sample_statistics.creases.places + sample_statistics.occluding.places +
-                sample_statistics.border.places,
-            sample_statistics.all.places);
-}
-
-TEST(SampleStatistics, AreEmptyWithoutSamples) {
-  const SampleStatistics sample_statistics = sampleStatistics(IterationTrace{}, 3);
-  EXPECT_EQ(sample_statistics.all.places, 0);
-  EXPECT_EQ(sample_statistics.all.foundShare(), 0.0);
+  const SampleStatistics statistics = sampleStatistics(last, 21);
+  EXPECT_EQ(statistics.all.places, last.refinement.sample_count);
+  EXPECT_EQ(statistics.all.found, last.refinement.found_count);
+  EXPECT_EQ(statistics.all.used, last.refinement.used_count);
+  EXPECT_EQ(std::accumulate(statistics.found_in_bin.begin(), statistics.found_in_bin.end(), 0),
+            statistics.all.found);
+  EXPECT_EQ(statistics.creases.places + statistics.occluding.places + statistics.border.places,
+            statistics.all.places);
 }
 
 }  // namespace

@@ -22,16 +22,17 @@ struct Square {
 };
 
 Pose atDistance(double distance_m) {
-  Pose pose;
-  pose.translation_m = {0.0, 0.0, distance_m};
-  return pose;
+  return {Eigen::Quaterniond::Identity(), {0.0, 0.0, distance_m}};
 }
 
 TEST(RenderScene, DrawsTheOutlineWhereItProjects) {
   const Square square;
   const Camera camera = test::makePinhole(300, 200, 500.0);
+  std::vector<float> depth_m(300 * 200);
+  SurfaceRender surfaces;
+  surfaces.depth_m = depth_m;
   RenderTrace render;
-  ASSERT_EQ(renderScene(camera, square.view(), atDistance(1.0), render), Status::kOk);
+  ASSERT_EQ(renderScene(camera, square.view(), atDistance(1.0), render, surfaces), Status::kOk);
   ASSERT_GT(render.pixels.size(), 300u);
   // Side 0.2 m at 1 m and 500 px: 100 px, centred.
   for (const EdgePixel& pixel : render.pixels) {
@@ -44,16 +45,11 @@ TEST(RenderScene, DrawsTheOutlineWhereItProjects) {
   EXPECT_EQ(render.row_begin.back(), static_cast<std::int32_t>(render.pixels.size()));
   EXPECT_TRUE(render.mask.view().get(150, 100));
   EXPECT_FALSE(render.mask.view().get(50, 100));
-}
-
-TEST(RenderScene, GivesTheViewThatTheCoreUnderstands) {
-  const Square square;
-  RenderTrace render;
-  ASSERT_EQ(renderScene(test::makePinhole(300, 200, 500.0), square.view(), atDistance(1.0), render),
-            Status::kOk);
-  const EdgePixel& pixel = render.pixels[render.pixels.size() / 2];
-  EXPECT_EQ(findEdgePixel(render.view(), pixel.x, pixel.y),
-            static_cast<std::int32_t>(render.pixels.size() / 2));
+  EXPECT_NEAR(depth_m[100 * 300 + 150], 1.0F, 1e-6F);
+  EXPECT_EQ(depth_m[100 * 300 + 50], 0.0F);
+  const std::size_t middle = render.pixels.size() / 2;
+  EXPECT_EQ(findEdgePixel(render.view(), render.pixels[middle].x, render.pixels[middle].y),
+            static_cast<std::int32_t>(middle));
 }
 
 TEST(SceneRenderer, DrawsEveryPoseAsAFreshOneWould) {
@@ -76,26 +72,11 @@ TEST(SceneRenderer, DrawsEveryPoseAsAFreshOneWould) {
   }
 }
 
-TEST(SceneRenderer, GivesSurfacesWhereTheMaskIs) {
-  const Square square;
-  const Camera camera = test::makePinhole(300, 200, 500.0);
-  std::vector<float> depth_m(300 * 200);
-  SurfaceRender surfaces;
-  surfaces.depth_m = depth_m;
-  RenderTrace render;
-  ASSERT_EQ(renderScene(camera, square.view(), atDistance(1.0), render, surfaces), Status::kOk);
-  EXPECT_NEAR(depth_m[100 * 300 + 150], 1.0F, 1e-6F);
-  EXPECT_EQ(depth_m[100 * 300 + 50], 0.0F);
-}
-
-TEST(SceneRenderer, DoesNothingBeforeItIsCreated) {
+TEST(SceneRenderer, WithoutFacesOrBeforeItIsCreated_DrawsNothing) {
   SceneRenderer renderer;
   bool done = false;
   EXPECT_EQ(renderer.begin(atDistance(1.0)), Status::kInvalidMesh);
   EXPECT_EQ(renderer.step(done), Status::kInvalidMesh);
-}
-
-TEST(RenderScene, RefusesAMeshWithoutFaces) {
   Square square;
   square.faces.clear();
   square.part_of_face.clear();

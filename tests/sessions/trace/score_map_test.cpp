@@ -62,7 +62,7 @@ TEST(ScoreMap, IsWhatCountingPixelByPixelGives) {
   }
 }
 
-TEST(ScoreMap, IsNothingWhereNothingCanBeSearched) {
+TEST(ScoreMap, IsNothingWhereNothingCanBeSearchedOrStopped) {
   const IterationTrace& first = *exampleTrace().iterations.front();
   EXPECT_FALSE(scoreMap(*exampleTrace().edges, first, -1));
   EXPECT_FALSE(scoreMap(*exampleTrace().edges, first, first.template_count));
@@ -70,13 +70,9 @@ TEST(ScoreMap, IsNothingWhereNothingCanBeSearched) {
   IterationTrace not_searched = first;
   not_searched.matches[0].searched = false;
   EXPECT_FALSE(scoreMap(*exampleTrace().edges, not_searched, 0));
-}
-
-TEST(ScoreMap, Stops) {
   std::stop_source stopped;
   stopped.request_stop();
-  EXPECT_FALSE(
-      scoreMap(*exampleTrace().edges, *exampleTrace().iterations.front(), 3, stopped.get_token()));
+  EXPECT_FALSE(scoreMap(*exampleTrace().edges, first, 3, stopped.get_token()));
 }
 
 }  // namespace

@@ -84,34 +84,23 @@ TEST(TraceFile, GivesBackEveryFieldExactly) {
             trace.iterations.back()->refinement.samples.back().residual_px);
 }
 
-TEST(TraceFile, KeepsAnEmptyTrace) {
-  const test::TemporaryFolder folder;
-  saveTrace(folder / "empty.trace", {});
-  EXPECT_EQ(bytesOf(loadTrace(folder / "empty.trace")), bytesOf(LocalizationTrace{}));
-}
-
-TEST(TraceFile, RefusesWhatIsNotATrace) {
-  const test::TemporaryFolder folder;
-  const auto message = [&](const std::string& name, std::string_view text) {
-    folder.write(name, text);
-    return folder.message([&] { loadTrace(folder / name); });
-  };
-  EXPECT_THAT(message("picture.trace", "PNG and so on"), HasSubstr("not a trace"));
-  EXPECT_THAT(message("short.trace", "BSTRACE\n"), HasSubstr("truncated"));
-  EXPECT_THAT(folder.message([&] { loadTrace(folder / "missing.trace"); }),
-              HasSubstr("missing.trace"));
-}
-
-TEST(TraceFile, RefusesAnotherVersion) {
+TEST(TraceFile, RefusesOtherFilesAndVersions) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", {});
-  for (const int later : {-1, 1}) {
-    std::string bytes = folder.read("run.trace");
-    bytes[11] = static_cast<char>(bytes[11] + later);
-    folder.write("other.trace", bytes);
-    EXPECT_THAT(folder.message([&] { loadTrace(folder / "other.trace"); }),
-                HasSubstr("other.trace: version: " + std::to_string(bytes[11])));
-  }
+  std::string later = folder.read("run.trace"), earlier = later;
+  ++later[11];
+  --earlier[11];
+  folder.write("picture.trace", std::string_view("PNG and so on"));
+  folder.write("short.trace", std::string_view("BSTRACE\n"));
+  folder.write("later.trace", later);
+  folder.write("earlier.trace", earlier);
+  for (const auto& [name, refusal] :
+       {std::pair<std::string, std::string>("picture", "not a trace"),
+        {"short", "truncated"},
+        {"missing", "missing.trace"},
+        {"later", "later.trace: version: " + std::to_string(later[11])},
+        {"earlier", "earlier.trace: version: " + std::to_string(earlier[11])}})
+    EXPECT_THAT(folder.message([&] { loadTrace(folder / (name + ".trace")); }), HasSubstr(refusal));
 }
 
 TEST(TraceFile, NoticesFlippedBitsAndCuts) {
@@ -131,46 +120,43 @@ TEST(TraceFile, NoticesFlippedBitsAndCuts) {
   }
 }
 
-TEST(TraceFile, RefusesMoreBytesThanFields) {
+TEST(TraceFile, EmptyTrace_IsKeptAndRefusedWithMoreBytes) {
   const test::TemporaryFolder folder;
   saveTrace(folder / "run.trace", {});
   std::string bytes = folder.read("run.trace");
   bytes.resize(bytes.size() - kChecksumBytes);
   EXPECT_EQ(sealed(bytes), folder.read("run.trace"));
+  EXPECT_EQ(bytesOf(loadTrace(folder / "run.trace")), bytesOf(LocalizationTrace{}));
   folder.write("long.trace", sealed(bytes + "extra"));
   EXPECT_THAT(folder.message([&] { loadTrace(folder / "long.trace"); }), HasSubstr("more bytes"));
 }
 
-TEST(Archive, RoundTripsExtremes) {
+template <class T>
+void expectKept(T value) {
   ArchiveWriter writer;
-  writer.number(std::int16_t{-32768});
-  writer.number(std::int8_t{-1});
-  writer.number(std::uint64_t{0xfedcba9876543210u});
-  writer.number(-0.0);
-  writer.number(1.5F);
+  writer.number(value);
   writer.text("");
-  EXPECT_EQ(writer.bytes()[0], 0x80);
   ArchiveReader reader("memory", writer.bytes());
-  std::int16_t small = 0;
-  std::int8_t tiny = 0;
-  std::uint64_t large = 0;
-  double zero = 1.0;
-  float real = 0.0F;
+  T read = 1;
   std::string text = "x";
-  reader.number(small);
-  reader.number(tiny);
-  reader.number(large);
-  reader.number(zero);
-  reader.number(real);
+  reader.number(read);
   reader.text(text);
-  EXPECT_EQ(small, -32768);
-  EXPECT_EQ(tiny, -1);
-  EXPECT_EQ(large, 0xfedcba9876543210u);
-  EXPECT_TRUE(std::signbit(zero));
-  EXPECT_EQ(real, 1.5F);
+  EXPECT_EQ(read, value);
+  EXPECT_EQ(std::signbit(static_cast<double>(read)), std::signbit(static_cast<double>(value)));
   EXPECT_EQ(text, "");
   EXPECT_TRUE(reader.atEnd());
-  EXPECT_THROW(reader.number(small), InputError);
+  EXPECT_THROW(reader.number(read), InputError);
+}
+
+TEST(Archive, RoundTripsExtremes) {
+  expectKept(std::int16_t{-32768});
+  expectKept(std::int8_t{-1});
+  expectKept(std::uint64_t{0xfedcba9876543210u});
+  expectKept(-0.0);
+  expectKept(1.5F);
+  ArchiveWriter writer;
+  writer.number(std::int16_t{-32768});
+  EXPECT_EQ(writer.bytes()[0], 0x80);
 }
 
 }  // namespace

@@ -21,17 +21,16 @@ using ::testing::HasSubstr;
 
 const FrameName kRover{"ROVER_FRAME", {194, 835, 1}};
 const FrameName kSite194{"SITE_FRAME", {194}};
-const nlohmann::ordered_json kSiteJson = {{"name", "SITE_FRAME"}, {"index", {194}}};
+const nlohmann::ordered_json kSiteJson =
+    nlohmann::ordered_json::parse(R"({"name": "SITE_FRAME", "index": [194]})");
 
 /// From the rover to the site: a quarter turn about z, and then some way.
 nlohmann::ordered_json transformJson() {
-  return {{"format", "boresight-transform"},
-          {"version", 1},
-          {"target", kSiteJson},
-          {"source", {{"name", "ROVER_FRAME"}, {"index", {194, 835, 1}}}},
-          {"target_from_source",
-           {{0.0, -1.0, 0.0, 10.0}, {1.0, 0.0, 0.0, 20.0}, {0.0, 0.0, 1.0, -3.0}, {0, 0, 0, 1}}},
-          {"comment", "localization of sol 12"}};
+  return nlohmann::ordered_json::parse(R"({"format": "boresight-transform", "version": 1,
+      "target": {"name": "SITE_FRAME", "index": [194]},
+      "source": {"name": "ROVER_FRAME", "index": [194, 835, 1]},
+      "target_from_source": [[0,-1,0,10],[1,0,0,20],[0,0,1,-3],[0,0,0,1]],
+      "comment": "localization of sol 12"})");
 }
 
 /// A camera whose model is in the rover's frame, 1 m above its origin and looking along its x.
@@ -116,29 +115,12 @@ TEST_F(FrameTransforms, NamesWhatIsWrong) {
   json["target_from_source"][0][0] = 3.0;
   EXPECT_THAT(error(json), HasSubstr("target_from_source: not a rotation"));
   json = transformJson();
-  json["target_from_source"][2][2] = -1.0;
-  EXPECT_THAT(error(json), HasSubstr("target_from_source: not a rotation")) << "mirrored";
-  json = transformJson();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      json["target_from_source"][row][column] =
-          1.001 * json["target_from_source"][row][column].get<double>();
-  EXPECT_THAT(error(json), HasSubstr("target_from_source: not a rotation")) << "scaled";
-  json = transformJson();
-  json["target_from_source"][3][3] = 1000.0;
-  EXPECT_THAT(error(json), HasSubstr("target_from_source")) << "scaled by its last row";
-  json = transformJson();
   json["target"]["name"] = "";
   EXPECT_THAT(error(json), HasSubstr("t.json: target.name"));
-}
-
-TEST_F(FrameTransforms, WithoutComment_AreNamedByTheirFile) {
-  nlohmann::ordered_json json = transformJson();
+  json = transformJson();
   json.erase("comment");
-  EXPECT_EQ(readFrameTransforms(std::filesystem::path(folder_.write("t.json", json.dump())))
-                .front()
-                .comment,
-            "t.json");
+  const auto file = folder_.write("t.json", json.dump());
+  EXPECT_EQ(readFrameTransforms(file).front().comment, "t.json") << "named by its file";
 }
 
 TEST_F(FrameTransforms, MoreThanTheLimit_AreRefused) {
@@ -153,8 +135,8 @@ TEST_F(FrameTransforms, MoreThanTheLimit_AreRefused) {
   }
   const std::filesystem::path file = folder_.write("t.json", json.dump());
   EXPECT_EQ(readFrameTransforms(file).size(), kMostFrameTransforms);
-  const std::filesystem::path other = folder_.write("other.json", transformJson().dump());
-  const std::vector<std::string> both = {file.string(), other.string()};
+  const std::vector<std::string> both = {
+      file.string(), folder_.write("other.json", transformJson().dump()).string()};
   EXPECT_THAT(folder_.message([&] { (void)readFrameTransforms(both); }),
               HasSubstr("201 exceed the limit of 200"));
   json["transforms"].push_back(item);
@@ -197,22 +179,11 @@ TEST_F(FrameTransforms, ThatContradictEachOtherAreRefused) {
   }
 }
 
-TEST_F(FrameTransforms, PoseIsGivenInOneOfTheTwoWays) {
-  nlohmann::ordered_json json = {{"format", "boresight-pose"}, {"version", 1}};
-  json["reference_from_station"] = toJson(Pose{Eigen::Quaterniond::Identity(), {1, 2, 3}});
-  json["camera_from_station"] = json["reference_from_station"];
-  const auto file = folder_.write("seed.json", json.dump());
-  EXPECT_THAT(folder_.message([&] {
-    (void)readPose(file, {roverCamera(), {}});
-  }),
-              HasSubstr("reference_from_station: cannot be combined with camera_from_station"));
-}
-
 TEST_F(FrameTransforms, AreNotAskedForInTheCamerasOwnFrame) {
   const CameraReference camera = roverCamera();
   const Eigen::Vector3d in_camera = camera.camera_from_reference * Eigen::Vector3d(1, 2, 3);
-  const nlohmann::ordered_json rover = {{"name", "ROVER_FRAME"}, {"index", {194, 835, 1}}};
-  for (const nlohmann::ordered_json& frame : {nlohmann::ordered_json(), rover}) {
+  for (const nlohmann::ordered_json& frame :
+       {nlohmann::ordered_json(), transformJson()["source"]}) {
     const PoseFile pose = read(frame, {camera, {}});
     EXPECT_LT((pose.camera_from_station.translation_m - in_camera).norm(), 1e-12);
     EXPECT_EQ(pose.station_frame, kRover);
@@ -221,15 +192,16 @@ TEST_F(FrameTransforms, AreNotAskedForInTheCamerasOwnFrame) {
 
 TEST_F(FrameTransforms, FramesOfOneNameAndAnotherIndexAreTwo) {
   const CameraReference camera = roverCamera();
-  const nlohmann::ordered_json later = {{"name", "ROVER_FRAME"}, {"index", {194, 840, 0}}};
+  const auto later =
+      nlohmann::ordered_json::parse(R"({"name": "ROVER_FRAME", "index": [194, 840, 0]})");
   EXPECT_THAT(poseError(later, {camera, {}}),
               EndsWith("seed.json: reference_frame: the pose is given in ROVER_FRAME (194, 840, "
                        "0), but the camera model in ROVER_FRAME (194, 835, 1); give the transform "
                        "between the two (transform.json)"));
   EXPECT_THAT(poseError(later, {camera, {transform()}}),
               HasSubstr("sol12.json leads from ROVER_FRAME (194, 835, 1) to SITE_FRAME (194)"));
-  const nlohmann::ordered_json bare = {{"name", "ROVER_FRAME"}};
-  EXPECT_THAT(poseError(bare, {camera, {}}), HasSubstr("the pose is given in ROVER_FRAME, but"));
+  EXPECT_THAT(poseError({{"name", "ROVER_FRAME"}}, {camera, {}}),
+              HasSubstr("the pose is given in ROVER_FRAME, but"));
 }
 
 TEST_F(FrameTransforms, AreNeverGuessed) {
@@ -238,13 +210,16 @@ TEST_F(FrameTransforms, AreNeverGuessed) {
   EXPECT_THAT(poseError(kSiteJson, {nameless, {transform()}}), HasSubstr("a frame without a name"));
   EXPECT_THAT(poseError(kSiteJson, {std::nullopt, {transform()}}),
               HasSubstr("no transforms join it and CAMERA"));
-  const auto file = folder_.write(
-      "seed.json", R"({"format": "boresight-pose", "version": 1, "camera_from_station":
-         [[1,0,0,0],[0,1,0,0],[0,0,1,1],[0,0,0,1]], "reference_frame": {"name": "SITE_FRAME"}})");
-  EXPECT_THAT(folder_.message([&] {
-    (void)readPose(file, {roverCamera(), {}});
-  }),
+  const std::string begin = R"({"format": "boresight-pose", "version": 1, "camera_from_station":
+         [[1,0,0,0],[0,1,0,0],[0,0,1,1],[0,0,0,1]], )";
+  const auto message = [&](const std::string& rest) {
+    const auto file = folder_.write("seed.json", begin + rest + "}");
+    return folder_.message([&] { (void)readPose(file, {roverCamera(), {}}); });
+  };
+  EXPECT_THAT(message(R"("reference_frame": {"name": "SITE_FRAME"})"),
               HasSubstr("reference_frame: belongs to reference_from_station"));
+  EXPECT_THAT(message(R"("reference_from_station": [[1,0,0,0],[0,1,0,0],[0,0,1,1],[0,0,0,1]])"),
+              HasSubstr("reference_from_station: cannot be combined with camera_from_station"));
 }
 
 }  // namespace

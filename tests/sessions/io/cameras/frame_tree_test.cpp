@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "core/base/math.h"
 #include "core/geometry/pose.h"
@@ -40,6 +39,9 @@ Eigen::Matrix4d matrixOf(const Pose& pose) {
   matrix.topRightCorner<3, 1>() = pose.translation_m;
   return matrix;
 }
+
+/// So many metres along z.
+Pose along(double z_m) { return {Eigen::Quaterniond::Identity(), {0.0, 0.0, z_m}}; }
 
 Matrix6d diagonal(double rotation_rad, double translation_m) {
   Vector6d variances;
@@ -120,26 +122,17 @@ TEST(FrameTree, Covariance_IsTheScatterOfDraws) {
 }
 
 TEST(FrameTree, Loop_IsRefusedWithBothWays) {
-  Pose a_metre;
-  a_metre.translation_m = {0.0, 0.0, 1.0};
-  Pose two_metres;
-  two_metres.translation_m = {0.0, 0.0, 2.01};
-  EXPECT_EQ(refusal({transformOf(kCameraFrame, kEndEffectorFrame, a_metre, "hand_eye.json"),
-                     transformOf(kEndEffectorFrame, kBase, a_metre, "telemetry.json"),
-                     transformOf(kCameraFrame, kBase, two_metres, "label.json")}),
+  EXPECT_EQ(refusal({transformOf(kCameraFrame, kEndEffectorFrame, along(1.0), "hand_eye.json"),
+                     transformOf(kEndEffectorFrame, kBase, along(1.0), "telemetry.json"),
+                     transformOf(kCameraFrame, kBase, along(2.01), "label.json")}),
             "label.json: leads from ARM_BASE to CAMERA, as does the way CAMERA - END_EFFECTOR - "
             "ARM_BASE of hand_eye.json, telemetry.json; the two differ by 10.000 mm and 0.000 deg; "
             "give only the valid one");
   // The same transform twice, once inverted, is no loop.
-  EXPECT_EQ(refusal({transformOf(kCameraFrame, kBase, a_metre, "a.json"),
-                     transformOf(kBase, kCameraFrame, a_metre.inverse(), "b.json")}),
+  EXPECT_EQ(refusal({transformOf(kCameraFrame, kBase, along(1.0), "a.json"),
+                     transformOf(kBase, kCameraFrame, along(-1.0), "b.json")}),
             "");
-}
-
-TEST(FrameTree, TransformOfAFrameToItself_IsRefused) {
-  Pose a_metre;
-  a_metre.translation_m = {0.0, 0.0, 1.0};
-  EXPECT_EQ(refusal({transformOf(kBase, kBase, a_metre, "base.json")}),
+  EXPECT_EQ(refusal({transformOf(kBase, kBase, along(1.0), "base.json")}),
             "base.json: leads from ARM_BASE to itself: a transform joins two frames");
 }
 
@@ -157,17 +150,12 @@ TEST(FrameTree, CameraModel_IsALink) {
 /// A sigma is stated at the source's origin: half a metre away, a turn does not shift it.
 TEST(FramesFile, Sigma_HoldsAtTheOriginOfTheSource) {
   const test::TemporaryFolder folder;
-  const nlohmann::json file = {
-      {"format", "boresight-frames"},
-      {"version", 1},
-      {"transforms",
-       {{{"target", {{"name", "ARM_BASE"}}},
-         {"source", {{"name", "END_EFFECTOR"}}},
-         {"target_from_source", {{1, 0, 0, 0.5}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
-         {"sigma", {{"translation_mm", {1, 2, 3}}, {"rotation_mrad", {4, 5, 6}}}},
-         {"origin", "telemetry"},
-         {"comment", "joint angles of sol 12"}}}}};
-  const auto transforms = readFrameTransforms(folder.write("frames.json", file.dump()));
+  const auto transforms = readFrameTransforms(folder.write("frames.json", R"(
+      {"format": "boresight-frames", "version": 1, "transforms": [
+        {"target": {"name": "ARM_BASE"}, "source": {"name": "END_EFFECTOR"},
+         "target_from_source": [[1,0,0,0.5],[0,1,0,0],[0,0,1,0],[0,0,0,1]],
+         "sigma": {"translation_mm": [1, 2, 3], "rotation_mrad": [4, 5, 6]},
+         "origin": "telemetry", "comment": "joint angles of sol 12"}]})"));
   ASSERT_EQ(transforms.size(), 1u);
   EXPECT_EQ(transforms[0].origin, TransformSource::kTelemetry);
   const Matrix6d covariance = *transforms[0].covariance;
@@ -187,23 +175,12 @@ TEST(FramesFile, Sigma_HoldsAtTheOriginOfTheSource) {
 }
 
 TEST(FrameRows, HangOnTheCameraAndParentsComeFirst) {
-  const FrameName arm{"ARM_BASE", {}};
-  const FrameName lone{"SITE", {1}};
-  const FrameName other{"SITE", {2}};
-  FrameTransform hand_eye;
-  hand_eye.target = kEndEffectorFrame;  // stated the other way round
-  hand_eye.source = kCameraFrame;
-  hand_eye.target_from_source.translation_m = {0.0, 0.0, -0.4};
+  // Stated the other way round.
+  FrameTransform hand_eye = transformOf(kEndEffectorFrame, kCameraFrame, along(-0.4));
   hand_eye.covariance = 1e-6 * Matrix6d::Identity();
-  hand_eye.comment = "hand-eye";
-  FrameTransform telemetry;
-  telemetry.target = arm;
-  telemetry.source = kEndEffectorFrame;
-  telemetry.comment = "telemetry";
-  FrameTransform sites;
-  sites.target = lone;
-  sites.source = other;
-  const auto rows = frameRows(FrameTree({telemetry, sites, hand_eye}));
+  const auto rows =
+      frameRows(FrameTree({transformOf(kBase, kEndEffectorFrame, Pose()),
+                           transformOf({"SITE", {1}}, {"SITE", {2}}, Pose()), hand_eye}));
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[0].frame, kCameraFrame);
   EXPECT_EQ(rows[1].frame, kEndEffectorFrame);
@@ -211,7 +188,7 @@ TEST(FrameRows, HangOnTheCameraAndParentsComeFirst) {
   EXPECT_NEAR(rows[1].parent_from_frame.translation_m.z(), 0.4, 1e-12);
   ASSERT_TRUE(rows[1].sigma);
   EXPECT_NEAR((*rows[1].sigma)[2], 1e-3, 1e-12);
-  EXPECT_EQ(rows[2].frame, arm);
+  EXPECT_EQ(rows[2].frame, kBase);
   EXPECT_EQ(rows[2].parent, 1);
   EXPECT_FALSE(rows[2].sigma);
   EXPECT_EQ(rows[3].parent, -1) << "not joined with the camera";

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 #include "core/base/math.h"
@@ -49,36 +50,32 @@ TEST_F(ReadPose, ReadsTheUncertainty) {
   EXPECT_EQ(pose.uncertainty->rotation_deg, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(pose.uncertainty->pivot, UncertaintyPivot::kStation);
 
-  const auto uncertaintyError = [&](const std::string& uncertainty) {
-    return error(poseText(identity, R"(, "uncertainty": )" + uncertainty));
-  };
-  EXPECT_EQ(uncertaintyError(R"({"translation_m": [0.1, 0.1, 0.1]})"),
-            "seed.json: uncertainty.rotation_deg: missing");
-  EXPECT_EQ(uncertaintyError(R"({"translation_m": [0.1, -0.1, 0.1], "rotation_deg": [1,1,1]})"),
-            "seed.json: uncertainty.translation_m[1]: -0.1 is outside 0 .. 1000");
-  EXPECT_EQ(uncertaintyError(R"({"translation_m": 0.1, "rotation_deg": [1,1,1]})"),
-            "seed.json: uncertainty.translation_m: not a list of 3 (is a number)");
-  EXPECT_EQ(
-      uncertaintyError(R"({"translation_m": [0,0,0], "rotation_deg": [1,1,1], "pivot": "arm"})"),
-      "seed.json: uncertainty.pivot: 'arm' is none of 'camera', 'station'");
+  for (const auto& [uncertainty, refusal] : std::vector<std::array<const char*, 2>>{
+           {R"({"translation_m": [0.1, 0.1, 0.1]})", "rotation_deg: missing"},
+           {R"({"translation_m": [0.1, -0.1, 0.1], "rotation_deg": [1,1,1]})",
+            "translation_m[1]: -0.1 is outside 0 .. 1000"},
+           {R"({"translation_m": 0.1, "rotation_deg": [1,1,1]})",
+            "translation_m: not a list of 3 (is a number)"},
+           {R"({"translation_m": [0,0,0], "rotation_deg": [1,1,1], "pivot": "arm"})",
+            "pivot: 'arm' is none of 'camera', 'station'"}})
+    EXPECT_EQ(error(poseText(identity, std::string(R"(, "uncertainty": )") + uncertainty)),
+              std::string("seed.json: uncertainty.") + refusal);
 }
 
 TEST_F(ReadPose, RefusesWhatIsNotARigidTransform) {
-  EXPECT_EQ(error(poseText("[[1,0,0],[0,1,0],[0,0,1]]")),
-            "seed.json: camera_from_station: not a list of 4 (is a list of 3)");
-  EXPECT_EQ(
-      error(poseText("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0.1,0.2,0.3,1]]")),
-      "seed.json: camera_from_station: the last row is not 0 0 0 1 (the matrix is row-major)");
-  EXPECT_THAT(error(poseText("[[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]")),
-              StartsWith("seed.json: camera_from_station: not a rotation: the determinant is -1"));
-  EXPECT_THAT(error(poseText("[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]]")),
-              StartsWith("seed.json: camera_from_station: not a rotation: the determinant is 0"));
-  EXPECT_THAT(error(poseText("[[1,0.01,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")),
-              StartsWith("seed.json: camera_from_station: not a rotation: |R'R - I| is 0.0141"));
-  EXPECT_THAT(error(poseText("[[1000,0,0,0],[0,1000,0,0],[0,0,1000,0],[0,0,0,1]]")),
-              StartsWith("seed.json: camera_from_station: not a rotation"));
-  EXPECT_EQ(error(poseText("[[1,0,0,1e30],[0,1,0,0],[0,0,1,0],[0,0,0,1]]")),
-            "seed.json: camera_from_station: the translation exceeds 1e+06 m");
+  for (const auto& [matrix, refusal] : std::vector<std::array<const char*, 2>>{
+           {"[[1,0,0],[0,1,0],[0,0,1]]", "not a list of 4 (is a list of 3)"},
+           {"[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0.1,0.2,0.3,1]]",
+            "the last row is not 0 0 0 1 (the matrix is row-major)"},
+           {"[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1000]]", "the last row is not 0 0 0 1"},
+           {"[[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]]", "not a rotation: the determinant is -1"},
+           {"[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]]", "not a rotation: the determinant is 0"},
+           {"[[1,0.01,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]", "not a rotation: |R'R - I| is 0.0141"},
+           {"[[1.001,0,0,0],[0,1.001,0,0],[0,0,1.001,0],[0,0,0,1]]", "not a rotation"},
+           {"[[1000,0,0,0],[0,1000,0,0],[0,0,1000,0],[0,0,0,1]]", "not a rotation"},
+           {"[[1,0,0,1e30],[0,1,0,0],[0,0,1,0],[0,0,0,1]]", "the translation exceeds 1e+06 m"}})
+    EXPECT_THAT(error(poseText(matrix)),
+                StartsWith(std::string("seed.json: camera_from_station: ") + refusal));
 }
 
 TEST_F(ReadPose, ProjectsANearlyOrthonormalMatrixAndSaysSo) {
@@ -93,7 +90,8 @@ TEST_F(ReadPose, ProjectsANearlyOrthonormalMatrixAndSaysSo) {
 
 TEST_F(ReadPose, RefusesAPoseInAReferenceFrame) {
   EXPECT_THAT(error(R"({"format": "boresight-pose", "version": 1, "reference_from_station": []})"),
-              StartsWith("seed.json: reference_from_station: needs reference_frame, or a camera of the CAHV family"));
+              StartsWith("seed.json: reference_from_station: needs reference_frame, or a camera of "
+                         "the CAHV family"));
   EXPECT_EQ(error(R"({"format": "boresight-pose", "version": 1})"),
             "seed.json: camera_from_station: missing");
 }

@@ -21,9 +21,10 @@ using boresight::test::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+using J = const JsonReader&;
+
 /// What reading `text` with `read` throws.
-template <class Read>
-std::string messageOf(const std::string& text, Read&& read) {
+std::string messageOf(const std::string& text, void (*read)(J)) {
   try {
     const JsonDocument document("f.json", text);
     read(document.root());
@@ -34,27 +35,28 @@ std::string messageOf(const std::string& text, Read&& read) {
 }
 
 std::string parseMessage(const std::string& text) {
-  return messageOf(text, [](const JsonReader&) {});
+  return messageOf(text, [](J) {});
 }
 
-TEST(JsonDocument, NamesThePlaceOfASyntaxError) {
+/// How a text is read, and what is said of it without the file.
+struct Reading {
+  void (*read)(J);
+  const char* message;
+};
+
+void expectMessages(const std::string& text, std::initializer_list<Reading> readings) {
+  for (const Reading& reading : readings)
+    EXPECT_EQ(messageOf(text, reading.read), std::string("f.json: ") + reading.message);
+}
+
+TEST(JsonDocument, RefusesWhatIsNotJson) {
   EXPECT_THAT(parseMessage("{\"a\": 1,\n \"b\": }"),
               StartsWith("f.json: not JSON: parse error at line 2, column 7: "));
   EXPECT_THAT(parseMessage("{\"a\": [1, 2"), HasSubstr("not JSON: the file is truncated"));
-  EXPECT_THAT(parseMessage("\x89PNG\r\n"), HasSubstr("not JSON"));
-  EXPECT_THAT(parseMessage("{} {}"), HasSubstr("not JSON"));
-  EXPECT_THAT(parseMessage("// comment\n{}"), HasSubstr("not JSON"));
-  EXPECT_THAT(parseMessage(" "), HasSubstr("not JSON"));
-}
-
-TEST(JsonDocument, RefusesWhatIsNotUtf8) {
-  EXPECT_THAT(parseMessage("{\"a\": \"\xff\"}"), HasSubstr("not JSON"));
-  EXPECT_EQ(parseMessage("{\"a\": \"\xc3\xa9\"}"), "(nothing)");
-}
-
-TEST(JsonDocument, RefusesNumbersThatAreNotFinite) {
-  for (const char* text : {"{\"m\": [[1, 0], [2, NaN]]}", "[-Infinity]", "[nan]", "[1e999]"})
+  for (const char* text : {"\x89PNG\r\n", "{} {}", "// comment\n{}", " ", "{\"a\": \"\xff\"}",
+                           "{\"m\": [[1, 0], [2, NaN]]}", "[-Infinity]", "[nan]", "[1e999]"})
     EXPECT_THAT(parseMessage(text), StartsWith("f.json: not JSON: ")) << text;
+  EXPECT_EQ(parseMessage("{\"a\": \"\xc3\xa9\"}"), "(nothing)");
 }
 
 TEST(JsonDocument, RefusesAKeyThatIsGivenTwice) {
@@ -62,14 +64,11 @@ TEST(JsonDocument, RefusesAKeyThatIsGivenTwice) {
   EXPECT_EQ(parseMessage("{\"a\": {\"b\": 1}, \"c\": {\"b\": 1}}"), "(nothing)");
 }
 
-TEST(JsonDocument, RefusesDeepNesting) {
+TEST(JsonDocument, RefusesDeepNestingAndLargeFiles) {
   EXPECT_EQ(parseMessage(std::string(64, '[') + std::string(64, ']')), "(nothing)");
-  EXPECT_THAT(parseMessage(std::string(65, '[') + std::string(65, ']')),
-              HasSubstr("nested deeper than 64 levels"));
-  EXPECT_THAT(parseMessage(std::string(1000000, '[')), HasSubstr("nested deeper"));
-}
-
-TEST(JsonDocument, RefusesTooLargeFiles) {
+  for (const int depth : {65, 1000000})
+    EXPECT_THAT(parseMessage(std::string(depth, '[') + std::string(depth, ']')),
+                HasSubstr("nested deeper than 64 levels"));
   EXPECT_EQ(parseMessage(std::string(kMaxJsonBytes + 1, ' ')),
             "f.json: larger than the limit of 64 MB");
 }
@@ -85,17 +84,13 @@ TEST(JsonDocument, ReadsAFile) {
 
 TEST(JsonDocument, ChecksFormatAndVersion) {
   const auto message = [](const std::string& text) {
-    return messageOf(text, [](const JsonReader& json) { json.requireFormat("boresight-pose", 1); });
+    return messageOf(text, [](J json) { json.requireFormat("boresight-pose", 1); });
   };
+  const std::string head =
+      ": missing: a file of its own begins with \"format\": \"boresight-pose\", \"version\": 1";
   EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 1})"), "(nothing)");
-  EXPECT_EQ(
-      message(R"({"version": 1})"),
-      "f.json: format: missing: a file of its own begins with \"format\": \"boresight-pose\", "
-      "\"version\": 1");
-  EXPECT_EQ(
-      message(R"({"format": "boresight-pose"})"),
-      "f.json: version: missing: a file of its own begins with \"format\": \"boresight-pose\", "
-      "\"version\": 1");
+  EXPECT_EQ(message(R"({"version": 1})"), "f.json: format" + head);
+  EXPECT_EQ(message(R"({"format": "boresight-pose"})"), "f.json: version" + head);
   EXPECT_EQ(message(R"({"format": "boresight-camera", "version": 1})"),
             "f.json: format: is 'boresight-camera', not 'boresight-pose'");
   EXPECT_EQ(message(R"({"format": "boresight-pose", "version": 2})"),
@@ -105,8 +100,8 @@ TEST(JsonDocument, ChecksFormatAndVersion) {
 
 /// Reads an object of a required `seed`, an optional `profile`, and `parts` with a `name` each.
 std::string wholeMessage(const std::string& text) {
-  return messageOf(text, [](const JsonReader& json) {
-    json.whole([](const JsonReader& top) {
+  return messageOf(text, [](J json) {
+    json.whole([](J top) {
       (void)top.at("seed").number();
       (void)top.find("profile");
       if (const auto parts = top.find("parts"))
@@ -129,41 +124,36 @@ TEST(JsonReader, RefusesMembersThatTheReaderDoesNotAskFor) {
 }
 
 TEST(JsonReader, NamesMissingAndMistypedMembers) {
-  const std::string text = R"({"n": 1, "s": "x", "l": [1, 2], "o": {"z": null}, "e": ""})";
-  const auto message = [&text](auto read) { return messageOf(text, read); };
-  using J = const JsonReader&;
-  EXPECT_EQ(message([](J j) { j.at("q"); }), "f.json: q: missing");
-  EXPECT_EQ(message([](J j) { j.at("o").at("z"); }), "f.json: o.z: missing");
-  EXPECT_EQ(message([](J j) { j.at("n").at("q"); }), "f.json: n: not an object (is a number)");
-  EXPECT_EQ(message([](J j) { j.at("s").number(); }), "f.json: s: not a number (is a string)");
-  EXPECT_EQ(message([](J j) { j.at("l").number(); }), "f.json: l: not a number (is a list of 2)");
-  EXPECT_EQ(message([](J j) { j.at("n").text(); }), "f.json: n: not a string (is a number)");
-  EXPECT_EQ(message([](J j) { j.at("n").boolean(); }),
-            "f.json: n: not true or false (is a number)");
-  EXPECT_EQ(message([](J j) { j.at("o").elements(); }), "f.json: o: not a list (is an object)");
-  EXPECT_EQ(message([](J j) { j.at("l").vector3(); }),
-            "f.json: l: not a list of 3 (is a list of 2)");
-  EXPECT_EQ(message([](J j) { j.at("e").nonEmptyText(); }), "f.json: e: is empty");
-  EXPECT_EQ(message([](J j) {
-              j.at("s").choice({"y", "z"});
-            }),
-            "f.json: s: 'x' is none of 'y', 'z'");
+  expectMessages(R"({"n": 1, "s": "x", "l": [1, 2], "o": {"z": null}, "e": ""})",
+                 {{[](J j) { j.at("q"); }, "q: missing"},
+                  {[](J j) { j.at("o").at("z"); }, "o.z: missing"},
+                  {[](J j) { j.at("n").at("q"); }, "n: not an object (is a number)"},
+                  {[](J j) { j.at("s").number(); }, "s: not a number (is a string)"},
+                  {[](J j) { j.at("l").number(); }, "l: not a number (is a list of 2)"},
+                  {[](J j) { j.at("n").text(); }, "n: not a string (is a number)"},
+                  {[](J j) { j.at("n").boolean(); }, "n: not true or false (is a number)"},
+                  {[](J j) { j.at("o").elements(); }, "o: not a list (is an object)"},
+                  {[](J j) { j.at("l").vector3(); }, "l: not a list of 3 (is a list of 2)"},
+                  {[](J j) { j.at("e").nonEmptyText(); }, "e: is empty"},
+                  {[](J j) {
+                     j.at("s").choice({"y", "z"});
+                   },
+                   "s: 'x' is none of 'y', 'z'"}});
 }
 
 TEST(JsonReader, ChecksRanges) {
   const std::string text = R"({"a": 5, "b": 5.0, "c": 5.5, "d": -1, "e": 18446744073709551615,
                                "f": 1e300, "v": [1, 2, 3.5]})";
-  const auto message = [&text](auto read) { return messageOf(text, read); };
-  using J = const JsonReader&;
-  EXPECT_EQ(message([](J j) { EXPECT_EQ(j.at("a").integer(0, 5), 5); }), "(nothing)");
-  EXPECT_EQ(message([](J j) { EXPECT_EQ(j.at("b").integer(), 5); }), "(nothing)");
-  EXPECT_EQ(message([](J j) { j.at("a").integer(6, 9); }), "f.json: a: 5 is outside 6 .. 9");
-  EXPECT_EQ(message([](J j) { j.at("c").integer(); }), "f.json: c: not an integer (is 5.5)");
-  EXPECT_EQ(message([](J j) { j.at("e").integer(); }), "f.json: e: the integer is too large");
-  EXPECT_EQ(message([](J j) { j.at("f").integer(); }), "f.json: f: not an integer (is 1e+300)");
-  EXPECT_EQ(message([](J j) { j.at("d").number(0, 0.5); }), "f.json: d: -1 is outside 0 .. 0.5");
-  EXPECT_EQ(message([](J j) { j.at("d").numberAbove(-1); }), "f.json: d: -1 is not above -1");
-  EXPECT_EQ(message([](J j) { j.at("v").vector3(0, 3); }), "f.json: v[2]: 3.5 is outside 0 .. 3");
+  expectMessages(text, {{[](J j) { j.at("a").integer(6, 9); }, "a: 5 is outside 6 .. 9"},
+                        {[](J j) { j.at("c").integer(); }, "c: not an integer (is 5.5)"},
+                        {[](J j) { j.at("e").integer(); }, "e: the integer is too large"},
+                        {[](J j) { j.at("f").integer(); }, "f: not an integer (is 1e+300)"},
+                        {[](J j) { j.at("d").number(0, 0.5); }, "d: -1 is outside 0 .. 0.5"},
+                        {[](J j) { j.at("d").numberAbove(-1); }, "d: -1 is not above -1"},
+                        {[](J j) { j.at("v").vector3(0, 3); }, "v[2]: 3.5 is outside 0 .. 3"}});
+  const JsonDocument document("f.json", text);
+  EXPECT_EQ(document.root().at("a").integer(0, 5), 5);
+  EXPECT_EQ(document.root().at("b").integer(), 5);
 }
 
 TEST(JsonReader, ReadsMatricesRowByRow) {
@@ -171,10 +161,9 @@ TEST(JsonReader, ReadsMatricesRowByRow) {
   const Eigen::Matrix4d matrix = document.root().matrix<4>();
   EXPECT_EQ(matrix(0, 3), 4.0);
   EXPECT_EQ(matrix(3, 0), 13.0);
-  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7]]", [](const JsonReader& j) { j.matrix<4>(); }),
-            "f.json: not a list of 4 (is a list of 2)");
-  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7],[1,2,3,4],[1,2,3,4]]",
-                      [](const JsonReader& j) { j.matrix<4>(); }),
+  const auto read = [](J j) { j.matrix<4>(); };
+  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7]]", read), "f.json: not a list of 4 (is a list of 2)");
+  EXPECT_EQ(messageOf("[[1,2,3,4],[5,6,7],[1,2,3,4],[1,2,3,4]]", read),
             "f.json: [1]: not a list of 4 (is a list of 3)");
 }
 
@@ -204,10 +193,7 @@ TEST(PrettyJson, KeepsEveryBitOfADouble) {
 }
 
 TEST(PrettyJson, PutsPlainListsOnOneLine) {
-  nlohmann::ordered_json json;
-  json["b"] = {1, 2, 3};
-  json["a"] = {{1.5, 2}, {3, 4}};
-  json["e"] = nlohmann::ordered_json::object();
+  const auto json = nlohmann::ordered_json::parse(R"({"b":[1,2,3],"a":[[1.5,2],[3,4]],"e":{}})");
   EXPECT_EQ(
       prettyJson(json),
       "{\n  \"b\": [1, 2, 3],\n  \"a\": [\n    [1.5, 2],\n    [3, 4]\n  ],\n  \"e\": {}\n}\n");

@@ -29,6 +29,17 @@ inline PolygonMesh cube() {
   return mesh;
 }
 
+inline std::string textOf(const Eigen::Vector3f& v, const char* between = " ") {
+  return std::to_string(v.x()) + between + std::to_string(v.y()) + between + std::to_string(v.z());
+}
+
+/// The indices, each behind a blank.
+inline std::string textOf(const std::vector<std::int32_t>& polygon, std::int32_t shift = 0) {
+  std::string text;
+  for (const std::int32_t index : polygon) text += " " + std::to_string(index + shift);
+  return text;
+}
+
 template <class T>
 void appendNumber(std::string& bytes, T value, bool big_endian) {
   char raw[sizeof(T)];
@@ -46,14 +57,9 @@ inline std::string plyHeader(const std::string& encoding, std::size_t vertices, 
 
 inline std::string asciiPly(const PolygonMesh& mesh) {
   std::string text = plyHeader("ascii", mesh.vertices.size(), mesh.polygons.size());
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    text +=
-        std::to_string(v.x()) + " " + std::to_string(v.y()) + " " + std::to_string(v.z()) + "\n";
-  for (const auto& polygon : mesh.polygons) {
-    text += std::to_string(polygon.size());
-    for (const std::int32_t index : polygon) text += " " + std::to_string(index);
-    text += "\n";
-  }
+  for (const Eigen::Vector3f& v : mesh.vertices) text += textOf(v) + "\n";
+  for (const auto& polygon : mesh.polygons)
+    text += std::to_string(polygon.size()) + textOf(polygon) + "\n";
   return text;
 }
 
@@ -71,14 +77,8 @@ inline std::string binaryPly(const PolygonMesh& mesh, bool big_endian) {
 
 inline std::string obj(const PolygonMesh& mesh) {
   std::string text = "# made by hand\n";
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    text += "v " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
-            std::to_string(v.z()) + "\n";
-  for (const auto& polygon : mesh.polygons) {
-    text += "f";
-    for (const std::int32_t index : polygon) text += " " + std::to_string(index + 1);
-    text += "\n";
-  }
+  for (const Eigen::Vector3f& v : mesh.vertices) text += "v " + textOf(v) + "\n";
+  for (const auto& polygon : mesh.polygons) text += "f" + textOf(polygon, 1) + "\n";
   return text;
 }
 
@@ -111,9 +111,7 @@ inline std::string asciiStl(const PolygonMesh& mesh) {
   std::string text = "solid cube\n";
   for (const auto& triangle : triangles(mesh)) {
     text += "facet normal 0 0 0\nouter loop\n";
-    for (const Eigen::Vector3f& v : triangle)
-      text += "vertex " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
-              std::to_string(v.z()) + "\n";
+    for (const Eigen::Vector3f& v : triangle) text += "vertex " + textOf(v) + "\n";
     text += "endloop\nendfacet\n";
   }
   return text + "endsolid cube\n";
@@ -145,15 +143,12 @@ inline std::string gltf(const PolygonMesh& mesh, const std::string& nodes,
     low = low.cwiseMin(v);
     high = high.cwiseMax(v);
   }
-  const auto list = [](const Eigen::Vector3f& v) {
-    return "[" + std::to_string(v.x()) + "," + std::to_string(v.y()) + "," + std::to_string(v.z()) +
-           "]";
-  };
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
          R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)" +
          R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
-         std::to_string(mesh.vertices.size()) + R"(,"min":)" + list(low) + R"(,"max":)" +
-         list(high) + R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)" +
+         std::to_string(mesh.vertices.size()) + R"(,"min":)" + "[" + textOf(low, ",") + "]" +
+         R"(,"max":)" + "[" + textOf(high, ",") + "]" +
+         R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)" +
          std::to_string(index_count) +
          R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" + positions +
          R"(},{"buffer":0,"byteOffset":)" + positions + R"(,"byteLength":)" +

@@ -20,6 +20,8 @@ class SceneMeshTest : public ::testing::Test {
   void SetUp() override {
     folder_.write("cube.ply", test::binaryPly(test::cube(), false));
     cube_ = readMesh(folder_ / "cube.ply", "m");
+    part_.mesh = folder_ / "cube.ply";
+    part_.mesh_unit = "m";
   }
   static Pose turned(double angle_rad, const Eigen::Vector3d& translation_m) {
     Pose pose;
@@ -29,6 +31,7 @@ class SceneMeshTest : public ::testing::Test {
   }
   TemporaryFolder folder_;
   Mesh cube_;
+  PartSource part_;  ///< the cube in metres
 };
 
 TEST_F(SceneMeshTest, Parts_ArePlacedByTheirTransforms) {
@@ -63,8 +66,7 @@ TEST_F(SceneMeshTest, Parts_ArePlacedByTheirTransforms) {
 }
 
 TEST_F(SceneMeshTest, ReadsPartsFromFiles) {
-  PartSource part;
-  part.mesh = folder_ / "cube.ply";
+  PartSource part = part_;
   part.mesh_unit = "cm";
   const SceneMesh scene = readScene(std::vector<PartSource>{part});
   EXPECT_EQ(scene.faces.size(), 12u);
@@ -79,17 +81,12 @@ TEST_F(SceneMeshTest, ReadsPartsFromFiles) {
 }
 
 TEST_F(SceneMeshTest, PartsFixedToTheCamera_ComeLast) {
-  PartSource gripper;
-  gripper.mesh = folder_ / "cube.ply";
-  gripper.mesh_unit = "m";
+  PartSource station = part_;
+  station.albedo = 0.25;
+  PartSource gripper = station;
   gripper.frame = kCameraFrame;
   gripper.frame_from_mesh.translation_m.z() = 0.5;
   gripper.state.role = PartRole::kOccludes;
-  gripper.albedo = 0.25;
-  PartSource station = gripper;
-  station.frame = kStationFrame;
-  station.frame_from_mesh = Pose();
-  station.state = PartState();
   std::vector<std::size_t> checked;
   const SceneMesh scene =
       readScene(std::vector{gripper, station}, {},
@@ -111,10 +108,7 @@ TEST_F(SceneMeshTest, PartsFixedToTheCamera_ComeLast) {
 }
 
 TEST_F(SceneMeshTest, PartsThatAreNotUsed_AreNotRead) {
-  PartSource station;
-  station.mesh = folder_ / "cube.ply";
-  station.mesh_unit = "m";
-  PartSource missing = station;
+  PartSource station = part_, missing = part_;
   missing.mesh = folder_ / "none.ply";
   for (const PartState& state :
        {PartState{PartRole::kMatched, false}, PartState{PartRole::kIgnored, true}}) {
@@ -122,7 +116,9 @@ TEST_F(SceneMeshTest, PartsThatAreNotUsed_AreNotRead) {
     EXPECT_EQ(readScene(std::vector{missing, station}).parts.size(), 1u);
   }
   station.state.present = false;
-  EXPECT_EQ(folder_.message([&] { (void)readScene(std::vector{station, missing}); }),
+  EXPECT_EQ(folder_.message([&] {
+    (void)readScene(std::vector{station, missing});
+  }),
             "cube.ply: role: no part of the station is matched");
 }
 

@@ -71,49 +71,42 @@ TEST(ImageLabel, ComponentsAreFoundByLetterOrNameInAnyOrder) {
     }
 }
 
+std::string element(const std::string& name, const std::string& content, const char* unit = "") {
+  return "<geom:" + name + unit + ">" + content + "</geom:" + name + ">";
+}
+
 std::string pds4Vector(const std::string& name, const Eigen::Vector3d& v, const char* suffix) {
-  std::string text = "<geom:" + name + ">";
-  for (int i = 0; i < 3; ++i) {
-    const std::string tag =
-        suffix[0] == 'c' ? "c" + std::to_string(i) : std::string(1, "xyz"[i]) + suffix;
-    text += "<geom:" + tag + (suffix == std::string("_position") ? " unit=\"m\"" : "") + ">" +
-            decimals(v[i]) + "</geom:" + tag + ">";
-  }
-  return text + "</geom:" + name + ">";
+  std::string text;
+  for (int i = 0; i < 3; ++i)
+    text += element(suffix[0] == 'c' ? "c" + std::to_string(i) : "xyz"[i] + std::string(suffix),
+                    decimals(v[i]), suffix == std::string("_position") ? " unit=\"m\"" : "");
+  return element(name, text);
 }
-
-std::string pds4Index(const char* name, int value) {
-  return "<geom:Coordinate_Space_Index><geom:index_id>" + std::string(name) +
-         "</geom:index_id><geom:index_value_number>" + std::to_string(value) +
-         "</geom:index_value_number></geom:Coordinate_Space_Index>";
-}
-
-const std::string kNavFrame =
-    "<geom:Coordinate_Space_Indexed><geom:coordinate_space_frame_type>ROVER_NAV_FRAME"
-    "</geom:coordinate_space_frame_type>" +
-    pds4Index("SITE", 14) + pds4Index("DRIVE", 1262) + pds4Index("POSE", 6) +
-    "</geom:Coordinate_Space_Indexed>";
 
 std::string pds4Camera(const CahvModel& cahv) {
-  const char* const names[] = {"CAHV", "CAHVOR", "CAHVORE"};
-  const int kind = static_cast<int>(cahv.model) - static_cast<int>(CameraModel::kCahv);
+  const std::string kind = std::array{"CAHV", "CAHVOR", "CAHVORE"}[static_cast<std::size_t>(
+      static_cast<int>(cahv.model) - static_cast<int>(CameraModel::kCahv))];
   std::string model = pds4Vector("Vector_Vertical", cahv.v_px, "_pixel") +
                       pds4Vector("Vector_Center", cahv.c_m, "_position") +
                       pds4Vector("Vector_Axis", cahv.a, "_unit") +
                       pds4Vector("Vector_Horizontal", cahv.h_px, "_pixel");
-  if (kind > 0)
+  if (kind != "CAHV")
     model +=
         pds4Vector("Vector_Optical", cahv.o, "_unit") + pds4Vector("Radial_Terms", cahv.r, "c");
-  if (kind > 1)
-    model += pds4Vector("Entrance_Terms", cahv.e_m, "c") + "<geom:cahvore_model_type>" +
-             std::to_string(cahv.type) +
-             "</geom:cahvore_model_type><geom:cahvore_model_parameter>" + decimals(cahv.parameter) +
-             "</geom:cahvore_model_parameter>";
-  return "<geom:Geometry><geom:Geometry_Lander><geom:Camera_Model_Parameters><geom:model_type>" +
-         std::string(names[kind]) + "</geom:model_type><geom:" + names[kind] + "_Model>" + model +
-         "</geom:" + names[kind] + "_Model><geom:Coordinate_Space_Reference>" + kNavFrame +
-         "</geom:Coordinate_Space_Reference></geom:Camera_Model_Parameters>"
-         "</geom:Geometry_Lander></geom:Geometry>";
+  if (kind == "CAHVORE")
+    model += pds4Vector("Entrance_Terms", cahv.e_m, "c") +
+             element("cahvore_model_type", std::to_string(cahv.type)) +
+             element("cahvore_model_parameter", decimals(cahv.parameter));
+  std::string frame = element("coordinate_space_frame_type", "ROVER_NAV_FRAME");
+  for (const auto& [name, value] : {std::pair("SITE", "14"), {"DRIVE", "1262"}, {"POSE", "6"}})
+    frame += element("Coordinate_Space_Index",
+                     element("index_id", name) + element("index_value_number", value));
+  return element("Geometry",
+                 element("Geometry_Lander",
+                         element("Camera_Model_Parameters",
+                                 element("model_type", kind) + element(kind + "_Model", model) +
+                                     element("Coordinate_Space_Reference",
+                                             element("Coordinate_Space_Indexed", frame)))));
 }
 
 TEST(ImageLabel, Pds4GivesTheSameModels) {
@@ -143,11 +136,9 @@ TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
   const TemporaryFolder folder;
   const CahvModel cahv = exampleModel(CameraModel::kCahv, 60, 31, 24);
   Pds3File pds;
-  GroupItems items = cameraItems(cahv);
-  for (auto& [key, value] : items)
-    if (key == "MODEL_COMPONENT_1")
-      value = "(" + decimals(cahv.c_m.x()) + " <m>," + decimals(cahv.c_m.y()) + " <m>," +
-              decimals(cahv.c_m.z()) + " <m>)";
+  GroupItems items = with(cameraItems(cahv), "MODEL_COMPONENT_1",
+                          "(" + decimals(cahv.c_m.x()) + " <m>," + decimals(cahv.c_m.y()) +
+                              " <m>," + decimals(cahv.c_m.z()) + " <m>)");
   items.emplace_back("FILTER_NAME", "\"N/A\"");
   items.emplace_back("SOLUTION_ID", "\"telemetry   \r\n   and more \"");
   items.emplace_back("CALIBRATION_SOURCE_ID", "UNK");
@@ -164,9 +155,8 @@ TEST(ImageLabel, UnitsBlanksAndWordsForNothingAreUnderstood) {
 
 TEST(ImageLabel, ExponentsOfFortranAreExponents) {
   const TemporaryFolder folder;
-  GroupItems items = cameraItems(exampleModel(CameraModel::kCahv, 60, 31, 24));
-  for (auto& [key, value] : items)
-    if (key == "MODEL_COMPONENT_1") value = "(1.5D-03,-2.5d1,3.D+2)";
+  GroupItems items = with(cameraItems(exampleModel(CameraModel::kCahv, 60, 31, 24)),
+                          "MODEL_COMPONENT_1", "(1.5D-03,-2.5d1,3.D+2)");
   items.emplace_back("SOLUTION_ID", "\"1.5D-03\"");
   Pds3File pds;
   pds.items = "PRODUCT_ID = 1F483D5\r\n" + pds3Group("GEOMETRIC_CAMERA_MODEL", items);
@@ -204,26 +194,24 @@ TEST(ImageLabel, CameraModelsThatAreNoneSayWhy) {
   EXPECT_EQ(readLabelOf(folder, pds).camera_remark, "the label has no camera model");
   EXPECT_EQ(folder.message([&] { readCameraFile(folder.path() / "image.img"); }),
             "image.img: the label has no camera model");
-  const auto with = [&](const char* key, const std::string& value) {
-    GroupItems items = cameraItems(cahv);
-    for (auto& item : items)
-      if (item.first == key) item.second = value;
+  const auto remark = [&](const GroupItems& items) {
     pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
     const ImageLabel label = readLabelOf(folder, pds);
-    EXPECT_FALSE(label.camera) << key << " = " << value;
+    EXPECT_FALSE(label.camera);
     return label.camera_remark;
   };
-  EXPECT_EQ(with("MODEL_TYPE", "\"NONE\""), "the label's camera model is NONE");
-  EXPECT_THAT(with("MODEL_TYPE", "\"PSPH\""), HasSubstr("'PSPH', is not one of"));
-  EXPECT_THAT(with("MODEL_COMPONENT_3", "(1,2)"), HasSubstr("no usable component H"));
-  EXPECT_THAT(with("MODEL_COMPONENT_3", "(1,\"N/A\",2)"), HasSubstr("no usable component H"));
-  EXPECT_THAT(with("MODEL_COMPONENT_8", "7"), HasSubstr("does not say its type"));
-  EXPECT_THAT(with("MODEL_COMPONENT_9", "\"UNK\""), HasSubstr("type 3 has no parameter"));
-  EXPECT_THAT(with("MODEL_COMPONENT_ID", "(\"C\",\"A\",\"V\",\"H\",\"O\",\"R\",\"E\",\"T\",\"P\")"),
-              HasSubstr("calls component 3 both V and HORIZONTAL"));
-  GroupItems items = cameraItems(cahv, "CAHVORETP", false, false);
-  pds.items = pds3Group("GEOMETRIC_CAMERA_MODEL", items);
-  EXPECT_THAT(readLabelOf(folder, pds).camera_remark, HasSubstr("no usable component C"));
+  for (const auto& [key, value, expected] : std::vector<std::array<const char*, 3>>{
+           {"MODEL_TYPE", "\"NONE\"", "the label's camera model is NONE"},
+           {"MODEL_TYPE", "\"PSPH\"", "'PSPH', is not one of"},
+           {"MODEL_COMPONENT_3", "(1,2)", "no usable component H"},
+           {"MODEL_COMPONENT_3", "(1,\"N/A\",2)", "no usable component H"},
+           {"MODEL_COMPONENT_8", "7", "does not say its type"},
+           {"MODEL_COMPONENT_9", "\"UNK\"", "type 3 has no parameter"},
+           {"MODEL_COMPONENT_ID", R"(("C","A","V","H","O","R","E","T","P"))",
+            "calls component 3 both V and HORIZONTAL"}})
+    EXPECT_THAT(remark(with(cameraItems(cahv), key, value)), HasSubstr(expected)) << value;
+  EXPECT_THAT(remark(cameraItems(cahv, "CAHVORETP", false, false)),
+              HasSubstr("no usable component C"));
 }
 
 TEST(ImageLabel, CameraModelsThatDoNotFitTheImageAreLeftOut) {
@@ -236,8 +224,8 @@ TEST(ImageLabel, CameraModelsThatDoNotFitTheImageAreLeftOut) {
   EXPECT_THAT(remarkFor(folder, model(60, 63, 24), uncut),
               HasSubstr("its principal point would be at (63.0, 24.0) of 64 x 48 px"));
   EXPECT_THAT(remarkFor(folder, model(60, 31, 600)), HasSubstr("no sub-frame is stated"));
-  EXPECT_THAT(remarkFor(folder, model(0.5, 31, 24)), HasSubstr("is invalid: focal lengths"));
-  EXPECT_THAT(remarkFor(folder, model(1e7, 31, 24)), HasSubstr("is invalid: focal lengths"));
+  for (const double focal_px : {0.5, 1e7})
+    EXPECT_THAT(remarkFor(folder, model(focal_px, 31, 24)), HasSubstr("is invalid: focal lengths"));
   CahvModel longer = model(60, 31, 24);
   longer.a *= 1.01;
   EXPECT_THAT(remarkFor(folder, longer), HasSubstr("its axis A has the length 1.0100"));
@@ -351,11 +339,11 @@ TEST(ImageLabel, MosaicsAndMapsAreFlagged) {
 
 TEST(ImageLabel, FilesWithoutALabelHaveNone) {
   const TemporaryFolder folder;
-  EXPECT_FALSE(hasImageLabel(folder.path() / "gone.img"));
-  EXPECT_FALSE(hasImageLabel(folder.path()));
-  EXPECT_FALSE(hasImageLabel(folder.write("a.json", "{\"format\": \"boresight-camera\"}")));
-  EXPECT_FALSE(hasImageLabel(folder.write("a.xml", "<?xml version=\"1.0\"?><svg/>")));
-  EXPECT_FALSE(hasImageLabel(folder.write("a.txt", "LBLSIZ")));
+  for (const auto& file :
+       {folder / "gone.img", folder.path(),
+        folder.write("a.json", "{\"format\": \"boresight-camera\"}"),
+        folder.write("a.xml", "<?xml version=\"1.0\"?><svg/>"), folder.write("a.txt", "LBLSIZ")})
+    EXPECT_FALSE(hasImageLabel(file)) << file;
   EXPECT_TRUE(hasImageLabel(folder.write("a", "LBLSIZE=  100")));
   EXPECT_TRUE(hasImageLabel(folder.write("b", "PDS_VERSION_ID = PDS3\r\n")));
 }

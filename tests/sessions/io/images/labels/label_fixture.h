@@ -26,12 +26,11 @@ struct Raster {
   int width = 0, height = 0, bands = 1;
   std::vector<double> samples;
 
-  double& at(int band, int line, int sample) {
-    return samples[static_cast<std::size_t>((band * height + line) * width + sample)];
+  std::size_t index(int band, int line, int sample) const {
+    return static_cast<std::size_t>((band * height + line) * width + sample);
   }
-  double at(int band, int line, int sample) const {
-    return samples[static_cast<std::size_t>((band * height + line) * width + sample)];
-  }
+  double& at(int band, int line, int sample) { return samples[index(band, line, sample)]; }
+  double at(int band, int line, int sample) const { return samples[index(band, line, sample)]; }
   static Raster filled(int width, int height, int bands,
                        const std::function<double(std::size_t)>& value) {
     Raster raster{width, height, bands, {}};
@@ -360,6 +359,13 @@ inline GroupItems cameraItems(const CahvModel& cahv, const std::string& order = 
   items.insert(items.end(), components.begin(), components.end());
   items.emplace_back("REFERENCE_COORD_SYSTEM_NAME", "\"ROVER_NAV_FRAME\"");
   items.emplace_back("REFERENCE_COORD_SYSTEM_INDEX", "(14,1262,6)");
+  return items;
+}
+
+/// The items with this value of a key.
+inline GroupItems with(GroupItems items, const std::string& key, const std::string& value) {
+  for (auto& item : items)
+    if (item.first == key) item.second = value;
   return items;
 }
 

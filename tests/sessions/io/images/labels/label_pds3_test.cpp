@@ -35,41 +35,32 @@ std::string nested(const std::string& label, const std::string& pointer) {
 TEST(LabelPds3, ImageInAnObjectFileIsReadLikeOneAtTheTop) {
   const TemporaryFolder folder;
   Random random(23);
-  struct Kind {
-    const char* type;
-    Store store;
-  };
-  for (const Kind& kind : {Kind{"MSB_INTEGER", Store::kHalf}, Kind{"IEEE_REAL", Store::kIeee}}) {
-    Pds3File pds;
-    pds.sample_type = kind.type;
-    pds.store = kind.store;
-    pds.pixels_file = "P.DAT";
-    pds.image_items =
-        " FIRST_LINE = 301\r\n FIRST_LINE_SAMPLE = 401\r\n SAMPLE_BIT_MASK = "
-        "2#0000111111111111#\r\n MISSING_CONSTANT = 26\r\n";
-    Raster raster =
-        Raster::filled(16, 9, 1, [&](std::size_t) { return 30.0 + random.below(4000); });
-    raster.at(0, 3, 5) = 26;
-    const Bytes pixels = pds.pixels(raster);
-    Bytes shifted(128, 0x77);
-    shifted.insert(shifted.end(), pixels.begin(), pixels.end());
-    folder.write("p.dat", pixels);
-    folder.write("q.dat", shifted);
-    const auto flat = folder.write("flat.lbl", pds.label(raster, 0));
-    const std::string table =
-        "OBJECT = FILE\r\nRECORD_BYTES = 7\r\n^TABLE = \"T.DAT\"\r\nEND_OBJECT = FILE\r\n";
-    const std::string inner = nested(pds.label(raster, 0), "(\"Q.DAT\",3)");
-    for (const std::string& label : {nested(pds.label(raster, 0), "\"P.DAT\""), inner,
-                                     altered(inner, "\r\nEND\r\n", "\r\n" + table + "END\r\n")}) {
-      const auto file = folder.write("nested.lbl", label);
-      EXPECT_EQ(readSamples(file).values, readSamples(flat).values) << label;
-      EXPECT_EQ(readLabelSamples(readLabelFiles(file)).invalid_count, 1) << label;
-      const ImageLabel read = readImageLabel(file);
-      ASSERT_TRUE(read.subframe) << label;
-      EXPECT_EQ(read.subframe->first_line, 300);
-      EXPECT_EQ(read.subframe->first_sample, 400);
-      EXPECT_EQ(read.bit_depth, readImageLabel(flat).bit_depth);
-    }
+  Pds3File pds;
+  pds.pixels_file = "P.DAT";
+  pds.image_items =
+      " FIRST_LINE = 301\r\n FIRST_LINE_SAMPLE = 401\r\n SAMPLE_BIT_MASK = "
+      "2#0000111111111111#\r\n MISSING_CONSTANT = 26\r\n";
+  Raster raster = Raster::filled(16, 9, 1, [&](std::size_t) { return 30.0 + random.below(4000); });
+  raster.at(0, 3, 5) = 26;
+  const Bytes pixels = pds.pixels(raster);
+  Bytes shifted(128, 0x77);
+  shifted.insert(shifted.end(), pixels.begin(), pixels.end());
+  folder.write("p.dat", pixels);
+  folder.write("q.dat", shifted);
+  const auto flat = folder.write("flat.lbl", pds.label(raster, 0));
+  const std::string table =
+      "OBJECT = FILE\r\nRECORD_BYTES = 7\r\n^TABLE = \"T.DAT\"\r\nEND_OBJECT = FILE\r\n";
+  const std::string inner = nested(pds.label(raster, 0), "(\"Q.DAT\",3)");
+  for (const std::string& label : {nested(pds.label(raster, 0), "\"P.DAT\""), inner,
+                                   altered(inner, "\r\nEND\r\n", "\r\n" + table + "END\r\n")}) {
+    const auto file = folder.write("nested.lbl", label);
+    EXPECT_EQ(readSamples(file).values, readSamples(flat).values) << label;
+    EXPECT_EQ(readLabelSamples(readLabelFiles(file)).invalid_count, 1) << label;
+    const ImageLabel read = readImageLabel(file);
+    ASSERT_TRUE(read.subframe) << label;
+    EXPECT_EQ(read.subframe->first_line, 300);
+    EXPECT_EQ(read.subframe->first_sample, 400);
+    EXPECT_EQ(read.bit_depth, readImageLabel(flat).bit_depth);
   }
 }
 

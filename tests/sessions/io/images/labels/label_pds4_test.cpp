@@ -24,16 +24,16 @@ using ::testing::Not;
 /// Of bytes 8 x 8: <name>...</name> with its offset and constants.
 std::string arrayOf(const std::string& name, const std::string& id, int offset,
                     const std::string& constants = "") {
-  const auto axis = [](const char* axis_name, int number) {
-    return "<Axis_Array><axis_name>" + std::string(axis_name) +
-           "</axis_name><elements>8</elements><sequence_number>" + std::to_string(number) +
-           "</sequence_number></Axis_Array>";
-  };
+  std::string axes;
+  for (const char* axis : {"Line", "Sample"})
+    axes += "<Axis_Array><axis_name>" + std::string(axis) +
+            "</axis_name><elements>8</elements><sequence_number>" +
+            std::string(axes.empty() ? "1" : "2") + "</sequence_number></Axis_Array>";
   return "<" + name + "><local_identifier>" + id + "</local_identifier><offset unit=\"byte\">" +
          std::to_string(offset) +
          "</offset><axes>2</axes><axis_index_order>Last Index Fastest</axis_index_order>"
          "<Element_Array><data_type>UnsignedByte</data_type></Element_Array>" +
-         axis("Line", 1) + axis("Sample", 2) +
+         axes +
          (constants.empty() ? "" : "<Special_Constants>" + constants + "</Special_Constants>") +
          "</" + name + ">";
 }
@@ -75,22 +75,20 @@ TEST(LabelPds4, TheFirstImageIsReadByWhatItsOwnElementSays) {
     return samples.invalid_count;
   };
   const std::string image = arrayOf("Array_2D_Image", "img", 0);
-  EXPECT_EQ(read(areaOf("p.img", image), 0, ""), 0);
-  const std::string first = "the label has 2 arrays; the Array_2D_Image 'img' is read";
-  EXPECT_EQ(read(areaOf("p.img", image + arrayOf("Array_2D", "mask", 0, constants)), 0, first), 0);
-  EXPECT_EQ(read(areaOf("p.img", image) +
-                     areaOf("q.img", arrayOf("Array_2D_Image", "other", 0, constants)),
-                 0, first),
-            0);
   const std::string last = arrayOf("Array_2D_Image", "img", 64);
-  EXPECT_EQ(read(areaOf("p.img", arrayOf("Array_2D", "mask", 0, constants) + last), 64, first), 0);
-  EXPECT_EQ(read(areaOf("q.img", arrayOf("Array_2D", "mask", 0, constants)) + areaOf("p.img", last),
-                 64, first),
-            0);
-  // Without an image the first array, and its own constants count.
-  EXPECT_EQ(
-      read(areaOf("q.img", arrayOf("Array_2D_Map", "map", 0)) + areaOf("p.img", image), 0, first),
-      0);
+  const std::string mask = arrayOf("Array_2D", "mask", 0, constants);
+  const std::string other = arrayOf("Array_2D_Image", "other", 0, constants);
+  const std::string map = arrayOf("Array_2D_Map", "map", 0);
+  const std::string first = "the label has 2 arrays; the Array_2D_Image 'img' is read";
+  EXPECT_EQ(read(areaOf("p.img", image), 0, ""), 0);
+  for (const std::string& areas :
+       {areaOf("p.img", image + mask), areaOf("p.img", image) + areaOf("q.img", other),
+        areaOf("q.img", map) + areaOf("p.img", image)})
+    EXPECT_EQ(read(areas, 0, first), 0);
+  for (const std::string& areas :
+       {areaOf("p.img", mask + last), areaOf("q.img", mask) + areaOf("p.img", last)})
+    EXPECT_EQ(read(areas, 64, first), 0);
+  // The array's own constants count.
   const auto own = folder.write(
       "a.xml", labelOf(areaOf("p.img", arrayOf("Array_2D_Image", "img", 64, constants))));
   EXPECT_EQ(readLabelSamples(readLabelFiles(own)).invalid_count, 2);

@@ -16,171 +16,157 @@ namespace {
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
 
-TEST(LabelRefusal, NonImageProducts_AreRefusedInOneSentence) {
-  const TemporaryFolder folder;
-  VicarFile vicar;
-  const auto message = [&](const auto& bytes) {
-    const auto file = folder.write("x.vic", bytes);
+/// A text of a file in place of another one, and a part of the refusal.
+struct Alteration {
+  const char* from;
+  const char* to;
+  const char* refusal;
+};
+
+class LabelRefusal : public testing::Test {
+ protected:
+  /// The refusal of a file: one line, and nothing is printed.
+  std::string refusal(const std::string& name, const std::string& content) const {
+    const auto file = folder_.write(name, content);
     testing::internal::CaptureStderr();
-    const std::string text = folder.message([&] { readImage(file); });
+    const std::string text = folder_.message([&] { readImage(file); });
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(text.find('\n'), std::string::npos);
     EXPECT_EQ(text.find("vsimem"), std::string::npos) << text;
     return text;
-  };
-  const Raster gray = Raster::counting(8, 8);
-  const Raster two = Raster::counting(8, 8, 2);
-  EXPECT_THAT(message(vicar.bytes(two)), HasSubstr("the image has 2 bands; 1 (gray) or 3"));
+  }
+  std::string refusal(const VicarFile& vicar, const Raster& raster) const {
+    return refusal("x.vic", textOf(vicar.bytes(raster)));
+  }
+  void expectRefused(const std::string& name, const std::string& whole,
+                     const std::vector<Alteration>& alterations) const {
+    ASSERT_EQ(refusal(name, whole), "(nothing)");
+    for (const Alteration& each : alterations)
+      EXPECT_THAT(refusal(name, altered(whole, each.from, each.to)),
+                  HasSubstr(name + ": " + each.refusal))
+          << each.to;
+  }
+
+  const TemporaryFolder folder_;
+  const Raster gray_ = Raster::counting(8, 8);
+};
+
+TEST_F(LabelRefusal, NonImageProducts_AreRefusedInOneSentence) {
+  VicarFile vicar;
+  EXPECT_THAT(refusal(vicar, Raster::counting(8, 8, 2)),
+              HasSubstr("the image has 2 bands; 1 (gray) or 3"));
   vicar.store = Store::kIeee;
   vicar.items = "PROPERTY='DERIVED_IMAGE_PARMS'  DERIVED_IMAGE_TYPE='XYZ_MAP'  ";
-  const Raster three = Raster::counting(8, 8, 3);
-  EXPECT_THAT(message(vicar.bytes(three)), HasSubstr("the label calls this a XYZ_MAP"));
+  EXPECT_THAT(refusal(vicar, Raster::counting(8, 8, 3)),
+              HasSubstr("the label calls this a XYZ_MAP"));
   const Raster nothing =
       Raster::filled(8, 8, 1, [](std::size_t) { return std::numeric_limits<double>::quiet_NaN(); });
   vicar.items = "";
-  EXPECT_THAT(message(vicar.bytes(nothing)), HasSubstr("no sample of the image has a value"));
+  EXPECT_THAT(refusal(vicar, nothing), HasSubstr("no sample of the image has a value"));
   vicar.store = Store::kByte;
-  Bytes cut = vicar.bytes(gray);
+  std::string cut = textOf(vicar.bytes(gray_));
   cut.pop_back();
-  EXPECT_THAT(message(cut), HasSubstr("the pixels are truncated"));
-  cut.resize(100);
-  EXPECT_THAT(message(cut), HasSubstr("LBLSIZE"));
-  const auto refusal = [&](const char* from, const char* to) {
-    return message(altered(textOf(vicar.bytes(gray)), from, to));
-  };
-  EXPECT_THAT(refusal("  NL=8  ", "  NL=0  "),
-              HasSubstr("NL: 0 is not a whole number from 1 to 16384"));
-  EXPECT_THAT(refusal("  NL=8  ", "  NL=99999999  "), HasSubstr("NL: 99999999 is not a whole"));
-  EXPECT_THAT(refusal("  NS=8  ", "  NS=-8  "), HasSubstr("NS: -8 is not a whole"));
-  EXPECT_THAT(refusal("  NS=8  ", "  NS=9999  "), HasSubstr("x.vic"));
-  EXPECT_THAT(refusal("  NB=1  ", "  NB=1000000  "), HasSubstr("NB: 1000000 is not a whole"));
-  EXPECT_THAT(refusal("FORMAT='BYTE'", "FORMAT='COMP'"), HasSubstr("x.vic: "));
+  EXPECT_THAT(refusal("x.vic", cut), HasSubstr("the pixels are truncated"));
+  EXPECT_THAT(refusal("x.vic", cut.substr(0, 100)), HasSubstr("LBLSIZE"));
   vicar.organization = "BIP";
   vicar.prefix_bytes = 4;
-  EXPECT_THAT(message(vicar.bytes(gray)), HasSubstr("NBB: a prefix of every pixel"));
-  vicar.store = Store::kByte;
+  EXPECT_THAT(refusal(vicar, gray_), HasSubstr("NBB: a prefix of every pixel"));
   vicar.organization = "BIL";
-  EXPECT_EQ(message(vicar.bytes(gray)), "(nothing)");
-  const Raster colour = Raster::counting(8, 8, 3);
-  EXPECT_THAT(message(vicar.bytes(colour)), HasSubstr("NBB: a prefix of every line of every band"));
-  vicar = VicarFile();
-  EXPECT_THAT(refusal("ORG='BSQ'", "ORG='XYZ'"), HasSubstr("x.vic: "));
+  EXPECT_EQ(refusal(vicar, gray_), "(nothing)");
+  EXPECT_THAT(refusal(vicar, Raster::counting(8, 8, 3)),
+              HasSubstr("NBB: a prefix of every line of every band"));
 }
 
-TEST(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
-  const TemporaryFolder folder;
-  const auto message = [&](const std::string& bytes) {
-    return folder.message([&] { readImage(folder.write("x.vic", bytes)); });
-  };
-  const Raster gray = Raster::counting(8, 8);
+TEST_F(LabelRefusal, VicarSizesThatContradictEachOtherOrTheFileAreRefused) {
   VicarFile vicar;
-  const std::string whole = textOf(vicar.bytes(gray));
-  ASSERT_EQ(message(whole), "(nothing)");
-  EXPECT_EQ(message(altered(whole, "RECSIZE=8 ", "RECSIZE=9 ")),
-            "x.vic: RECSIZE: 9 contradicts the label's other sizes, by which a record has 8 bytes");
-  for (const auto& [from, to] :
-       {std::pair{"RECSIZE=8", "RECSIZE=0"}, std::pair{"RECSIZE=8", "RECSIZE=2147483648"},
-        std::pair{"NL=8", "NL=8e0"}, std::pair{"NS=8", "NS=4294967304"}}) {
-    const std::string item = to;
-    const auto equals = item.find('=');
-    EXPECT_THAT(message(altered(whole, std::string(from) + " ", item + " ")),
-                HasSubstr("x.vic: " + item.substr(0, equals) + ": " + item.substr(equals + 1) +
-                          " is not a whole number from 1 to"));
-  }
-  const auto label_size = std::stoi(whole.substr(8, 8));
-  EXPECT_EQ(message(altered(whole, "LBLSIZE=" + std::to_string(label_size),
-                            "LBLSIZE=" + std::to_string(label_size - 1))),
-            "x.vic: LBLSIZE: " + std::to_string(label_size - 1) +
-                " is no multiple of the 8 bytes of a record");
+  const std::string whole = textOf(vicar.bytes(gray_));
+  const int label_size = std::stoi(whole.substr(8, 8));
+  const std::string size = "LBLSIZE=" + std::to_string(label_size);
+  const std::string wrong_size = "LBLSIZE=" + std::to_string(label_size - 1);
+  const std::string multiple =
+      "LBLSIZE: " + std::to_string(label_size - 1) + " is no multiple of the 8 bytes of a record";
+  expectRefused(
+      "x.vic", whole,
+      {{"  NL=8 ", "  NL=0 ", "NL: 0 is not a whole number from 1 to 16384"},
+       {"  NL=8 ", "  NL=99999999 ", "NL: 99999999 is not a whole number from 1 to"},
+       {"  NL=8 ", "  NL=8e0 ", "NL: 8e0 is not a whole number from 1 to"},
+       {"  NS=8 ", "  NS=-8 ", "NS: -8 is not a whole number from 1 to"},
+       {"  NS=8 ", "  NS=4294967304 ", "NS: 4294967304 is not a whole number from 1 to"},
+       {"  NS=8 ", "  NS=9999 ", ""},
+       {"  NB=1 ", "  NB=1000000 ", "NB: 1000000 is not a whole number from 1 to"},
+       {"FORMAT='BYTE'", "FORMAT='COMP'", ""},
+       {"ORG='BSQ'", "ORG='XYZ'", ""},
+       {"RECSIZE=8 ", "RECSIZE=0 ", "RECSIZE: 0 is not a whole number from 1 to"},
+       {"RECSIZE=8 ", "RECSIZE=2147483648 ", "RECSIZE: 2147483648 is not a whole number from 1 to"},
+       {"RECSIZE=8 ", "RECSIZE=9 ",
+        "RECSIZE: 9 contradicts the label's other sizes, by which a record has 8 bytes"},
+       {size.c_str(), wrong_size.c_str(), multiple.c_str()}});
   vicar.items_at_end = true;
   vicar.items = "PROPERTY='IMAGE_DATA'  FIRST_LINE=1  ";
-  std::string at_end = textOf(vicar.bytes(gray));
-  EXPECT_EQ(message(at_end), "(nothing)");
+  std::string at_end = textOf(vicar.bytes(gray_));
+  EXPECT_EQ(refusal("x.vic", at_end), "(nothing)");
   at_end.pop_back();
-  EXPECT_EQ(message(at_end), "x.vic: EOL: the part of the label at the file's end is incomplete");
+  EXPECT_EQ(refusal("x.vic", at_end),
+            "x.vic: EOL: the part of the label at the file's end is incomplete");
 }
 
-TEST(LabelRefusal, Pds3SizesThatAreNoPlainNumbersAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(LabelRefusal, Pds3LabelsThatContradictTheirPixels_AreRefused) {
   Pds3File pds;
-  const Raster raster = Raster::counting(8, 8);
-  const std::string whole = textOf(pds.bytes(raster));
-  const auto message = [&](const std::string& from, const std::string& to) {
-    const auto file = folder.write("x.img", altered(whole, from, to));
-    return folder.message([&] { readImage(file); });
-  };
-  const std::string reason = " is not a whole number from 0 to 999999999";
-  EXPECT_EQ(message(" LINE_SAMPLES = 8", " LINE_SAMPLES = 4294967304"),
-            "x.img: LINE_SAMPLES: 4294967304" + reason);
-  EXPECT_EQ(message(" LINES = 8", " LINES = 8e0"), "x.img: LINES: 8e0" + reason);
-  EXPECT_EQ(message(" SAMPLE_BITS = 16", " SAMPLE_BITS = 16.0"),
-            "x.img: SAMPLE_BITS: 16.0" + reason);
-  EXPECT_EQ(message("RECORD_BYTES = 128", "RECORD_BYTES = 4294967424"),
-            "x.img: RECORD_BYTES: 4294967424" + reason);
-}
-
-TEST(LabelRefusal, LabelsThatContradictTheirPixels_AreRefused) {
-  const TemporaryFolder folder;
-  Pds3File pds;
-  const Raster raster = Raster::counting(8, 8);
-  const auto read = [&](const std::string& name) {
-    return folder.message([&] { readImage(folder.path() / name); });
-  };
+  const std::string whole = textOf(pds.bytes(gray_));
+  expectRefused(
+      "x.img", whole,
+      {{" LINE_SAMPLES = 8", " LINE_SAMPLES = 4294967304",
+        "LINE_SAMPLES: 4294967304 is not a whole number from 0 to 999999999"},
+       {" LINES = 8", " LINES = 8e0", "LINES: 8e0 is not a whole number from 0 to 999999999"},
+       {" LINES = 8", " LINES = 0", ""},
+       {" LINES = 8", " LINES = 90000", ""},
+       {" SAMPLE_BITS = 16", " SAMPLE_BITS = 16.0",
+        "SAMPLE_BITS: 16.0 is not a whole number from 0 to 999999999"},
+       {" SAMPLE_BITS = 16", " SAMPLE_BITS = 12", ""},
+       {"RECORD_BYTES = 128", "RECORD_BYTES = 4294967424",
+        "RECORD_BYTES: 4294967424 is not a whole number from 0 to 999999999"},
+       {" SAMPLE_TYPE = MSB_INTEGER", " SAMPLE_TYPE = VAX_REAL",
+        "SAMPLE_TYPE: samples of the type VAX_REAL and 16 bits are not read"},
+       {"^IMAGE = 2", "^IMAGE = 9", ""}});
+  EXPECT_THAT(refusal("x.img", whole.substr(0, whole.size() - 3)),
+              HasSubstr("the pixels are truncated: the label needs"));
   for (const char* place : {"(\"../secret.img\",1)", "(\"/etc/passwd\",1)",
                             "(\"/vsicurl/http://127.0.0.1/x.img\",1)", "\"..\"", "\"a\\b\""}) {
     pds.pointer = place;
-    folder.write("d.lbl", pds.label(raster, 0));
-    EXPECT_THAT(read("d.lbl"), HasSubstr("which is not in its folder")) << place;
+    EXPECT_THAT(refusal("d.lbl", pds.label(gray_, 0)), HasSubstr("which is not in its folder"))
+        << place;
   }
   pds.pointer = "(\"gone.img\",1)";
-  folder.write("d.lbl", pds.label(raster, 0));
-  EXPECT_EQ(read("d.lbl"), "d.lbl: the file of its pixels, 'gone.img', is not in its folder");
-  pds.pointer = "";
-  Bytes bytes = pds.bytes(raster);
-  bytes.resize(bytes.size() - 3);
-  folder.write("t.img", bytes);
-  EXPECT_THAT(read("t.img"), HasSubstr("the pixels are truncated: the label needs"));
-  const auto refusal = [&](const char* from, const char* to) {
-    folder.write("a.img", altered(textOf(pds.bytes(raster)), from, to));
-    return read("a.img");
-  };
-  EXPECT_THAT(refusal(" LINES = 8", " LINES = 0"), HasSubstr("a.img: "));
-  EXPECT_THAT(refusal(" LINES = 8", " LINES = 90000"), HasSubstr("a.img: "));
-  EXPECT_THAT(refusal(" SAMPLE_BITS = 16", " SAMPLE_BITS = 12"), HasSubstr("a.img: "));
-  EXPECT_THAT(refusal(" SAMPLE_TYPE = MSB_INTEGER", " SAMPLE_TYPE = VAX_REAL"),
-              HasSubstr("SAMPLE_TYPE: samples of the type VAX_REAL and 16 bits are not read"));
-  EXPECT_THAT(refusal("^IMAGE = 2", "^IMAGE = 9"), HasSubstr("a.img: "));
+  EXPECT_EQ(refusal("d.lbl", pds.label(gray_, 0)),
+            "d.lbl: the file of its pixels, 'gone.img', is not in its folder");
+}
 
+TEST_F(LabelRefusal, Pds4LabelsThatContradictTheirPixels_AreRefused) {
   Pds4File xml;
-  folder.write("pixels.img", xml.pixels(raster));
-  const auto label = [&](const std::string& text) {
-    folder.write("p.xml", text);
-    return read("p.xml");
-  };
-  xml.pixels_file = "../pixels.img";
-  EXPECT_THAT(label(xml.label(raster)), HasSubstr("which is not in its folder"));
-  xml.pixels_file = "pixels.img";
-  xml.offset = 10;
-  EXPECT_THAT(label(xml.label(raster)), HasSubstr("the pixels are truncated"));
-  xml.offset = 0;
-  EXPECT_EQ(label(xml.label(raster)), "(nothing)");
+  folder_.write("pixels.img", xml.pixels(gray_));
+  const std::string whole = xml.label(gray_);
   const auto deep = [&](int depth) {
     std::string nest;
     for (const char* tag : {"<a>", "</a>"})
       for (int i = 0; i < depth; ++i) nest += tag;
-    return label(
-        altered(xml.label(raster), "<Identification_Area>", nest + "<Identification_Area>"));
+    return nest + "<Identification_Area>";
   };
-  EXPECT_THAT(deep(100), HasSubstr("nested deeper than 64"));
-  EXPECT_THAT(deep(100000), HasSubstr("not well-formed XML"));  // deeper than the parser goes
-  EXPECT_THAT(label(xml.label(raster).substr(0, 900)), HasSubstr("p.xml: "));
+  const std::string nested = deep(100), beyond_parser = deep(100000);
+  expectRefused(
+      "p.xml", whole,
+      {{"<Identification_Area>", nested.c_str(), "the label's elements are nested deeper than 64"},
+       {"<Identification_Area>", beyond_parser.c_str(), "the PDS4 label is not well-formed XML"}});
+  EXPECT_THAT(refusal("p.xml", whole.substr(0, 900)), HasSubstr("p.xml: "));
+  xml.offset = 10;
+  EXPECT_THAT(refusal("p.xml", xml.label(gray_)), HasSubstr("the pixels are truncated"));
+  xml.pixels_file = "../pixels.img";
+  EXPECT_THAT(refusal("p.xml", xml.label(gray_)), HasSubstr("which is not in its folder"));
 }
 
-TEST(LabelRefusal, MaskWithALabelIsRefused) {
-  const TemporaryFolder folder;
+TEST_F(LabelRefusal, MaskWithALabelIsRefused) {
   const Raster raster = Raster::filled(8, 8, 1, [](std::size_t) { return 1.0; });
-  const auto file = folder.write("mask.png", VicarFile().bytes(raster));
-  EXPECT_THAT(folder.message([&] { readIgnoreMask(file, 8, 8); }),
+  const auto file = folder_.write("mask.png", VicarFile().bytes(raster));
+  EXPECT_THAT(folder_.message([&] { readIgnoreMask(file, 8, 8); }),
               HasSubstr("a mask must be PNG or TIFF, not VICAR"));
 }
 

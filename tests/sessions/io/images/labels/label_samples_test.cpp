@@ -333,7 +333,7 @@ TEST(LabelOutliers, NoOutliers_KeepTheFullRange) {
     EXPECT_THAT(samples.label->flags, Not(Contains(HasSubstr("far outliers"))));
   }
   // Two values alone: one of them is no outlier of nothing.
-  Raster two = Raster::filled(100, 80, 1, [](std::size_t i) { return i == 70 ? 9.0 : -1.0; });
+  const Raster two = Raster::filled(100, 80, 1, [](std::size_t i) { return i == 70 ? 9.0 : -1.0; });
   const LabelSamples samples = read(folder, two, Store::kDouble);
   EXPECT_EQ(samples.values[70], 65535);
   EXPECT_EQ(samples.values[0], 0);
