@@ -202,26 +202,21 @@ TEST_F(AnnotationControllerTest, Landmarks_AfterThreeAnnotations_AreProposedAtTh
   EXPECT_EQ(controller_.seenProposals(), 4) << "all are corners that are seen";
 }
 
-TEST_F(AnnotationControllerTest, UseAsTruth_SetsTheTruthAndUndoRestoresIt) {
-  const Pose before = truth();
-  controller_.useAsTruth();
-  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
-  markCorners(6);
-  ASSERT_TRUE(solved());
-  const Pose solved_pose = *controller_.solvedPose();
-  controller_.useAsTruth();
-  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, solved_pose);
-  ASSERT_TRUE(document_.undo());
-  EXPECT_EQ(document_.session().findCase(source().id)->camera_from_station_truth, before);
-}
-
 TEST_F(AnnotationControllerTest, TruthFromAnnotations_KeepsItsCovarianceAndWarnsIfCoarse) {
   QStringList said;
   QObject::connect(&controller_, &AnnotationController::told,
                    [&said](const QString& sentence) { said << sentence; });
+  const Pose before = truth();
+  const auto stored = [this] {
+    return document_.session().findCase(source().id)->camera_from_station_truth;
+  };
+  controller_.useAsTruth();
+  EXPECT_EQ(stored(), before) << "there is no pose yet";
+  said.clear();
   const auto ids = markCorners(5);
   ASSERT_TRUE(solved());
   controller_.useAsTruth();
+  EXPECT_EQ(stored(), controller_.solvedPose());
   ASSERT_EQ(said.size(), 1);
   EXPECT_FALSE(said[0].contains(QStringLiteral("sigma"))) << said[0].toStdString();
   controller_.dragInImage(ids[0], pixelOf(corners_m(5)[0]) + Eigen::Vector2d(30.0, 40.0));
@@ -237,7 +232,9 @@ TEST_F(AnnotationControllerTest, TruthFromAnnotations_KeepsItsCovarianceAndWarns
   EXPECT_EQ(session_case.truth_covariance, controller_.answer().covariance);
   ASSERT_TRUE(session_case.truth_covariance);
   ASSERT_TRUE(document_.undo());
+  ASSERT_TRUE(document_.undo());  // the drag
   ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(stored(), before);
 }
 
 TEST_F(AnnotationControllerTest, Annotations_AreStoredPerCaseAndReloaded) {

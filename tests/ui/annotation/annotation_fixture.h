@@ -15,10 +15,7 @@
 #include "sessions/annotation/annotations.h"
 #include "sessions/annotation/annotations_on_image.h"
 #include "sessions/annotation/mesh_snap.h"
-#include "sessions/session/case_run.h"
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/ui/window_test.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/annotation/annotation_tool.h"
 #include "ui/annotation/image_annotation.h"
@@ -36,7 +33,7 @@ class AnnotationTest : public ::testing::Test {
   static constexpr int kPatience_ms = 60000;
 
   void SetUp() override {
-    const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+    static const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
     ASSERT_TRUE(document_.create(folder_.path() / "one.boresight.json", session));
     open(session.cases.front()->id);
   }

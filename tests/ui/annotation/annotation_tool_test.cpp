@@ -280,7 +280,7 @@ TEST_F(AnnotationToolTest, ClickThatStartsALine_ClearsTheSelection) {
   markMiddle();
   ASSERT_EQ(controller_.selected(), "p1");
   controller_.setMode(PlaceMode::kLine);
-  click(kMiddle + Eigen::Vector2d(15.0 * screenPixel_px(), 0.0));  // just off the point
+  click(kMiddle + Eigen::Vector2d(15.0 / view().transform().scale(), 0.0));  // just off the point
   EXPECT_EQ(controller_.selected(), "");
   EXPECT_EQ(annotations().points.size(), 1u);
 }
@@ -377,21 +377,16 @@ class ImageAnnotationLayersTest : public ImageAnnotationTest {
   }
 };
 
-TEST_F(ImageAnnotationLayersTest, TheSolvedPosesEdgesShowAndGoWithTheirLayer) {
+TEST_F(ImageAnnotationLayersTest, TheSolvedPosesEdgesShow_AndTheStationIsPickedOnThoseThatShow) {
   EXPECT_TRUE(layer(LayerId::kAnnotationEdges).empty());
   annotateAndSolve();
   ASSERT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).empty(); }));
-  show(LayerId::kAnnotationEdges, false);
-  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).empty());
-  show(LayerId::kAnnotationEdges, true);
-  EXPECT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).empty(); }));
-}
-
-TEST_F(ImageAnnotationLayersTest, TheStationIsPickedOnTheEdgesThatShow) {
-  annotateAndSolve();
   EXPECT_EQ(tool().stationPose(), *controller_.solvedPose());
   show(LayerId::kAnnotationEdges, false);
+  EXPECT_TRUE(layer(LayerId::kAnnotationEdges).empty());
   EXPECT_EQ(tool().stationPose(), state_.shownPose());
+  show(LayerId::kAnnotationEdges, true);
+  EXPECT_TRUE(wait([&] { return !layer(LayerId::kAnnotationEdges).empty(); }));
 }
 
 TEST_F(ImageAnnotationLayersTest, BlindRound_HidesAllThatAPosePredicts) {

@@ -15,7 +15,7 @@ namespace {
 
 /// The example's two cases with their runs, and one of the second that could not converge.
 struct RunExample {
-  sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  sessions::Session session = easyToValidate();
   std::string good = session.cases[0]->id;
   std::string bad = session.cases[1]->id;
   sessions::LocalizationTrace of_good = sessions::runCase(session, good);
@@ -27,9 +27,16 @@ struct RunExample {
     static const RunExample example;
     return example;
   }
+  static sessions::Session easyToValidate() {
+    sessions::Session easy = test::withoutSearch(test::exampleSession());
+    easy.review.limits = {{"check.focal_percent", 5.0}};
+    return easy;
+  }
   sessions::Session strictSession() const {
     sessions::Session next_session = session;
-    next_session.options = {{"pnp.min_inliers", std::int64_t{100}}, {"refinement.enabled", false}};
+    next_session.options = {{"search.enabled", false},
+                            {"pnp.min_inliers", std::int64_t{100}},
+                            {"refinement.enabled", false}};
     return next_session;
   }
   sessions::Session withRuns(const std::filesystem::path& file) const {
@@ -39,17 +46,17 @@ struct RunExample {
   }
 };
 
-class QueuePanelTest : public test::WindowTest {
+class QueuePanelTest : public test::SharedWindowTest {
  protected:
-  QueuePanelTest() {
+  void SetUp() override {
     window_.resize(1700, 900);  // with room for the queue and the checks
-    window_.activateWindow();
-    EXPECT_TRUE(QTest::qWaitForWindowActive(&window_));
-    EXPECT_TRUE(window_.document().create(file_, RunExample::get().withRuns(file_)));
-    panel_ = window_.findChild<QueuePanel*>();
-    table_ = panel_->findChild<QTableView*>(QStringLiteral("queue"));
+    panel_->controller().setHalted(false);
+    for (const char* name : {"queueFilter", "decisionName", "decisionComment"}) field(name).clear();
+    SharedWindowTest::SetUp();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
     QTest::keySequence(&window_, QKeySequence(QStringLiteral("Shift+F9")));
   }
+  sessions::Session firstSession() override { return RunExample::get().withRuns(file_); }
 
   bool checked() {
     return wait([&] {
@@ -100,8 +107,8 @@ class QueuePanelTest : public test::WindowTest {
   const auto& decisions() { return window_.document().session().decisions; }
 
   bool at_worst_ = false;
-  QueuePanel* panel_ = nullptr;
-  QTableView* table_ = nullptr;
+  QueuePanel* panel_ = window_.findChild<QueuePanel*>();
+  QTableView* table_ = panel_->findChild<QTableView*>(QStringLiteral("queue"));
   QString good_ = QString::fromStdString(RunExample::get().good);
   QString bad_ = QString::fromStdString(RunExample::get().bad);
 };
@@ -248,9 +255,11 @@ TEST_F(QueuePanelTest, AnotherRunOnTheScreen_IsNotValidated) {
   press(Qt::Key_J);
   ASSERT_TRUE(shown(good_));
   auto other = std::make_shared<sessions::LocalizationTrace>(RunExample::get().failed);
+  const auto shown_before = window_.state().snapshot();
   window_.state().setSnapshot(other);
   const auto validate = ReviewController::Act::kValidate;
   EXPECT_TRUE(test::has(review().obstacle(validate, {"Ada", "good"}), "shows another run"));
+  window_.state().setSnapshot(shown_before);
 }
 
 TEST_F(QueuePanelTest, ChangedOptions_AreCalledOutdatedInListAndBadge) {
@@ -353,9 +362,10 @@ class ResultsQueueTest : public test::WindowTest {
   }
 
   void writeResults() {
-    const std::filesystem::path dataset = test::exampleFolder() / "dataset.json";
+    const std::filesystem::path dataset = test::smallExampleFolder() / "dataset.json";
     sessions::BatchOptions options;
     options.localizer = defaultProfile();
+    options.localizer.search.enabled = false;
     options.localizer.loop.max_iterations = 1;
     options.reseeds = 1;
     runs_ = sessions::runBatch(sessions::readDataset(dataset), options, {});
@@ -402,7 +412,9 @@ TEST_F(ResultsQueueTest, RunsAreListedChosenAndRepeatedToTheBit) {
   }
 }
 
-TEST_F(ResultsQueueTest, OtherFile_IsReportedAndTheSessionStays) {
+using NoResultsFileTest = test::WindowTest;
+
+TEST_F(NoResultsFileTest, IsReportedAndTheSessionStays) {
   folder_.write("no.sqlite", "no");
   drop(folder_.path() / "no.sqlite");
   ASSERT_TRUE(wait([&] { return resting() && !window_.lastMessage().isEmpty(); }));

@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sessions/session/case_run.h"
 #include "tests/ui/patience.h"
 #include "tests/ui/window_test.h"
 #include "ui/review/review_panel.h"
 
 namespace boresight::test {
-
-/// The example, and the run of its first case; made once for all tests.
-struct RunExample {
-  sessions::Session session = sessions::makeSession(exampleFolder() / "dataset.json");
-  std::string id = session.cases[0]->id;
-  sessions::LocalizationTrace trace = sessions::runCase(session, id);
-
-  static const RunExample& get() {
-    static const RunExample example;
-    return example;
-  }
-  /// The session with its run, whose trace lies next to this file.
-  sessions::Session withItsRun(const std::filesystem::path& session_file) const {
-    return sessions::withRun(session, sessions::storeRun(session, id, trace, session_file));
-  }
-};
 
 /// What a reviewer does with the panel, by its widgets.
 class ReviewHands {

@@ -31,8 +31,14 @@ namespace {
 
 using sessions::CheckState;
 using sessions::ReviewState;
+using test::exampleSession;
 using test::kPatienceMs;
-using test::RunExample;
+
+/// The checks measure what the pixels allow.
+[[maybe_unused]] const bool kNeedsAllPixels = test::needsAllPixels() = true;
+
+/// The case that the runs are of.
+const std::string& firstCase() { return exampleSession().cases.front()->id; }
 
 class ReviewPanelTest : public ::testing::Test {
  protected:
@@ -44,12 +50,13 @@ class ReviewPanelTest : public ::testing::Test {
 
   std::filesystem::path file() const { return folder_.path() / "one.boresight.json"; }
 
-  void open(const sessions::Session& session, const std::string& id) {
+  void open(const sessions::Session& session) {
     ASSERT_TRUE(document_.create(file(), session));
-    state_.setCase(sessions::loadCase(*session.findCase(id)));
+    static const auto loaded = sessions::loadCase(*exampleSession().cases.front());
+    state_.setCase(loaded);
   }
   void openRun() {
-    open(RunExample::get().withItsRun(file()), RunExample::get().id);
+    open(test::withRunOfSeed(exampleSession(), file()));
     ASSERT_TRUE(checked());
   }
   bool checked() {
@@ -90,7 +97,7 @@ TEST_F(ReviewPanelTest, WithoutSession_ReportsIt) {
 }
 
 TEST_F(ReviewPanelTest, ACaseWithoutAPoseSaysWhatToDo) {
-  open(RunExample::get().session, RunExample::get().id);
+  open(exampleSession());
   EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "F5"));
   EXPECT_TRUE(test::has(obstacle(), "run it"));
   hands().sign(QStringLiteral("Ada"), QStringLiteral("no reason"));
@@ -164,7 +171,7 @@ TEST_F(ReviewPanelTest, ReasonThatIsBeingTyped_StaysWhileItsCheckIsTheSame) {
 
 TEST_F(ReviewPanelTest, HiddenPanel_ChecksNothing) {
   panel_->hide();
-  open(RunExample::get().withItsRun(file()), RunExample::get().id);
+  open(test::withRunOfSeed(exampleSession(), file()));
   EXPECT_FALSE(controller().isBusy());
   EXPECT_TRUE(controller().checks().empty());
   panel_->show();
@@ -212,12 +219,11 @@ TEST_F(ReviewPanelTest, NeedsANameAndAComment) {
   EXPECT_TRUE(obstacle().isEmpty());
 }
 
-TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
+TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack_AndOnlyItsNameStaysInTheForm) {
   openRun();
   validateAs(QStringLiteral("Ada"));
   ASSERT_EQ(reviewState(), ReviewState::kValidated);
-  EXPECT_EQ(document_.undoText(),
-            QStringLiteral("Validate %1").arg(fromText(RunExample::get().id)));
+  EXPECT_EQ(document_.undoText(), QStringLiteral("Validate %1").arg(fromText(firstCase())));
   EXPECT_TRUE(test::has(banner(), "Validated by Ada"));
   EXPECT_FALSE(hands().button("validate")->isEnabled()) << "said once";
   ASSERT_TRUE(document_.undo());
@@ -226,11 +232,6 @@ TEST_F(ReviewPanelTest, ADecisionIsOneEditThatUndoTakesBack) {
   EXPECT_FALSE(history().contains(QStringLiteral("Validated by Ada")));
   ASSERT_TRUE(document_.redo());
   EXPECT_EQ(reviewState(), ReviewState::kValidated);
-}
-
-TEST_F(ReviewPanelTest, TheNameStaysInTheSessionAndTheCommentDoesNot) {
-  openRun();
-  validateAs(QStringLiteral("Ada"));
   const auto text = [this](const char* name) {
     return panel_->findChild<QLineEdit*>(QLatin1String(name))->text();
   };
@@ -238,16 +239,8 @@ TEST_F(ReviewPanelTest, TheNameStaysInTheSessionAndTheCommentDoesNot) {
   EXPECT_EQ(text("decisionName"), QStringLiteral("Ada"));
   ASSERT_TRUE(document_.save());
   EXPECT_EQ(text("decisionName"), QStringLiteral("Ada"));
-  ASSERT_TRUE(document_.create(folder_.path() / "two.boresight.json", RunExample::get().session));
+  ASSERT_TRUE(document_.create(folder_.path() / "two.boresight.json", exampleSession()));
   EXPECT_EQ(text("decisionName"), QString()) << "another session is another reviewer's";
-}
-
-TEST_F(ReviewPanelTest, OneCaseAlone_OffersNoNext) {
-  openRun();
-  EXPECT_TRUE(hands().button("validateNext")->isVisible()) << "the example has two cases";
-  document_.edit(sessions::withoutCase(document_.session(), RunExample::get().session.cases[1]->id),
-                 QStringLiteral("Remove"));
-  EXPECT_FALSE(hands().button("validateNext")->isVisible());
 }
 
 TEST_F(ReviewPanelTest, ButtonsAreWholeInASidePane) {
@@ -266,6 +259,10 @@ TEST_F(ReviewPanelTest, ButtonsAreWholeInASidePane) {
   panel_->resize(kNarrow.review_side, 600);
   QApplication::processEvents();
   expectWhole({"validate", "validateNext", "reject"});
+  document_.edit(sessions::withoutCase(document_.session(), exampleSession().cases[1]->id),
+                 QStringLiteral("Remove"));
+  expectWhole({"validate", "reject"});
+  ASSERT_TRUE(document_.undo());
   controller().setSecondPerson(true);
   validateAs(QStringLiteral("Ada"));
   QApplication::processEvents();
@@ -304,10 +301,10 @@ TEST_F(ReviewPanelTest, RejectsAndTakesBack) {
 }
 
 TEST_F(ReviewPanelTest, AnnotatedPose_CanBeJudgedAndItsChangeIsReported) {
-  sessions::Session session = RunExample::get().withItsRun(file());
-  const std::string id = RunExample::get().id;
+  sessions::Session session = test::withRunOfSeed(exampleSession(), file());
+  const std::string id = firstCase();
   session = withAnnotations(session, id, *test::annotatedExample(0.2).annotations.at(id));
-  open(session, id);
+  open(session);
   ASSERT_TRUE(checked());
   auto* judged = panel_->findChild<QComboBox*>(QStringLiteral("judged"));
   ASSERT_EQ(judged->count(), 2);
@@ -332,6 +329,13 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   hands().click("openLimits");
   auto* dialog = panel_->findChild<LimitsDialog*>();
   ASSERT_NE(dialog, nullptr);
+  auto* preset = dialog->findChild<QComboBox*>(QStringLiteral("preset"));
+  ASSERT_NE(preset, nullptr);
+  preset->setFocus();
+  QTest::keyClick(preset, Qt::Key_Down);
+  EXPECT_EQ(document_.session().review.preset, sessions::checkPresets()[1].name);
+  ASSERT_TRUE(document_.undo());
+  EXPECT_EQ(preset->currentText(), QLatin1String(sessions::kDefaultCheckPreset));
   auto* table = dialog->findChild<QTableView*>(QStringLiteral("limits"));
   int row = 0;
   while (!table->model()
@@ -364,18 +368,6 @@ TEST_F(ReviewPanelTest, LimitsAreEditedInTheirDialogAndSurviveSaving) {
   EXPECT_EQ(sessions::checkLimits(kept.preset, kept.limits).inlier_count, 9000.0);
 }
 
-TEST_F(ReviewPanelTest, AnotherPresetIsAnEdit) {
-  openRun();
-  hands().click("openLimits");
-  auto* preset = panel_->findChild<QComboBox*>(QStringLiteral("preset"));
-  ASSERT_NE(preset, nullptr);
-  preset->setFocus();
-  QTest::keyClick(preset, Qt::Key_Down);
-  EXPECT_EQ(document_.session().review.preset, sessions::checkPresets()[1].name);
-  ASSERT_TRUE(document_.undo());
-  EXPECT_EQ(preset->currentText(), QLatin1String(sessions::kDefaultCheckPreset));
-}
-
 TEST_F(ReviewPanelTest, ConvergenceTest_EntersTheChecksAndCanBeStopped) {
   openRun();
   const auto state = [this] {
@@ -397,7 +389,7 @@ TEST_F(ReviewPanelTest, ConvergenceTest_EntersTheChecksAndCanBeStopped) {
 }
 
 TEST_F(ReviewPanelTest, AReadOnlySessionIsNotDecidedOn) {
-  ASSERT_TRUE(document_.create(file(), RunExample::get().withItsRun(file())));
+  ASSERT_TRUE(document_.create(file(), test::withRunOfSeed(exampleSession(), file())));
   ASSERT_TRUE(document_.save());
   Document reader;
   ASSERT_TRUE(reader.open(file()));
@@ -436,9 +428,8 @@ TEST_F(PoseExportTest, UnvalidatedPose_IsLabelledInTheFile) {
   EXPECT_TRUE(sessions::verifyPose(folder_.path() / "pose.json", true).good());
   validateAs(QStringLiteral("Ada"));
   EXPECT_EQ(exporter_.poseFileName(),
-            fromText(RunExample::get().id) + QStringLiteral("_validated_pose.json"));
-  EXPECT_EQ(exporter_.reportFileName(),
-            fromText(RunExample::get().id) + QStringLiteral("_pose_report.pdf"));
+            fromText(firstCase()) + QStringLiteral("_validated_pose.json"));
+  EXPECT_EQ(exporter_.reportFileName(), fromText(firstCase()) + QStringLiteral("_pose_report.pdf"));
 }
 
 TEST_F(PoseExportTest, Report_IsOfTheShownCase) {
@@ -478,15 +469,13 @@ class ReviewWindowTest : public test::WindowTest {
     const auto* table = window_.findChild<QTableView*>(QStringLiteral("cases"));
     for (int row = 0; row < table->model()->rowCount(); ++row)
       if (table->model()->index(row, CasesModel::kCase).data().toString().toStdString() ==
-          RunExample::get().id)
+          firstCase())
         return table->model()->index(row, CasesModel::kState).data().toString();
     return {};
   }
-  void runAndValidate() {
-    open(RunExample::get().session);
+  void validateRun() {
+    if (window_.document().session().runs.empty()) openRun();
     QTest::keyClick(&window_, Qt::Key_F9);
-    EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "F5"));
-    QTest::keyClick(&window_, Qt::Key_F5);
     ASSERT_TRUE(checked());
     ASSERT_GT(hands().table().model()->rowCount(), 5) << "checks appear by themselves";
     hands().passOverAll(QStringLiteral("known"));
@@ -498,9 +487,7 @@ class ReviewWindowTest : public test::WindowTest {
 
 /// Two figures against one limit were shown: the image's alone, and the checks'.
 TEST_F(ReviewWindowTest, BarResultChecksAndReport_StateOneQuality) {
-  open(RunExample::get().session);
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([this] { return !window_.document().session().runs.empty() && resting(); }));
+  openRun();
   const std::shared_ptr<const sessions::LoadedCase> loaded = window_.state().currentCase();
   const sessions::PoseQuality quality =
       sessions::runQuality(window_.document().session(), loaded, *window_.state().snapshot());
@@ -524,7 +511,7 @@ TEST_F(ReviewWindowTest, BarResultChecksAndReport_StateOneQuality) {
 
 /// Measuring a pose again can take as long as its convergence test.
 TEST_F(ReviewWindowTest, Exports_AreInTheJobStripUntilTheyAreWritten) {
-  open(RunExample::get().withItsRun(file_));
+  openRun();
   JobStrip& strip = window_.frame().jobs();
   PoseExport exporter(window_, window_.document(), window_.state(), window_.exports());
   int cases = 0;
@@ -543,7 +530,7 @@ TEST_F(ReviewWindowTest, Exports_AreInTheJobStripUntilTheyAreWritten) {
 }
 
 TEST_F(ReviewWindowTest, ChangedOptions_AreOutdatedInBarAndBanner) {
-  runAndValidate();
+  validateRun();
   const auto& bar = window_.frame().verdict();
   ASSERT_TRUE(wait([&] { return bar.verdict().head == QStringLiteral("Validated"); }));
   EXPECT_EQ(bar.verdict().step, Step::kExportPose);
@@ -560,7 +547,12 @@ TEST_F(ReviewWindowTest, ChangedOptions_AreOutdatedInBarAndBanner) {
 }
 
 TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
-  runAndValidate();
+  openExample();
+  QTest::keyClick(&window_, Qt::Key_F9);
+  EXPECT_TRUE(test::has(hands().labelled("emptyHint"), "F5"));
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(checked());
+  validateRun();
   window_.setFocus();
   QTest::keySequence(&window_, QKeySequence::Undo);
   EXPECT_TRUE(test::has(listed(), "converged"));
@@ -574,7 +566,7 @@ TEST_F(ReviewWindowTest, FromARunToAValidationAndBack) {
 }
 
 TEST_F(ReviewWindowTest, NewSeed_InvalidatesTheValidationWithTheReason) {
-  runAndValidate();
+  validateRun();
   moveSeed(0.001);
   EXPECT_FALSE(panel().controller().isCurrent()) << "stale at once";
   EXPECT_TRUE(test::has(listed(), "converged"));

@@ -216,34 +216,21 @@ TEST(SceneView, LivesWithoutACase) {
   view.grab();
 }
 
-TEST(SceneBackend, IsVtkWhereAContextCanBeHad) {
+TEST(SceneBackend, IsVtkWhereAContextCanBeHad_AndNotAskedWhereTheAnswerIsPlain) {
   int asked = 0;
-  const auto works = [&asked] {
-    ++asked;
-    return true;
+  const auto decided = [&asked](const char* platform, const char* wanted, bool works) {
+    return decideSceneBackend(QString::fromUtf8(platform), QString::fromUtf8(wanted), [&, works] {
+      ++asked;
+      return works;
+    });
   };
-  EXPECT_EQ(decideSceneBackend(QStringLiteral("xcb"), {}, works), SceneBackend::kVtk);
-  EXPECT_EQ(asked, 1);
-}
-
-TEST(SceneBackend, IsThePictureWithoutAContext) {
-  EXPECT_EQ(decideSceneBackend(QStringLiteral("xcb"), {}, [] { return false; }),
-            SceneBackend::kPicture);
-}
-
-TEST(SceneBackend, DoesNotAskWhereTheAnswerIsPlain) {
-  const auto never = [] {
-    ADD_FAILURE() << "asked for a context";
-    return true;
-  };
+  EXPECT_EQ(decided("xcb", "", true), SceneBackend::kVtk);
+  EXPECT_EQ(decided("xcb", "", false), SceneBackend::kPicture);
+  EXPECT_EQ(decided("xcb", "picture", true), SceneBackend::kPicture);
   for (const char* platform : {"offscreen", "minimal", "wayland", "vnc", ""})
-    EXPECT_EQ(decideSceneBackend(QString::fromUtf8(platform), {}, never), SceneBackend::kPicture);
-  EXPECT_EQ(decideSceneBackend(QStringLiteral("xcb"), QStringLiteral("picture"), never),
-            SceneBackend::kPicture);
-}
-
-TEST(SceneBackend, IsThePictureInThisTest) {
-  EXPECT_EQ(sceneBackend(), SceneBackend::kPicture);
+    EXPECT_EQ(decided(platform, "", true), SceneBackend::kPicture) << platform;
+  EXPECT_EQ(asked, 2) << "for a context";
+  EXPECT_EQ(sceneBackend(), SceneBackend::kPicture) << "in this test";
   EXPECT_TRUE(sceneIsDrawnInSoftware());
 }
 

@@ -18,8 +18,14 @@
 namespace boresight::ui {
 namespace {
 
-class CanvasToolsTest : public test::WindowTest {
+class CanvasToolsTest : public test::SharedWindowTest {
  protected:
+  void SetUp() override {
+    window_.image().measure().setActive(false);
+    for (const char* tool : {"nudgeSeed", "placePoints", "maskBrush"})
+      if (action(tool).isChecked()) action(tool).trigger();
+    SharedWindowTest::SetUp();
+  }
   ImageView& view() { return window_.image().view(); }
   QAction& action(const char* name) { return find<QAction>(name); }
   const sessions::SessionCase& edited() {
@@ -51,7 +57,6 @@ class CanvasToolsTest : public test::WindowTest {
 
 /// The wheel over a field that slid under the pointer.
 TEST_F(CanvasToolsTest, WheelOverASpinBoxWithoutFocusEditsNothing) {
-  openExample();
   window_.workspaces().reveal(QStringLiteral("pose"));
   view().setFocus();
   auto& box = find<QDoubleSpinBox>("moveY");
@@ -68,21 +73,21 @@ TEST_F(CanvasToolsTest, WheelOverASpinBoxWithoutFocusEditsNothing) {
 }
 
 TEST_F(CanvasToolsTest, CtrlZInASpinBoxIsTheSessionsUndo) {
-  openExample();
   window_.activateWindow();
   moveSeed(0.01);
   ASSERT_TRUE(rests());
   window_.workspaces().reveal(QStringLiteral("pose"));
   auto& box = find<QDoubleSpinBox>("moveStep");
+  const double before = box.value();
   box.setFocus();
   QTest::keyClicks(&box, QStringLiteral("3"));
   ASSERT_TRUE(window_.document().canUndo());
   QTest::keyClick(&box, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_FALSE(window_.document().canUndo());
+  box.setValue(before);
 }
 
 TEST_F(CanvasToolsTest, GizmoDragMovesTheSeedWithThePointerAsOneEdit) {
-  openExample();
   const Pose seed = edited().camera_from_station_seed;
   QTest::keyClick(&window_, Qt::Key_N);
   ASSERT_TRUE(action("nudgeSeed").isChecked());
@@ -100,7 +105,6 @@ TEST_F(CanvasToolsTest, GizmoDragMovesTheSeedWithThePointerAsOneEdit) {
 }
 
 TEST_F(CanvasToolsTest, GizmoRingRollsAndWheelChangesTheDistance) {
-  openExample();
   const Pose seed = edited().camera_from_station_seed;
   QTest::keyClick(&window_, Qt::Key_N);
   const QPointF centre = view().transform().toWidget(middleAt(seed));
@@ -119,7 +123,6 @@ TEST_F(CanvasToolsTest, GizmoRingRollsAndWheelChangesTheDistance) {
 }
 
 TEST_F(CanvasToolsTest, GizmoTilt_TurnsAboutTheImagesAxesAndShowsTheOffset) {
-  openExample();
   const Pose seed = edited().camera_from_station_seed;
   QTest::keyClick(&window_, Qt::Key_N);
   auto& gizmo = *window_.findChild<NudgeGizmo*>();
@@ -147,7 +150,6 @@ TEST_F(CanvasToolsTest, GizmoTilt_TurnsAboutTheImagesAxesAndShowsTheOffset) {
 }
 
 TEST_F(CanvasToolsTest, GizmoEnterUsesThePoseAsSeedAndEscapeEndsTheTool) {
-  openExample();
   QTest::keyClick(&window_, Qt::Key_N);
   QTest::keyClick(&view(), Qt::Key_Right);
   const Pose nudged = window_.state().nudgedPose().value();
@@ -160,7 +162,6 @@ TEST_F(CanvasToolsTest, GizmoEnterUsesThePoseAsSeedAndEscapeEndsTheTool) {
 }
 
 TEST_F(CanvasToolsTest, OneToolWorksAtATime) {
-  openExample();
   QTest::keyClick(&window_, Qt::Key_N);
   window_.image().measure().setActive(true);
   EXPECT_FALSE(action("nudgeSeed").isChecked());
@@ -173,7 +174,6 @@ TEST_F(CanvasToolsTest, OneToolWorksAtATime) {
 }
 
 TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
-  openExample();
   CommandPalette palette(find<QMenuBar>("menuBar"), &window_);
   palette.show();
   auto* line = palette.findChild<QLineEdit*>(QStringLiteral("commandLine"));
@@ -191,7 +191,6 @@ TEST_F(CanvasToolsTest, PaletteFindsCommandsByPartsOfTheirNames) {
 }
 
 TEST_F(CanvasToolsTest, HistoryListsEditsAndGoesToOne) {
-  openExample();
   auto& list = find<QListWidget>("history");
   moveSeed(0.01);
   ASSERT_TRUE(rests());
@@ -206,9 +205,27 @@ TEST_F(CanvasToolsTest, HistoryListsEditsAndGoesToOne) {
   EXPECT_FALSE(window_.document().canRedo());
 }
 
-TEST_F(CanvasToolsTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
-  openExample();
-  ASSERT_TRUE(runToTheEnd(1));
+TEST_F(CanvasToolsTest, HistogramHandlesSetBlackAndWhite) {
+  DisplayImage& display = window_.image().display();
+  ASSERT_TRUE(wait([&] { return display.samples() && resting(); }));
+  auto& histogram = find<LevelsHistogram>("histogram");
+  window_.workspaces().reveal(QStringLiteral("levels"));
+  const auto x = [&](int level) { return static_cast<int>(std::lround(histogram.xOf(level))); };
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, {x(display.levels().black), 20});
+  QTest::mouseMove(&histogram, {x(60), 20});
+  QMouseEvent move(QEvent::MouseMove, QPointF(x(60), 20.0), Qt::NoButton, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(&histogram, &move);
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, {x(60), 20});
+  EXPECT_NEAR(display.levels().black, 60, 2);
+}
+
+class RunOnCanvasTest : public test::WindowTest {
+ protected:
+  ImageView& view_ = window_.image().view();
+};
+
+TEST_F(RunOnCanvasTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
+  openRun();
   const std::string first = window_.document().session().runs[0].digest;
   moveSeed(0.002);
   ASSERT_TRUE(rests());
@@ -230,39 +247,23 @@ TEST_F(CanvasToolsTest, AnEarlierRunCanBeOpenedAndComparedSideBySide) {
   ASSERT_TRUE(wait([&] { return !compare.view().layer(LayerId::kIterationEdges).empty(); }));
   ASSERT_EQ(compare.difference().size(), 1) << "no option differs";
   EXPECT_TRUE(test::has(compare.difference()[0], " px from the shown run"));
-  EXPECT_TRUE(view().isFitted() && compare.view().isFitted()) << "until the operator zooms";
-  view().centreOn({200.0, 150.0}, 3.0);
-  EXPECT_NEAR(compare.view().transform().scale(), view().transform().scale(), 1e-9);
+  EXPECT_TRUE(view_.isFitted() && compare.view().isFitted()) << "until the operator zooms";
+  view_.centreOn({200.0, 150.0}, 3.0);
+  EXPECT_NEAR(compare.view().transform().scale(), view_.transform().scale(), 1e-9);
   const auto centreOf = [](const ImageView& each) {
     return each.transform().toPixel(QPointF(each.rect().center()));
   };
-  EXPECT_LT((centreOf(compare.view()) - centreOf(view())).manhattanLength(), 1.0);
-  Q_EMIT view().cursorMoved({40.0, 50.0});
+  EXPECT_LT((centreOf(compare.view()) - centreOf(view_)).manhattanLength(), 1.0);
+  Q_EMIT view_.cursorMoved({40.0, 50.0});
   EXPECT_EQ(compare.view().linkedCursor(), QPointF(40.0, 50.0));
 }
 
-TEST_F(CanvasToolsTest, HistogramHandlesSetBlackAndWhite) {
-  openExample();
-  DisplayImage& display = window_.image().display();
-  ASSERT_TRUE(wait([&] { return display.samples() && resting(); }));
-  auto& histogram = find<LevelsHistogram>("histogram");
-  window_.workspaces().reveal(QStringLiteral("levels"));
-  const auto x = [&](int level) { return static_cast<int>(std::lround(histogram.xOf(level))); };
-  QTest::mousePress(&histogram, Qt::LeftButton, {}, {x(display.levels().black), 20});
-  QTest::mouseMove(&histogram, {x(60), 20});
-  QMouseEvent move(QEvent::MouseMove, QPointF(x(60), 20.0), Qt::NoButton, Qt::LeftButton, {});
-  QCoreApplication::sendEvent(&histogram, &move);
-  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, {x(60), 20});
-  EXPECT_NEAR(display.levels().black, 60, 2);
-}
-
-TEST_F(CanvasToolsTest, AClickOnATemplateRaisesTheMatchInspector) {
-  openExample();
-  ASSERT_TRUE(runToTheEnd(1));
+TEST_F(RunOnCanvasTest, AClickOnATemplateRaisesTheMatchInspector) {
+  openRun();
   window_.workspaces().show(Workspace::kDiagnose);
   window_.workspaces().reveal(QStringLiteral("iterations"));
   QCoreApplication::processEvents();
-  Q_EMIT view().itemClicked(LayerId::kMatches, 0);
+  Q_EMIT view_.itemClicked(LayerId::kMatches, 0);
   QCoreApplication::processEvents();
   EXPECT_FALSE(window_.dock(QStringLiteral("inspector"))->visibleRegion().isEmpty());
 }

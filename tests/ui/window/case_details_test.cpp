@@ -20,13 +20,8 @@ class CaseDetailsTest : public ::testing::Test {
     details_.setSession(session_);
     ASSERT_TRUE(QTest::qWaitFor([this] { return !tasks_.isBusy(); }, kPatienceMs));
   }
-  /// Runs the first case and stores the run in the session.
-  sessions::LocalizationTrace run() {
-    const sessions::LocalizationTrace trace = sessions::runCase(session_, id_);
-    session_ = sessions::withRun(
-        session_, sessions::storeRun(session_, id_, trace, folder_.path() / "one.boresight.json"));
-    return trace;
-  }
+  /// Stores a run of the first case in the session.
+  void run() { session_ = test::withRunOfSeed(session_, folder_.path() / "one.boresight.json"); }
   std::vector<CaseRow> rows() const {
     std::vector<CaseRow> case_rows = caseRows(session_, {}, {}, stale_runs_);
     details_.fill(case_rows);
@@ -36,8 +31,7 @@ class CaseDetailsTest : public ::testing::Test {
   mutable sessions::StaleRuns stale_runs_;
   TaskRunner tasks_;
   CaseDetails details_{tasks_};
-  sessions::Session session_ =
-      test::withoutSearch(sessions::makeSession(test::exampleFolder() / "dataset.json"));
+  sessions::Session session_ = test::withoutSearch(test::exampleSession());
   std::string id_ = session_.cases[0]->id;
   test::TemporaryFolder folder_;
 };
@@ -63,14 +57,13 @@ TEST_F(CaseDetailsTest, AMissingImageLeavesTheRowWithoutAPicture) {
 
 /// A seed that is called the truth, and a truth moved by a known length, tell what the error is.
 TEST_F(CaseDetailsTest, ErrorsAreThoseOfTheLatestRunAgainstTheTruth) {
-  const sessions::LocalizationTrace trace = sessions::runCase(session_, id_);
+  run();
+  const sessions::LocalizationTrace trace = sessions::loadRun(session_.runs[0]);
   ASSERT_TRUE(trace.converged());
   sessions::SessionCase session_case = *session_.cases[0];
   session_case.camera_from_station_truth = trace.camera_from_station;
   session_case.camera_from_station_truth->translation_m.z() += 2e-3;
   session_ = sessions::withCase(session_, session_case);
-  session_ = sessions::withRun(
-      session_, sessions::storeRun(session_, id_, trace, folder_.path() / "one.boresight.json"));
   read();
   const CaseRow row = rows()[0];
   ASSERT_TRUE(row.normal_mm && row.lateral_mm && row.rotation_deg);

@@ -15,9 +15,8 @@ namespace {
 
 using sessions::InputKind;
 
-class ChangeInputTest : public test::WindowTest {
+class ChangeInputTest : public test::SharedWindowTest {
  protected:
-  void SetUp() override { openExample(); }
   const Verdict& verdict() { return window_.frame().verdict().verdict(); }
   const sessions::SessionCase& shown() {
     return *window_.document().session().findCase(window_.cases().caseId().toStdString());
@@ -49,7 +48,7 @@ TEST_F(ChangeInputTest, AnotherCamera_IsTakenAndNamesItsMisfit) {
   window_.cases().changeInput(window_.cases().caseId(), InputKind::kCamera, file, "");
   ASSERT_TRUE(wait([&] { return verdict().head == QStringLiteral("Not ready to run."); }));
   EXPECT_EQ(verdict().sentence,
-            QStringLiteral("The camera is for 640 x 480 px, the image is 1024 x 1024 px."));
+            QStringLiteral("The camera is for 640 x 480 px, the image is 512 x 512 px."));
   EXPECT_EQ(verdict().step_text, QStringLiteral("Choose camera..."));
 }
 

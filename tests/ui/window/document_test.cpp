@@ -4,18 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <QSignalSpy>
-#include <QStandardPaths>
 
-#include "sessions/session/session_maker.h"
-#include "tests/support/example_case.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/ui/window_test.h"
 
 namespace boresight::ui {
 namespace {
 
-sessions::Session example() {
-  return sessions::makeSession(test::exampleFolder() / "dataset.json");
-}
+using test::exampleSession;
 
 sessions::Session withoutFirst(const sessions::Session& session) {
   return sessions::withoutCase(session, session.cases.front()->id);
@@ -29,7 +24,7 @@ class DocumentTest : public ::testing::Test {
 
 TEST_F(DocumentTest, EditsAreUndoneAndRedone) {
   Document document;
-  ASSERT_TRUE(document.create(file_, example()));
+  ASSERT_TRUE(document.create(file_, exampleSession()));
   EXPECT_FALSE(document.isModified());
   EXPECT_FALSE(document.canUndo());
   QSignalSpy changes(&document, &Document::changed);
@@ -38,52 +33,52 @@ TEST_F(DocumentTest, EditsAreUndoneAndRedone) {
   EXPECT_TRUE(document.isModified());
   EXPECT_EQ(document.undoText(), QStringLiteral("Remove a case"));
   ASSERT_TRUE(document.undo());
-  EXPECT_EQ(document.session(), example());
+  EXPECT_EQ(document.session(), exampleSession());
   EXPECT_FALSE(document.isModified());
   ASSERT_TRUE(document.redo());
-  EXPECT_EQ(document.session(), withoutFirst(example()));
+  EXPECT_EQ(document.session(), withoutFirst(exampleSession()));
   EXPECT_FALSE(document.redo());
 }
 
 TEST_F(DocumentTest, SavedSession_IsReadBack) {
   {
     Document document;
-    ASSERT_TRUE(document.create(file_, example()));
-    ASSERT_TRUE(document.edit(withoutFirst(example()), QStringLiteral("Remove a case")));
+    ASSERT_TRUE(document.create(file_, exampleSession()));
+    ASSERT_TRUE(document.edit(withoutFirst(exampleSession()), QStringLiteral("Remove a case")));
     ASSERT_TRUE(document.save());
     EXPECT_FALSE(document.isModified());
   }
   Document again;
   ASSERT_TRUE(again.open(file_));
   EXPECT_EQ(again.recovery(), nullptr);
-  EXPECT_EQ(again.session(), withoutFirst(example()));
+  EXPECT_EQ(again.session(), withoutFirst(exampleSession()));
 }
 
 TEST_F(DocumentTest, UnsavedEdits_AreOfferedForRecovery) {
   {
     Document document;
-    ASSERT_TRUE(document.create(file_, example()));
-    ASSERT_TRUE(document.edit(withoutFirst(example()), QStringLiteral("Remove a case")));
+    ASSERT_TRUE(document.create(file_, exampleSession()));
+    ASSERT_TRUE(document.edit(withoutFirst(exampleSession()), QStringLiteral("Remove a case")));
   }
   Document again;
   ASSERT_TRUE(again.open(file_));
   ASSERT_NE(again.recovery(), nullptr);
   EXPECT_EQ((*again.recovery())->edits.size(), 1u);
   ASSERT_TRUE(again.acceptRecovery());
-  EXPECT_EQ(again.session(), withoutFirst(example()));
+  EXPECT_EQ(again.session(), withoutFirst(exampleSession()));
   EXPECT_TRUE(again.isModified());
 }
 
 TEST_F(DocumentTest, SecondProgram_OpensReadOnly) {
   Document first;
-  ASSERT_TRUE(first.create(file_, example()));
+  ASSERT_TRUE(first.create(file_, exampleSession()));
   Document second;
   ASSERT_TRUE(second.open(file_));
   EXPECT_FALSE(second.readOnlyReason().isEmpty());
   QSignalSpy failures(&second, &Document::writeFailed);
-  EXPECT_FALSE(second.edit(withoutFirst(example()), QStringLiteral("Remove a case")));
+  EXPECT_FALSE(second.edit(withoutFirst(exampleSession()), QStringLiteral("Remove a case")));
   EXPECT_EQ(failures.size(), 1);
-  EXPECT_EQ(second.session(), example());
+  EXPECT_EQ(second.session(), exampleSession());
 }
 
 TEST_F(DocumentTest, UnreadableSession_IsReportedInOneSentence) {
@@ -133,13 +128,13 @@ TEST_F(UntitledDocument, IsOfferedUntilItIsDiscarded) {
 TEST_F(UntitledDocument, GivenANameItIsNotOfferedAgain) {
   const test::TemporaryFolder folder;
   Document document;
-  ASSERT_TRUE(document.createUntitled(example()));
+  ASSERT_TRUE(document.createUntitled(exampleSession()));
   ASSERT_TRUE(document.saveAs(folder.path() / "named.boresight.json"));
   EXPECT_FALSE(document.isUntitled());
   EXPECT_TRUE(std::filesystem::is_empty(Document::untitledFolder()));
   document.close();
   ASSERT_TRUE(document.open(folder.path() / "named.boresight.json"));
-  EXPECT_EQ(document.session().cases.size(), example().cases.size());
+  EXPECT_EQ(document.session().cases.size(), exampleSession().cases.size());
 }
 
 TEST_F(UntitledDocument, NamedSession_IsNeverDiscarded) {

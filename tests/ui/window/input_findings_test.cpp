@@ -15,10 +15,13 @@ namespace fs = std::filesystem;
 /// A session whose inputs lie next to it, so that they can be moved and changed.
 class InputFindingsTest : public test::WindowTest {
  protected:
-  InputFindingsTest() { fs::copy(test::exampleFolder(), inputs_, fs::copy_options::recursive); }
+  InputFindingsTest() {
+    fs::copy(test::smallExampleFolder(), inputs_, fs::copy_options::recursive);
+  }
 
-  void open() {
-    ASSERT_TRUE(window_.document().create(file_, sessions::makeSession(inputs_ / "dataset.json")));
+  void open(const std::vector<std::string>& ids = {test::exampleSession().cases.front()->id}) {
+    ASSERT_TRUE(
+        window_.document().create(file_, sessions::makeSession(inputs_ / "dataset.json", ids)));
     settle();
   }
   void reopen() {
@@ -54,26 +57,7 @@ TEST_F(InputFindingsTest, AMovedImageIsMissedAtOnceAndFoundAgain) {
   EXPECT_TRUE(window_.document().canUndo());
 }
 
-TEST_F(InputFindingsTest, MissingImage_NotFoundBelowTheFolder_IsReported) {
-  open();
-  fs::remove(image());
-  reopen();
-  window_.findings().repair();
-  settle();
-  EXPECT_TRUE(test::has(window_.lastMessage(), "None of the missing files"));
-  EXPECT_EQ(window_.findings().findings().size(), 1u);
-}
-
-TEST_F(InputFindingsTest, AChangedFileIsReportedAndNotUsed) {
-  open();
-  fs::copy_file(inputs_ / "os" / "image.png", image(), fs::copy_options::overwrite_existing);
-  reopen();
-  ASSERT_EQ(window_.findings().findings().size(), 1u);
-  EXPECT_EQ(window_.findings().findings()[0].kind, sessions::FindingKind::kChanged);
-  EXPECT_EQ(window_.state().currentCase(), nullptr);
-}
-
-TEST_F(InputFindingsTest, TheMiddleSaysWhichFileIsMissingAndWhatToDo) {
+TEST_F(InputFindingsTest, MissingImage_NotFoundBelowTheFolder_IsNamedWithWhatToDo) {
   open();
   fs::remove(image());
   reopen();
@@ -81,10 +65,14 @@ TEST_F(InputFindingsTest, TheMiddleSaysWhichFileIsMissingAndWhatToDo) {
   EXPECT_TRUE(hint.contains(QString::fromStdString(image().string()))) << hint.toStdString();
   EXPECT_TRUE(test::has(hint, "Fix"));
   EXPECT_FALSE(hint.contains(QStringLiteral("Drop")));
+  window_.findings().repair();
+  settle();
+  EXPECT_TRUE(test::has(window_.lastMessage(), "None of the missing files"));
+  EXPECT_EQ(window_.findings().findings().size(), 1u);
 }
 
 TEST_F(InputFindingsTest, AnotherCasesImageIsNotShownUnderTheNameOfOneThatIsMissing) {
-  open();
+  open({});
   const QString first = window_.cases().caseId();
   fs::remove(inputs_ / "os" / "image.png");
   const std::string other = window_.document().session().cases.back()->id;
@@ -98,13 +86,15 @@ TEST_F(InputFindingsTest, AnotherCasesImageIsNotShownUnderTheNameOfOneThatIsMiss
   EXPECT_NE(window_.state().currentCase(), nullptr);
 }
 
-TEST_F(InputFindingsTest, ChangedFile_AfterAcceptance_IsUsed) {
+TEST_F(InputFindingsTest, ChangedFile_IsNotUsedUntilItIsAccepted) {
   open();
   const std::string id = window_.cases().caseId().toStdString();
   const auto hash = [&] { return window_.document().session().findCase(id)->image.source.sha256; };
   const std::string before = hash();
   fs::copy_file(inputs_ / "os" / "image.png", image(), fs::copy_options::overwrite_existing);
   reopen();
+  ASSERT_EQ(window_.findings().findings().size(), 1u);
+  EXPECT_EQ(window_.findings().findings()[0].kind, sessions::FindingKind::kChanged);
   ASSERT_EQ(window_.state().currentCase(), nullptr);
   EXPECT_TRUE(test::has(window_.image().view().hint(), "accept"));
   QTimer yes;

@@ -51,7 +51,7 @@ std::string lastConfirmed(const std::filesystem::path& file, int round, Random& 
   const auto readLines = [&] {
     while (program.canReadLine()) confirmed = program.readLine().trimmed().toStdString();
   };
-  int left = static_cast<int>(random.below(40));
+  int left = static_cast<int>(random.below(test::allCases() ? 40 : 12));
   while (left > 0 && program.state() == QProcess::Running) {
     if (!program.canReadLine()) program.waitForReadyRead(kPatienceMs);
     while (left > 0 && program.canReadLine()) {
@@ -71,9 +71,8 @@ std::string lastConfirmed(const std::filesystem::path& file, int round, Random& 
 TEST(KillProgram, NothingConfirmedIsLost) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder / "one.boresight.json";
-  sessions::SessionDocument::create(
-      file, test::withoutSearch(sessions::makeSession(test::exampleFolder() / "dataset.json")));
-  const int rounds = test::allCases() ? 50 : 5;
+  sessions::SessionDocument::create(file, test::withoutSearch(test::exampleSession()));
+  const int rounds = test::allCases() ? 50 : 3;
   Random random(2026);
   int confirmed_rounds = 0;
   for (int round = 0; round < rounds; ++round) {

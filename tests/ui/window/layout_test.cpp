@@ -29,19 +29,6 @@ class LayoutTest : public ::testing::Test {
   test::OwnSettings settings_{folder_.path()};
 };
 
-TEST_F(LayoutTest, FitsASmallScreen) {
-  MainWindow window;
-  window.resize(1280, 720);
-  window.show();
-  for (int i = 0; i < kWorkspaceCount; ++i) {
-    window.workspaces().show(static_cast<Workspace>(i));
-    QApplication::processEvents();
-    const char* name = workspaceInfo(static_cast<Workspace>(i)).name;
-    EXPECT_EQ(window.width(), 1280) << name << ": panels need more than this";
-    EXPECT_EQ(window.height(), 720) << name;
-  }
-}
-
 TEST_F(LayoutTest, EachWorkspaceIsRememberedByTheNextWindow) {
   {
     MainWindow window;
@@ -125,7 +112,7 @@ TEST_F(LayoutTest, RecentFilesAreTheNewestFirstWithoutThoseThatAreGone) {
 /// The session's folder is read-only, and what waits in its journal is shown too.
 TEST_F(LayoutTest, Picture_ShowsJournalledEditsAndWritesNothingElse) {
   const std::filesystem::path file = folder_.path() / "one.boresight.json";
-  const sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  const sessions::Session session = test::withoutSearch(test::exampleSession());
   {
     auto document = sessions::SessionDocument::create(file, session);
     document.apply(sessions::withoutCase(session, session.cases[0]->id), "Remove a case");

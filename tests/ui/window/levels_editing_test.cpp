@@ -20,8 +20,7 @@ class LevelsEditingTest : public test::WindowTest {
     sessions::CaseFiles files;
     const auto station = test::exampleFolder() / "os";
     files.id = "os";
-    files.image = folder_.path() / fileName();
-    writeDeepImage(station / "image.png", files.image);
+    files.image = deepImage();
     files.camera = station / "camera.json";
     files.parts.resize(1);
     files.parts[0].mesh = station / "model.ply";
@@ -30,17 +29,19 @@ class LevelsEditingTest : public test::WindowTest {
     open(test::withoutSearch(withCase({}, sessions::makeCase(files).made)));
   }
 
-  virtual const char* fileName() const { return "image.png"; }
-  virtual void writeDeepImage(const std::filesystem::path& from, const std::filesystem::path& to) {
-    original_ = sessions::readImage(from);
+  virtual std::filesystem::path deepImage() {
+    static const test::TemporaryFolder folder;
+    const auto file = folder.path() / "image.png";
+    if (std::filesystem::exists(file)) return file;
     QImage deep(original_.width, original_.height, QImage::Format_Grayscale16);
     for (int y = 0; y < deep.height(); ++y) {
       auto* line = reinterpret_cast<quint16*>(deep.scanLine(y));
       for (int x = 0; x < deep.width(); ++x)
         line[x] = static_cast<quint16>(kFactor * original_.view().at(x, y));
     }
-    ASSERT_TRUE(deep.save(QString::fromStdString(to.string())));
-    ASSERT_EQ(sessions::readImage(to).sample_bits, 16);
+    EXPECT_TRUE(deep.save(QString::fromStdString(file.string())));
+    EXPECT_EQ(sessions::readImage(file).sample_bits, 16);
+    return file;
   }
   const sessions::SessionCase& edited() { return *window_.document().session().findCase("os"); }
   DisplayImage& display() { return window_.image().display(); }
@@ -61,7 +62,7 @@ class LevelsEditingTest : public test::WindowTest {
     QTest::mouseClick(&find<QPushButton>("applyConversion"), Qt::LeftButton);
   }
 
-  sessions::GrayImage original_;
+  const sessions::GrayImage& original_ = test::osExample().image;
 };
 
 TEST_F(LevelsEditingTest, ADeepImageIsShownStretchedAndTheCoresViewIsNot) {
@@ -139,15 +140,14 @@ TEST_F(LevelsEditingTest, AsDisplayed_CopiesTheDisplayLevelsToTheConversion) {
 /// The same image with a label that says how many bits are used.
 class LabelledLevelsTest : public LevelsEditingTest {
  protected:
-  const char* fileName() const override { return "sol12.img"; }
-  void writeDeepImage(const std::filesystem::path& from, const std::filesystem::path&) override {
-    original_ = sessions::readImage(from);
+  std::filesystem::path deepImage() override {
     std::vector<std::uint16_t> samples;
     for (const std::uint8_t gray : original_.pixels)
       samples.push_back(static_cast<std::uint16_t>(kFactor * gray));
-    folder_.write(fileName(),
-                  test::vicarImage(original_.width, original_.height, samples,
-                                   "PROPERTY='IMAGE_DATA'  SAMPLE_BIT_MASK='2#0000111111111111#'"));
+    return folder_.write(
+        "sol12.img",
+        test::vicarImage(original_.width, original_.height, samples,
+                         "PROPERTY='IMAGE_DATA'  SAMPLE_BIT_MASK='2#0000111111111111#'"));
   }
 };
 

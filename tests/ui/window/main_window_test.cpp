@@ -146,14 +146,13 @@ TEST_F(MainWindowTest, AllCasesAreRunAndCountedWhileTheShownCaseStays) {
 }
 
 TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
-  openExample();
-  for (int batch = 0; batch < 2; ++batch) {
-    key("Ctrl+F5")->trigger();
-    ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
-    ASSERT_EQ(window_.document().session().runs.size(), 2u);
-    for (const sessions::RunRecord& run : window_.document().session().runs)
-      ASSERT_EQ(std::filesystem::remove(run.file), true) << "batch " << batch;
-  }
+  openRun();
+  ASSERT_TRUE(std::filesystem::remove(window_.document().session().runs[0].file));
+  key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
+  ASSERT_EQ(window_.document().session().runs.size(), 2u);
+  for (const sessions::RunRecord& run : window_.document().session().runs)
+    EXPECT_TRUE(std::filesystem::exists(run.file));
 }
 
 /// Between two cases, when one is stored and the next one read, no run is under way.
@@ -191,12 +190,17 @@ TEST_F(MainWindowTest, StopEndsRunAllDuringACase) {
   EXPECT_TRUE(window_.document().session().runs.empty());
 }
 
-TEST_F(MainWindowTest, EscapeStopsWhatRunsUnlessAToolHasIt) {
+TEST_F(MainWindowTest, F8AndEscapeStopWhatRuns_UnlessAToolHasEscape_AndF5GoesOn) {
   openExample(true);
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
-  QTest::keyClick(&window_, Qt::Key_Escape);
-  EXPECT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+  for (const Qt::Key stop : {Qt::Key_F8, Qt::Key_Escape}) {
+    QTest::keyClick(&window_, stop);
+    EXPECT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+    if (stop == Qt::Key_Escape) break;
+    QTest::keyClick(&window_, Qt::Key_F5);
+    ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
+  }
   auto& canvas = find<ImageView>("imageView");
   window_.image().measure().setActive(true);
   QTest::keyClick(&window_, Qt::Key_F5);
@@ -204,6 +208,7 @@ TEST_F(MainWindowTest, EscapeStopsWhatRunsUnlessAToolHasIt) {
   QTest::keyClick(&canvas, Qt::Key_Escape);
   EXPECT_FALSE(canvas.toolActive()) << "the ruler is put away first";
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
+  EXPECT_TRUE(window_.run().snapshot()->converged());
 }
 
 TEST_F(MainWindowTest, AnotherCaseCanBeLookedAtDuringRunAll) {
@@ -233,7 +238,7 @@ TEST_F(MainWindowTest, EditDuringRunAll_MakesThatRunStale) {
   EXPECT_FALSE(window_.cases().staleness().isEmpty());
 }
 
-TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {
+TEST_F(MainWindowTest, RunHasTheDigestOfAHeadlessOne_AndIsShownAfterReopening) {
   openExample();
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished && resting(); }));
@@ -243,6 +248,10 @@ TEST_F(MainWindowTest, RunsToTheEndWithTheDigestOfAHeadlessRun) {
       sessions::runCase(session, session.runs[0].case_id, sessions::RecordLevel::kSummary);
   EXPECT_EQ(session.runs[0].digest, headless.digest);
   EXPECT_EQ(window_.state().snapshot()->iterations.size(), headless.iterations.size());
+  ASSERT_TRUE(window_.document().save());
+  ASSERT_TRUE(reopen());
+  ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
+  EXPECT_EQ(window_.state().snapshot()->digest, headless.digest);
 }
 
 TEST_F(MainWindowTest, ClosingItKeepsARunThatHasJustEnded) {
@@ -286,31 +295,13 @@ TEST_F(MainWindowTest, StepsAStageAndAnIteration) {
   EXPECT_EQ(window_.state().cursor().iteration, 0);
 }
 
-TEST_F(MainWindowTest, StopsWithinATenthOfASecondAndGoesOn) {
-  openExample();
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kWorking; }));
-  QTest::keyClick(&window_, Qt::Key_F8);
-  ASSERT_TRUE(wait([&] { return window_.run().state() != RunState::kWorking; }));
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
-  EXPECT_TRUE(window_.run().snapshot()->converged());
-}
-
-TEST_F(MainWindowTest, RunsAgainWhileTheLastIterationIsShown) {
-  openExample();
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished && resting(); }));
+TEST_F(MainWindowTest, RunsAgainWhileTheLastIterationOrTheSeedIsShown_AndIsFollowedToItsEnd) {
+  openRun();
   const auto first = window_.state().snapshot();
   ASSERT_GT(window_.state().cursor().iteration, 0);
   QTest::keyClick(&window_, Qt::Key_F5);  // shows fewer iterations than the cursor knows
   ASSERT_TRUE(wait([&] { return window_.state().snapshot() != first && resting(); }));
   EXPECT_EQ(window_.state().snapshot()->digest, first->digest);
-}
-
-TEST_F(MainWindowTest, RunAfterALookAtTheSeed_IsFollowedToItsEnd) {
-  openExample();
-  ASSERT_TRUE(runToTheEnd(1));
   window_.state().setCursor({-1, Stage::kFinished});
   moveSeed(0.001);
   ASSERT_TRUE(runToTheEnd(2));
@@ -320,8 +311,7 @@ TEST_F(MainWindowTest, RunAfterALookAtTheSeed_IsFollowedToItsEnd) {
 
 /// Reading may take a second: what is shown meanwhile is not of the run before.
 TEST_F(MainWindowTest, RunThatWaitsForItsFiles_IsUnderWayForTheBar) {
-  openExample();
-  ASSERT_TRUE(runToTheEnd(1));
+  openRun();
   window_.cases().runWithWiderSearch();
   QStringList heads;
   ASSERT_TRUE(wait([&] {
@@ -337,16 +327,6 @@ TEST_F(MainWindowTest, KeysShowAndHideLayers) {
   const bool before = window_.image().style(LayerId::kTestEdges).visible;
   QTest::keyClick(&window_, Qt::Key_E);
   EXPECT_EQ(window_.image().style(LayerId::kTestEdges).visible, !before);
-}
-
-TEST_F(MainWindowTest, ReopenedItShowsTheRunThatWasMade) {
-  openExample();
-  ASSERT_TRUE(runToTheEnd(1));
-  ASSERT_TRUE(window_.document().save());
-  const std::string digest = window_.document().session().runs[0].digest;
-  ASSERT_TRUE(reopen());
-  ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
-  EXPECT_EQ(window_.state().snapshot()->digest, digest);
 }
 
 QStringList textsOf(const ShortcutSheet& sheet) {

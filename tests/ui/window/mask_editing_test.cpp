@@ -4,20 +4,24 @@
 #include "tests/ui/window_test.h"
 #include "ui/views/image_panel.h"
 #include "ui/views/image_view.h"
+#include "ui/views/mask_editor.h"
 
 namespace boresight::ui {
 namespace {
 
-class MaskEditingTest : public test::WindowTest {
+class MaskEditingTest : public test::SharedWindowTest {
  protected:
   void SetUp() override {
-    sessions::Session session =
-        test::withoutSearch(sessions::makeSession(test::exampleFolder() / "dataset.json"));
-    sessions::SessionCase second = *session.cases.front();
-    second.id = "second";
-    session = withCase(session, second);
-    open(session);
+    auto& editor = *window_.findChild<MaskEditor*>();
+    editor.setTool(MaskTool::kNone);
+    editor.setErase(false);
+    SharedWindowTest::SetUp();
     id_ = window_.state().currentCase()->source.id;
+  }
+  sessions::Session firstSession() override {
+    sessions::SessionCase second = *test::exampleSession().cases.front();
+    second.id = "second";
+    return withCase(test::withoutSearch(test::exampleSession()), second);
   }
   ImageView& view() { return window_.image().view(); }
   const sessions::MaskStrokes& strokes(const std::string& id) {
@@ -58,8 +62,7 @@ TEST_F(MaskEditingTest, ABrushStrokeIsOneUndoableJournalledEditOfTheMask) {
   QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
   drag({100.0, 100.0}, {200.0, 100.0});
   ASSERT_EQ(strokes(id_).size(), 1u);
-  const auto file = folder_.path() / "one.boresight.json";
-  const auto other = sessions::SessionDocument::open(file, sessions::Access::kReadOnly);
+  const auto other = sessions::SessionDocument::open(file_, sessions::Access::kReadOnly);
   ASSERT_TRUE(other.recovery()) << "the journal has it already";
   EXPECT_EQ(other.recovery()->session.findCase(id_)->ignore_strokes, strokes(id_));
   ASSERT_TRUE(settled());
@@ -83,7 +86,7 @@ TEST_F(MaskEditingTest, ABrushStrokeIsOneUndoableJournalledEditOfTheMask) {
 }
 
 TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
-  ASSERT_TRUE(runToTheEnd(1));
+  openRun(firstSession());
   const std::string before = window_.document().session().runs[0].digest;
   QTest::keyClick(&window_, Qt::Key_P, Qt::ShiftModifier);
   const auto& image = window_.state().currentCase()->image;
@@ -107,7 +110,7 @@ TEST_F(MaskEditingTest, ARunUsesTheMaskAndStaysShownAsStaleWhenItIsEdited) {
 }
 
 TEST_F(MaskEditingTest, Edit_KeepsTheShownIteration) {
-  ASSERT_TRUE(runToTheEnd(1));
+  openRun(firstSession());
   window_.state().setCursor({0, Stage::kMatch});
   window_.state().selectTemplate(2);
   QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
@@ -171,10 +174,9 @@ TEST_F(MaskEditingTest, ANamedPolygonIsCopiedToTheCamerasOtherCases) {
 
 TEST_F(MaskEditingTest, ReadOnlySession_CannotBeDrawnOn) {
   ASSERT_TRUE(window_.document().save());
-  const auto file = folder_.path() / "one.boresight.json";
   window_.document().close();
-  const auto holder = sessions::SessionDocument::open(file);  // has the lock
-  ASSERT_TRUE(window_.openSession(file));
+  const auto holder = sessions::SessionDocument::open(file_);  // has the lock
+  ASSERT_TRUE(window_.openSession(file_));
   ASSERT_TRUE(wait([&] { return window_.state().currentCase() && resting(); }));
   QTest::keyClick(&window_, Qt::Key_B, Qt::ShiftModifier);
   EXPECT_FALSE(view().toolActive());

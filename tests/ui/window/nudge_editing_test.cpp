@@ -6,11 +6,11 @@
 namespace boresight::ui {
 namespace {
 
-class NudgeEditingTest : public test::WindowTest {
+class NudgeEditingTest : public test::SharedWindowTest {
  protected:
   void SetUp() override {
+    SharedWindowTest::SetUp();
     window_.workspaces().reveal(QStringLiteral("pose"));
-    openExample();
     id_ = window_.state().currentCase()->source.id;
   }
   const sessions::SessionCase& edited() { return *window_.document().session().findCase(id_); }

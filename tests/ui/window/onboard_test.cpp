@@ -20,7 +20,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kAltered = 5;  ///< template of the first iteration
 
 /// The image as a compressed downlink brings it.
-Bytes compressed(const ImageView& image, int quality) {
+Bytes compressed(const boresight::ImageView& image, int quality) {
   const QImage whole(image.data, image.width, image.height, static_cast<int>(image.stride),
                      QImage::Format_Grayscale8);
   QBuffer buffer;
@@ -88,11 +88,10 @@ class OnboardTest : public test::WindowTest {
   const sessions::SessionCase& one() {
     return *window_.document().session().findCase(window_.cases().caseId().toStdString());
   }
-  void runOnTheGround() { ASSERT_TRUE(runToTheEnd(1)); }
 };
 
 TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
-  openExample(true);
+  openExample();
   drop(write(onboardRecord()));
   ASSERT_TRUE(one().onboard_record);
   ASSERT_NE(window_.onboard().review(), nullptr) << window_.onboard().problem().toStdString();
@@ -130,9 +129,8 @@ TEST_F(OnboardTest, ADroppedRecordIsShownRunAgainAndFoundEqual) {
 }
 
 TEST_F(OnboardTest, WideWindowShowsBothRunsSideBySide) {
-  openExample(true);
+  openRun();
   window_.resize(1920, 1080);
-  runOnTheGround();
   drop(write(onboardRecord()));
   window_.workspaces().show(Workspace::kOnboard);
   ASSERT_TRUE(rests());
@@ -152,8 +150,7 @@ TEST_F(OnboardTest, WideWindowShowsBothRunsSideBySide) {
 }
 
 TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
-  openExample(true);
-  runOnTheGround();
+  openRun();
   Bytes bytes = onboardRecord();
   alterTemplate(bytes);
   drop(write(bytes));
@@ -170,8 +167,7 @@ TEST_F(OnboardTest, AnAlteredTemplateIsFoundAndGoneTo) {
 }
 
 TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
-  openExample(true);
-  runOnTheGround();
+  openRun();
   const Bytes pixels = compressed(window_.state().currentCase()->problem().image, 90);
   drop(write(onboardRecord(&pixels)));
   ASSERT_NE(window_.onboard().comparison(), nullptr);
@@ -187,7 +183,7 @@ TEST_F(OnboardTest, ACompressedImageIsHeldToTheLimits) {
 }
 
 TEST_F(OnboardTest, UnreadableRecord_IsReported) {
-  openExample(true);
+  openExample();
   drop(folder_.write("not.whsr", "something else"));
   EXPECT_TRUE(test::has(window_.lastMessage(), "is not an onboard record"));
   EXPECT_FALSE(one().onboard_record);

@@ -17,7 +17,7 @@ class RerunTest : public test::WindowTest {
  protected:
   /// A session of one case with its whole run; the cursor stands on an iteration of it.
   void openAndRun() {
-    openExample();
+    open(test::withoutSearch(sessions::makeSession(test::exampleFolder() / "dataset.json")));
     ASSERT_TRUE(runToTheEnd(1));
     first_ = window_.state().snapshot();
     window_.state().setCursor({kFrom, Stage::kFinished});
@@ -40,8 +40,12 @@ class RerunTest : public test::WindowTest {
   ViewState::SnapshotPtr first_;
 };
 
-TEST_F(RerunTest, Rerun_KeepsEarlierIterationsAndEqualsTheHeadlessRun) {
+TEST_F(RerunTest, KeepsEarlierIterationsOfAStoredRunAndEqualsTheHeadlessRun) {
   openAndRun();
+  ASSERT_TRUE(window_.document().save());
+  ASSERT_TRUE(reopen());
+  ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
+  window_.state().setCursor({kFrom, Stage::kFinished});
   window_.cases().setOptions(QStringLiteral("default"), otherOptions());
   rerun();
   ASSERT_EQ(runs().size(), 2u);
@@ -63,48 +67,6 @@ TEST_F(RerunTest, Rerun_KeepsEarlierIterationsAndEqualsTheHeadlessRun) {
   EXPECT_EQ(record.digest, current->digest);
   const auto plan = sessions::planOf(record, window_.document().session(), "session");
   EXPECT_EQ(sessions::runCase(*window_.state().currentCase(), plan).digest, record.digest);
-}
-
-TEST_F(RerunTest, WithTheSameOptionsItIsTheSameRun) {
-  openAndRun();
-  rerun();
-  ASSERT_EQ(runs().size(), 1u);
-  EXPECT_EQ(window_.state().snapshot()->digest, first_->digest);
-  EXPECT_NE(window_.state().snapshot(), first_);
-}
-
-TEST_F(RerunTest, OnTheSeedItIsANewRun) {
-  openAndRun();
-  window_.cases().setOptions(QStringLiteral("default"), otherOptions());
-  window_.state().setCursor({-1, Stage::kFinished});
-  rerun();
-  ASSERT_EQ(runs().size(), 2u);
-  EXPECT_FALSE(runs()[1].rerun.has_value());
-  EXPECT_EQ(runs()[1].digest,
-            sessions::runCase(window_.document().session(), runs()[1].case_id).digest);
-}
-
-TEST_F(RerunTest, SaysWhichOptionHoldsForAWholeRun) {
-  openAndRun();
-  LocalizerOptions options = otherOptions();
-  options.edges.gaussian_sigma_px += 0.5;
-  window_.cases().setOptions(QStringLiteral("default"), options);
-  rerun();
-  EXPECT_EQ(runs().size(), 1u);
-  EXPECT_TRUE(test::has(window_.lastMessage(), "edges.gaussian_sigma_px"));
-  EXPECT_EQ(window_.state().snapshot(), first_) << "what was shown stays";
-}
-
-TEST_F(RerunTest, GoesOnFromARunThatWasReadFromItsFile) {
-  openAndRun();
-  ASSERT_TRUE(window_.document().save());
-  ASSERT_TRUE(reopen());
-  ASSERT_TRUE(wait([&] { return window_.state().snapshot() != nullptr; }));
-  window_.cases().setOptions(QStringLiteral("default"), otherOptions());
-  window_.state().setCursor({kFrom, Stage::kFinished});
-  rerun();
-  ASSERT_EQ(runs().size(), 2u);
-  EXPECT_EQ(runs()[1].rerun->from, first_->digest);
   // And on from that one, which leaves the first change in place.
   LocalizerOptions options = otherOptions();
   options.loop.render_again_px = 2.0;
@@ -115,8 +77,35 @@ TEST_F(RerunTest, GoesOnFromARunThatWasReadFromItsFile) {
   EXPECT_EQ(runs()[2].rerun->changes.size(), 2u);
 }
 
-TEST_F(RerunTest, RefusesIterationsThatAreNotThoseOfTheRecord) {
+TEST_F(RerunTest, WithTheSameOptionsItIsTheSameRun_OnTheSeedANewOne) {
   openAndRun();
+  rerun();
+  ASSERT_EQ(runs().size(), 1u);
+  EXPECT_EQ(window_.state().snapshot()->digest, first_->digest);
+  EXPECT_NE(window_.state().snapshot(), first_);
+  // On the seed, with other options, it is a new run.
+  window_.cases().setOptions(QStringLiteral("default"), otherOptions());
+  window_.state().setCursor({-1, Stage::kFinished});
+  rerun();
+  ASSERT_EQ(runs().size(), 2u);
+  EXPECT_FALSE(runs()[1].rerun.has_value());
+  EXPECT_EQ(runs()[1].digest,
+            sessions::runCase(window_.document().session(), runs()[1].case_id).digest);
+}
+
+TEST_F(RerunTest, SaysWhichOptionHoldsForAWholeRun_AndRefusesIterationsOfAnotherVersion) {
+  openAndRun();
+  LocalizerOptions options = otherOptions();
+  options.edges.gaussian_sigma_px += 0.5;
+  window_.cases().setOptions(QStringLiteral("default"), options);
+  rerun();
+  EXPECT_EQ(runs().size(), 1u);
+  EXPECT_TRUE(test::has(window_.lastMessage(), "edges.gaussian_sigma_px"));
+  EXPECT_EQ(window_.state().snapshot(), first_) << "what was shown stays";
+  // Iterations that are not those of the record.
+  options = first_->options;
+  options.templates.feature_size_m = 0.0;
+  window_.cases().setOptions(QStringLiteral("default"), options);
   auto other = std::make_shared<sessions::LocalizationTrace>(*first_);
   auto moved = std::make_shared<sessions::IterationTrace>(*first_->iterations[0]);
   moved->camera_from_station.translation_m.x() += 1e-9;
@@ -147,8 +136,8 @@ class ViewsRunWindowTest : public test::WindowTest {
   }
 };
 
-TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
-  open(test::sessionOfTwoViews(folder_.path()));
+TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless_AlsoAfterAStop) {
+  open(twoViews());
   ASSERT_TRUE(together() && together()->isEnabled());
   std::size_t most = 0;
   QObject::connect(&window_.state(), &ViewState::changed, [&] {
@@ -156,9 +145,10 @@ TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
     if (shown && !shown->finished) most = std::max(most, shown->iterations.size());
   });
   together()->trigger();
-  ASSERT_TRUE(wait([&] { return session().runs.size() == 2; }))
-      << window_.lastMessage().toStdString();
-  ASSERT_TRUE(rests());
+  window_.cases().stop();
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
+  EXPECT_TRUE(session().runs.empty());
+  ASSERT_TRUE(runToTheEnd(2)) << window_.lastMessage().toStdString();
   EXPECT_GT(most, 1u) << "iterations show as they come";
   const auto expected = sessions::runViews(session(), session().cases[0]->id);
   for (std::size_t v = 0; v < 2; ++v) {
@@ -170,6 +160,11 @@ TEST_F(ViewsRunWindowTest, EveryViewGetsARunThatIsTheSameHeadless) {
               banner().contains(QStringLiteral("Converged in")))
       << banner().toStdString();
   EXPECT_EQ(window_.cases().staleness(), QString());
+  window_.state().setCursor({2, Stage::kFinished});
+  QTest::keyClick(&window_, Qt::Key_F5, Qt::ShiftModifier);
+  ASSERT_TRUE(rests());
+  EXPECT_TRUE(test::has(window_.lastMessage(), "made with other views"));
+  EXPECT_EQ(session().runs.size(), 2u) << "it does not continue from an iteration";
 
   // The other case shows its own run of it, with everything in between.
   window_.cases().chooseCase(QString::fromStdString(session().cases[1]->id));
@@ -203,28 +198,6 @@ TEST_F(ViewsRunWindowTest, WithoutOthersItSaysWhy) {
   window_.document().edit(two, QStringLiteral("Link"));
   EXPECT_TRUE(together()->isEnabled());
   EXPECT_FALSE(together()->toolTip().contains(QStringLiteral("has no rig")));
-}
-
-TEST_F(ViewsRunWindowTest, AStopHaltsItAndItGoesOn) {
-  open(twoViews());
-  together()->trigger();
-  window_.cases().stop();
-  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kHalted; }));
-  EXPECT_TRUE(session().runs.empty());
-  ASSERT_TRUE(runToTheEnd(2));
-  EXPECT_EQ(session().runs[0].digest,
-            sessions::runViews(session(), session().cases[0]->id)[0].digest);
-}
-
-TEST_F(ViewsRunWindowTest, ViewsRun_CannotContinueFromAnIteration) {
-  open(twoViews());
-  together()->trigger();
-  ASSERT_TRUE(wait([&] { return session().runs.size() == 2 && resting(); }));
-  window_.state().setCursor({2, Stage::kFinished});
-  QTest::keyClick(&window_, Qt::Key_F5, Qt::ShiftModifier);
-  ASSERT_TRUE(rests());
-  EXPECT_TRUE(test::has(window_.lastMessage(), "made with other views"));
-  EXPECT_EQ(session().runs.size(), 2u);
 }
 
 }  // namespace

@@ -39,34 +39,13 @@ class ImageShareTest : public test::WindowTest {
 };
 
 TEST_F(ImageShareTest, ImageTakesItsPartOfTheScreen) {
-  openExample(true);
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  openRun();
   for (const Goal& goal : {Goal{{1920, 1080}, 0.30}, Goal{{1280, 800}, 0.40}})
     for (const Workspace workspace : {Workspace::kRun, Workspace::kDiagnose, Workspace::kReview}) {
       const double share = shareOf(workspace, goal.size);
       std::printf("%-9s %4d x %4d: %.1f %%\n", workspaceInfo(workspace).name, goal.size.width(),
                   goal.size.height(), 100.0 * share);
       EXPECT_GE(share, goal.share) << workspaceInfo(workspace).name << " at " << goal.size.width();
-    }
-}
-
-/// Nothing is cut off: a scroll bar below a page or a table says that something is.
-TEST_F(ImageShareTest, NothingScrollsSideways) {
-  openExample(true);
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
-  for (const QSize& size : {QSize(1920, 1080), QSize(1280, 800)})
-    for (int i = 0; i < kWorkspaceCount; ++i) {
-      const auto workspace = static_cast<Workspace>(i);
-      shareOf(workspace, size);
-      for (const auto* area : window_.findChildren<QAbstractScrollArea*>())
-        // A dock behind another's tab is visible for Qt, but outside the window.
-        if (area->isVisible() && !area->visibleRegion().isEmpty() &&
-            area->horizontalScrollBar()->isVisible())
-          ADD_FAILURE() << workspaceInfo(workspace).name << " at " << size.width() << ": "
-                        << area->objectName().toStdString() << " of "
-                        << area->parentWidget()->metaObject()->className() << " scrolls sideways";
     }
 }
 

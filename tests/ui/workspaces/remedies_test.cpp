@@ -2,6 +2,7 @@
 #include "ui/workspaces/remedies.h"
 
 #include "tests/ui/window_test.h"
+#include "tests/ui/workspaces/desk.h"
 #include "ui/annotation/annotation_controller.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/window_frame.h"
@@ -12,16 +13,13 @@
 namespace boresight::ui {
 namespace {
 
-/// The shipped case whose seed is turned by 40 deg, where 2.2 deg are stated; it has been run.
+/// The case whose run failed.
 class RemediesTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    const auto file = sessions::examplesFolder() / "turned.boresight.json";
-    open(sessions::SessionDocument::open(file, sessions::Access::kReadOnly).session());
-    QTest::keyClick(&window_, Qt::Key_F5);
-    ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+    open(test::Desk::failed().withItsRun(file_));
+    ASSERT_TRUE(wait([&] { return bar().verdict().tone == VerdictTone::kBad && resting(); }));
     ASSERT_FALSE(window_.state().snapshot()->converged());
-    ASSERT_TRUE(wait([&] { return bar().verdict().tone == VerdictTone::kBad; }));
   }
   VerdictBar& bar() { return window_.frame().verdict(); }
   void press(Step step) {
@@ -41,22 +39,15 @@ TEST_F(RemediesTest, OneClickOnTheVerdictMendsATurnedSeed) {
   EXPECT_TRUE(window_.document().canUndo()) << "it is an edit";
 }
 
-TEST_F(RemediesTest, DiagnoseSaysWhyInFull) {
-  window_.workspaces().show(Workspace::kDiagnose);
+TEST_F(RemediesTest, DiagnoseSaysWhyInFullAndBringsTheTools) {
+  press(Step::kNudgeSeed);
   EXPECT_TRUE(test::has(find<Banner>("runStatus").text(), "Did not converge."));
-}
-
-TEST_F(RemediesTest, MaskAndAnnotateBringTheirTools) {
+  ASSERT_TRUE(wait([&] { return window_.state().cursor().iteration == -1; }));
   press(Step::kAnnotate);
   ASSERT_TRUE(wait([&] { return window_.workspaces().current() == Workspace::kAnnotate; }));
   EXPECT_EQ(window_.annotation().mode(), PlaceMode::kPoint);
   press(Step::kMask);
   ASSERT_TRUE(wait([&] { return window_.dock(QStringLiteral("mask"))->isVisible(); }));
-}
-
-TEST_F(RemediesTest, NudgeShowsTheSeed) {
-  press(Step::kNudgeSeed);
-  ASSERT_TRUE(wait([&] { return window_.state().cursor().iteration == -1; }));
 }
 
 TEST_F(RemediesTest, StatedUncertaintyRunsAgain) {

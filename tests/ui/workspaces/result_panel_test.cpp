@@ -41,7 +41,7 @@ class ResultPanelTest : public ::testing::Test {
 
   test::TemporaryFolder folder_;
   test::OwnSettings settings_{folder_.path()};
-  sessions::Session session_ = sessions::makeSession(test::exampleFolder() / "dataset.json");
+  sessions::Session session_ = test::exampleSession();
   Document document_;
   ViewState state_;
   TaskRunner tasks_;

@@ -26,7 +26,7 @@ class SeedlessTest : public test::WindowTest {
   VerdictBar& bar() { return window_.frame().verdict(); }
 };
 
-TEST_F(SeedlessTest, IsShownAndNotRunWithTheReason) {
+TEST_F(SeedlessTest, IsNotRunWithTheReason_UntilTheAnnotationsGiveASeed) {
   open(withoutSeeds());
   auto* run = window_.findChild<QAction*>(QStringLiteral("runToEnd"));
   EXPECT_FALSE(run->isEnabled());
@@ -34,10 +34,6 @@ TEST_F(SeedlessTest, IsShownAndNotRunWithTheReason) {
   EXPECT_FALSE(poseOf(window_.state(), PoseRole::kSeed).has_value());
   EXPECT_EQ(window_.lastMessage(), QString());
   EXPECT_EQ(bar().verdict().head, QStringLiteral("No seed yet."));
-}
-
-TEST_F(SeedlessTest, GetsItsSeedFromTheAnnotationsAndRuns) {
-  open(withoutSeeds());
   ASSERT_TRUE(wait([&] { return bar().verdict().step == Step::kSeedFromAnnotation; }))
       << bar().text().toStdString();
   QTest::mouseClick(&bar().action(), Qt::LeftButton);

@@ -28,7 +28,7 @@ class SessionSavingTest : public test::WindowTest {
   SessionFiles& files() { return *window_.findChild<SessionFiles*>(); }
 };
 
-TEST_F(SessionSavingTest, NameWithoutASuffixGetsTheOneThatIsListed) {
+TEST(SessionName, WithoutASuffixGetsTheOneThatIsListed) {
   EXPECT_EQ(sessionFileName("/a/sol"), "/a/sol.boresight.json");
   EXPECT_EQ(sessionFileName("/a/sol.412"), "/a/sol.412.boresight.json");
   EXPECT_EQ(sessionFileName("/a/sol.json"), "/a/sol.json");
@@ -36,7 +36,7 @@ TEST_F(SessionSavingTest, NameWithoutASuffixGetsTheOneThatIsListed) {
 }
 
 TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
-  openExample(true);
+  openExample();
   moveSeed(0.01);
   ASSERT_TRUE(window_.document().isModified());
   const Answer answer([](QWidget* modal) {
@@ -55,7 +55,7 @@ TEST_F(SessionSavingTest, DiscardedChangesAreNotOfferedAgain) {
 
 /// Adds the four files of os to the open session, and answers what it asks.
 TEST_F(SessionSavingTest, CaseOfAKnownName_IsNeverReplacedWithoutAnAnswer) {
-  openExample(true);
+  openExample();
   const std::filesystem::path os = test::exampleFolder() / "os";
   const auto add = [&](const char* button) {
     bool asked = false;
@@ -91,8 +91,7 @@ TEST_F(SessionSavingTest, CaseOfAKnownName_IsNeverReplacedWithoutAnAnswer) {
 }
 
 TEST_F(SessionSavingTest, ExportsOfAnUnnamedSessionAreNotProposedInAHiddenFolder) {
-  ASSERT_TRUE(window_.document().createUntitled(
-      sessions::makeSession(test::exampleFolder() / "dataset.json")));
+  ASSERT_TRUE(window_.document().createUntitled(test::exampleSession()));
   const QString proposed = inSessionFolder(window_.document(), QStringLiteral("pose.json"));
   EXPECT_FALSE(proposed.contains(QStringLiteral("untitled"))) << proposed.toStdString();
   EXPECT_FALSE(proposed.contains(QStringLiteral("/."))) << proposed.toStdString();

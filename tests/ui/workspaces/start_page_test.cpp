@@ -120,7 +120,7 @@ TEST_F(StartPageTest, OneClickOpensAnExampleAndRunsIt) {
 }
 
 TEST_F(StartPageTest, FilesMakeANewSession_NotAPartOfTheOpenOne) {
-  openExample(true);
+  openExample();
   window_.workspaces().show(Workspace::kStart);
   const std::filesystem::path os = test::exampleFolder() / "os";
   auto* files = window_.findChild<SessionFiles*>();
@@ -151,7 +151,7 @@ TEST_F(LeftWorkTest, IsOfferedAndRecoveredOrDiscarded) {
   for (const char* button : {"recoverLeft", "discardLeft"}) {
     {
       Document left;
-      const auto session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+      const sessions::Session& session = test::exampleSession();
       ASSERT_TRUE(left.createUntitled(session));
       left.edit(sessions::withoutCase(session, session.cases.front()->id), QStringLiteral("Edit"));
     }

@@ -38,6 +38,21 @@ std::shared_ptr<sessions::LocalizationTrace> ended(LocalizationStatus status) {
   return trace;
 }
 
+/// Converged, and known to 0.1 mm.
+Situation converged() {
+  Situation situation = ready();
+  situation.run = RunState::kFinished;
+  situation.trace = ended(LocalizationStatus::kConverged);
+  situation.quality = knownTo(0.1);
+  return situation;
+}
+
+Situation annotating() {
+  Situation situation = ready();
+  situation.workspace = Workspace::kAnnotate;
+  return situation;
+}
+
 TEST(Verdict, FilesMissing_NamesThem) {
   Situation situation;
   situation.files = {2, QStringLiteral("Still needed: a camera (json) and a seed pose (json).")};
@@ -105,10 +120,7 @@ TEST(Verdict, PoseBeyondTheRequirement_IsNoSuccess) {
 }
 
 TEST(Verdict, FailedCheck_IsNoSuccessInAnyWorkspace) {
-  Situation situation = ready();
-  situation.run = RunState::kFinished;
-  situation.trace = ended(LocalizationStatus::kConverged);
-  situation.quality = knownTo(0.1);
+  Situation situation = converged();
   situation.review.current = true;
   situation.review.tested = true;
   situation.review.failed = 2;
@@ -120,10 +132,7 @@ TEST(Verdict, FailedCheck_IsNoSuccessInAnyWorkspace) {
 }
 
 TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdatedInRunAndReview) {
-  Situation situation = ready();
-  situation.run = RunState::kFinished;
-  situation.trace = ended(LocalizationStatus::kConverged);
-  situation.quality = knownTo(0.1);
+  Situation situation = converged();
   situation.review.state = sessions::ReviewState::kValidated;
   situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
   for (const Workspace workspace : {Workspace::kRun, Workspace::kReview}) {
@@ -144,9 +153,7 @@ TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdatedInRunAndReview) {
 }
 
 TEST(Verdict, ValidationWithAWaivedCheck_IsCaution) {
-  Situation situation = ready();
-  situation.trace = ended(LocalizationStatus::kConverged);
-  situation.quality = knownTo(0.1);
+  Situation situation = converged();
   situation.review.state = sessions::ReviewState::kValidated;
   situation.review.decision = QStringLiteral("by A. Operator, 09:02 UTC.");
   situation.review.failed = 1;
@@ -155,9 +162,7 @@ TEST(Verdict, ValidationWithAWaivedCheck_IsCaution) {
 }
 
 TEST(Verdict, ValidationByOnePersonOfTwo_IsToBeApproved) {
-  Situation situation = ready();
-  situation.trace = ended(LocalizationStatus::kConverged);
-  situation.quality = knownTo(0.1);
+  Situation situation = converged();
   situation.review.state = sessions::ReviewState::kConverged;
   situation.review.decision =
       QStringLiteral("by A. Operator, 09:02 UTC. A second person must approve.");
@@ -180,8 +185,7 @@ TEST(Verdict, RunUnderWayOfAValidatedCase_IsTheRun) {
 }
 
 TEST(Verdict, AnnotationsThatAreTooCoarse_AreNoSuccess) {
-  Situation situation = ready();
-  situation.workspace = Workspace::kAnnotate;
+  Situation situation = annotating();
   situation.annotation.pairs = 7;
   situation.annotation.has_pose = true;
   EXPECT_EQ(verdictOf(situation).tone, VerdictTone::kGood);
@@ -193,8 +197,7 @@ TEST(Verdict, AnnotationsThatAreTooCoarse_AreNoSuccess) {
 
 /// One that stands out is switched off; several hide each other, and are weighed.
 TEST(Verdict, SuspectedAnnotations_AreNamedAndRobustIsProposed) {
-  Situation situation = ready();
-  situation.workspace = Workspace::kAnnotate;
+  Situation situation = annotating();
   situation.annotation.has_pose = true;
   situation.annotation.bad_pair = QStringLiteral("p2");
   situation.annotation.bad_sigmas = 3.2;
@@ -214,8 +217,7 @@ TEST(Verdict, SuspectedAnnotations_AreNamedAndRobustIsProposed) {
 }
 
 TEST(Verdict, BlindRound_HasNoFiguresOfAPose) {
-  Situation situation = ready();
-  situation.workspace = Workspace::kAnnotate;
+  Situation situation = annotating();
   situation.annotation.pairs = 3;
   situation.annotation.blind = true;
   situation.annotation.unplaced = 4;
@@ -239,9 +241,7 @@ TEST(Verdict, HaltedRun_GoesOn) {
 }
 
 TEST(Verdict, ConvergedRun_IsGoodAndNotYetValidated) {
-  Situation situation = ready();
-  situation.trace = ended(LocalizationStatus::kConverged);
-  situation.quality = knownTo(0.1);
+  Situation situation = converged();
   const Verdict verdict = verdictOf(situation);
   EXPECT_EQ(verdict.tone, VerdictTone::kGood);
   EXPECT_EQ(verdict.head, QStringLiteral("Converged"));
@@ -290,10 +290,8 @@ TEST(Verdict, NotSupportedPose_IsRejectedAndOffersAWiderSearch) {
 }
 
 TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
-  Situation situation = ready();
-  situation.quality = knownTo(0.1);
+  Situation situation = converged();
   situation.workspace = Workspace::kReview;
-  situation.trace = ended(LocalizationStatus::kConverged);
   situation.review.current = true;
   situation.review.failed = 1;
   Verdict verdict = verdictOf(situation);
@@ -333,8 +331,7 @@ TEST(Verdict, ReviewOfAFailedRun_TellsTheFailure) {
 }
 
 TEST(Verdict, BadAnnotation_IsSwitchedOff) {
-  Situation situation = ready();
-  situation.workspace = Workspace::kAnnotate;
+  Situation situation = annotating();
   situation.annotation.pairs = 8;
   situation.annotation.rms_px = 1.72;
   situation.annotation.bad_pair = QStringLiteral("p6");

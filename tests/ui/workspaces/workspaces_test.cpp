@@ -2,6 +2,7 @@
 #include "ui/workspaces/workspaces.h"
 
 #include "tests/ui/window_test.h"
+#include "tests/ui/workspaces/desk.h"
 #include "ui/panels/case/cases_panel.h"
 #include "ui/panels/run/close_ups_panel.h"
 #include "ui/run/run_controller.h"
@@ -19,6 +20,7 @@ namespace {
 
 class WorkspacesTest : public test::WindowTest {
  protected:
+  void SetUp() override { openExample(); }
   Workspaces& workspaces() { return window_.workspaces(); }
   bool shows(const char* dock) { return window_.dock(QLatin1String(dock))->isVisible(); }
   void resize(int width, int height) {
@@ -27,16 +29,7 @@ class WorkspacesTest : public test::WindowTest {
   }
 };
 
-TEST_F(WorkspacesTest, EmptyWindow_BeginsAtStartAndASessionInRun) {
-  EXPECT_EQ(workspaces().current(), Workspace::kStart);
-  openExample(true);
-  EXPECT_EQ(workspaces().current(), Workspace::kRun);
-  window_.document().close();
-  EXPECT_EQ(workspaces().current(), Workspace::kStart);
-}
-
 TEST_F(WorkspacesTest, KeysAndTabsChooseAWorkspace) {
-  openExample(true);
   auto& tabs = find<QTabBar>("workspaceTabs");
   for (int i = 0; i < kWorkspaceCount; ++i) {
     QTest::keyClick(&window_, static_cast<Qt::Key>(Qt::Key_1 + i), Qt::ControlModifier);
@@ -48,7 +41,6 @@ TEST_F(WorkspacesTest, KeysAndTabsChooseAWorkspace) {
 }
 
 TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
-  openExample(true);
   resize(1920, 1080);
   struct Expected {
     Workspace workspace;
@@ -72,28 +64,7 @@ TEST_F(WorkspacesTest, EachShowsThePanelsOfItsTask) {
   }
 }
 
-TEST_F(WorkspacesTest, DiagnoseOfAFailedRun_HasWhatMayHelpInFrontAtFullHeight) {
-  sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
-  session.options = {{"support.min_probability", 1.0}};
-  open(session);
-  resize(1920, 1080);
-  ASSERT_TRUE(runToTheEnd(1));
-  ASSERT_FALSE(window_.state().snapshot()->converged());
-  workspaces().show(Workspace::kDiagnose);
-  QApplication::processEvents();
-  const auto in_front = [this](const char* dock) {
-    return !window_.dock(QString::fromLatin1(dock))->visibleRegion().isEmpty();
-  };
-  for (const CloseUpView* each : window_.findChildren<CloseUpView*>())
-    EXPECT_TRUE(!each->place() || each->figureText().endsWith(QStringLiteral(" % found")));
-  EXPECT_TRUE(in_front("remedies"));
-  EXPECT_FALSE(in_front("inspector"));
-  const auto* scroll = window_.findChild<RemediesPanel*>()->findChild<QScrollArea*>();
-  EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0) << "all remedies are in view";
-}
-
 TEST_F(WorkspacesTest, AClickOnTheWarningsListsThemAndOpensNoPanel) {
-  openExample(true);
   resize(1920, 1080);
   auto& bar = *window_.findChild<VerdictBar*>();
   bar.setWarnings({QStringLiteral("The mesh is not closed."), QStringLiteral("The seed is old.")});
@@ -110,8 +81,112 @@ TEST_F(WorkspacesTest, AClickOnTheWarningsListsThemAndOpensNoPanel) {
   EXPECT_TRUE(shows("inputs"));
 }
 
-TEST_F(WorkspacesTest, StripListsFailedCasesFirstInReviewOnly) {
-  openExample(true);
+TEST_F(WorkspacesTest, CloseUpsShowTheRefinedPose_AndAClickShowsThePlaceOnTheCanvas) {
+  resize(1920, 1080);
+  const auto close_ups = window_.findChildren<CloseUpView*>();
+  ASSERT_EQ(close_ups.size(), 4);
+  EXPECT_FALSE(close_ups[0]->place());
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
+  for (CloseUpView* each : close_ups) {
+    ASSERT_TRUE(each->place());
+    EXPECT_LT(each->place()->distance_px, 1.0) << each->place()->name;
+    EXPECT_GE(each->height(), each->minimumSizeHint().height());
+  }
+  QTest::mouseClick(close_ups[3], Qt::LeftButton);
+  const auto& canvas = find<ImageView>("imageView");
+  EXPECT_GE(canvas.transform().scale(), 4.0);
+  const QPointF middle = canvas.transform().toPixel(QRectF(canvas.rect()).center());
+  EXPECT_LT((middle - pointOf(close_ups[3]->place()->center_px)).manhattanLength(), 3.0);
+}
+
+TEST_F(WorkspacesTest, NarrowDiagnose_OpensOneDrawerAtATime) {
+  resize(1280, 800);
+  workspaces().show(Workspace::kDiagnose);
+  QApplication::processEvents();
+  EXPECT_TRUE(shows("inspector"));
+  EXPECT_FALSE(shows("iterations"));
+  window_.dock(QStringLiteral("iterations"))->toggleViewAction()->trigger();
+  QApplication::processEvents();
+  EXPECT_TRUE(shows("iterations"));
+  EXPECT_FALSE(shows("inspector"));
+}
+
+TEST_F(WorkspacesTest, BarsAreThereInEveryWorkspace) {
+  for (int i = 0; i < kWorkspaceCount; ++i) {
+    workspaces().show(static_cast<Workspace>(i));
+    QApplication::processEvents();
+    EXPECT_TRUE(window_.frame().verdict().isVisible());
+    EXPECT_TRUE(window_.frame().jobs().isVisible());
+    EXPECT_TRUE(window_.frame().cases().isVisible());
+  }
+  resize(1920, 1080);
+  workspaces().show(Workspace::kReview);
+  EXPECT_FALSE(window_.frame().cases().isVisible()) << "the queue is the list of cases there";
+}
+
+TEST_F(WorkspacesTest, StripShowsAndChoosesCases) {
+  auto& list = window_.frame().cases().list();
+  EXPECT_EQ(list.model()->rowCount(), 2);
+  EXPECT_EQ(list.currentIndex().row(), 0);
+  list.setCurrentIndex(list.model()->index(1, 0));
+  EXPECT_EQ(window_.cases().caseId(),
+            QString::fromStdString(window_.document().session().cases.back()->id));
+  ASSERT_TRUE(rests());
+}
+
+TEST_F(WorkspacesTest, VerdictRunsTheCaseAndLeadsToReview) {
+  VerdictBar& bar = window_.frame().verdict();
+  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kRun; })) << bar.text().toStdString();
+  QTest::mouseClick(&bar.action(), Qt::LeftButton);
+  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
+  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kReview; }))
+      << bar.text().toStdString();
+  EXPECT_TRUE(test::has(bar.text(), "Converged in"));
+  QTest::keyClick(&window_, Qt::Key_Return, Qt::ControlModifier);
+  EXPECT_EQ(workspaces().current(), Workspace::kReview);
+}
+
+TEST_F(WorkspacesTest, AddedPanelStaysWithItsWorkspace) {
+  resize(1920, 1080);
+  workspaces().show(Workspace::kRun);
+  window_.dock(QStringLiteral("levels"))->show();
+  workspaces().show(Workspace::kDiagnose);
+  EXPECT_FALSE(shows("levels"));
+  workspaces().show(Workspace::kRun);
+  QApplication::processEvents();
+  EXPECT_TRUE(shows("levels"));
+}
+
+using OwnWindowTest = test::WindowTest;
+
+TEST_F(OwnWindowTest, EmptyWindow_BeginsAtStartAndASessionInRun) {
+  EXPECT_EQ(window_.workspaces().current(), Workspace::kStart);
+  openExample();
+  EXPECT_EQ(window_.workspaces().current(), Workspace::kRun);
+  window_.document().close();
+  EXPECT_EQ(window_.workspaces().current(), Workspace::kStart);
+}
+
+TEST_F(OwnWindowTest, DiagnoseOfAFailedRun_HasWhatMayHelpInFrontAtFullHeight) {
+  open(test::Desk::failed().withItsRun(file_));
+  ASSERT_TRUE(wait([this] { return window_.state().snapshot() && resting(); }));
+  window_.resize(1920, 1080);
+  window_.workspaces().show(Workspace::kDiagnose);
+  QApplication::processEvents();
+  const auto in_front = [this](const char* dock) {
+    return !window_.dock(QString::fromLatin1(dock))->visibleRegion().isEmpty();
+  };
+  for (const CloseUpView* each : window_.findChildren<CloseUpView*>())
+    EXPECT_TRUE(!each->place() || each->figureText().endsWith(QStringLiteral(" % found")));
+  EXPECT_TRUE(in_front("remedies"));
+  EXPECT_FALSE(in_front("inspector"));
+  const auto* scroll = window_.findChild<RemediesPanel*>()->findChild<QScrollArea*>();
+  EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0) << "all remedies are in view";
+}
+
+TEST_F(OwnWindowTest, StripListsFailedCasesFirstInReviewOnly) {
+  openExample();
   CasesModel& model = window_.findChild<CasesPanel*>()->model();
   std::vector<CaseRow> rows(4);
   const CaseState states[] = {CaseState::kValidated, CaseState::kNew, CaseState::kConverged,
@@ -143,89 +218,6 @@ TEST_F(WorkspacesTest, StripListsFailedCasesFirstInReviewOnly) {
   EXPECT_EQ(ids(), QStringLiteral("0321")) << "equal ones in the session's order";
   strip.setForDecisions(false);
   EXPECT_EQ(ids(), QStringLiteral("0123"));
-}
-
-TEST_F(WorkspacesTest, CloseUpsShowTheRefinedPose_AndAClickShowsThePlaceOnTheCanvas) {
-  openExample(true);
-  resize(1920, 1080);
-  const auto close_ups = window_.findChildren<CloseUpView*>();
-  ASSERT_EQ(close_ups.size(), 4);
-  EXPECT_FALSE(close_ups[0]->place());
-  QTest::keyClick(&window_, Qt::Key_F5);
-  ASSERT_TRUE(wait([&] { return window_.run().state() == RunState::kFinished; }));
-  for (CloseUpView* each : close_ups) {
-    ASSERT_TRUE(each->place());
-    EXPECT_LT(each->place()->distance_px, 1.0) << each->place()->name;
-    EXPECT_GE(each->height(), each->minimumSizeHint().height());
-  }
-  QTest::mouseClick(close_ups[3], Qt::LeftButton);
-  const auto& canvas = find<ImageView>("imageView");
-  EXPECT_GE(canvas.transform().scale(), 4.0);
-  const QPointF middle = canvas.transform().toPixel(QRectF(canvas.rect()).center());
-  EXPECT_LT((middle - pointOf(close_ups[3]->place()->center_px)).manhattanLength(), 3.0);
-}
-
-TEST_F(WorkspacesTest, NarrowDiagnose_OpensOneDrawerAtATime) {
-  openExample(true);
-  resize(1280, 800);
-  workspaces().show(Workspace::kDiagnose);
-  QApplication::processEvents();
-  EXPECT_TRUE(shows("inspector"));
-  EXPECT_FALSE(shows("iterations"));
-  window_.dock(QStringLiteral("iterations"))->toggleViewAction()->trigger();
-  QApplication::processEvents();
-  EXPECT_TRUE(shows("iterations"));
-  EXPECT_FALSE(shows("inspector"));
-}
-
-TEST_F(WorkspacesTest, BarsAreThereInEveryWorkspace) {
-  openExample(true);
-  for (int i = 0; i < kWorkspaceCount; ++i) {
-    workspaces().show(static_cast<Workspace>(i));
-    QApplication::processEvents();
-    EXPECT_TRUE(window_.frame().verdict().isVisible());
-    EXPECT_TRUE(window_.frame().jobs().isVisible());
-    EXPECT_TRUE(window_.frame().cases().isVisible());
-  }
-  resize(1920, 1080);
-  workspaces().show(Workspace::kReview);
-  EXPECT_FALSE(window_.frame().cases().isVisible()) << "the queue is the list of cases there";
-}
-
-TEST_F(WorkspacesTest, StripShowsAndChoosesCases) {
-  openExample(true);
-  auto& list = window_.frame().cases().list();
-  EXPECT_EQ(list.model()->rowCount(), 2);
-  EXPECT_EQ(list.currentIndex().row(), 0);
-  list.setCurrentIndex(list.model()->index(1, 0));
-  EXPECT_EQ(window_.cases().caseId(),
-            QString::fromStdString(window_.document().session().cases.back()->id));
-  ASSERT_TRUE(rests());
-}
-
-TEST_F(WorkspacesTest, VerdictRunsTheCaseAndLeadsToReview) {
-  openExample(true);
-  VerdictBar& bar = window_.frame().verdict();
-  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kRun; })) << bar.text().toStdString();
-  QTest::mouseClick(&bar.action(), Qt::LeftButton);
-  ASSERT_TRUE(wait([&] { return window_.document().session().runs.size() == 1 && resting(); }));
-  ASSERT_TRUE(wait([&] { return bar.verdict().step == Step::kReview; }))
-      << bar.text().toStdString();
-  EXPECT_TRUE(test::has(bar.text(), "Converged in"));
-  QTest::keyClick(&window_, Qt::Key_Return, Qt::ControlModifier);
-  EXPECT_EQ(workspaces().current(), Workspace::kReview);
-}
-
-TEST_F(WorkspacesTest, AddedPanelStaysWithItsWorkspace) {
-  openExample(true);
-  resize(1920, 1080);
-  workspaces().show(Workspace::kRun);
-  window_.dock(QStringLiteral("levels"))->show();
-  workspaces().show(Workspace::kDiagnose);
-  EXPECT_FALSE(shows("levels"));
-  workspaces().show(Workspace::kRun);
-  QApplication::processEvents();
-  EXPECT_TRUE(shows("levels"));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST_F(CalibrationPanelTest, FindsALongerLensAndUsesItForItsCases) {
 }
 
 TEST_F(CalibrationPanelTest, SaysWhyItCannot) {
-  openExample(true);
+  openExample();
   calibrate();
   EXPECT_TRUE(test::has(summary(), "Not calibrated: there are no images with observations"));
   EXPECT_FALSE(find<QPushButton>("use").isEnabled());

@@ -12,7 +12,7 @@ using sessions::PartRole;
 class PartsPanelTest : public test::WindowTest {
  protected:
   void SetUp() override {
-    sessions::Session session = sessions::makeSession(test::exampleFolder() / "dataset.json");
+    sessions::Session session = test::exampleSession();
     sessions::SessionCase first = *session.cases[0];
     first.parts.push_back(first.parts[0]);
     first.parts[1].source.name = "cover";
