@@ -43,6 +43,13 @@ inline Eigen::Vector3d randomVector(Random& random, double bound) {
   return {x, y, z};
 }
 
+/// Components of deviation 1.
+inline Vector6d normalVector6(Random& random) {
+  Vector6d vector;
+  for (int i = 0; i < 6; ++i) vector[i] = random.normal();
+  return vector;
+}
+
 /// Uniform on the unit sphere.
 inline Eigen::Vector3d randomDirection(Random& random) {
   for (;;) {

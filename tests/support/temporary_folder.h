@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace boresight::test {
@@ -55,8 +56,15 @@ class TemporaryFolder {
   /// What `call` throws, without this folder's path; "(nothing)" when it returns.
   template <class Call>
   std::string message(Call&& call) const {
+    using Called = std::remove_reference_t<Call>;
+    // So that only a line is compiled for each caller.
+    return messageOf([](const void* called) { (*static_cast<const Called*>(called))(); }, &call);
+  }
+
+ private:
+  std::string messageOf(void (*run)(const void*), const void* called) const {
     try {
-      call();
+      run(called);
     } catch (const std::exception& error) {
       std::string text = error.what();
       const std::string prefix = path_.string() + "/";
@@ -67,7 +75,6 @@ class TemporaryFolder {
     return "(nothing)";
   }
 
- private:
   std::filesystem::path path_;
 };
 

@@ -68,7 +68,9 @@ TEST(AnnotationsCsv, RoundTripIsExact) {
   Random random(11);
   for (int trial = 0; trial < 50; ++trial) {
     const Annotations annotations = test::randomAnnotations(random, trial % 9, trial % 5);
-    const std::string text = annotationsCsv(annotations);
+    std::string text = annotationsCsv(annotations);
+    EXPECT_EQ(parseAnnotationsCsv("marks.csv", text), annotations) << text;
+    std::erase(text, '\r');  // lines may end with a line feed alone
     EXPECT_EQ(parseAnnotationsCsv("marks.csv", text), annotations) << text;
   }
 }
@@ -86,14 +88,6 @@ TEST(AnnotationsCsv, TextThatLooksLikeAFormulaIsTextInASpreadsheetAndComesBack) 
   for (const char* begin : {",\"'=HYPERLINK", ",'-2+3\r", ",''=1,", ",'@SUM(A1)\r", ",'\t+1\r"})
     EXPECT_NE(text.find(begin), std::string::npos) << begin << "\n" << text;
   EXPECT_NE(text.find(",-1.5,-2.5,"), std::string::npos) << "numbers stay numbers";
-  EXPECT_EQ(parseAnnotationsCsv("marks.csv", text), annotations);
-}
-
-TEST(AnnotationsCsv, LinesMayEndWithALineFeedAlone) {
-  Random random(12);
-  const Annotations annotations = test::randomAnnotations(random, 3, 0);
-  std::string text = annotationsCsv(annotations);
-  std::erase(text, '\r');
   EXPECT_EQ(parseAnnotationsCsv("marks.csv", text), annotations);
 }
 

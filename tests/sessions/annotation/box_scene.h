@@ -10,6 +10,7 @@
 
 #include "sessions/io/meshes/scene_mesh.h"
 #include "tests/sessions/annotation/annotated_scene.h"
+#include "tests/support/box_mesh.h"
 
 namespace boresight::test {
 
@@ -18,8 +19,8 @@ namespace boresight::test {
 class BoxScene {
  public:
   BoxScene() {
-    scene_.parts.resize(1);
-    addBox();
+    for (Eigen::Vector3f& corner : scene_.vertices_in_station_m)
+      corner.z() = corner.z() > 0.0F ? 0.0F : -0.04F;
     addCylinder();
     camera_from_station_.rotation = rotationExp({kPi * 0.97, 0.05, 0.1});
     camera_from_station_.translation_m = {0.0, 0.0, 0.6};
@@ -38,29 +39,6 @@ class BoxScene {
     return static_cast<std::int32_t>(scene_.vertices_in_station_m.size()) - 1;
   }
 
-  void addFace(std::int32_t a, std::int32_t b, std::int32_t c) {
-    scene_.faces.push_back({{a, b, c}});
-    scene_.part_of_face.push_back(0);
-  }
-
-  void addQuad(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
-    addFace(a, b, c);
-    addFace(a, c, d);
-  }
-
-  void addBox() {
-    std::array<std::int32_t, 8> v{};
-    for (int i = 0; i < 8; ++i)
-      v[static_cast<std::size_t>(i)] = addVertex(
-          (i & 1) != 0 ? 0.1 : -0.1, (i & 2) != 0 ? 0.1 : -0.1, (i & 4) != 0 ? 0.0 : -0.04);
-    addQuad(v[0], v[2], v[3], v[1]);
-    addQuad(v[4], v[5], v[7], v[6]);
-    addQuad(v[0], v[1], v[5], v[4]);
-    addQuad(v[2], v[6], v[7], v[3]);
-    addQuad(v[0], v[4], v[6], v[2]);
-    addQuad(v[1], v[3], v[7], v[5]);
-  }
-
   void addCylinder() {
     constexpr int kSides = 24;
     std::vector<std::int32_t> low, high;
@@ -74,12 +52,13 @@ class BoxScene {
     const std::int32_t middle = addVertex(0.03, 0.02, 0.02);
     for (std::size_t i = 0; i < kSides; ++i) {
       const std::size_t next = (i + 1) % kSides;
-      addQuad(low[i], low[next], high[next], high[i]);
-      addFace(high[i], high[next], middle);
+      addQuad(scene_, low[i], low[next], high[next], high[i]);
+      scene_.faces.push_back({{high[i], high[next], middle}});
+      scene_.part_of_face.push_back(0);
     }
   }
 
-  sessions::SceneMesh scene_;
+  sessions::SceneMesh scene_ = boxMesh({0.1, 0.1, 0.02});
   Camera camera_ = annotatedCamera(CameraModel::kBrownConrady);
   Pose camera_from_station_;
 };

@@ -55,9 +55,7 @@ TEST_F(EdgeBandTest, HoldsNineteenOfTwentyPoses) {
     constexpr int kDraws = 10000;
     int within = 0;
     for (int i = 0; i < kDraws; ++i) {
-      Vector6d normal;
-      for (int k = 0; k < 6; ++k) normal[k] = random.normal();
-      const Pose drawn = perturbed(root * normal, camera_from_station_);
+      const Pose drawn = perturbed(root * test::normalVector6(random), camera_from_station_);
       // The edge's image near the place is straight over a few pixels either side.
       Eigen::Vector2d a, b;
       ASSERT_TRUE(project(camera_, drawn * at(t - 0.02), a));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/sessions/annotation/annotated_scene.h"
+#include "tests/support/box_mesh.h"
 
 namespace boresight::sessions {
 namespace {
@@ -71,19 +72,6 @@ TEST(GeometryMeter, KnowsLinesAndPlanes) {
                       GeometryWeakness::kCoplanar, false));
 }
 
-TEST(GeometryMeter, OneDepthOrOneCorner_IsReported) {
-  const std::vector<Eigen::Vector3d> station = {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}};
-  const AnnotatedScene flat =
-      sceneOf({{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0}, {-0.1, 0.1, 0.001}});
-  const auto of_flat = geometryWarnings(flat.views(), &flat.camera_from_station, station);
-  EXPECT_TRUE(warnsOf(of_flat, GeometryWeakness::kOneDepth, false));
-  EXPECT_FALSE(warnsOf(of_flat, GeometryWeakness::kClustered, false));
-  const AnnotatedScene clustered =
-      sceneOf({{0, 0, 0}, {0.02, 0, 0.01}, {0, 0.02, -0.01}, {0.02, 0.02, 0.02}});
-  EXPECT_TRUE(warnsOf(geometryWarnings(clustered.views(), &clustered.camera_from_station, station),
-                      GeometryWeakness::kClustered, false));
-}
-
 /// The middle and the deviations of the corners of a box that is turned about z by 3-4-5, and of
 /// its diagonals as lines: both ends count.
 TEST(GeometryMeter, SpreadOfABox_IsThatOfItsHalfSides) {
@@ -91,8 +79,7 @@ TEST(GeometryMeter, SpreadOfABox_IsThatOfItsHalfSides) {
   const Eigen::Vector3d half_m(0.03, 0.08, 0.05);
   std::vector<Eigen::Vector3d> corners;
   for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d corner =
-        half_m.cwiseProduct(Eigen::Vector3d((i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1));
+    const Eigen::Vector3d corner = test::boxCorner(half_m, i);
     corners.push_back(middle_m + Eigen::Vector3d(0.6 * corner.x() - 0.8 * corner.y(),
                                                  0.8 * corner.x() + 0.6 * corner.y(), corner.z()));
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/annotation/landmarks.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -10,6 +9,7 @@
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/annotation/box_scene.h"
 #include "tests/sessions/annotation/random_annotations.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
@@ -17,7 +17,6 @@ namespace {
 
 using test::randomFor;
 using test::TemporaryFolder;
-using testing::HasSubstr;
 
 TEST(Landmarks, ReadBackAsTheSameBits) {
   const TemporaryFolder folder;
@@ -99,8 +98,7 @@ TEST_F(Proposals, SigmaIsThatOfDrawnPoses) {
     constexpr int kDraws = 20000;
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
     for (int i = 0; i < kDraws; ++i) {
-      Vector6d xi;
-      for (int k = 0; k < 6; ++k) xi[k] = sigma[k] * random.normal();
+      const Vector6d xi = sigma.cwiseProduct(test::normalVector6(random));
       Eigen::Vector2d pixel;
       ASSERT_TRUE(project(
           camera_, perturbed(xi, camera_from_station_) * proposal.landmark.point_in_station_m,

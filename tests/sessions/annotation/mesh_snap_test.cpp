@@ -68,23 +68,6 @@ TEST_F(MeshSnapTest, SnapsToTheNearestPlaceOfAnEdge) {
   EXPECT_NEAR((edge->edge->end_in_station_m - edge->edge->start_in_station_m).norm(), 0.2, 1e-6);
 }
 
-TEST_F(MeshSnapTest, SnapsToTheCentreOfACircle) {
-  const Eigen::Vector3d centre(0.03, 0.02, 0.02);
-  const auto circle = snap(MeshSnapKind::kCircle, pixelOf(centre) + Eigen::Vector2d(2.0, 2.0), 4.0);
-  ASSERT_TRUE(circle);
-  EXPECT_LT((circle->point_in_station_m - centre).norm(), 1e-6);
-  EXPECT_NEAR(circle->radius_m, 0.03, 1e-6);
-}
-
-TEST_F(MeshSnapTest, LeavesOutWhatIsHidden) {
-  // A corner of the box's underside, which no camera above sees.
-  const Eigen::Vector3d hidden(-0.1, -0.1, -0.04);
-  camera_from_station_.rotation = rotationExp({kPi * 0.75, 0.0, 0.0});
-  const auto vertex = snap(MeshSnapKind::kVertex, pixelOf(hidden), 3.0);
-  const auto other = snap(MeshSnapKind::kVertex, pixelOf({-0.1, 0.1, -0.04}), 3.0);
-  EXPECT_NE(vertex.has_value(), other.has_value());
-}
-
 /// A free look at the scene from anywhere around it, pinhole, as an orbiting camera has it.
 struct FreeLook {
   Camera camera = test::makePinhole(600, 500, 800.0);
@@ -206,11 +189,16 @@ TEST_F(MeshSnapTest, TakesACircleOnlyWhereHalfOfItsRimIsSeen) {
     view_from_station.rotation = rotationExp({side > 0.0 ? kPi : 0.0, 0.0, 0.0});
     view_from_station.translation_m = {0.0, 0.0, 0.5};
     const Camera camera = test::makePinhole(600, 500, 800.0);
+    const Eigen::Vector3d centre(0.03, 0.02, 0.02);
     Eigen::Vector2d pixel;
-    ASSERT_TRUE(project(camera, view_from_station * Eigen::Vector3d(0.03, 0.02, 0.02), pixel));
+    ASSERT_TRUE(project(camera, view_from_station * centre, pixel));
     bool circle = false;
-    for (const MeshSnap& mesh_snap : snapper.near(camera, view_from_station, pixel, 10.0))
-      circle |= mesh_snap.kind == MeshSnapKind::kCircle;
+    for (const MeshSnap& mesh_snap : snapper.near(camera, view_from_station, pixel, 4.0)) {
+      if (mesh_snap.kind != MeshSnapKind::kCircle) continue;
+      circle = true;
+      EXPECT_LT((mesh_snap.point_in_station_m - centre).norm(), 1e-6);
+      EXPECT_NEAR(mesh_snap.radius_m, 0.03, 1e-6);
+    }
     EXPECT_EQ(circle, side > 0.0);
   }
 }

@@ -2,7 +2,6 @@
 // Errors and covariances agree over many draws of noise.
 #include "sessions/annotation/solve_annotations.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "core/pnp/normal_equations.h"
 #include "tests/sessions/annotation/annotated_scene.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
@@ -20,7 +20,6 @@ using test::addPoint;
 using test::AnnotatedScene;
 using test::randomFor;
 using test::randomScene;
-using testing::HasSubstr;
 
 double distance(const Pose& a, const Pose& b) { return perturbationBetween(a, b).norm(); }
 
@@ -57,13 +56,15 @@ cv::Mat cameraMatrix(const Camera& camera) {
   return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
 }
 
-void toOpenCv(const Annotations& annotations, std::vector<cv::Point3d>& places,
-              std::vector<cv::Point2d>& pixels) {
+std::pair<std::vector<cv::Point3d>, std::vector<cv::Point2d>> toOpenCv(
+    const Annotations& annotations) {
+  std::pair<std::vector<cv::Point3d>, std::vector<cv::Point2d>> pairs;
   for (const PointPair& point : annotations.points) {
     const Eigen::Vector3d& p = *point.point_in_station_m;
-    places.emplace_back(p.x(), p.y(), p.z());
-    pixels.emplace_back(point.pixel->x(), point.pixel->y());
+    pairs.first.emplace_back(p.x(), p.y(), p.z());
+    pairs.second.emplace_back(point.pixel->x(), point.pixel->y());
   }
+  return pairs;
 }
 
 Pose fromOpenCv(const cv::Mat& rotation, const cv::Mat& translation) {
@@ -79,13 +80,10 @@ TEST(SolveAnnotations, AgreesWithOpenCvsIterativeSolution) {
   Random random = randomFor("SolveMarks.OpenCv");
   for (int trial = 0; trial < 30; ++trial) {
     const AnnotatedScene scene = randomScene(random, CameraModel::kBrownConrady, 12, 0, 0.5);
-    std::vector<cv::Point3d> places;
-    std::vector<cv::Point2d> pixels;
-    toOpenCv(scene.view.annotations, places, pixels);
+    const auto [places, pixels] = toOpenCv(scene.view.annotations);
     const std::vector<double> distortion(scene.view.camera.distortion.begin(),
                                          scene.view.camera.distortion.begin() + 5);
-    cv::Mat rotation;
-    cv::Mat translation;
+    cv::Mat rotation, translation;
     ASSERT_TRUE(cv::solvePnP(places, pixels, cameraMatrix(scene.view.camera), distortion, rotation,
                              translation, false, cv::SOLVEPNP_SQPNP));
     cv::solvePnPRefineLM(
@@ -114,11 +112,8 @@ TEST(SolveAnnotations, ShowsBothPosesOfAPlaneAsIppeDoes) {
     for (const Eigen::Vector3d& place_m : {corner(-1, -1), corner(1, -1), corner(1, 1),
                                            corner(-1, 1), corner(0, 0.5), corner(-0.5, 0)})
       ASSERT_TRUE(addPoint(scene.view, scene.camera_from_station, place_m, 0.3, 0.3, random));
-    std::vector<cv::Point3d> places;
-    std::vector<cv::Point2d> pixels;
-    toOpenCv(scene.view.annotations, places, pixels);
-    std::vector<cv::Mat> rotations;
-    std::vector<cv::Mat> translations;
+    const auto [places, pixels] = toOpenCv(scene.view.annotations);
+    std::vector<cv::Mat> rotations, translations;
     std::vector<double> errors;
     cv::solvePnPGeneric(places, pixels, cameraMatrix(scene.view.camera), cv::noArray(), rotations,
                         translations, false, cv::SOLVEPNP_IPPE, cv::noArray(), cv::noArray(),
@@ -178,8 +173,7 @@ TEST(SolveAnnotations, Robust_IgnoresFarOutliers) {
 
 TEST(SolveAnnotations, Rig_IsSolvedTogether) {
   Random random = randomFor("SolveMarks.Rig");
-  double single = 0.0;
-  double together = 0.0;
+  double single = 0.0, together = 0.0;
   for (int trial = 0; trial < 40; ++trial) {
     const AnnotatedScene left = randomScene(random, CameraModel::kBrownConrady, 6, 2, 0.5);
     AnnotatedView right;
@@ -309,8 +303,7 @@ class SolveAnnotationsStatistics : public testing::TestWithParam<Setting> {};
 TEST_P(SolveAnnotationsStatistics, NormalizedErrorSquaredHasTheRightMean) {
   const Setting& setting = GetParam();
   Random random = randomFor(setting.name);
-  double sum = 0.0;
-  double noise_squared = 0.0;
+  double sum = 0.0, noise_squared = 0.0;
   constexpr int kDraws = 1000;
   int freedom = 0;
   for (int draw = 0; draw < kDraws; ++draw) {

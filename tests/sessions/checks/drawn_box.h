@@ -12,6 +12,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sessions/checks/review_subject.h"
+#include "tests/support/box_mesh.h"
+#include "tests/support/random_pose.h"
 
 namespace boresight::test {
 
@@ -20,15 +22,8 @@ namespace boresight::test {
 class DrawnBox {
  public:
   DrawnBox() {
-    camera_.width = 800;
-    camera_.height = 600;
-    camera_.fx = camera_.fy = 1000.0;
-    camera_.cx = 399.5;
-    camera_.cy = 299.5;
-    EXPECT_EQ(prepareCamera(camera_), Status::kOk);
     camera_from_station_.rotation = rotationExp({2.4, 0.0, 0.0}) * rotationExp({0.0, 0.0, 0.6});
     camera_from_station_.translation_m = {0.01, -0.005, 0.5};
-    makeMesh();
     draw();
   }
 
@@ -78,37 +73,21 @@ class DrawnBox {
   /// Length of the edges that are seen, px: three faces' borders, each shared one once.
   double visibleLength_px() const { return visible_px_; }
 
-  Camera camera_;
+  Camera camera_ = makePinhole(800, 600, 1000.0);
   Pose camera_from_station_;
-  sessions::SceneMesh scene_;
+  sessions::SceneMesh scene_ = boxMesh(kHalf);
   cv::Mat image_;
 
  private:
   static constexpr int kFine = 4;
   inline static const Eigen::Vector3d kHalf{0.06, 0.04, 0.025};
-  static constexpr std::array<std::array<int, 4>, 6> kQuads = {
-      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-
-  static Eigen::Vector3d corner(int i) {
-    return {(i & 1) != 0 ? kHalf.x() : -kHalf.x(), (i & 2) != 0 ? kHalf.y() : -kHalf.y(),
-            (i & 4) != 0 ? kHalf.z() : -kHalf.z()};
-  }
-
-  void makeMesh() {
-    scene_.parts.resize(1);
-    for (int i = 0; i < 8; ++i) scene_.vertices_in_station_m.push_back(corner(i).cast<float>());
-    for (const auto& quad : kQuads) {
-      scene_.faces.push_back({{quad[0], quad[1], quad[2]}});
-      scene_.faces.push_back({{quad[0], quad[2], quad[3]}});
-      scene_.part_of_face.insert(scene_.part_of_face.end(), 2, 0);
-    }
-  }
+  static Eigen::Vector3d corner(int i) { return boxCorner(kHalf, i); }
 
   void draw() {
     fine_ = cv::Mat(camera_.height * kFine, camera_.width * kFine, CV_8U, cv::Scalar(40));
     std::array<std::array<bool, 8>, 8> known{};
     int gray = 90;
-    for (const auto& quad : kQuads) {
+    for (const auto& quad : kBoxQuads) {
       const Eigen::Vector3d a = camera_from_station_ * corner(quad[0]);
       const Eigen::Vector3d ab = camera_from_station_ * corner(quad[1]) - a;
       const Eigen::Vector3d ad = camera_from_station_ * corner(quad[3]) - a;

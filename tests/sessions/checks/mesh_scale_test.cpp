@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/checks/mesh_scale.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "sessions/checks/checks.h"
 #include "tests/sessions/checks/drawn_box.h"
 #include "tests/sessions/checks/find_check.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::sessions {
@@ -116,7 +116,7 @@ TEST(MeshScale, Check_FailsBeyondWhatIsKnown) {
   EXPECT_EQ(checkWith(1.0, 1e-5).state, CheckState::kPassed);
   const Check wrong = checkWith(1.01, 1e-5);
   EXPECT_EQ(wrong.state, CheckState::kFailed);
-  EXPECT_THAT(wrong.sentence, testing::HasSubstr(" % smaller than its mesh"));
+  EXPECT_THAT(wrong.sentence, HasSubstr(" % smaller than its mesh"));
   EXPECT_EQ(checkWith(1.01, 3e-3).state, CheckState::kPassed) << "within three sigma";
 }
 

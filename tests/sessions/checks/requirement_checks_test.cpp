@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <gmock/gmock.h>
-
 #include <memory>
 
 #include "sessions/checks/checks.h"
 #include "sessions/checks/pose_uncertainty.h"
 #include "tests/sessions/checks/drawn_box.h"
 #include "tests/sessions/checks/find_check.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
@@ -66,7 +65,7 @@ TEST_F(AgreementChecks, CoarseTruthFromAnnotations_IsComparedWithinItsSigmasAndR
   const Check check = checkOf("agreement_truth");
   EXPECT_NEAR(check.figure.value(), 100.0 * 8.0 / std::hypot(0.4, 30.0), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
-  EXPECT_THAT(check.sentence, testing::HasSubstr("this check is weak"));
+  EXPECT_THAT(check.sentence, HasSubstr("this check is weak"));
 }
 
 TEST_F(AgreementChecks, AnnotationAndRunShareTheErrorsOfMeshAndCamera) {
@@ -90,9 +89,9 @@ TEST_F(AgreementChecks, CalibrationsOfTwoCamerasAreIndependent) {
 TEST_F(AgreementChecks, Sentence_StatesWhereThePosesDiffer) {
   setTruth(one_, movedBy(0.1, -0.3));
   const auto sentence = [&] { return checkOf("agreement_truth").sentence; };
-  EXPECT_THAT(sentence(), testing::HasSubstr("across the view axis at the camera"));
+  EXPECT_THAT(sentence(), HasSubstr("across the view axis at the camera"));
   one_.camera_from_end_effector = Pose();
-  EXPECT_THAT(sentence(), testing::HasSubstr("at the end effector"));
+  EXPECT_THAT(sentence(), HasSubstr("at the end effector"));
 }
 
 TEST_F(AgreementChecks, CoarseAnnotation_IsComparedWithinItsSigmasAndReportedAsWeak) {
@@ -104,7 +103,7 @@ TEST_F(AgreementChecks, CoarseAnnotation_IsComparedWithinItsSigmasAndReportedAsW
   const Check check = checkOf("agreement_annotation");
   EXPECT_NEAR(check.figure.value(), 100.0 * 0.6 / std::hypot(0.4, 1.2 * std::sqrt(2.0)), 1e-6);
   EXPECT_EQ(check.state, CheckState::kPassed);
-  EXPECT_THAT(check.sentence, testing::HasSubstr("this check is weak"));
+  EXPECT_THAT(check.sentence, HasSubstr("this check is weak"));
 }
 
 TEST_F(AgreementChecks, SeveralCameras_UseTheLargestDistance) {
@@ -114,7 +113,7 @@ TEST_F(AgreementChecks, SeveralCameras_UseTheLargestDistance) {
                             {"right", movedBy(0.2, 0.0), unknown}};
   const Check check = checkOf("agreement_camera");
   EXPECT_NEAR(check.figure.value(), 200.0, 1e-6);
-  EXPECT_THAT(check.sentence, testing::HasSubstr("top"));
+  EXPECT_THAT(check.sentence, HasSubstr("top"));
 }
 
 TEST_F(AgreementChecks, WithinRequirement_NeedsEveryMember) {
@@ -131,46 +130,40 @@ std::vector<Check> convergenceChecks(const std::optional<ConvergenceResult>& con
   return checks;
 }
 
-TEST(ConvergenceChecks, TooFewReturningSeeds_Fail) {
-  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_returned").state,
-            CheckState::kNotApplicable);
-  EXPECT_EQ(findCheck(convergenceChecks({}), "convergence_competing").state,
-            CheckState::kNotApplicable);
-  const double limit = CheckLimits().convergence_percent;
-  ConvergenceResult convergence{100, 100, static_cast<int>(limit), 0.5, {}};
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").figure, limit);
-  EXPECT_TRUE(allPassed(convergenceChecks(convergence)));
-  --convergence.returned;
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
-            CheckState::kFailed);
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
-            CheckState::kPassed);
+/// The checks "returned" and "competing".
+std::pair<Check, Check> convergencePair(const std::optional<ConvergenceResult>& convergence) {
+  const auto checks = convergenceChecks(convergence);
+  return {findCheck(checks, "convergence_returned"), findCheck(checks, "convergence_competing")};
 }
 
-TEST(ConvergenceChecks, NoConvergedSeed_IsNotApplicable) {
-  const ConvergenceResult convergence{10, 10, 0, 0.5, {}};
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_returned").state,
-            CheckState::kFailed);
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
-            CheckState::kNotApplicable);
+TEST(ConvergenceChecks, TooFewReturningSeeds_Fail) {
+  const auto none = convergencePair({});
+  EXPECT_EQ(none.first.state, CheckState::kNotApplicable);
+  EXPECT_EQ(none.second.state, CheckState::kNotApplicable);
+  const double limit = CheckLimits().convergence_percent;
+  ConvergenceResult convergence{100, 100, static_cast<int>(limit), 0.5, {}};
+  EXPECT_EQ(convergencePair(convergence).first.figure, limit);
+  EXPECT_TRUE(allPassed(convergenceChecks(convergence)));
+  --convergence.returned;
+  EXPECT_EQ(convergencePair(convergence).first.state, CheckState::kFailed);
+  EXPECT_EQ(convergencePair(convergence).second.state, CheckState::kPassed);
+  const auto no_seed = convergencePair(ConvergenceResult{10, 10, 0, 0.5, {}});
+  EXPECT_EQ(no_seed.first.state, CheckState::kFailed);
+  EXPECT_EQ(no_seed.second.state, CheckState::kNotApplicable);
 }
 
 TEST(ConvergenceChecks, CompetingPose_FailsOnlyIfItFitsBetter) {
   ConvergenceResult convergence{10, 10, 9, 0.5, {{Pose(), false, 0.3}}};
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
-            CheckState::kPassed);
-  EXPECT_NEAR(findCheck(convergenceChecks(convergence), "convergence_competing").figure.value(),
-              60.0, 1e-9);
+  const auto competing = [&convergence] { return convergencePair(convergence).second; };
+  EXPECT_EQ(competing().state, CheckState::kPassed);
+  EXPECT_NEAR(competing().figure.value(), 60.0, 1e-9);
   convergence.competing.push_back({Pose(), false, 0.7});
-  const Check other = findCheck(convergenceChecks(convergence), "convergence_competing");
-  EXPECT_EQ(other.state, CheckState::kFailed);
-  EXPECT_THAT(other.sentence, testing::HasSubstr("another pose 70 %"));
+  EXPECT_EQ(competing().state, CheckState::kFailed);
+  EXPECT_THAT(competing().sentence, HasSubstr("another pose 70 %"));
   convergence.competing.push_back({Pose(), true, 0.8});
-  const Check mirrored = findCheck(convergenceChecks(convergence), "convergence_competing");
-  EXPECT_THAT(mirrored.sentence, testing::HasSubstr("mirror image of the station 80 %"));
+  EXPECT_THAT(competing().sentence, HasSubstr("mirror image of the station 80 %"));
   convergence.coverage = 0.0;
-  EXPECT_EQ(findCheck(convergenceChecks(convergence), "convergence_competing").state,
-            CheckState::kFailed);
+  EXPECT_EQ(competing().state, CheckState::kFailed);
 }
 
 Check onboardCheck(const ReviewSubject& subject) {
@@ -189,7 +182,7 @@ TEST(OnboardCheck, States_FollowTheComparison) {
   subject.onboard->first->text = "The pixels differ.";
   subject.onboard->verdict = RunVerdict::kWithinLimits;
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kPassed);
-  EXPECT_THAT(onboardCheck(subject).sentence, testing::HasSubstr("The pixels differ."));
+  EXPECT_THAT(onboardCheck(subject).sentence, HasSubstr("The pixels differ."));
   subject.onboard->verdict = RunVerdict::kDifferent;
   EXPECT_EQ(onboardCheck(subject).state, CheckState::kFailed);
 }
@@ -248,11 +241,10 @@ TEST_F(PrecisionChecks, UnstatedScaleAndCalibration_UseDefaults) {
   const Check check = findCheck(precisionChecksOf(subject_, CheckLimits()), "covariance_normal");
   EXPECT_NEAR(check.figure.value(), 3.0 * 0.1 * std::sqrt(2.0), 0.02);
   EXPECT_EQ(check.state, CheckState::kFailed) << "0.4 mm are required";
-  EXPECT_THAT(check.sentence,
-              testing::HasSubstr("limited by the mesh's scale (0.02 %, assumed) and the "
-                                 "camera's calibration (0.02 % and "));
-  EXPECT_THAT(check.sentence, testing::HasSubstr(" px, assumed) allow: 0.4"));
-  EXPECT_THAT(check.sentence, testing::HasSubstr("state mesh_scale_sigma"));
+  EXPECT_THAT(check.sentence, HasSubstr("limited by the mesh's scale (0.02 %, assumed) and the "
+                                        "camera's calibration (0.02 % and "));
+  EXPECT_THAT(check.sentence, HasSubstr(" px, assumed) allow: 0.4"));
+  EXPECT_THAT(check.sentence, HasSubstr("state mesh_scale_sigma"));
 }
 
 TEST_F(PrecisionChecks, StatedSigmas_ReplaceDefaults) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <set>
 #include <vector>
 
 #include "tests/sessions/checks/find_check.h"
@@ -179,14 +178,11 @@ TEST(RunChecks, APoseFromAnnotationsHasTheSameChecksNotApplicable) {
   const auto of_run = checksOf(subjectOf({}));
   const auto of_annotations = checksOf(ReviewSubject());
   ASSERT_EQ(of_annotations.size(), of_run.size());
-  std::set<std::string> ids;
   for (std::size_t i = 0; i < of_run.size(); ++i) {
     EXPECT_EQ(of_annotations[i].id, of_run[i].id);
     EXPECT_EQ(of_annotations[i].state, CheckState::kNotApplicable);
     EXPECT_FALSE(of_annotations[i].sentence.empty());
-    ids.insert(of_run[i].id);
   }
-  EXPECT_EQ(ids.size(), of_run.size());
 }
 
 TEST(RunChecks, RunWithoutMatching_IsNotApplicable) {
@@ -210,25 +206,13 @@ Points grid(double width, double height) {
   return points;
 }
 
-TEST(InlierSpread, OfPointsThatLieLikeTheOthersIsOne) {
-  EXPECT_NEAR(leastSpread(grid(200, 100), grid(200, 100), 1.0).value(), 1.0, 1e-9);
-}
-
 TEST(InlierSpread, IsTheLeastOverAllDirections) {
+  EXPECT_NEAR(leastSpread(grid(200, 100), grid(200, 100), 1.0).value(), 1.0, 1e-9);
   // Half as wide one way, as wide the other: neither axis is one of the image's.
   EXPECT_NEAR(leastSpread(grid(100, 100), grid(200, 100), 0.0).value(), 0.5, 1e-3);
   EXPECT_NEAR(leastSpread(grid(200, 30), grid(200, 100), 0.0).value(), 0.3, 1e-3);
-}
-
-TEST(InlierSpread, OfPointsOnALineAcrossAnAreaIsNearlyNothing) {
-  EXPECT_LT(leastSpread(grid(200, 0), grid(200, 100), 1.0).value(), 0.05);
-}
-
-TEST(InlierSpread, OthersOnALineAskForNoSpreadAcrossIt) {
-  EXPECT_GT(leastSpread(grid(200, 0), grid(200, 0.5), 1.0).value(), 0.9);
-}
-
-TEST(InlierSpread, NeedsPoints) {
+  EXPECT_LT(leastSpread(grid(200, 0), grid(200, 100), 1.0).value(), 0.05) << "a line";
+  EXPECT_GT(leastSpread(grid(200, 0), grid(200, 0.5), 1.0).value(), 0.9) << "all are on it";
   EXPECT_FALSE(leastSpread(Points{{1.0, 2.0}}, grid(10, 10), 1.0));
   EXPECT_FALSE(leastSpread(grid(10, 10), Points(), 1.0));
 }

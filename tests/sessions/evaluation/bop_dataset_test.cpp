@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/bop_dataset.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
 #include "sessions/evaluation/reseed.h"
 #include "sessions/io/files/errors.h"
 #include "tests/support/bop_results.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::TemporaryFolder;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 constexpr const char* kModels = R"({
   "1": {"diameter": 5, "min_x": -1, "min_y": -2, "min_z": 3, "size_x": 4, "size_y": 4, "size_z": 8,

@@ -5,12 +5,12 @@
 #include <fstream>
 #include <sstream>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/exchange/posed_images.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 #include "tests/support/temporary_folder.h"
 
@@ -21,7 +21,6 @@ using test::preparedCamera;
 using test::randomFor;
 using test::randomPose;
 using test::TemporaryFolder;
-using testing::HasSubstr;
 
 /// With the ids 1, 2, ...
 std::vector<BopObject> objectsOf(const std::vector<PosedImage>& images) {

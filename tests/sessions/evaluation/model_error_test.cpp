@@ -27,15 +27,6 @@ Pose at(const Eigen::Vector3d& translation_m, const Eigen::Vector3d& rotation_ra
   return {rotationExp(rotation_rad), translation_m};
 }
 
-Camera camera() {
-  Camera result;
-  result.width = result.height = 200;
-  result.fx = result.fy = 100.0;
-  result.cx = result.cy = 100.0;
-  EXPECT_EQ(prepareCamera(result), Status::kOk);
-  return result;
-}
-
 std::vector<Eigen::Vector3f> randomVertices(Random& random, int count) {
   std::vector<Eigen::Vector3f> vertices;
   for (int i = 0; i < count; ++i)
@@ -49,7 +40,8 @@ TEST(ModelError, ShiftMovesEveryVertexByItself) {
   const std::vector<Eigen::Vector3f> vertices = cube();
   const Pose truth = at({0.0, 0.0, 2.0}, {0.0, 0.0, 0.0});
   const Pose estimate = at({0.3e-3, 0.0, 2.0 + 0.4e-3}, {0.0, 0.0, 0.0});
-  const PoseError error = wholeError(camera(), truth, estimate, std::nullopt, {vertices, nullptr});
+  const PoseError error = wholeError(test::makePinhole(200, 200, 100.0), truth, estimate,
+                                     std::nullopt, {vertices, nullptr});
   EXPECT_NEAR(*error.mssd_mm, 0.5, 1e-9);
   EXPECT_NEAR(*error.add_mm, 0.5, 1e-9);
   // A corner's nearest is its own: all others are at least 1.7 mm away.
@@ -68,7 +60,8 @@ TEST(ModelError, QuarterTurnOfACube) {
   EXPECT_NEAR(meanDistance_m(truth, estimate, model), 2e-3, 1e-9);
   EXPECT_NEAR(meanNearestDistance_m(truth, estimate, model), 0.0, 1e-9);
   // The nearer corners, at 0.999 m, move farthest: 100 px * 2 mm / 0.999 m.
-  EXPECT_NEAR(*projectionDistance_px(camera(), truth, estimate, model), 0.2 / 0.999, 1e-6);
+  EXPECT_NEAR(*projectionDistance_px(test::makePinhole(200, 200, 100.0), truth, estimate, model),
+              0.2 / 0.999, 1e-6);
 }
 
 TEST(ModelError, DiscreteSymmetryCountsInEveryError) {
@@ -77,7 +70,8 @@ TEST(ModelError, DiscreteSymmetryCountsInEveryError) {
   symmetries.discrete = {at({0.0, 0.0, 0.0}, {0.0, 0.0, 0.5 * kPi})};
   const Pose truth = at({0.01, -0.02, 1.0}, {0.4, 0.1, -0.3});
   const Pose turned = truth * symmetries.discrete[0];
-  const PoseError none = wholeError(camera(), truth, turned, std::nullopt, {vertices, &symmetries});
+  const PoseError none = wholeError(test::makePinhole(200, 200, 100.0), truth, turned, std::nullopt,
+                                    {vertices, &symmetries});
   for (const double value :
        {none.normal_mm, none.lateral_mm, none.rotation_mrad, none.in_plane_mrad, none.geodesic_mrad,
         *none.projection_px, *none.mssd_mm, *none.mspd_px, *none.add_mm, *none.adi_mm})
@@ -141,8 +135,8 @@ TEST(ModelError, TubeTurnedAboutItsAxisIsNoError) {
   symmetries.continuous = {{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()}};
   const Pose truth = at({0.01, 0.02, 0.5}, {0.1, -0.2, 0.0});
   const Pose estimate = truth * at({0.0, 0.0, 0.0}, {0.0, 0.0, 1.2345});
-  const PoseError error =
-      wholeError(camera(), truth, estimate, std::nullopt, {vertices, &symmetries});
+  const PoseError error = wholeError(test::makePinhole(200, 200, 100.0), truth, estimate,
+                                     std::nullopt, {vertices, &symmetries});
   EXPECT_NEAR(error.geodesic_mrad, 0.0, 1e-5);
   EXPECT_NEAR(error.in_plane_mrad, 0.0, 1e-5);
   EXPECT_NEAR(*error.projection_px, 0.0, 1e-6);
@@ -153,9 +147,11 @@ TEST(ModelError, HiddenVertexCountsAsADiagonal) {
   const std::vector<Eigen::Vector3f> vertices = cube();
   const Pose truth = at({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
   const Pose behind = at({0.0, 0.0, -1.0}, {0.0, 0.0, 0.0});
-  EXPECT_NEAR(*projectionDistance_px(camera(), truth, behind, {vertices, nullptr}),
+  EXPECT_NEAR(*projectionDistance_px(test::makePinhole(200, 200, 100.0), truth, behind,
+                                     {vertices, nullptr}),
               std::hypot(200.0, 200.0), 1e-9);
-  EXPECT_FALSE(projectionDistance_px(camera(), behind, truth, {vertices, nullptr}));
+  EXPECT_FALSE(projectionDistance_px(test::makePinhole(200, 200, 100.0), behind, truth,
+                                     {vertices, nullptr}));
 }
 
 TEST(NearestPoint, IsWhatBruteForceFinds) {

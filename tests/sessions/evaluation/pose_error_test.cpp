@@ -36,35 +36,6 @@ PoseError errorOfTurn(const Vector3d& rotation_rad) {
                    std::nullopt);
 }
 
-TEST(PoseError, IsZeroForTheTruth) {
-  const PoseError error = poseError(kTruth, kTruth, std::nullopt);
-  EXPECT_NEAR(error.normal_mm, 0.0, 1e-12);
-  EXPECT_NEAR(error.lateral_mm, 0.0, 1e-12);
-  EXPECT_NEAR(error.rotation_mrad, 0.0, 1e-12);
-  EXPECT_NEAR(error.in_plane_mrad, 0.0, 1e-12);
-  EXPECT_NEAR(error.geodesic_mrad, 0.0, 1e-12);
-  EXPECT_FALSE(error.projection_px.has_value());
-}
-
-TEST(PoseError, SplitsATranslationAlongAndAcrossTheAxis) {
-  const Pose shifted = poseOf(Vector3d::Zero(), Vector3d(0.003, -0.004, -0.0007));
-  const PoseError error = poseError(kTruth, estimateFor(kTruth, shifted), std::nullopt);
-  EXPECT_NEAR(error.normal_mm, -0.7, 1e-12);
-  EXPECT_NEAR(error.lateral_mm, 5.0, 1e-12);
-  EXPECT_NEAR(error.rotation_mrad, 0.0, 1e-12);
-}
-
-TEST(PoseError, SeparatesTwistFromTilt) {
-  const PoseError twisted = errorOfTurn(Vector3d(0, 0, -0.01));
-  EXPECT_NEAR(twisted.rotation_mrad, 0.0, 1e-9);
-  EXPECT_NEAR(twisted.in_plane_mrad, -10.0, 1e-9);
-  EXPECT_NEAR(twisted.geodesic_mrad, 10.0, 1e-9);
-  const PoseError tilted = errorOfTurn(Vector3d(0.006, 0.008, 0));
-  EXPECT_NEAR(tilted.rotation_mrad, 10.0, 1e-9);
-  EXPECT_NEAR(tilted.in_plane_mrad, 0.0, 1e-9);
-  EXPECT_NEAR(tilted.geodesic_mrad, 10.0, 1e-9);
-}
-
 TEST(PoseError, IsMeasuredAtTheEndEffector) {
   // A tilt of 10 mrad about x moves a point 0.4 m ahead by (0, -0.4 sin, 0.4 (cos - 1)).
   const Pose effector = poseOf(Vector3d(1, 2, 3), Vector3d(0, 0, 0.4));
@@ -110,20 +81,12 @@ TEST(PoseError, AgreesWithAnglesTakenFromMatrices) {
     EXPECT_NEAR(error.in_plane_mrad, 1e3 * std::atan2(twist(1, 0), twist(0, 0)), 1e-6);
     EXPECT_NEAR(error.normal_mm, 300.0, 1e-9);
     EXPECT_NEAR(error.lateral_mm, 1e3 * e.translation_m.head<2>().norm(), 1e-9);
+    EXPECT_FALSE(error.projection_px);
   }
 }
 
-class ProjectionError : public ::testing::Test {
- protected:
-  void SetUp() override {
-    camera_.width = 640;
-    camera_.height = 480;
-    camera_.fx = camera_.fy = 1000.0;
-    camera_.cx = 319.5;
-    camera_.cy = 239.5;
-    ASSERT_EQ(prepareCamera(camera_), Status::kOk);
-  }
-  Camera camera_;
+struct ProjectionError : testing::Test {
+  const Camera camera_ = test::makePinhole(640, 480, 1000.0);
   const Pose front_ = poseOf(Vector3d::Zero(), Vector3d(0, 0, 2));
 };
 
@@ -146,46 +109,28 @@ TEST_F(ProjectionError, CountsADiagonalWhereOnlyTheEstimateCannotProject) {
 }
 
 TEST(MeetsRequirement, JudgesWhatIsNamed) {
-  Requirement requirement;
-  requirement.normal_mm = 0.4;
-  PoseError error;
-  error.normal_mm = -0.4;
-  error.lateral_mm = 100.0;
-  EXPECT_TRUE(meetsRequirement(error, requirement));
-  error.normal_mm = -0.41;
-  EXPECT_FALSE(meetsRequirement(error, requirement));
-  error.normal_mm = 0.41;
-  EXPECT_FALSE(meetsRequirement(error, requirement));
-  EXPECT_FALSE(isGross(error, requirement));
-  error.normal_mm = -1.21;
-  EXPECT_TRUE(isGross(error, requirement));
-
-  requirement = {};
-  requirement.rotation_deg = 0.25;
-  error.rotation_mrad = 4.36;
-  EXPECT_TRUE(meetsRequirement(error, requirement));
-  error.rotation_mrad = 4.37;
-  EXPECT_FALSE(meetsRequirement(error, requirement));
-  error.rotation_mrad = 13.1;
-  EXPECT_TRUE(isGross(error, requirement));
-
-  requirement = {};
-  requirement.lateral_mm = 100.0;
-  EXPECT_TRUE(meetsRequirement(error, requirement));
-  requirement.lateral_mm = 99.0;
-  EXPECT_FALSE(meetsRequirement(error, requirement));
-}
-
-TEST(MeetsRequirement, NeedsAKnownProjectionErrorWhenItIsNamed) {
-  Requirement requirement;
-  requirement.projection_px = 5.0;
-  PoseError error;
-  EXPECT_FALSE(meetsRequirement(error, requirement));
-  EXPECT_TRUE(isGross(error, requirement));
-  error.projection_px = 5.0;
-  EXPECT_TRUE(meetsRequirement(error, requirement));
-  error.projection_px = 15.1;
-  EXPECT_TRUE(isGross(error, requirement));
+  struct Judged {
+    PoseError error;
+    Requirement requirement;
+    bool meets, gross;
+  };
+  const Requirement normal{0.4, {}, {}, {}}, rotation{{}, {}, 0.25, {}}, pixels{{}, {}, {}, 5.0};
+  const Judged cases[] = {{{-0.4, 100.0, 0.0, 0.0, 0.0, {}}, normal, true, false},
+                          {{-0.41, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, false},
+                          {{0.41, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, false},
+                          {{-1.21, 0.0, 0.0, 0.0, 0.0, {}}, normal, false, true},
+                          {{-9.0, 9.0, 4.36, 0.0, 0.0, {}}, rotation, true, false},
+                          {{-9.0, 9.0, 4.37, 0.0, 0.0, {}}, rotation, false, false},
+                          {{-9.0, 9.0, 13.1, 0.0, 0.0, {}}, rotation, false, true},
+                          {{-9.0, 100.0, 0.0, 0.0, 0.0, {}}, {{}, 100.0, {}, {}}, true, false},
+                          {{-9.0, 100.0, 0.0, 0.0, 0.0, {}}, {{}, 99.0, {}, {}}, false, false},
+                          {{0.0, 0.0, 0.0, 0.0, 0.0, {}}, pixels, false, true},  // it is not known
+                          {{0.0, 0.0, 0.0, 0.0, 0.0, 5.0}, pixels, true, false},
+                          {{0.0, 0.0, 0.0, 0.0, 0.0, 15.1}, pixels, false, true}};
+  for (const Judged& judged : cases) {
+    EXPECT_EQ(meetsRequirement(judged.error, judged.requirement), judged.meets) << &judged - cases;
+    EXPECT_EQ(isGross(judged.error, judged.requirement), judged.gross) << &judged - cases;
+  }
 }
 
 TEST(StatisticsOf, HandComputedValues) {
@@ -216,8 +161,7 @@ TEST(PoseSigma, IsWhatPoseErrorsOfRandomPosesSpread) {
   double rotation = 0.0;
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) {
-    Vector6d unit;
-    for (int axis = 0; axis < 6; ++axis) unit[axis] = random.normal();
+    const Vector6d unit = test::normalVector6(random);
     // The estimate is the truth displaced; seen from the truth that is the displacement back.
     const PoseError error = poseError(perturbed(root * unit, pose), pose, effector);
     normal += error.normal_mm * error.normal_mm / kCount;

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/evaluation/sequence.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
 #include "sessions/run/problem.h"
 #include "tests/support/generated_approach.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 constexpr int kFrames = 24;
 

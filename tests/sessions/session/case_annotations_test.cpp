@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/case_annotations.h"
 
-#include <gmock/gmock.h>
-
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/annotation/annotated_scene.h"
 #include "tests/sessions/session/random_session.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
@@ -139,16 +138,10 @@ TEST(CaseAnnotations, AnUnannotatedCaseGetsItsPoseFromTheRig) {
 
 TEST(CaseAnnotations, SaysWhyThereIsNoPose) {
   const RigSession rig;
-  const auto result =
-      sessions::solveCaseAnnotations(caseAnnotations(rig.session, "other"), Pose(), {}, false);
-  if (!result.result.solution) {
-    EXPECT_FALSE(result.result.reason.empty());
-    EXPECT_FALSE(result.camera_from_station());
-    EXPECT_TRUE(result.left_out.empty());
-  }
   const auto none = sessions::solveCaseAnnotations(
       caseAnnotations(withAnnotations(rig.session, "other", {}), "other"), Pose(), {}, false);
   EXPECT_FALSE(none.camera_from_station());
+  EXPECT_TRUE(none.left_out.empty());
   ASSERT_FALSE(none.warnings.empty());
   EXPECT_TRUE(none.warnings[0].prevents);
   EXPECT_EQ(none.result.reason, none.warnings[0].text);
@@ -177,7 +170,7 @@ TEST(CaseAnnotations, SigmaBeyondRequirement_IsReportedAsWeakWithItsExcess) {
   std::snprintf(begin, sizeof begin, "one sigma is %.3g mm along the view axis at the end effector",
                 sigma_mm);
   EXPECT_EQ(weak.back().text.rfind(begin, 0), 0u) << weak.back().text;
-  EXPECT_THAT(weak.back().text, testing::HasSubstr("times the 0.001 mm required"));
+  EXPECT_THAT(weak.back().text, HasSubstr("times the 0.001 mm required"));
   EXPECT_EQ(warningsFor(1e6).warnings.size(), weak.size() - 1);
 }
 

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/case_inputs.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/io/files/errors.h"
 #include "tests/support/example_case.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
 
 CaseFiles exampleFiles() {
   const std::filesystem::path os = test::exampleFolder() / "os";

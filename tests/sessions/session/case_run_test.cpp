@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/case_run.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/run/runner.h"
@@ -10,6 +9,7 @@
 #include "sessions/session/session_pack.h"
 #include "tests/sessions/io/meshes/mesh_samples.h"
 #include "tests/sessions/session/example_session.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
@@ -17,8 +17,6 @@ namespace {
 using sessions::RunRecord;
 using sessions::Session;
 using sessions::SessionCase;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Station "os", which runs without a search.
 Session sessionOfOs(const std::filesystem::path& stations) {
@@ -34,7 +32,7 @@ TEST(CaseRun, RefusesWhatCannotBeRun) {
   const TemporaryFolder folder;
   const Session session = sessionOfOs(exampleFolder());
   const SessionCase& os = *session.cases[0];
-  const auto message = [&](const std::function<void(SessionCase&)>& spoil) {
+  const auto message = [&](void (*spoil)(SessionCase&)) {
     SessionCase session_case = os;
     spoil(session_case);
     return folder.message([&] { (void)sessions::runCase(withCase(session, session_case), os.id); });
@@ -121,9 +119,9 @@ TEST(CaseRun, RunWithChangedOptions_IsRepeatedFromItsRecord) {
   EXPECT_EQ(sessions::runCase(*loaded, read).digest, record.digest);
   EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[0], reread, file); }),
               HasSubstr("the session's options have changed since the run"));
-  SessionCase moved = *reread.cases[0];
-  moved.camera_from_station_seed.translation_m.x() += 1e-6;
-  const Session elsewhere = withCase(reread, moved);
+  const Session elsewhere = withChanged(reread, id, [](SessionCase& changed) {
+    changed.camera_from_station_seed.translation_m.x() += 1e-6;
+  });
   EXPECT_THAT(folder.message([&] { (void)sessions::planOf(reread.runs[1], elsewhere, file); }),
               HasSubstr("have changed since the run"));
 }
@@ -233,7 +231,7 @@ TEST(SessionPack, ChangedOrOutsideFiles_AreRefused) {
   session.runs.push_back({session.cases[0]->id, digest, folder / "gone.trace", "converged", "0.1.0",
                           "2026-01-31T23:59:59Z", digest, digest});
   EXPECT_THAT(pack(session, folder / "s.json", folder / "s.zip"),
-              testing::ElementsAre(HasSubstr("is missing and was left out")));
+              ElementsAre(HasSubstr("is missing and was left out")));
   const std::size_t files = folder.fileCount();
   EXPECT_THAT(
       folder.message([&] { (void)pack(session, folder / "s.json", folder / "none/t.zip"); }),
@@ -283,7 +281,7 @@ TEST_F(PackedMembers, LandmarksAreLandmarksOfTheSessionsFolders) {
               HasSubstr("s.boresight.json: cases[0].landmarks: /etc/passwd: it lies outside the "
                         "session's folder and those of its inputs"));
   EXPECT_THAT(named(folder_.write("stations/os/notes.txt", "root:x:0:0")),
-              testing::AllOf(HasSubstr("cases[0].landmarks: "), HasSubstr("notes.txt: ")));
+              AllOf(HasSubstr("cases[0].landmarks: "), HasSubstr("notes.txt: ")));
   EXPECT_THAT(named(folder_.write("stations/os/other.json", "{}")), HasSubstr("format: missing"));
   EXPECT_THAT(named(stations_), HasSubstr("not a file"));
 
@@ -311,14 +309,12 @@ TEST_F(PackedMembers, RunsAreTracesOfTheirDigests) {
 }
 
 TEST_F(PackedMembers, InputsAreOfTheirKindEvenWhenTheirHashesAreKnown) {
-  EXPECT_THAT(
-      refusal([this](SessionCase& session_case) { session_case.image.source = known(secret_); }),
-      HasSubstr("cases[0].image: elsewhere/secret.txt: "));
-  EXPECT_THAT(refusal([this](SessionCase& session_case) { session_case.ignore = known(secret_); }),
+  EXPECT_THAT(refusal([this](SessionCase& changed) { changed.image.source = known(secret_); }),
+              HasSubstr("cases[0].image: elsewhere/secret.txt: "));
+  EXPECT_THAT(refusal([this](SessionCase& changed) { changed.ignore = known(secret_); }),
               HasSubstr("cases[0].ignore: elsewhere/secret.txt: "));
-  EXPECT_THAT(
-      refusal([this](SessionCase& session_case) { session_case.onboard_record = known(secret_); }),
-      HasSubstr("cases[0].onboard_record: elsewhere/secret.txt: "));
+  EXPECT_THAT(refusal([this](SessionCase& changed) { changed.onboard_record = known(secret_); }),
+              HasSubstr("cases[0].onboard_record: elsewhere/secret.txt: "));
   EXPECT_THAT(
       refusal([this](SessionCase& session_case) {
         session_case.parts[0].source.mesh = folder_.write("elsewhere/secret.ply", "root:x:0:0");
@@ -357,9 +353,8 @@ TEST_F(PackedMembers, MeshBuffers_AreStatedAndInTheMeshsFolder) {
   const sessions::SessionPack plan = sessions::planPack(session, file());
   std::vector<std::string> names;
   for (const sessions::PackedFile& packed_file : plan.files) names.push_back(packed_file.name);
-  EXPECT_THAT(names,
-              testing::ElementsAre(testing::EndsWith("/image.png"), testing::EndsWith("/cube.gltf"),
-                                   testing::EndsWith("/cube.bin")));
+  EXPECT_THAT(names, ElementsAre(testing::EndsWith("/image.png"), testing::EndsWith("/cube.gltf"),
+                                 testing::EndsWith("/cube.bin")));
   folder_.write("mesh/long.bin", buffer + "root:x:0:0");
   EXPECT_THAT(refusal(withBuffer("long.bin")),
               HasSubstr("cases[0].parts[0]: mesh/cube.gltf: buffers[0].byteLength: is "));

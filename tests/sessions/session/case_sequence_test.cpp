@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/case_sequence.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
@@ -9,11 +8,10 @@
 #include "sessions/run/problem.h"
 #include "sessions/session/session_maker.h"
 #include "tests/support/approach_files.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
-
-using testing::HasSubstr;
 
 class CaseSequenceTest : public testing::Test {
  protected:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/input_check.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -10,6 +9,7 @@
 #include "sessions/session/session_file.h"
 #include "sessions/session/session_pack.h"
 #include "tests/sessions/session/example_session.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::test {
 namespace {
@@ -17,12 +17,7 @@ namespace {
 using sessions::Finding;
 using sessions::FindingKind;
 using sessions::Session;
-using testing::AllOf;
-using testing::ElementsAre;
 using testing::Field;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
 
 auto finding(FindingKind kind, const std::string& what, const std::string& text) {
   return AllOf(Field(&Finding::kind, kind), Field(&Finding::what, what),
@@ -124,7 +119,7 @@ class LabelledImage : public ::testing::Test {
 
 TEST_F(LabelledImage, IsTheSamePictureWithWhatItsLabelSays) {
   EXPECT_EQ(one_.image.pixels_sha256, digest_);
-  EXPECT_THAT(one_.image.label, ::testing::Contains(sessions::LabelItem{"PRODUCT_ID", "A"}));
+  EXPECT_THAT(one_.image.label, Contains(sessions::LabelItem{"PRODUCT_ID", "A"}));
   EXPECT_THAT(sessions::checkInputs(session()), IsEmpty());
 }
 
@@ -146,14 +141,16 @@ TEST_F(LabelledImage, HasChangedWhenEitherFileHas) {
 TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
   const auto load = [this] { (void)sessions::loadCase(one_); };
   folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.lbl: its bytes or its pixels sol12.img differ"));
+  EXPECT_THAT(folder_.message(load),
+              HasSubstr("sol12.lbl: its bytes or its pixels sol12.img differ"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
               HasSubstr("sol12.lbl, or its pixels sol12.img, differs from the session's file"));
   folder_.write("in/sol12.lbl", labelText("A"));
   one_.image.source.file = folder_ / "in/sol12.img";
   EXPECT_EQ(folder_.message(load), "(nothing)");
   folder_.write("in/sol12.lbl", labelText("B"));
-  EXPECT_THAT(folder_.message(load), HasSubstr("sol12.img: its bytes or its label sol12.lbl differ"));
+  EXPECT_THAT(folder_.message(load),
+              HasSubstr("sol12.img: its bytes or its label sol12.lbl differ"));
   EXPECT_THAT(sessions::checkInputs(session())[0].text,
               HasSubstr("sol12.img, or its label sol12.lbl, differs from the session's file"));
 }
@@ -161,7 +158,8 @@ TEST_F(LabelledImage, NamesBothFilesWhereOneHasChanged) {
 TEST_F(LabelledImage, MissingLabel_IsReported) {
   one_.image.source.file = folder_ / "in/sol12.img";
   std::filesystem::remove(label_);
-  const std::string wanted = "former label is missing: put sol12.lbl (or sol12.xml) back next to it";
+  const std::string wanted =
+      "former label is missing: put sol12.lbl (or sol12.xml) back next to it";
   EXPECT_THAT(folder_.message([this] { (void)sessions::loadCase(one_); }), HasSubstr(wanted));
   const auto findings = sessions::checkInputs(session());
   ASSERT_THAT(findings, SizeIs(1));

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/input_sheet.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/math.h"
 #include "core/geometry/cahv_model.h"
 #include "sessions/io/cameras/camera_conversion.h"
 #include "tests/sessions/io/images/labels/label_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 const FrameName kRover{"ROVER_FRAME", {3}};
 const FrameName kSite{"SITE_FRAME", {3}};
@@ -32,11 +28,9 @@ CameraFile cameraOf(const CahvModel& cahv) {
 class LabelAgreement : public ::testing::Test {
  protected:
   LabelAgreement() {
-    const CameraFile camera = cameraOf(model_);
-    label_.camera = camera;
+    label_.camera = cameraOf(model_);
     label_.frames = {{kRover, kSite, rover_in_site_}};
-    one_.camera = camera.camera;
-    one_.camera_reference = camera.reference;
+    take(*label_.camera);
     one_.camera_from_station_seed.translation_m = {0.0, 0.0, 1.2};
   }
   void take(const CameraFile& camera) {

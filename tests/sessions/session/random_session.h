@@ -245,6 +245,12 @@ inline sessions::Decision randomDecision(Random& random, const std::string& case
   return decision;
 }
 
+/// A run of a case that converged.
+inline sessions::RunRecord randomRun(Random& random, const std::string& case_id) {
+  return {case_id, randomSha256(random),   randomPath(random, ".trace"), "converged",
+          "0.1.0", "2026-01-31T23:59:59Z", randomSha256(random),         randomSha256(random)};
+}
+
 inline sessions::Session randomSession(Random& random) {
   sessions::Session session =
       sessions::withOptions({}, coin(random) ? "default" : "paper", randomOptions(random));
@@ -256,10 +262,7 @@ inline sessions::Session randomSession(Random& random) {
     if (coin(random)) session = withAnnotations(session, id, randomAnnotation(random));
     if (coin(random)) session = withRounds(session, id, randomRounds(random));
     if (coin(random)) session.decisions.push_back(randomDecision(random, id));
-    if (coin(random))
-      session.runs.push_back({id, randomSha256(random), randomPath(random, ".trace"), "converged",
-                              "0.1.0", "2026-01-31T23:59:59Z", randomSha256(random),
-                              randomSha256(random)});
+    if (coin(random)) session.runs.push_back(randomRun(random, id));
     if (coin(random) && !session.runs.empty())
       session.runs.back().together = sessions::TogetherRecord{
           {{id, "converged"}, {"another \xC3\xBC", "too_few_matches"}}, randomSha256(random)};

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/io/files/file_lock.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
 
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/session/in_child.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::test {
 namespace {
 
 using sessions::FileLock;
-using testing::HasSubstr;
 
 TEST(FileLock, IsHeldByOneAndSaysByWhom) {
   const TemporaryFolder folder;

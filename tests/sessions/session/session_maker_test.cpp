@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/session_maker.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -14,19 +13,22 @@
 #include "sessions/session/input_sigmas.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"
+#include "tests/support/matchers.h"
 #include "tests/support/random_pose.h"
 
 namespace boresight::test {
 namespace {
 
 using sessions::Session;
-using testing::HasSubstr;
-using testing::IsEmpty;
+
+sessions::SessionCase firstExample() {
+  return *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+}
 
 TEST(SessionMaker, SaysWhichFileIsWrong) {
   const TemporaryFolder folder;
   const std::filesystem::path stations = copyOfExamples(folder);
-  const auto message = [&](const std::function<void(sessions::CaseFiles&)>& spoil) {
+  const auto message = [&](void (*spoil)(sessions::CaseFiles&)) {
     sessions::CaseFiles files = filesOf(stations / "os");
     spoil(files);
     return folder.message([&] { (void)sessions::makeCase(files); });
@@ -173,10 +175,9 @@ TEST(SessionMaker, TheSessionThatShipsIsMadeOfTheDatasetThatShips) {
 }
 
 TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
-  const sessions::SessionCase session_case =
-      *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+  const sessions::SessionCase session_case = firstExample();
   const std::string digest = sessions::inputsDigest(session_case);
-  const auto changed = [&](const std::function<void(sessions::SessionCase&)>& change) {
+  const auto changed = [&](void (*change)(sessions::SessionCase&)) {
     sessions::SessionCase other = session_case;
     change(other);
     return sessions::inputsDigest(other) != digest;
@@ -185,6 +186,7 @@ TEST(SessionMaker, DigestsTellInputsApartThatMatter) {
   EXPECT_FALSE(changed([](auto& c) { c.tags = {"new"}; }));
   EXPECT_FALSE(changed([](auto& c) { c.camera_from_station_truth.reset(); }));
   EXPECT_FALSE(changed([](auto& c) { c.image.source.file = "/moved"; }));
+  EXPECT_FALSE(changed([](auto& c) { c.landmarks = "/landmarks.json"; }));
   EXPECT_TRUE(changed([](auto& c) { c.image.pixels_sha256[0] ^= 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].sha256[0] ^= 1; }));
   EXPECT_TRUE(changed([](auto& c) { c.parts[0].source.mesh_unit = "mm"; }));
@@ -233,8 +235,7 @@ sessions::SessionCase withGripper(sessions::SessionCase session_case, double ahe
 }
 
 TEST(SessionMaker, Digest_FollowsThePlaceOfAPartInANamedFrame) {
-  const sessions::SessionCase plain =
-      *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+  const sessions::SessionCase plain = firstExample();
   sessions::SessionCase near = withGripper(plain, 0.25);
   const sessions::SessionCase far = withGripper(plain, 0.5);
   EXPECT_NE(sessions::inputsDigest(near), sessions::inputsDigest(far));
@@ -254,8 +255,7 @@ TEST(SessionMaker, Digest_FollowsThePlaceOfAPartInANamedFrame) {
 }
 
 TEST(SessionMaker, GripperOfANamedFrame_IsLoadedInTheCameraFrame) {
-  const sessions::SessionCase plain =
-      *sessions::makeSession(exampleFolder() / "dataset.json").cases[0];
+  const sessions::SessionCase plain = firstExample();
   sessions::SessionCase session_case = withGripper(plain, 0.25);
   // The seed's chain does not matter: the part moves with the camera.
   const auto loaded = sessions::loadCase(session_case);
@@ -307,8 +307,7 @@ TEST(SessionMaker, StatesOfADataset_ReachTheCases) {
 TEST(WithPartState, ChangesOnePartAndLeavesAMatchedOne) {
   using sessions::PartRole;
   using sessions::PartState;
-  const Session session = withCase(
-      {}, withGripper(*sessions::makeSession(exampleFolder() / "dataset.json").cases[0], 0.25));
+  const Session session = withCase({}, withGripper(firstExample(), 0.25));
   const std::string id = session.cases[0]->id;
   const Session off = withPartState(session, id, 1, PartState{PartRole::kOccludes, false});
   EXPECT_FALSE(off.cases[0]->parts[1].source.state.present);

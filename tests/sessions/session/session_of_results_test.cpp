@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/session/session_of_results.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/evaluation/batch.h"
@@ -10,12 +9,11 @@
 #include "sessions/review/queue.h"
 #include "sessions/session/case_run.h"
 #include "tests/support/example_case.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
-
-using testing::HasSubstr;
 
 /// The example, run with two seeds a case.
 class SessionOfResults : public testing::Test {

@@ -56,8 +56,8 @@ TEST(StatedInputs, TransformsGiveTheEndEffectorAndReplaceFormerOnes) {
 
 TEST(StatedInputs, LoopIsRefused) {
   StatedInputs stated;
-  stated.frames = {shift(kCameraFrame, kEndEffectorFrame, 0.1),
-                   shift(kArm, kEndEffectorFrame, 0.2), shift(kArm, kCameraFrame, 0.7)};
+  stated.frames = {shift(kCameraFrame, kEndEffectorFrame, 0.1), shift(kArm, kEndEffectorFrame, 0.2),
+                   shift(kArm, kCameraFrame, 0.7)};
   EXPECT_THROW((void)withStated(oneCase(), "a", stated), InputError);
 }
 

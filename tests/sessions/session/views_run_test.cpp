@@ -3,7 +3,6 @@
 
 #include <map>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/views/views_localizer.h"
@@ -12,6 +11,7 @@
 #include "sessions/review/validated_pose_file.h"
 #include "sessions/session/session_file.h"
 #include "tests/sessions/session/example_session.h"
+#include "tests/support/matchers.h"
 #include "tests/support/turned_view.h"
 
 namespace boresight::test {
@@ -21,8 +21,6 @@ using sessions::LocalizationTrace;
 using sessions::RunRecord;
 using sessions::Session;
 using sessions::SessionCase;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Two views that run without a search, and what their runs give: run once for each leader.
 class TwoViews {
@@ -138,22 +136,21 @@ TEST_F(ViewsRunTest, ARunIsRepeatedWithTheOthers) {
 
 TEST_F(ViewsRunTest, WhatAnotherViewDependsOnMakesItStale) {
   run(first());
-  const auto stale = [this](const Session& changed, std::size_t v) {
-    return sessions::stalenessOf(session_.runs[v], changed, file()).inputs_changed;
+  const auto stale = [this](const Session& next) {
+    return sessions::stalenessOf(session_.runs[0], next, file()).inputs_changed;
   };
-  SessionCase moved = *session_.cases[1];
-  moved.rig->camera_from_rig.translation_m.x() += 1e-6;
-  SessionCase reseeded = *session_.cases[1];
-  reseeded.camera_from_station_seed.translation_m.x() += 1e-6;
-  SessionCase masked = *session_.cases[1];
-  masked.ignore_strokes.push_back({});
-  EXPECT_TRUE(stale(withCase(session_, moved), 0));
-  EXPECT_TRUE(stale(withCase(session_, masked), 0));
-  EXPECT_TRUE(stale(withoutCase(session_, second()), 0));
-  EXPECT_FALSE(stale(withCase(session_, reseeded), 0)) << "the first view's seed alone counts";
-  EXPECT_THAT(folder_.message([&] {
-    (void)sessions::repeatRun(session_.runs[0], withCase(session_, masked), file());
-  }),
+  const auto changed = [this](void (*change)(SessionCase&)) {
+    return withChanged(session_, second(), change);
+  };
+  const Session masked = changed([](SessionCase& view) { view.ignore_strokes.push_back({}); });
+  EXPECT_TRUE(stale(
+      changed([](SessionCase& view) { view.rig->camera_from_rig.translation_m.x() += 1e-6; })));
+  EXPECT_TRUE(stale(masked));
+  EXPECT_TRUE(stale(withoutCase(session_, second())));
+  EXPECT_FALSE(stale(changed([](SessionCase& view) {
+    view.camera_from_station_seed.translation_m.x() += 1e-6;
+  }))) << "the first view's seed alone counts";
+  EXPECT_THAT(folder_.message([&] { (void)sessions::repeatRun(session_.runs[0], masked, file()); }),
               HasSubstr("one of these views has changed or is missing"));
 }
 
@@ -176,7 +173,7 @@ TEST_F(ViewsRunTest, FileWithoutViews_IsRead) {
   for (RunRecord& item : session_.runs) item.together.reset();
   sessions::writeSessionFile(file(), session_);
   text = folder_.read("s.boresight.json");
-  EXPECT_THAT(text, testing::Not(HasSubstr("\"together\"")));
+  EXPECT_THAT(text, Not(HasSubstr("\"together\"")));
   const Session old = sessions::readSessionFile(file()).session;
   EXPECT_EQ(old, session_);
   EXPECT_TRUE(sessions::loadSnapshot(old.runs[0]).views.empty());

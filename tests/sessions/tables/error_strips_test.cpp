@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/error_strips.h"
 
-#include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/sessions/tables/made_runs.h"
+#include "tests/sessions/tables/pixels_like.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
-using testing::ElementsAre;
+using test::pixelsLike;
 
 TEST(ErrorStrip, FailedRunsKeepTheErrorsOfTheirSeeds) {
   RunResult blind = madeRun("bc-4", "whs");
@@ -18,9 +19,7 @@ TEST(ErrorStrip, FailedRunsKeepTheErrorsOfTheirSeeds) {
   const std::vector<RunResult> runs = {madeRun("bc-1", "whs", true, -0.2),
                                        madeRun("bc-2", "whs", false, 9.0),
                                        madeRun("bc-3", "whs", true, 0.1), blind};
-  std::vector<const RunResult*> pointers;
-  for (const RunResult& run : runs) pointers.push_back(&run);
-  const ErrorStrip strip = errorStrip(pointers, &PoseError::normal_mm);
+  const ErrorStrip strip = errorStrip(test::pointersTo(runs), &PoseError::normal_mm);
   EXPECT_THAT(strip.completed, ElementsAre(-0.2, 0.1));
   EXPECT_THAT(strip.failed, ElementsAre(3.0)) << "as made_runs.h states its seeds";
 }
@@ -30,12 +29,6 @@ TEST(SignedDecades, IsOddLinearNearZeroAndLogarithmicBeyond) {
   EXPECT_DOUBLE_EQ(signedDecades(-3.0, 0.01), -signedDecades(3.0, 0.01));
   EXPECT_NEAR(signedDecades(1e-6, 0.01) / signedDecades(5e-7, 0.01), 2.0, 1e-3);
   EXPECT_NEAR(signedDecades(1000.0, 0.01) - signedDecades(100.0, 0.01), 1.0, 1e-3);
-}
-
-int pixelsLike(const cv::Mat& image, const cv::Scalar& bgr) {
-  cv::Mat found;
-  cv::inRange(image, bgr - cv::Scalar::all(3), bgr + cv::Scalar::all(3), found);
-  return cv::countNonZero(found);
 }
 
 TEST(ErrorStripsFigure, ShowsSeedsCompletedAndFailedRuns) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/result_figures.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -9,14 +8,15 @@
 #include "sessions/evaluation/batch.h"
 #include "sessions/evaluation/results_file.h"
 #include "tests/sessions/tables/made_runs.h"
+#include "tests/sessions/tables/pixels_like.h"
 #include "tests/support/example_case.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
-using testing::HasSubstr;
 
 PoseError off(double lateral_mm, double geodesic_mrad) {
   PoseError error;
@@ -140,10 +140,7 @@ TEST_F(FailuresOfExample, ARunWithoutIterationsDoesNotTakeThoseOfAnotherFile) {
 }
 
 int pixelsOf(const cv::Mat& image, const ColorBgr& color) {
-  cv::Mat found;
-  const cv::Scalar bgr(color[0], color[1], color[2]);
-  cv::inRange(image, bgr - cv::Scalar::all(40), bgr + cv::Scalar::all(40), found);
-  return cv::countNonZero(found);
+  return test::pixelsLike(image, {1.0 * color[0], 1.0 * color[1], 1.0 * color[2]}, 40.0);
 }
 
 TEST_F(FailuresOfExample, TheSheetShowsSeedTruthAndEnd) {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/flight_table.h"
 
-#include <gmock/gmock.h>
-
 #include <fstream>
 
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::TemporaryFolder;
-using testing::HasSubstr;
 
 InstructionCount countOf(const std::string& method, const std::string& station,
                          double minutes_of_matching) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sessions/evaluation/run_result.h"
 
@@ -29,6 +30,13 @@ inline sessions::RunResult madeRun(const std::string& case_id, const std::string
   run.digest = case_id + method;
   sessions::judge(false, run);
   return run;
+}
+
+inline std::vector<const sessions::RunResult*> pointersTo(
+    const std::vector<sessions::RunResult>& runs) {
+  std::vector<const sessions::RunResult*> pointers;
+  for (const sessions::RunResult& run : runs) pointers.push_back(&run);
+  return pointers;
 }
 
 }  // namespace boresight::test

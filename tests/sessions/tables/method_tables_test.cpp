@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/method_tables.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "sessions/tables/flight_table.h"
 #include "sessions/tables/strata_table.h"
 #include "tests/sessions/tables/made_runs.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 /// By hand: NCC completes 3 of 4, of which one is beyond the lateral, one beyond the rotation.
 std::vector<RunResult> runsOfTwoMethods() {
@@ -124,7 +120,7 @@ TEST(Median, IsTheMiddle) {
 
 TEST(ErrorTable, ShowsThePapersRowsWithACautionWhenAsked) {
   const std::string without = tableText(errorTable(runsOfTwoMethods(), false), TableFormat::kText);
-  EXPECT_THAT(without, testing::Not(testing::HasSubstr("paper")));
+  EXPECT_THAT(without, Not(HasSubstr("paper")));
   const std::string with = tableText(errorTable(runsOfTwoMethods(), true), TableFormat::kText);
   EXPECT_THAT(with, HasSubstr("whs (paper)"));
   EXPECT_THAT(with, HasSubstr("0.083 / 0.036 / 0.232"));

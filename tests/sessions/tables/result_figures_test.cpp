@@ -5,18 +5,18 @@
 #include <limits>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/sessions/tables/made_runs.h"
+#include "tests/sessions/tables/pixels_like.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
 using Point = std::array<double, 2>;
 using test::madeRun;
-using testing::ElementsAre;
 
 constexpr int kFoot_px = 110;
 
@@ -52,11 +52,8 @@ TEST(ResultFigures, ShowEveryMethodInItsColour) {
     ASSERT_GT(whole.rows, 2 * kFoot_px) << figure.name;
     const cv::Mat image = whole.rowRange(0, whole.rows - kFoot_px);  // without the names
     EXPECT_EQ(image.at<cv::Vec3b>(2, 2), cv::Vec3b(255, 255, 255)) << "on white";
-    for (const cv::Scalar& bgr : {cv::Scalar(178, 115, 0), cv::Scalar(0, 94, 214)}) {
-      cv::Mat of_method;
-      cv::inRange(image, bgr - cv::Scalar::all(3), bgr + cv::Scalar::all(3), of_method);
-      EXPECT_GT(cv::countNonZero(of_method), 30) << figure.name << " " << bgr;
-    }
+    for (const cv::Scalar& bgr : {cv::Scalar(178, 115, 0), cv::Scalar(0, 94, 214)})
+      EXPECT_GT(test::pixelsLike(image, bgr), 30) << figure.name << " " << bgr;
   }
 }
 
@@ -68,12 +65,6 @@ TEST(ResultFigures, StandRunsWithoutTruth) {
     run.success.reset();
   }
   EXPECT_EQ(resultFigures(runs, CanvasFormat::kPdf).size(), 4u);
-}
-
-std::vector<const RunResult*> pointers(const std::vector<RunResult>& runs) {
-  std::vector<const RunResult*> made;
-  for (const RunResult& run : runs) made.push_back(&run);
-  return made;
 }
 
 TEST(ShareBelow, IsAStaircaseOverAllRuns) {
@@ -89,12 +80,12 @@ TEST(SuccessAgainstTolerance, CountsCompletedRunsWithinEachMultiple) {
       madeRun("bc-1", "whs", true, 0.2), madeRun("bc-2", "whs", true, -0.8, 0.1),
       madeRun("bc-3", "whs", false), madeRun("bc-4", "whs", true, 0.0, 0.0, 30.0)};
   const double factors[] = {0.25, 0.6, 2.5, 10.0};
-  EXPECT_THAT(successAgainstTolerance(pointers(runs), factors),
+  EXPECT_THAT(successAgainstTolerance(test::pointersTo(runs), factors),
               ElementsAre(Point{0.25, 0.0}, Point{0.6, 25.0}, Point{2.5, 50.0}, Point{10.0, 75.0}));
   RunResult blind = runs[0];
   blind.requirement.reset();
   blind.success.reset();
-  EXPECT_TRUE(successAgainstTolerance(pointers({blind}), factors).empty());
+  EXPECT_TRUE(successAgainstTolerance(test::pointersTo({blind}), factors).empty());
 }
 
 TEST(SeedMeasure, IsDistanceOrAngle) {
@@ -111,9 +102,9 @@ TEST(SuccessAgainstSeed, PutsRunsIntoBinsOfEqualSizeByHowFarTheyBegan) {
     runs.back().seed_error->lateral_mm = 10.0 - i;  // the farthest first
   }
   // Ascending: 5 and 6 (wrong), 7 and 8 (right), 9 and 10 (right).
-  EXPECT_THAT(successAgainstSeed(pointers(runs), SeedMeasure::kDistance_mm, 3),
+  EXPECT_THAT(successAgainstSeed(test::pointersTo(runs), SeedMeasure::kDistance_mm, 3),
               ElementsAre(Point{5.5, 0.0}, Point{7.5, 100.0}, Point{9.5, 100.0}));
-  EXPECT_EQ(successAgainstSeed(pointers(runs), SeedMeasure::kDistance_mm, 100).size(), 6u);
+  EXPECT_EQ(successAgainstSeed(test::pointersTo(runs), SeedMeasure::kDistance_mm, 100).size(), 6u);
 }
 
 TEST(TimeAgainstError, TakesCompletedRuns) {
@@ -121,7 +112,7 @@ TEST(TimeAgainstError, TakesCompletedRuns) {
                                  madeRun("bc-2", "whs", false, 0.0, 0.3)};
   runs[0].seconds.matching = 1.5;
   runs[0].seconds.rendering = 0.5;
-  EXPECT_THAT(timeAgainstError(pointers(runs)), ElementsAre(Point{2.0, 0.3}));
+  EXPECT_THAT(timeAgainstError(test::pointersTo(runs)), ElementsAre(Point{2.0, 0.3}));
 }
 
 TEST(GeometricSteps, HaveOneRatio) {

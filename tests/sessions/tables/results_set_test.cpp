@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/results_set.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sessions/evaluation/results_file.h"
 #include "sessions/io/files/errors.h"
 #include "tests/sessions/tables/made_runs.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 class ReadResultsSet : public testing::Test {
  protected:

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/strata_table.h"
 
-#include <gmock/gmock.h>
-
 #include "tests/sessions/tables/made_runs.h"
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
 
 using test::madeRun;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
 
 std::string csvOf(const Table& table) { return tableText(table, TableFormat::kCsv); }
 

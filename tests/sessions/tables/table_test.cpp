@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/tables/table.h"
 
-#include <gmock/gmock.h>
+#include "tests/support/matchers.h"
 
 namespace boresight::sessions {
 namespace {
@@ -36,10 +36,10 @@ TEST(TableText, IsReadByPrograms) {
 
 TEST(TableText, IsSetByLatex) {
   const std::string text = tableText(twoRows(), TableFormat::kLatex);
-  EXPECT_THAT(text, testing::HasSubstr("\\caption{Some 100 \\% of a\\_b}"));
-  EXPECT_THAT(text, testing::HasSubstr("name & error mm mean / max & share \\% \\\\"));
-  EXPECT_THAT(text, testing::HasSubstr("c\\_d & - & - \\\\"));
-  EXPECT_THAT(text, testing::HasSubstr("{lrr}"));
+  EXPECT_THAT(text, HasSubstr("\\caption{Some 100 \\% of a\\_b}"));
+  EXPECT_THAT(text, HasSubstr("name & error mm mean / max & share \\% \\\\"));
+  EXPECT_THAT(text, HasSubstr("c\\_d & - & - \\\\"));
+  EXPECT_THAT(text, HasSubstr("{lrr}"));
 }
 
 }  // namespace
