@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/symmetric_eigen.h"
+#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -148,9 +149,10 @@ std::vector<GeometryWarning> geometryWarnings(std::span<const AnnotatedView> vie
   return warnings;
 }
 
-GeometryWarning imprecisionWarning(const std::string& excess) {
+GeometryWarning imprecisionWarning(double sigmas, const std::string& excess) {
   return {GeometryWeakness::kImprecise, false,
-          "one sigma is " + excess + "; place annotations more precisely and farther apart"};
+          fixedText(sigmas, 0) + " sigma: " + excess +
+              "; place annotations more precisely and farther apart"};
 }
 
 }  // namespace boresight::sessions

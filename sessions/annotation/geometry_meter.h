@@ -30,7 +30,7 @@ enum class GeometryWeakness {
   kCoplanar,   ///< all points in a plane: two poses may explain them
   kClustered,  ///< the annotations cover little of the station's image
   kOneDepth,   ///< all points at one distance from the camera
-  kImprecise,  ///< one sigma of the solved pose exceeds the requirement
+  kImprecise,  ///< the sigmas of the solved pose exceed the requirement
 };
 
 struct GeometryWarning {
@@ -46,7 +46,8 @@ std::vector<GeometryWarning> geometryWarnings(std::span<const AnnotatedView> vie
                                               const Pose* guess,
                                               std::span<const Eigen::Vector3d> station_m);
 
-/// Warning of a solved pose whose one sigma exceeds the requirement; `excess` is `sigmaExcessText`.
-GeometryWarning imprecisionWarning(const std::string& excess);
+/// Warning of a solved pose of which `sigmas` standard deviations exceed the requirement; `excess`
+/// is `sigmaExcessText`.
+GeometryWarning imprecisionWarning(double sigmas, const std::string& excess);
 
 }  // namespace boresight::sessions

@@ -71,7 +71,7 @@ std::vector<std::pair<std::string, std::string>> recordSheet(const OnboardRecord
                        triple(kMillimetres * end.camera_from_station.translation_m, 2) + " mm");
     lines.emplace_back("Rotation vector", turnText(end.camera_from_station));
     if (!end.covariance.isZero())
-      lines.emplace_back("One sigma, at most",
+      lines.emplace_back("One sigma at the camera, at most",
                          fixedText(kMillimetres * largestSigma(end.covariance, 3), 3) + " mm, " +
                              fixedText(kMilliradians * largestSigma(end.covariance, 0), 3) +
                              " mrad");

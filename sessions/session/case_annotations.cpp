@@ -36,6 +36,7 @@ CaseAnnotations caseAnnotations(const Session& session, const std::string& case_
   const SessionCase* chosen = &knownCase(session, case_id);
   CaseAnnotations case_annotations;
   case_annotations.robust = session.robust_annotations;
+  case_annotations.sigmas = checkLimits(session.review.preset, session.review.limits).sigmas;
   case_annotations.requirement = requirementOf(session, *chosen);
   case_annotations.camera_from_end_effector = chosen->camera_from_end_effector;
   const auto add = [&](const SessionCase& session_case, const Pose& camera_from_rig) {
@@ -65,7 +66,8 @@ std::optional<Matrix6d> CaseAnnotationsSolution::covariance() const {
 }
 
 std::string CaseAnnotationsSolution::sigmaExcess() const {
-  return sigmaExcessText(covariance().value_or(Matrix6d::Zero()),
+  const double sigmas = annotations.sigmas;
+  return sigmaExcessText(sigmas * sigmas * covariance().value_or(Matrix6d::Zero()),
                          annotations.camera_from_end_effector, annotations.requirement);
 }
 
@@ -99,7 +101,9 @@ CaseAnnotationsSolution solveCaseAnnotations(CaseAnnotations annotations,
     case_annotations_solution.left_out =
         leaveOneOut(views, *case_annotations_solution.result.solution);
   const std::string excess = case_annotations_solution.sigmaExcess();
-  if (!excess.empty()) case_annotations_solution.warnings.push_back(imprecisionWarning(excess));
+  if (!excess.empty())
+    case_annotations_solution.warnings.push_back(
+        imprecisionWarning(case_annotations_solution.annotations.sigmas, excess));
   return case_annotations_solution;
 }
 

@@ -25,6 +25,7 @@ struct CaseAnnotations {
   std::vector<AnnotatedView> views;   ///< cameras prepared; `name` is the case's id
   bool rigid = false;                 ///< several: the pose is the rig's
   bool robust = false;                ///< the session's choice
+  double sigmas = 3.0;                ///< number of sigmas that must fit into the requirement
   Requirement requirement;            ///< of the case itself, like the next member
   std::optional<Pose> camera_from_end_effector;
 };
@@ -46,7 +47,7 @@ struct CaseAnnotationsSolution {
   std::optional<Pose> camera_from_station() const;
   /// Covariance of that pose from the annotations alone: left perturbation, camera frame.
   std::optional<Matrix6d> covariance() const;
-  /// sigmaExcessText() of its one sigma; "" when it meets the requirement.
+  /// sigmaExcessText() of `sigmas` standard deviations; "" when they meet the requirement.
   std::string sigmaExcess() const;
   /// The other pose that explains coplanar annotations, or empty.
   std::optional<Pose> ambiguous_camera_from_station() const;

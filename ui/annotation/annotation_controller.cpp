@@ -31,8 +31,9 @@ bool sameViews(const sessions::CaseAnnotations& a, const sessions::CaseAnnotatio
 
 bool sameQuestion(const AnnotationQuestion& a, const AnnotationQuestion& b) {
   return sameViews(a.annotations, b.annotations) && a.one == b.one && a.landmarks == b.landmarks &&
-         a.rounds == b.rounds && a.annotations.robust == b.annotations.robust && a.sigmas == b.sigmas &&
-         a.blind == b.blind && a.annotations.requirement == b.annotations.requirement &&
+         a.rounds == b.rounds && a.annotations.robust == b.annotations.robust &&
+         a.annotations.sigmas == b.annotations.sigmas && a.blind == b.blind &&
+         a.annotations.requirement == b.annotations.requirement &&
          a.camera_from_station_guess == b.camera_from_station_guess;
 }
 
@@ -72,7 +73,8 @@ AnnotationAnswer solve(const AnnotationQuestion& asked) {
         sessions::proposeAnnotations(asked.landmarks, view.annotations, mesh, view.camera, *pose,
                                      &*annotation_answer.covariance);
   }
-  annotation_answer.quality = sessions::annotationQuality(asked.one, *solution, asked.sigmas);
+  annotation_answer.quality =
+      sessions::annotationQuality(asked.one, *solution, asked.annotations.sigmas);
   annotation_answer.concern = sessions::annotationConcern(*solution, *annotation_answer.quality);
   annotation_answer.solution = std::move(solution);
   return annotation_answer;
@@ -161,8 +163,6 @@ void AnnotationController::askIfChanged(bool anyway) {
       sessions::annotationsGuess(*document_.session().findCase(case_id_));
   current.landmarks = landmarks_;
   current.rounds = roundsOfCase();
-  const sessions::ReviewSettings& review = document_.session().review;
-  current.sigmas = sessions::checkLimits(review.preset, review.limits).sigmas;
   current.blind = sessions::isBlind(current.rounds, annotations_);
   if (!anyway && asked_ && sameQuestion(*asked_, current)) return;
   asked_ = current;
@@ -171,6 +171,7 @@ void AnnotationController::askIfChanged(bool anyway) {
     answer_ = {};
     answer_.blind = true;
     state_.setAnnotatedPose(std::nullopt);
+    state_.setBlind(true);
   }
   Q_EMIT solutionChanged();
   runner_.start(
@@ -182,6 +183,7 @@ void AnnotationController::take(const AnnotationAnswer& answer) {
   answer_ = answer;
   stale_ = false;
   state_.setAnnotatedPose(solvedPose());
+  state_.setBlind(answer_.blind);
   Q_EMIT solutionChanged();
 }
 

@@ -37,8 +37,7 @@ struct AnnotationQuestion {
   Pose camera_from_station_guess;
   std::vector<sessions::Landmark> landmarks;
   sessions::AnnotationRounds rounds;
-  double sigmas = 3.0;  ///< number of sigmas that must fit into the requirement
-  bool blind = false;   ///< nothing is solved
+  bool blind = false;  ///< nothing is solved
 };
 
 /// An earlier annotation round over the same image, next to the current annotations.

@@ -282,7 +282,10 @@ void AnnotationController::useAsTruth() {
     return;
   }
   const bool replaces = session_case->camera_from_station_truth.has_value();
-  const std::string excess = answer_.solution->sigmaExcess();
+  const sessions::CaseAnnotations& annotations = answer_.solution->annotations;
+  const std::string excess =
+      sessions::sigmaExcessText(answer_.covariance.value_or(Matrix6d::Zero()),
+                                annotations.camera_from_end_effector, annotations.requirement);
   sessions::SessionCase changed = *session_case;
   sessions::setTruth(changed, *solved, answer_.covariance);
   document_.edit(sessions::withCase(document_.session(), std::move(changed)),

@@ -58,18 +58,18 @@ QString placeText(const sessions::CaseAnnotations& annotations) {
 QString sigmaHtml(const AnnotationAnswer& answer) {
   const AnnotationsSolution& solution = *answer.solution->result.solution;
   const sessions::CaseAnnotations& annotations = answer.solution->annotations;
-  const auto sigma = answer.covariance ? sessions::poseSigma(*answer.covariance,
-                                                             annotations.camera_from_end_effector)
-                                       : std::nullopt;
+  if (!answer.covariance) return {};
+  const Matrix6d covariance = annotations.sigmas * annotations.sigmas * *answer.covariance;
+  const auto sigma = sessions::poseSigma(covariance, annotations.camera_from_end_effector);
   if (!sigma) return {};
   const QString title =
-      solutionText("One sigma at the %1, from the annotations (noise %2 times their stated sigmas)")
-          .arg(placeText(annotations))
+      solutionText("%1 sigma at the %2, from the annotations (noise %3 times their stated sigmas)")
+          .arg(numberText(annotations.sigmas, 0), placeText(annotations))
           .arg(QString::number(solution.noise_factor, 'f', 2));
   QVector<QStringList> rows = sigmaRows(*sigma, annotations.requirement);
   // Without an end effector these are the camera's own already.
   const auto at_camera = annotations.camera_from_end_effector
-                             ? sessions::poseSigma(*answer.covariance, std::nullopt)
+                             ? sessions::poseSigma(covariance, std::nullopt)
                              : std::nullopt;
   if (at_camera)
     rows << axesRow(solutionText("at the camera"), at_camera->translation_mm, solutionText("mm"));

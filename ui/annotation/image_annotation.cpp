@@ -58,6 +58,7 @@ ImageAnnotation::ImageAnnotation(ImagePanel& image, AnnotationController& contro
                   &ImageAnnotation::showAnnotations);
   connect(&controller_, &AnnotationController::solutionChanged, this,
           &ImageAnnotation::hideWhileBlind);
+  connect(&image_, &ImagePanel::stylesChanged, this, &ImageAnnotation::hideWhileBlind);
   connect(&controller_, &AnnotationController::solutionChanged, this,
           &ImageAnnotation::showSolution);
   state_.onChange(ViewChange::kCase, this, &ImageAnnotation::showSolution);
@@ -143,8 +144,8 @@ void ImageAnnotation::hideWhileBlind() {
       LayerId::kChosenEdges, LayerId::kWindows,     LayerId::kHypothesisEdges,
       LayerId::kTemplates,   LayerId::kMatches,     LayerId::kResiduals};
   for (const LayerId id : kPredicted) {
-    if (!image_.style(id).visible || std::ranges::count(hidden_, id) > 0) continue;
-    hidden_.push_back(id);
+    if (!image_.style(id).visible) continue;
+    if (std::ranges::count(hidden_, id) == 0) hidden_.push_back(id);
     show(id, false);
   }
 }

@@ -11,6 +11,15 @@ namespace {
 
 const QString kKey = QStringLiteral("pose quality");
 
+/// Whether a run is of the case as it is now: another camera or mesh would give it another quality.
+bool isOfTheCase(const sessions::LocalizationTrace& run, const Document& document,
+                 const ViewState& state) {
+  const sessions::SessionCase* shown = shownCase(document, state);
+  if (!shown) return false;
+  const sessions::RunRecord* record = sessions::findRun(document.session(), shown->id, run.digest);
+  return !record || record->inputs_sha256 == sessions::inputsDigest(*shown);
+}
+
 }  // namespace
 
 QualityController::QualityController(Document& document, ViewState& state, TaskRunner& tasks,
@@ -24,7 +33,8 @@ QualityController::QualityController(Document& document, ViewState& state, TaskR
 void QualityController::follow() {
   Question question;
   const ViewState::SnapshotPtr& run = state_.snapshot();
-  if (state_.currentCase() && run && run->finished && run->converged())
+  if (state_.currentCase() && run && run->finished && run->converged() &&
+      isOfTheCase(*run, document_, state_))
     question = {state_.currentCase(), run, document_.session().review};
   if (question == question_) return;
   question_ = std::move(question);

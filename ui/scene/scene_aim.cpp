@@ -64,6 +64,7 @@ SceneAim aimOf(const MeshSnapper& mesh, const MeshSnap& snap) {
       aim.text = sceneAimText("circle centre, radius %1 mm").arg(1e3 * snap.radius_m, 0, 'f', 1);
       break;
   }
+  aim.text += sceneAimText(", z %1 mm").arg(1e3 * snap.point_in_station_m.z(), 0, 'f', 2);
   return aim;
 }
 

@@ -200,7 +200,7 @@ void SceneView::updateLook() {
 }
 
 Pose SceneView::throughPose() const {
-  if (role_ == PoseRole::kEstimate) return state_.shownPose();
+  if (role_ == PoseRole::kEstimate || state_.isBlind()) return state_.shownPose();
   return poseOf(state_, role_).value_or(state_.shownPose());
 }
 

@@ -57,6 +57,7 @@ std::optional<Pose> ViewState::iterationPose() const {
 }
 
 std::optional<Pose> ViewState::knownPose() const {
+  if (blind_) return std::nullopt;
   if (nudged_) return nudged_;
   if (const auto of_iteration = iterationPose()) return of_iteration;
   if (case_ && case_->source.has_seed) return case_->source.camera_from_station_seed;
@@ -70,6 +71,7 @@ void ViewState::setCase(CasePtr loaded_case) {
   selected_template_ = -1;
   nudged_.reset();
   annotated_.reset();
+  blind_ = false;
   alternative_.reset();
   Q_EMIT changed(ViewChange::kAll);
 }
@@ -122,6 +124,11 @@ void ViewState::setNudgedPose(const std::optional<Pose>& camera_from_station) {
 void ViewState::setAnnotatedPose(const std::optional<Pose>& camera_from_station) {
   annotated_ = camera_from_station;
   Q_EMIT changed(ViewChange::kAnnotatedPose);
+}
+
+void ViewState::setBlind(bool blind) {
+  if (std::exchange(blind_, blind) == blind) return;
+  Q_EMIT changed(ViewChange::kAnnotatedPose | ViewChange::kNudgedPose);
 }
 
 void ViewState::setAlternative(const std::optional<sessions::Alternative>& alternative) {

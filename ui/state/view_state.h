@@ -78,7 +78,7 @@ class ViewState : public QObject {
   const std::optional<sessions::Alternative>& alternative() const { return alternative_; }
   /// The pose that the views show: the nudged one, else that after the cursor's iteration (before
   /// it where the shown stage is earlier), else the seed; of a case without a seed the annotated
-  /// pose. Empty when there is none of these.
+  /// pose. Empty when there is none of these, and in a blind round.
   std::optional<Pose> knownPose() const;
   /// The same; the identity when there is none.
   Pose shownPose() const { return knownPose().value_or(Pose()); }
@@ -94,6 +94,9 @@ class ViewState : public QObject {
   void selectTemplate(int index);
   void setNudgedPose(const std::optional<Pose>& camera_from_station);
   void setAnnotatedPose(const std::optional<Pose>& camera_from_station);
+  /// Whether a blind annotation round hides what a pose predicts.
+  void setBlind(bool blind);
+  bool isBlind() const { return blind_; }
   /// Sets an alternative of the current snapshot; another snapshot drops it.
   void setAlternative(const std::optional<sessions::Alternative>& alternative);
 
@@ -122,6 +125,7 @@ class ViewState : public QObject {
   int selected_template_ = -1;
   std::optional<Pose> nudged_;
   std::optional<Pose> annotated_;
+  bool blind_ = false;
   std::optional<sessions::Alternative> alternative_;
 };
 

@@ -122,8 +122,9 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
                        {},
                        true});
   const auto& runs = document_.session().runs;
+  const ViewState::SnapshotPtr& shown_run = state_.snapshot();
   for (auto run = runs.rbegin(); run != runs.rend(); ++run)
-    if (run->case_id == shown->id)
+    if (run->case_id == shown->id && !(shown_run && run->digest == shown_run->digest))
       choices.push_back({tr("Run of %1: %2").arg(timeText(run->time), fromText(run->status)),
                          run->status == "converged" ? kPoseLine : kRejectedLine,
                          std::nullopt,

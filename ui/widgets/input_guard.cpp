@@ -26,6 +26,11 @@ bool InputGuard::eventFilter(QObject* watched, QEvent* event) {
     event->ignore();  // what lies below scrolls
     return true;
   }
+  // The wheel would give the field the focus, and with it the value and the keys.
+  if (event->type() == QEvent::Polish && isField(watched)) {
+    auto* field = static_cast<QWidget*>(watched);
+    if (field->focusPolicy() == Qt::WheelFocus) field->setFocusPolicy(Qt::StrongFocus);
+  }
   if (event->type() == QEvent::ShortcutOverride && isUndo(*static_cast<QKeyEvent*>(event))) {
     event->ignore();  // so that the shortcut holds
     return true;

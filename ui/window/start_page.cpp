@@ -2,6 +2,7 @@
 #include "ui/window/start_page.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QtWidgets>
 
@@ -329,7 +330,11 @@ QWidget* StartPage::buildGoOn() {
   line->addWidget(discard);
   line->addWidget(recover);
   connect(recover, &QPushButton::clicked, this, [this] { files_.recoverUntitled(left_file_); });
-  connect(discard, &QPushButton::clicked, this, [this] {
+  // Work is deleted by a second click, on a button that says so.
+  connect(discard, &QPushButton::clicked, this, [this, discard] {
+    if (!std::exchange(discards_, true)) return discard->setText(tr("Delete for good"));
+    discards_ = false;
+    discard->setText(tr("Discard"));
     Document::removeUntitled(left_file_);
     showLeft();
   });

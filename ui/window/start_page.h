@@ -68,6 +68,7 @@ class StartPage : public QScrollArea {
   QFrame* left_ = nullptr;
   QLabel* left_text_ = nullptr;
   std::filesystem::path left_file_;
+  bool discards_ = false;  ///< the next click deletes
   QVBoxLayout* recent_ = nullptr;
 };
 

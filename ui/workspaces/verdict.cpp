@@ -2,6 +2,7 @@
 #include "ui/workspaces/verdict.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QCoreApplication>
 
@@ -46,7 +47,9 @@ QString failedText(int failed) {
 
 /// "Iteration 2: rendering done; next, templates."
 QString progressText(const sessions::LocalizationTrace* trace) {
-  if (!trace || trace->iterations.empty()) return tr("The edges of the image are found first.");
+  // A finished one is the run before.
+  if (!trace || trace->finished || trace->iterations.empty())
+    return tr("The edges of the image are found first.");
   const auto number = trace->iterations.size();
   if (!trace->last_under_way) return tr("Iteration %1 is complete.").arg(number);
   const Stage reached = trace->iterations.back()->reached;
@@ -203,7 +206,7 @@ Verdict ofValidation(const Situation& situation) {
   verdict.tone = VerdictTone::kCaution;
   verdict.icon = Icon::kWarning;
   verdict.head += tr("; outdated");
-  verdict.others.insert(verdict.others.begin(), Step::kRunAgain);
+  verdict.others.insert(verdict.others.begin(), std::exchange(verdict.step, Step::kRunAgain));
   return verdict;
 }
 
@@ -223,11 +226,13 @@ Verdict ofConvergenceTest(const ReviewSituation& review) {
   Verdict verdict;
   verdict.icon = Icon::kRing;
   verdict.head = tr("Convergence test running");
-  verdict.sentence =
-      tr("%1 seeds done; %2 end at this pose.")
-          .arg(review.seeds_done)
-          .arg(review.seeds_returned == review.seeds_done ? tr("all")
-                                                          : QString::number(review.seeds_returned));
+  verdict.sentence = tr("No seed is done yet.");
+  if (review.seeds_done > 0)
+    verdict.sentence = tr("%1 seeds done; %2 end at this pose.")
+                           .arg(review.seeds_done)
+                           .arg(review.seeds_returned == review.seeds_done
+                                    ? tr("all")
+                                    : QString::number(review.seeds_returned));
   verdict.step = Step::kStopTest;
   verdict.plain = true;
   return verdict;

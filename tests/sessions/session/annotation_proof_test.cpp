@@ -43,7 +43,7 @@ TEST(AnnotationProof, TenCornersGiveTheTruth) {
     const sessions::Annotations annotations = annotationsOf(corners, 0.2, random);
     ASSERT_EQ(annotations.points.size(), 10u);
     session = withAnnotations(session, id, annotations);
-    const auto solved = sessions::solveCaseAnnotations(session, id, true, false);
+    const auto solved = sessions::solveCaseAnnotations(session, id);
     ASSERT_TRUE(solved.result.solution) << solved.result.reason;
     const Error error = errorOf(session, id, *solved.camera_from_station());
     good += error.translation_mm < 0.15 && error.rotation_deg < 0.1;

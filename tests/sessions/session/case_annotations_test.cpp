@@ -129,8 +129,7 @@ TEST(CaseAnnotations, Outliers_OfTheCase_AreNamed) {
 TEST(CaseAnnotations, AnUnannotatedCaseGetsItsPoseFromTheRig) {
   const RigSession rig(0.0);
   Session session = withAnnotations(rig.session, "left", {});
-  const auto result =
-      sessions::solveCaseAnnotations(caseAnnotations(session, "left"), Pose(), {}, false);
+  const auto result = sessions::solveCaseAnnotations(caseAnnotations(session, "left"), Pose(), {});
   ASSERT_TRUE(result.camera_from_station()) << result.result.reason;
   const Pose truth = rig.views[0].camera_from_rig * rig.rig_from_station;
   EXPECT_LT(perturbationBetween(truth, *result.camera_from_station()).norm(), 1e-6);
@@ -156,8 +155,7 @@ TEST(CaseAnnotations, SigmaBeyondRequirement_IsReportedAsWeakWithItsExcess) {
     session_case.camera_from_end_effector = Pose();
     session = withCase(session, session_case);
     const Pose guess = rig.views[0].camera_from_rig * rig.rig_from_station;
-    return sessions::solveCaseAnnotations(caseAnnotations(session, "left", false), guess, {},
-                                          false);
+    return sessions::solveCaseAnnotations(caseAnnotations(session, "left", false), guess, {});
   };
   const auto result = warningsFor(0.001);
   ASSERT_TRUE(result.result.solution);
@@ -167,8 +165,8 @@ TEST(CaseAnnotations, SigmaBeyondRequirement_IsReportedAsWeakWithItsExcess) {
   EXPECT_EQ(weak.back().weakness, sessions::GeometryWeakness::kImprecise);
   EXPECT_FALSE(weak.back().prevents);
   char begin[80];
-  std::snprintf(begin, sizeof begin, "one sigma is %.3g mm along the view axis at the end effector",
-                sigma_mm);
+  std::snprintf(begin, sizeof begin, "3 sigma: %.3g mm along the view axis at the end effector",
+                3.0 * sigma_mm);
   EXPECT_EQ(weak.back().text.rfind(begin, 0), 0u) << weak.back().text;
   EXPECT_THAT(weak.back().text, HasSubstr("times the 0.001 mm required"));
   EXPECT_EQ(warningsFor(1e6).warnings.size(), weak.size() - 1);

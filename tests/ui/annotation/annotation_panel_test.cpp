@@ -79,13 +79,13 @@ TEST_F(AnnotationPanelTest, CameraSigma_IsShownOnlyWithAnEndEffector) {
   const QString at_camera = QStringLiteral(">at the camera");
   const QString without = htmlWith({});
   EXPECT_FALSE(without.contains(at_camera)) << "said once";
-  EXPECT_TRUE(without.contains(QStringLiteral("One sigma at the camera")));
+  EXPECT_TRUE(without.contains(QStringLiteral("3 sigma at the camera")));
   EXPECT_TRUE(without.contains(QStringLiteral("Distance of the annotated pose at the camera")));
   Pose camera_from_end_effector;
   camera_from_end_effector.translation_m = {0.0, 0.1, 0.2};
   const QString with = htmlWith(camera_from_end_effector);
   EXPECT_TRUE(with.contains(at_camera));
-  EXPECT_TRUE(with.contains(QStringLiteral("One sigma at the end effector")));
+  EXPECT_TRUE(with.contains(QStringLiteral("3 sigma at the end effector")));
 }
 
 TEST_F(AnnotationPanelTest, GeometryIsWeakWhereTheSigmaExceedsTheRequirement) {

@@ -133,7 +133,7 @@ TEST_P(SceneAnnotatingFrom, AClickNearAnEdgeGivesItsNearestPlace) {
 
 TEST_P(SceneAnnotatingFrom, AClickNearTheMiddleOfACircleGivesItsCentre) {
   hover(pixelOf(kCircle_m) + QPointF(3.0, 2.0));
-  EXPECT_EQ(aimText(), QStringLiteral("circle centre, radius 30.0 mm"));
+  EXPECT_EQ(aimText(), QStringLiteral("circle centre, radius 30.0 mm, z 0.00 mm"));
   click(pixelOf(kCircle_m) + QPointF(3.0, 2.0));
   EXPECT_LT((lastPlace_m() - kCircle_m).norm(), 1e-8);
 }

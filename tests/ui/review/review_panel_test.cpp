@@ -17,6 +17,7 @@
 #include "ui/panels/case/cases_panel.h"
 #include "ui/panels/diagnose/options_table.h"
 #include "ui/review/pose_export.h"
+#include "ui/review/precision_bars.h"
 #include "ui/run/export_runner.h"
 #include "ui/state/document.h"
 #include "ui/style/tokens.h"
@@ -118,6 +119,35 @@ TEST_F(ReviewPanelTest, ShowsTheChecksOfCheckPoseInTheirStates) {
               fromText(sessions::foundText(check)));
   }
   EXPECT_TRUE(test::has(banner(), "NOT VALIDATED"));
+}
+
+/// Where nothing failed, the measure of the pose leads.
+TEST_F(ReviewPanelTest, PrecisionIsShownUnlessACheckFailed) {
+  openRun();
+  const auto* bars = panel_->findChild<PrecisionBars*>();
+  EXPECT_EQ(bars->isVisible(), countOf(controller().checks(), CheckState::kFailed) == 0);
+  askTooMuch();
+  EXPECT_FALSE(bars->isVisible());
+}
+
+TEST(PrecisionBars, ShowCovariancesThatHaveALimit) {
+  sessions::Check limited;
+  limited.id = "covariance_lateral";
+  limited.unit = "mm";
+  limited.state = CheckState::kPassed;
+  limited.figure = 0.37;
+  sessions::Check other = limited;
+  other.id = "coverage";
+  other.limit = 0.4;
+  PrecisionBars bars;
+  bars.setChecks({limited, other});
+  EXPECT_TRUE(bars.isHidden());
+  limited.limit = 0.4;
+  bars.setChecks({limited, other});
+  EXPECT_FALSE(bars.isHidden());
+  const auto figures = bars.findChildren<QLabel*>(QStringLiteral("precisionFigure"));
+  ASSERT_EQ(figures.size(), 1);
+  EXPECT_EQ(figures.front()->text(), QStringLiteral("0.37 of 0.40 mm"));
 }
 
 TEST_F(ReviewPanelTest, FailedChecksAreCards_OthersFoldToALine) {

@@ -149,6 +149,8 @@ TEST(Verdict, ValidationOfAnOutdatedRun_IsShownAsOutdatedInRunAndReview) {
     EXPECT_EQ(verdict.tone, VerdictTone::kCaution);
     EXPECT_EQ(verdict.head, QStringLiteral("Validated; outdated"));
     EXPECT_TRUE(test::has(verdict.sentence, "Outdated: the run was made with other options."));
+    EXPECT_EQ(verdict.step, Step::kRunAgain);
+    EXPECT_EQ(verdict.others.front(), Step::kExportPose);
   }
 }
 
@@ -299,6 +301,7 @@ TEST(Verdict, Review_TellsOpenChecksThenTheTestThenTheDecision) {
   EXPECT_TRUE(test::has(verdict.sentence, "1 check failed"));
   EXPECT_EQ(verdict.step, Step::kConvergenceTest);
   situation.review.testing = true;
+  EXPECT_EQ(verdictOf(situation).sentence, QStringLiteral("No seed is done yet."));
   situation.review.seeds_done = situation.review.seeds_returned = 3;
   verdict = verdictOf(situation);
   EXPECT_EQ(verdict.sentence, QStringLiteral("3 seeds done; all end at this pose."));
