@@ -180,7 +180,8 @@ void CaseController::judgeInputs() {
 
 void CaseController::loadLatestRun(const QString& id) {
   const sessions::RunRecord* record = document_.session().lastRunOf(id.toStdString());
-  if (!record || run_when_loaded_) {  // it is run now
+  reads_run_ = record && !run_when_loaded_;
+  if (!reads_run_) {  // it is run now
     Q_EMIT stalenessChanged();
     return runIfWaiting();
   }
@@ -190,9 +191,14 @@ void CaseController::loadLatestRun(const QString& id) {
         return std::make_shared<const sessions::LocalizationTrace>(sessions::loadSnapshot(run));
       },
       [this, id](std::shared_ptr<const sessions::LocalizationTrace> snapshot) {
+        reads_run_ = false;
         if (id != case_id_ || run_is_prepared_) return;
         state_.setSnapshot(std::move(snapshot));
         Q_EMIT stalenessChanged();
+      },
+      [this](const QString& problem) {
+        reads_run_ = false;
+        Q_EMIT failed(problem);
       });
 }
 

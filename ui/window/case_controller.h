@@ -36,6 +36,8 @@ class CaseController : public QObject {
   const QString& caseId() const { return case_id_; }
   /// Whether the case is run as soon as it is read.
   bool runsSoon() const { return run_when_loaded_.has_value(); }
+  /// Whether the last run of the shown case is being read.
+  bool readsRun() const { return reads_run_; }
   /// Why the case could not be read, or empty.
   const QString& loadProblem() const { return load_problem_; }
   /// The options of the next run of the case.
@@ -149,6 +151,7 @@ class CaseController : public QObject {
   std::optional<sessions::InputConcern> input_concern_;
   std::optional<Pose> working_;  ///< camera_from_station of the document that the views have
   std::optional<sessions::SessionCase> asked_;  ///< the case read last, or being read
+  bool reads_run_ = false;
   bool run_is_prepared_ = false;
   bool is_new_run_ = false;  ///< from the seed, and nothing of it is shown yet
   int storing_ = 0;

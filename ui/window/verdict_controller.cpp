@@ -162,7 +162,7 @@ Situation VerdictController::situation() const {
   situation.run = parts_.run.state();
   situation.in_batch = parts_.cases.batch() && parts_.cases.batch()->case_id == id && !id.isEmpty();
   situation.in_batch |= situation.has_case && parts_.cases.runsSoon();
-  if (!situation.has_case) situation.reading = id;
+  if (!situation.has_case || parts_.cases.readsRun()) situation.reading = id;
   const auto& record = parts_.onboard.review();
   situation.can_repeat = record && record->plan.has_options;
   situation.trace = parts_.state.snapshot();

@@ -363,6 +363,7 @@ Verdict verdictOf(const Situation& situation) {
     return ofAnnotation(situation.annotation, situation.has_seed);
   if (situation.workspace == Workspace::kOnboard && situation.run != RunState::kWorking)
     return ofOnboard(situation);
+  if (!situation.reading.isEmpty() && !situation.trace) return ofReading(situation.reading);
   if (situation.workspace == Workspace::kReview)
     if (auto verdict = ofReview(situation)) return *verdict;
   if (decisionIsOfShownRun(situation)) return ofDecision(situation);

@@ -79,7 +79,7 @@ struct Situation {
   QString input_step;     ///< step that corrects it: "Choose camera..."
   QString file_problem;   ///< a missing or changed input file, or empty
   RunState run = RunState::kEmpty;
-  QString reading;        ///< the case whose files are being read, or empty
+  QString reading;        ///< the case of which files or the last run are being read, or empty
   bool in_batch = false;  ///< the shown case is run as soon as it is read, or by the batch
   std::shared_ptr<const sessions::LocalizationTrace> trace;
   std::vector<Step> tried;  ///< remedies of earlier runs

@@ -67,6 +67,9 @@ TEST(Verdict, CaseThatIsBeingRead_IsNamed) {
   situation.reading = QStringLiteral("bc-000041");
   EXPECT_EQ(verdictOf(situation).head, QStringLiteral("Opening bc-000041."));
   EXPECT_EQ(verdictOf(situation).step, Step::kNone);
+  Situation its_run = ready();
+  its_run.reading = situation.reading;
+  EXPECT_EQ(verdictOf(its_run).head, QStringLiteral("Opening bc-000041.")) << "not ready to run";
 }
 
 TEST(Verdict, ReadyCase_OffersRun) {
