@@ -11,7 +11,7 @@
 namespace boresight::ui {
 namespace {
 
-constexpr int kStateVersion = 3;  // of another set of panels, a layout is not taken over
+constexpr int kStateVersion = 4;  // of another set of panels, a layout is not taken over
 
 QString keyOf(Workspace workspace, bool narrow) {
   return QStringLiteral("workspaces/%1/%2")
@@ -28,6 +28,9 @@ Workspaces::Workspaces(QMainWindow& body, std::vector<QDockWidget*> docks, QObje
     each->hide();
     connect(each, &QDockWidget::visibilityChanged, this, [this, each](bool visible) {
       if (visible) keepOneDrawer(each);
+    });
+    connect(each->toggleViewAction(), &QAction::triggered, each, [each](bool shown) {
+      if (shown) each->raise();
     });
   }
 }
@@ -105,6 +108,7 @@ void Workspaces::place(const std::vector<PlacedDock>& places) {
     each->setFloating(false);
     body_.removeDockWidget(each);
   }
+  QDockWidget* last_at_right = nullptr;
   for (const PlacedDock& each : places) {
     QDockWidget* placed = dock(QLatin1String(each.dock));
     QDockWidget* behind = each.behind ? dock(QLatin1String(each.behind)) : nullptr;
@@ -115,17 +119,20 @@ void Workspaces::place(const std::vector<PlacedDock>& places) {
       body_.addDockWidget(each.area, placed);
     placed->show();
     if (behind) behind->raise();
+    if (each.area == Qt::RightDockWidgetArea && !behind) last_at_right = placed;
   }
-  // The others can be added; those of a narrow window's drawers share their place.
+  // The others can be added, as tabs: a panel that opens takes no room from those that are there.
   for (QDockWidget* each : docks_)
     if (body_.dockWidgetArea(each) == Qt::NoDockWidgetArea) {
       const bool table = each->objectName() == QLatin1String("iterations") ||
                          each->objectName() == QLatin1String("annotation") ||
                          each->objectName() == QLatin1String("onboard");
-      body_.addDockWidget(table                                          ? Qt::BottomDockWidgetArea
-                          : each->objectName() == QLatin1String("cases") ? Qt::LeftDockWidgetArea
-                                                                         : Qt::RightDockWidgetArea,
+      const bool cases = each->objectName() == QLatin1String("cases");
+      body_.addDockWidget(table   ? Qt::BottomDockWidgetArea
+                          : cases ? Qt::LeftDockWidgetArea
+                                  : Qt::RightDockWidgetArea,
                           each);
+      if (last_at_right && !table && !cases) body_.tabifyDockWidget(last_at_right, each);
       each->hide();
     }
 }
@@ -162,9 +169,8 @@ void Workspaces::keepOneDrawer(QDockWidget* opened) {
   if (placing_ || !shown_ || !narrow_ || opened->isFloating()) return;
   const std::vector<const char*>& drawers = workspaceInfo(current_).drawers;
   const auto is_drawer = [&drawers](const QDockWidget* each) {
-    return std::ranges::any_of(drawers, [each](const char* name) {
-      return each->objectName() == QLatin1String(name);
-    });
+    return std::ranges::any_of(
+        drawers, [each](const char* name) { return each->objectName() == QLatin1String(name); });
   };
   if (current_ == Workspace::kAnnotate || !is_drawer(opened)) return;
   placing_ = true;
@@ -186,6 +192,7 @@ void Workspaces::toggleArea(Qt::DockWidgetArea area) {
   for (const PlacedDock& each : narrow_ && !info.narrow.empty() ? info.narrow : info.wide)
     if (each.area == area)
       if (QDockWidget* placed = dock(QLatin1String(each.dock))) placed->show();
+  giveSizes(narrow_ && !info.narrow.empty() ? info.narrow : info.wide);
 }
 
 void Workspaces::save(QSettings& settings) {
