@@ -202,6 +202,8 @@ void AnnotationController::select(const std::string& id) {
   Q_EMIT selectionChanged();
 }
 
+bool AnnotationController::robust() const { return document_.session().robust_annotations; }
+
 void AnnotationController::setRobust(bool robust) {
   sessions::Session next = document_.session();
   next.robust_annotations = robust;

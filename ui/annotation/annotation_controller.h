@@ -86,7 +86,7 @@ class AnnotationController : public QObject {
   /// The solved pose of the current case, stale or not; empty where there is none.
   std::optional<Pose> solvedPose() const;
   const AnnotationAnswer& answer() const { return answer_; }
-  bool robust() const { return document_.session().robust_annotations; }
+  bool robust() const;
   /// Whether the other cases of the rig are solved with this one.
   bool together() const { return together_; }
   /// Standard deviation of new annotations, px per axis.

@@ -138,7 +138,7 @@ TEST(CaseAnnotations, AnUnannotatedCaseGetsItsPoseFromTheRig) {
 TEST(CaseAnnotations, SaysWhyThereIsNoPose) {
   const RigSession rig;
   const auto none = sessions::solveCaseAnnotations(
-      caseAnnotations(withAnnotations(rig.session, "other", {}), "other"), Pose(), {}, false);
+      caseAnnotations(withAnnotations(rig.session, "other", {}), "other"), Pose(), {});
   EXPECT_FALSE(none.camera_from_station());
   EXPECT_TRUE(none.left_out.empty());
   ASSERT_FALSE(none.warnings.empty());
