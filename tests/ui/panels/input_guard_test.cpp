@@ -10,7 +10,7 @@ namespace {
 
 /// The wheel gave a field the focus, and with it changed the value that was scrolled over.
 TEST(InputGuard, WheelOverAField_NeitherChangesNorFocusesIt) {
-  const InputGuard guard;
+  const InputGuard guard(nullptr);
   QWidget window;
   auto* column = new QVBoxLayout(&window);
   auto* other = new QLineEdit;
