@@ -61,10 +61,11 @@ SceneAim aimOf(const MeshSnapper& mesh, const MeshSnap& snap) {
     case MeshSnapKind::kCircle:
       for (const sessions::MeshCircle& circle : mesh.circles())
         if (circle.centre_in_station_m == snap.point_in_station_m) aim.circle = circle;
-      aim.text = sceneAimText("circle centre, radius %1 mm").arg(1e3 * snap.radius_m, 0, 'f', 1);
+      aim.text = sceneAimText("circle centre, radius %1 mm, z %2 mm")
+                     .arg(1e3 * snap.radius_m, 0, 'f', 1)
+                     .arg(1e3 * snap.point_in_station_m.z(), 0, 'f', 2);
       break;
   }
-  aim.text += sceneAimText(", z %1 mm").arg(1e3 * snap.point_in_station_m.z(), 0, 'f', 2);
   return aim;
 }
 

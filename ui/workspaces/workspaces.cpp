@@ -29,8 +29,8 @@ Workspaces::Workspaces(QMainWindow& body, std::vector<QDockWidget*> docks, QObje
     connect(each, &QDockWidget::visibilityChanged, this, [this, each](bool visible) {
       if (visible) keepOneDrawer(each);
     });
-    connect(each->toggleViewAction(), &QAction::triggered, each, [each](bool shown) {
-      if (shown) each->raise();
+    connect(each->toggleViewAction(), &QAction::triggered, this, [this, each](bool shown) {
+      if (shown) addAsTab(each);
     });
   }
 }
@@ -75,7 +75,25 @@ void Workspaces::reveal(const QString& name) {
   QDockWidget* found = dock(name);
   if (!found) return;
   found->show();
-  found->raise();
+  addAsTab(found);
+}
+
+/// A panel that is added takes no room from those of the workspace: it is a tab of the last one at
+/// the right.
+void Workspaces::addAsTab(QDockWidget* added) {
+  const std::vector<PlacedDock>& places = workspaceInfo(current_).wide;
+  const auto of_workspace = std::ranges::find_if(places, [added](const PlacedDock& each) {
+    return added->objectName() == QLatin1String(each.dock);
+  });
+  if (!narrow_ && of_workspace == places.end() && !added->isFloating() &&
+      body_.dockWidgetArea(added) == Qt::RightDockWidgetArea)
+    for (auto each = places.rbegin(); each != places.rend(); ++each) {
+      QDockWidget* there = dock(QLatin1String(each->dock));
+      if (each->area != Qt::RightDockWidgetArea || !there || there->isHidden()) continue;
+      body_.tabifyDockWidget(there, added);
+      break;
+    }
+  added->raise();
 }
 
 void Workspaces::windowResized() {
@@ -108,7 +126,6 @@ void Workspaces::place(const std::vector<PlacedDock>& places) {
     each->setFloating(false);
     body_.removeDockWidget(each);
   }
-  QDockWidget* last_at_right = nullptr;
   for (const PlacedDock& each : places) {
     QDockWidget* placed = dock(QLatin1String(each.dock));
     QDockWidget* behind = each.behind ? dock(QLatin1String(each.behind)) : nullptr;
@@ -119,20 +136,17 @@ void Workspaces::place(const std::vector<PlacedDock>& places) {
       body_.addDockWidget(each.area, placed);
     placed->show();
     if (behind) behind->raise();
-    if (each.area == Qt::RightDockWidgetArea && !behind) last_at_right = placed;
   }
-  // The others can be added, as tabs: a panel that opens takes no room from those that are there.
+  // The others can be added; those of a narrow window's drawers share their place.
   for (QDockWidget* each : docks_)
     if (body_.dockWidgetArea(each) == Qt::NoDockWidgetArea) {
       const bool table = each->objectName() == QLatin1String("iterations") ||
                          each->objectName() == QLatin1String("annotation") ||
                          each->objectName() == QLatin1String("onboard");
-      const bool cases = each->objectName() == QLatin1String("cases");
-      body_.addDockWidget(table   ? Qt::BottomDockWidgetArea
-                          : cases ? Qt::LeftDockWidgetArea
-                                  : Qt::RightDockWidgetArea,
+      body_.addDockWidget(table                                          ? Qt::BottomDockWidgetArea
+                          : each->objectName() == QLatin1String("cases") ? Qt::LeftDockWidgetArea
+                                                                         : Qt::RightDockWidgetArea,
                           each);
-      if (last_at_right && !table && !cases) body_.tabifyDockWidget(last_at_right, each);
       each->hide();
     }
 }

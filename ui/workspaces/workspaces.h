@@ -47,6 +47,7 @@ class Workspaces : public QObject {
  private:
   void place(const std::vector<PlacedDock>& places);
   void giveSizes(const std::vector<PlacedDock>& places);
+  void addAsTab(QDockWidget* added);
   void keepOneDrawer(QDockWidget* opened);
   void bringUp();
   void keepSize(const QSize& size, int tries = 20);

@@ -133,7 +133,9 @@ TEST_P(SceneAnnotatingFrom, AClickNearAnEdgeGivesItsNearestPlace) {
 
 TEST_P(SceneAnnotatingFrom, AClickNearTheMiddleOfACircleGivesItsCentre) {
   hover(pixelOf(kCircle_m) + QPointF(3.0, 2.0));
-  EXPECT_EQ(aimText(), QStringLiteral("circle centre, radius 30.0 mm, z 0.00 mm"));
+  EXPECT_EQ(
+      aimText(),
+      QStringLiteral("circle centre, radius 30.0 mm, z %1 mm").arg(1e3 * kCircle_m.z(), 0, 'f', 2));
   click(pixelOf(kCircle_m) + QPointF(3.0, 2.0));
   EXPECT_LT((lastPlace_m() - kCircle_m).norm(), 1e-8);
 }

@@ -148,7 +148,9 @@ TEST_F(MainWindowTest, AllCasesAreRunAndCountedWhileTheShownCaseStays) {
 TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
   openRun();
   ASSERT_TRUE(std::filesystem::remove(window_.document().session().runs[0].file));
+  ASSERT_TRUE(wait([&] { return key("Ctrl+F5")->isEnabled(); }));
   key("Ctrl+F5")->trigger();
+  ASSERT_TRUE(window_.cases().batch());
   ASSERT_TRUE(wait([&] { return !window_.cases().batch() && resting(); }));
   ASSERT_EQ(window_.document().session().runs.size(), 2u);
   for (const sessions::RunRecord& run : window_.document().session().runs)

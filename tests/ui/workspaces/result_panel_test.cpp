@@ -75,8 +75,9 @@ TEST_F(ResultPanelTest, RunOfFormerInputs_HasNoQuality) {
   show(LocalizationStatus::kConverged);
   sessions::Session changed = document_.session();
   const std::string other(64, '0');
-  changed.runs.push_back({state_.currentCase()->source.id, state_.snapshot()->digest, "a.trace",
-                          "converged", "1.0.0", "2026-01-31T23:59:59Z", other, other});
+  changed.runs.push_back({state_.currentCase()->source.id, state_.snapshot()->digest,
+                          folder_ / "a.trace", "converged", "1.0.0", "2026-01-31T23:59:59Z", other,
+                          other});
   ASSERT_TRUE(document_.edit(changed, QStringLiteral("Another camera")));
   EXPECT_FALSE(quality_.quality().has_value());
 }
