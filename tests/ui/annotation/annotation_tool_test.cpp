@@ -396,10 +396,14 @@ TEST_F(ImageAnnotationLayersTest, BlindRound_HidesAllThatAPosePredicts) {
   EXPECT_FALSE(tool().stationPose());
   EXPECT_FALSE(panel_.style(LayerId::kMask).visible || panel_.style(LayerId::kMatches).visible);
   EXPECT_TRUE(panel_.style(LayerId::kTestEdges).visible) << "they are the image's";
+  show(LayerId::kMatches, true);
+  EXPECT_FALSE(panel_.style(LayerId::kMatches).visible) << "its key does not show it either";
+  EXPECT_FALSE(state_.knownPose()) << "nor the readout";
   ASSERT_TRUE(document_.undo());
   EXPECT_TRUE(wait([&] {
     return panel_.style(LayerId::kMask).visible && panel_.style(LayerId::kMatches).visible;
   }));
+  EXPECT_TRUE(state_.knownPose());
 }
 
 TEST_F(ImageAnnotationLayersTest, Band_FollowsTheCurrentAnnotations) {
