@@ -158,6 +158,20 @@ TEST_F(WorkspacesTest, AddedPanelStaysWithItsWorkspace) {
   EXPECT_TRUE(shows("levels"));
 }
 
+/// Each panel that was opened squeezed those of the workspace.
+TEST_F(WorkspacesTest, OpenedPanel_IsATabAndTakesNoRoom) {
+  resize(1920, 1080);
+  workspaces().show(Workspace::kRun);
+  workspaces().arrange();
+  QApplication::processEvents();
+  const QDockWidget& close_ups = *window_.dock(QStringLiteral("closeUps"));
+  const int before_px = close_ups.height();
+  window_.dock(QStringLiteral("runs"))->toggleViewAction()->trigger();
+  QApplication::processEvents();
+  EXPECT_TRUE(shows("runs"));
+  EXPECT_NEAR(close_ups.height(), before_px, 2) << "but for rounding";
+}
+
 using OwnWindowTest = test::WindowTest;
 
 TEST_F(OwnWindowTest, EmptyWindow_BeginsAtStartAndASessionInRun) {
