@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "core/base/symmetric_eigen.h"
-#include "sessions/text/text_table.h"
 
 namespace boresight::sessions {
 namespace {
@@ -150,9 +150,9 @@ std::vector<GeometryWarning> geometryWarnings(std::span<const AnnotatedView> vie
 }
 
 GeometryWarning imprecisionWarning(double sigmas, const std::string& excess) {
-  return {GeometryWeakness::kImprecise, false,
-          fixedText(sigmas, 0) + " sigma: " + excess +
-              "; place annotations more precisely and farther apart"};
+  std::ostringstream text;
+  text << sigmas << " sigma: " << excess << "; place annotations more precisely and farther apart";
+  return {GeometryWeakness::kImprecise, false, text.str()};
 }
 
 }  // namespace boresight::sessions

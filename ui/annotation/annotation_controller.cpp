@@ -207,7 +207,8 @@ bool AnnotationController::robust() const { return document_.session().robust_an
 void AnnotationController::setRobust(bool robust) {
   sessions::Session next = document_.session();
   next.robust_annotations = robust;
-  document_.edit(next, robust ? tr("Less weight for outliers") : tr("Equal weights"));
+  if (!document_.edit(next, robust ? tr("Less weight for outliers") : tr("Equal weights")))
+    Q_EMIT solutionChanged();  // the tick is as before
 }
 
 void AnnotationController::setTogether(bool together) {

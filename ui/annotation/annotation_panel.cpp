@@ -64,7 +64,7 @@ QString sigmaHtml(const AnnotationAnswer& answer) {
   if (!sigma) return {};
   const QString title =
       solutionText("%1 sigma at the %2, from the annotations (noise %3 times their stated sigmas)")
-          .arg(numberText(annotations.sigmas, 0), placeText(annotations))
+          .arg(QString::number(annotations.sigmas), placeText(annotations))
           .arg(QString::number(solution.noise_factor, 'f', 2));
   QVector<QStringList> rows = sigmaRows(*sigma, annotations.requirement);
   // Without an end effector these are the camera's own already.

@@ -170,6 +170,8 @@ TEST(CaseAnnotations, SigmaBeyondRequirement_IsReportedAsWeakWithItsExcess) {
   EXPECT_EQ(weak.back().text.rfind(begin, 0), 0u) << weak.back().text;
   EXPECT_THAT(weak.back().text, HasSubstr("times the 0.001 mm required"));
   EXPECT_EQ(warningsFor(1e6).warnings.size(), weak.size() - 1);
+  session.review.limits = {{"check.sigmas", 1.5}};
+  EXPECT_THAT(warningsFor(0.001).warnings.back().text, testing::StartsWith("1.5 sigma: "));
 }
 
 TEST(CaseAnnotations, NamesTheCornersOfABox) {

@@ -40,7 +40,7 @@ Eigen::Matrix4d matrixOf(const Pose& pose) {
   return matrix;
 }
 
-/// So many metres along z.
+/// A shift along z.
 Pose along(double z_m) { return {Eigen::Quaterniond::Identity(), {0.0, 0.0, z_m}}; }
 
 Matrix6d diagonal(double rotation_rad, double translation_m) {
