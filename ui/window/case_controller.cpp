@@ -390,8 +390,7 @@ void CaseController::store(const EndedRun& ended) {
         if (stored.records.empty()) {
           Q_EMIT storeFailed(stored.problem);
           if (!unstored_.empty()) endBatch();  // nor is there room for the next
-        } else if (document_.note(withRuns(document_.session(), stored.records),
-                                  tr("Run %1").arg(QString::fromStdString(ended.case_id)))) {
+        } else if (noteRuns(stored.records)) {
           std::erase_if(unstored_, [&](const EndedRun& ended_run) {
             return ended_run.snapshot == ended.snapshot;
           });
@@ -400,6 +399,14 @@ void CaseController::store(const EndedRun& ended) {
         }
         if (ended.of_batch) runNext();
       });
+}
+
+/// A run that was repeated within a second changes nothing: noting it would leave the session
+/// unmodified, which would look as if there were room now for what is being stored.
+bool CaseController::noteRuns(const std::vector<sessions::RunRecord>& records) {
+  const sessions::Session after = withRuns(document_.session(), records);
+  return after == document_.session() ||
+         document_.note(after, tr("Run %1").arg(fromText(records.front().case_id)));
 }
 
 /// The session was saved: perhaps there is room now.

@@ -135,6 +135,7 @@ class CaseController : public QObject {
   static std::vector<sessions::RunRecord> recordsOf(const EndedRun& ended,
                                                     const std::filesystem::path& file);
   void store(const EndedRun& ended);
+  bool noteRuns(const std::vector<sessions::RunRecord>& records);
   void storeAgain();
   void runNext();
   void endBatch();

@@ -145,7 +145,10 @@ TEST_F(MainWindowTest, AllCasesAreRunAndCountedWhileTheShownCaseStays) {
   EXPECT_TRUE(window_.dock(QStringLiteral("queue"))->isVisible());
 }
 
+/// At the beginning of a second: the record of the repeated run is then the one that the session
+/// has, so that storing it changes nothing.
 TEST_F(MainWindowTest, RunAllGoesOnWhereTheTraceOfAFormerRunIsMissing) {
+  ASSERT_TRUE(wait([] { return QTime::currentTime().msec() < 50; }));
   openRun();
   ASSERT_TRUE(std::filesystem::remove(window_.document().session().runs[0].file));
   ASSERT_TRUE(wait([&] { return key("Ctrl+F5")->isEnabled(); }));
