@@ -14,6 +14,7 @@
 #include "core/record/record_hashes.h"
 #include "core/templates/template_selection.h"
 #include "sessions/record/onboard_record.h"
+#include "sessions/run/problem.h"
 #include "sessions/text/units.h"
 #include "sessions/trace/iteration_trace.h"
 #include "sessions/trace/match_details.h"
