@@ -117,7 +117,13 @@ def build(targets, jobs):
     return run(["cmake", "--build", BUILD, "-j", str(jobs), "--target", *targets]) == 0
 
 
-def prepare(folders, jobs):
+def drawn_changes(folder, seed):
+    changes = all_changes(folder)
+    random.Random(f"{seed} {folder}").shuffle(changes)
+    return changes
+
+
+def check_out():
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "HEAD"], check=True,
                             capture_output=True, text=True).stdout.strip()
     if SOURCE.exists():
@@ -126,11 +132,17 @@ def prepare(folders, jobs):
     else:
         subprocess.run(["git", "-C", ROOT, "worktree", "add", "--quiet", "--detach", SOURCE, commit],
                        check=True)
-    tops = sorted({f.split("/")[0] for f in folders})  # whose files are compiled one at a time
+
+
+def prepare(folders, jobs, count, seed):
+    check_out()
+    # A few more than are judged: some changes do not compile.
+    alone = sorted({str(change[0].relative_to(SOURCE)) for folder in folders
+                    for change in drawn_changes(folder, seed)[:count + 4]})
     needs_sessions = any(f.startswith("sessions") or f == "core/record" for f in folders)
     sessions = "ON" if needs_sessions else "OFF"
     if run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-            "-DBORESIGHT_UNITY=ON", f"-DBORESIGHT_UNITY_EXCEPT={';'.join(tops)}",
+            "-DBORESIGHT_UNITY=ON", f"-DBORESIGHT_COMPILED_ALONE={';'.join(alone)}",
             "-DBORESIGHT_BUILD_UI=OFF", f"-DBORESIGHT_BUILD_SESSIONS={sessions}"]) != 0:
         sys.exit("mutate.py: cannot configure")
     targets = sorted({t.split()[0] for f in folders for t in TESTS[f]})
@@ -157,10 +169,8 @@ def noticed(folder, jobs, limits):
 
 
 def judge(folder, count, seed, jobs, limits):
-    changes = all_changes(folder)
-    random.Random(f"{seed} {folder}").shuffle(changes)
     noticed_count = judged = 0
-    for file, number, what, changed in changes:
+    for file, number, what, changed in drawn_changes(folder, seed):
         if judged == count:
             break
         before = file.read_text()
@@ -187,7 +197,7 @@ def main():
     parser.add_argument("--folder", nargs="+", choices=sorted(TESTS), default=sorted(TESTS))
     parser.add_argument("--jobs", type=int, default=2)
     arguments = parser.parse_args()
-    limits = prepare(arguments.folder, arguments.jobs)
+    limits = prepare(arguments.folder, arguments.jobs, arguments.per_folder, arguments.seed)
     scores = {}
     for folder in arguments.folder:
         scores[folder] = judge(folder, arguments.per_folder, arguments.seed, arguments.jobs,
