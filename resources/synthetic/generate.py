@@ -43,6 +43,7 @@ def arguments():
             help=f"share of shots with {text} (without a number: all)")
     add("--state", action="store_true",
         help="a lid and a gripper in half of the pictures; needs --pairs 0")
+    add("--sun-behind", action="store_true", help="the sun behind the camera; not with --hard")
     add("--seeds", type=int, default=1, metavar="N",
         help="seeds of each picture; a further one is a case ID-s001, ... (default 1)")
     add("--size", type=int, default=plan.SIDE_px, metavar="PX",
@@ -54,6 +55,8 @@ def arguments():
         parser.error("--cases, --jobs and --seeds must be at least 1, --size at least 64")
     if options.state and (options.pairs > 0.0 or not set(options.stations) <= {"bc", "os"}):
         parser.error("--state is of bc and os, with --pairs 0")
+    if options.sun_behind and options.hard > 0.0:
+        parser.error("--sun-behind is not for --hard, which shadows")
     if not set(options.stations) <= set(plan.STATIONS):
         parser.error("--stations knows " + ", ".join(plan.STATIONS))
     return options
@@ -62,8 +65,9 @@ def arguments():
 def claim(options):
     """Refuses to mix two sets in one folder, and clears what a killed run left."""
     drawn = {k: getattr(options, k) for k in ("seed", "pairs", "far", "hard", "size")}
-    if options.state:
-        drawn["state"] = True
+    for name in ("state", "sun_behind"):
+        if getattr(options, name):
+            drawn[name] = True
     file = options.out / "generator.json"
     if file.exists():
         known = json.loads(file.read_text())
@@ -109,7 +113,7 @@ def make_meshes(options):
 def unfinished_shots(options):
     """The plans that lack pictures, the stations in turn so that an early stop has both."""
     plans = [plan.shots(options.seed, station, options.cases, options.pairs, options.far,
-                        options.hard, options.size, options.state)
+                        options.hard, options.size, options.state, options.sun_behind)
              for station in options.stations]
     longest = max(len(p) for p in plans)
     turn = [p[i] for i in range(longest) for p in plans if i < len(p)]

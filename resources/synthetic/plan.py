@@ -330,6 +330,17 @@ def _scene(draw, station, hard):
             }, ["synthetic", sun_name]
 
 
+def _sun_behind(camera_from_station, seed, name):
+    """Light from about the camera's side, 15 to 35 deg from the view axis: drawn apart from
+    everything else, which stays as it is."""
+    draw = random.Random(f"{seed}/{name}/sun")
+    towards = _direction(math.radians(90.0 - draw.uniform(15.0, 35.0)),
+                         draw.uniform(-math.pi, math.pi))
+    # The camera looks along its +z.
+    in_camera = [towards[0], towards[1], -towards[2]]
+    return [sum(camera_from_station[k][i] * in_camera[k] for k in range(3)) for i in range(3)]
+
+
 def _up(draw, station):
     """Direction away from the ground, station frame."""
     if station in LYING:
@@ -353,7 +364,8 @@ def _state(seed, station, number):
     return [name for name in equipment if draw.random() < 0.5]
 
 
-def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px, state=False):
+def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px, state=False,
+          sun_behind=False):
     """Plans of all shots of a station: one picture each, or two of the pair taken at once."""
     made, number = [], 0
     while number < cases:
@@ -378,6 +390,9 @@ def shots(seed, station, cases, pairs=0.25, far=0.0, hard=0.0, side_px=SIDE_px, 
                                  multiply(RIGHT_FROM_LEFT, seed_left), side_px))
             frames[1]["camera_from_end_effector"] = multiply(RIGHT_FROM_LEFT,
                                                              camera_from_end_effector(station))
+        if sun_behind:
+            plan["towards_sun"] = _sun_behind(left, seed, name)
+            tags = [t for t in tags if not t.startswith("sun_")] + ["sun_camera"]
         if state:
             plan["state"] = _state(seed, drawn_as, number)
             tags += ["state_" + part for part in plan["state"]]

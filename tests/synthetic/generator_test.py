@@ -259,6 +259,23 @@ class Plan(unittest.TestCase):
                 self.assertEqual(before, after)
             self.assertEqual(names, {"gripper", "lid"} if station == "bc" else {"gripper"})
 
+    def test_sun_behind_the_camera_changes_nothing_else(self):
+        for station in ("bc", "os", "mug"):
+            for before, after in zip(plan.shots(3, station, 30, pairs=0.0),
+                                     plan.shots(3, station, 30, pairs=0.0, sun_behind=True)):
+                sun = after.pop("towards_sun")
+                before.pop("towards_sun")
+                self.assertAlmostEqual(math.hypot(*sun), 1.0)
+                pose = after["frames"][0]["camera_from_station"]
+                behind = -sum(pose[2][i] * sun[i] for i in range(3))
+                angle_deg = math.degrees(math.acos(behind))
+                self.assertTrue(15.0 <= angle_deg <= 35.0, angle_deg)
+                self.assertIn("sun_camera", after["tags"])
+                for shot in before, after:
+                    for each in (shot, *shot["frames"]):
+                        each["tags"] = [t for t in each["tags"] if not t.startswith("sun_")]
+                self.assertEqual(before, after)
+
     def test_state_names_parts_of_the_station(self):
         for station in ("bc", "os"):
             parts = layout.equipment(station)
