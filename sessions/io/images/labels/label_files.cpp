@@ -42,7 +42,9 @@ std::string_view firstWord(std::string_view text) {
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// Writes FORTRAN's exponents, 1.5D-03, as 1.5E-03: GDAL takes that for 1.5. Texts are kept.
-void rewriteExponents(LabelFiles& files, std::string_view label, char quote) {
+/// `label` is the part of the file's bytes that begins at `begin`.
+void rewriteExponents(LabelFiles& files, std::string_view label, char quote,
+                      std::size_t begin = 0) {
   bool in_text = false;
   bool in_number = false;
   const auto digitAt = [label](std::size_t i) { return i < label.size() && isDigit(label[i]); };
@@ -52,7 +54,7 @@ void rewriteExponents(LabelFiles& files, std::string_view label, char quote) {
     const bool sign = i + 1 < label.size() && (label[i + 1] == '-' || label[i + 1] == '+');
     if (in_number && !in_text && (c == 'D' || c == 'd') && digitAt(sign ? i + 2 : i + 1)) {
       if (files.rewritten.empty()) files.rewritten = files.parts.front().bytes;
-      files.rewritten[i] = 'E';
+      files.rewritten[begin + i] = 'E';
     }
     // A number begins after a blank, '=', '(' or ','; letters end it.
     const bool before =
@@ -118,6 +120,13 @@ void readVicarLabel(LabelFiles& files) {
   requireSize(files, label, "NLB", 0, kMaxImageSide_px);
   requireSize(files, label, "RECSIZE", 1, kMostPrefix + kMaxImageSide_px * kMostBytesOfSample);
   rewriteExponents(files, label, '\'');
+  if (const auto end = vicarEndLabel(label); end && *end < static_cast<std::int64_t>(text.size())) {
+    const auto begin = static_cast<std::size_t>(*end);
+    const std::string_view rest = text.substr(begin);
+    const std::int64_t rest_size = statedInteger(rest.substr(0, 64), "LBLSIZE").value_or(0);
+    if (rest_size > 0)
+      rewriteExponents(files, rest.substr(0, static_cast<std::size_t>(rest_size)), '\'', begin);
+  }
   stateOrganization(files, label);
 }
 
@@ -259,6 +268,17 @@ std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes) {
 
 std::optional<std::int64_t> statedInteger(std::string_view label, std::string_view key) {
   return numberIn<std::int64_t>(firstWord(textAfter(label, key).value_or("")));
+}
+
+std::optional<std::int64_t> vicarEndLabel(std::string_view label) {
+  const auto stated = [label](const char* key) { return statedInteger(label, key).value_or(0); };
+  if (stated("EOL") != 1) return std::nullopt;
+  // Behind compressed pixels; EOCI2 is of files beyond 4 GB.
+  if (const std::int64_t compressed_end = stated("EOCI1"); compressed_end > 0)
+    return compressed_end;
+  const bool by_pixel = firstWord(textAfter(label, "ORG").value_or("")) == "'BIP'";
+  const std::int64_t lines = stated("NL") * (by_pixel ? stated("NS") : stated("NB"));
+  return stated("LBLSIZE") + stated("RECSIZE") * (stated("NLB") + lines);
 }
 
 std::optional<fs::path> labelFileOf(const fs::path& file) {

@@ -25,6 +25,10 @@ std::optional<LabelFormat> labelFormatOf(std::span<const std::uint8_t> bytes);
 /// where the label states none.
 std::optional<std::int64_t> statedInteger(std::string_view label, std::string_view key);
 
+/// Byte of the file at which the rest of a VICAR label begins, behind the pixels; empty where the
+/// label is at the beginning alone.
+std::optional<std::int64_t> vicarEndLabel(std::string_view label);
+
 /// A file that an image with a label consists of, read once.
 struct LabelPart {
   std::string name;  ///< as in the label; the label itself has an internal name

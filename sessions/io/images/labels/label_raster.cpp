@@ -248,12 +248,8 @@ void requireStatedRecords(const LabelFiles& files, const json& label, const Labe
     throw InputError(files.file, "LBLSIZE",
                      std::to_string(label_size) + " is no multiple of the " +
                          std::to_string(record) + " bytes of a record");
-  if (stated("EOL") != 1) return;
-  const std::int64_t lines =
-      std::int64_t{picture.height} * (by_pixel ? picture.width : picture.bands);
-  const std::int64_t compressed_end = stated("EOCI1");  // EOCI2 is of files beyond 4 GB
-  requireEndLabel(
-      files, compressed_end > 0 ? compressed_end : label_size + record * (stated("NLB") + lines));
+  const auto end = vicarEndLabel(text.substr(0, static_cast<std::size_t>(label_size)));
+  if (end) requireEndLabel(files, *end);
 }
 
 /// GDAL fills what is missing at the end of a file with zeros.
