@@ -9,6 +9,7 @@
 #include "sessions/decision/check.h"
 #include "sessions/trace/acceptance.h"
 #include "sessions/trace/match_details.h"
+#include "sessions/trace/run_headline.h"
 
 namespace boresight::sessions {
 namespace {
@@ -32,11 +33,12 @@ constexpr double kLeastDepthShare = 0.01;
 std::string count(double value) { return std::to_string(static_cast<long>(std::lround(value))); }
 
 Check convergedCheck(const LocalizationTrace& run) {
-  std::string found =
-      run.converged()
-          ? "The run converged after " + std::to_string(run.iterations.size()) + " iterations."
-          : std::string("The run ended as ") + localizationStatusText(run.status) + ".";
-  if (hasProbability(run)) found += " " + acceptanceText(run);
+  const RunHeadline headline = runHeadline(run);
+  std::string found = headline.head + ". " + headline.sentence;
+  if (run.converged()) {
+    found = "The run converged after " + std::to_string(run.iterations.size()) + " iterations.";
+    if (hasProbability(run)) found += " " + acceptanceText(run);
+  }
   return statedCheck(kConverged, run.converged(), found,
                      "Check the failed iteration; start nearer, or ignore unreliable pixels.");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sessions/trace/run_headline.h"
 
+#include <algorithm>
 #include <cctype>
 
 #include "core/base/math.h"
@@ -90,6 +91,16 @@ RunHeadline runHeadline(const LocalizationTrace& trace) {
 bool searchedEveryTurn(const LocalizationTrace& trace) {
   constexpr double kNearlyHalfTurn_rad = 179.0 * kDegree_rad;
   return trace.uncertainty.rotation_rad.z() >= kNearlyHalfTurn_rad;
+}
+
+std::string iterationName(const LocalizationTrace& trace, int iteration) {
+  const auto& all = trace.iterations;
+  if (iteration < 0 || iteration >= static_cast<int>(all.size())) return "seed";
+  const auto end = all.begin() + iteration + 1;
+  const int attempt = (*(end - 1))->attempt;
+  const auto number = std::count_if(
+      all.begin(), end, [attempt](const auto& each) { return each->attempt == attempt; });
+  return std::to_string(attempt + 1) + "." + std::to_string(number);
 }
 
 }  // namespace boresight::sessions

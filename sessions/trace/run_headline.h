@@ -18,4 +18,8 @@ RunHeadline runHeadline(const LocalizationTrace& trace);
 /// Whether the seed's uncertainty covers a turn by any angle about the view axis.
 bool searchedEveryTurn(const LocalizationTrace& trace);
 
+/// Name of an iteration: its attempt and its number in it, "2.3"; "seed" below 0 and beyond the
+/// end.
+std::string iterationName(const LocalizationTrace& trace, int iteration);
+
 }  // namespace boresight::sessions

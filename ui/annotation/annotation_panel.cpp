@@ -13,6 +13,7 @@
 #include "sessions/annotation/annotations.h"
 #include "sessions/evaluation/pose_error.h"
 #include "sessions/session/rig_links.h"
+#include "sessions/trace/run_headline.h"
 #include "ui/annotation/station_snapper.h"
 #include "ui/models/text.h"
 #include "ui/panels/run/pose_comparison.h"
@@ -426,7 +427,10 @@ std::vector<ComparedPose> AnnotationPanel::otherPoses() const {
     if (const auto pose = poseOf(state_, role)) compared_poses.push_back({name, *pose});
   };
   add(tr("seed"), PoseRole::kSeed);
-  add(tr("run, iteration %1").arg(state_.cursor().iteration + 1), PoseRole::kEstimate);
+  if (state_.snapshot())
+    add(tr("run, iteration %1")
+            .arg(fromText(sessions::iterationName(*state_.snapshot(), state_.cursor().iteration))),
+        PoseRole::kEstimate);
   add(tr("nudged"), PoseRole::kNudged);
   add(tr("truth"), PoseRole::kTruth);
   return compared_poses;

@@ -70,6 +70,16 @@ QWidget* CheckCards::cardOf(const sessions::Check& check) {
     Q_EMIT reasonEdited(id, reason->text().trimmed());
   });
   reasons_.push_back(reason);
+  auto* show = named(new QPushButton(iconOf(Icon::kSearch), tr("Show")), "showCheck",
+                     tr("Show what this figure comes from"));
+  show->setAccessibleName(tr("Show what '%1' comes from").arg(fromText(check.title)));
+  connect(
+      show, &QPushButton::clicked, this, [this, id = check.id] { Q_EMIT showRequested(id); },
+      Qt::QueuedConnection);
+  auto* answer = new QHBoxLayout;
+  answer->setSpacing(kBlockGap);
+  answer->addWidget(reason, 1);
+  answer->addWidget(show);
   auto* head = new QHBoxLayout;
   head->setSpacing(kBlockGap);
   head->addWidget(title, 1);
@@ -79,7 +89,7 @@ QWidget* CheckCards::cardOf(const sessions::Check& check) {
   column->setSpacing(kBlockGap / 2);
   column->addLayout(head);
   column->addWidget(sentence);
-  column->addWidget(reason);
+  column->addLayout(answer);
   return card;
 }
 

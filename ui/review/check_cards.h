@@ -38,6 +38,8 @@ class CheckCards : public QWidget {
 
  Q_SIGNALS:
   void reasonEdited(const std::string& check_id, const QString& reason);
+  /// What the figure comes from should be shown.
+  void showRequested(const std::string& check_id);
 
  private:
   QWidget* cardOf(const sessions::Check& check);

@@ -43,9 +43,14 @@ ReviewController::ReviewController(Document& document, ViewState& state, QObject
   follow();
 }
 
-void ReviewController::setActive(bool active) {
-  active_ = active;
-  if (active_ && !current_) ask();
+void ReviewController::setInSight(bool in_sight) {
+  in_sight_ = in_sight;
+  if (isActive() && !current_) ask();
+}
+
+void ReviewController::setFollowsRuns(bool follows) {
+  follows_runs_ = follows;
+  if (isActive() && !current_) ask();
 }
 
 void ReviewController::setChosenCase(const QString& id) {
@@ -118,7 +123,7 @@ void ReviewController::follow() {
   if (!current || current != question_) {
     drop();
     question_ = std::move(current);
-    if (active_) ask();
+    if (isActive()) ask();
   }
   Q_EMIT checksChanged();
   Q_EMIT reviewStatusChanged();

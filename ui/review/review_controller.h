@@ -31,8 +31,9 @@ class ReviewController : public QObject {
 
   ReviewController(Document& document, ViewState& state, QObject* parent = nullptr);
 
-  /// Checks are evaluated only while active (visible).
-  void setActive(bool active);
+  /// Checks are evaluated only while they are in sight, or runs are looked at.
+  void setInSight(bool in_sight);
+  void setFollowsRuns(bool follows);
   /// Sets the case that the operator chose; while it is being read, another case is shown and no
   /// decision is possible.
   void setChosenCase(const QString& id);
@@ -120,6 +121,7 @@ class ReviewController : public QObject {
   void take(const Answer& answer, const QString& problem);
   sessions::CheckWaivers waivers() const;
   sessions::Session after(Act act, const sessions::Signature& who) const;
+  bool isActive() const { return in_sight_ || follows_runs_; }
   QString settled(Act act) const;
   QString unseen(Act act) const;
   bool showsOtherRun() const;
@@ -127,7 +129,8 @@ class ReviewController : public QObject {
 
   Document& document_;
   ViewState& state_;
-  bool active_ = false;
+  bool in_sight_ = false;
+  bool follows_runs_ = false;
   QString chosen_id_;  ///< empty: not set
   bool shows_other_run_ = false;
   std::string shown_id_;  ///< the case that the source was chosen for

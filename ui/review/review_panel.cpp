@@ -199,6 +199,7 @@ ReviewPanel::ReviewPanel(Document& document, ViewState& state, QWidget* parent)
   connect(&controller_, &ReviewController::checksChanged, this, &ReviewPanel::showChecks);
   connect(&controller_, &ReviewController::convergenceChanged, this, &ReviewPanel::showConvergence);
   connect(ui_.failed, &CheckCards::reasonEdited, &controller_, &ReviewController::setReason);
+  connect(ui_.failed, &CheckCards::showRequested, this, &ReviewPanel::checkShowRequested);
   showReviewStatus();
   showChecks();
 }
@@ -226,12 +227,12 @@ void ReviewPanel::buildTable() {
 
 void ReviewPanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  controller_.setActive(true);
+  controller_.setInSight(true);
 }
 
 void ReviewPanel::hideEvent(QHideEvent* event) {
   QWidget::hideEvent(event);
-  controller_.setActive(false);
+  controller_.setInSight(false);
 }
 
 void ReviewPanel::showReviewStatus() {

@@ -67,6 +67,10 @@ class ReviewPanel : public QWidget {
   DecisionForm& decision() { return *decision_; }
   QTableView& table();
 
+ Q_SIGNALS:
+  /// What the figure of a failed check comes from should be shown.
+  void checkShowRequested(const std::string& check_id);
+
  protected:
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;

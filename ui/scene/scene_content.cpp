@@ -8,6 +8,7 @@
 #include <QCoreApplication>
 
 #include "core/base/math.h"
+#include "sessions/trace/run_headline.h"
 #include "ui/models/text.h"
 #include "ui/style/theme.h"
 #include "ui/views/layer.h"
@@ -53,7 +54,11 @@ void addFrusta(const ViewState& state, SceneContent& content) {
   const Eigen::Vector3d centre_m = content.bounds.centre();
   const std::vector<SceneLine> held_in_camera_m = heldEdges(loaded_case.scene);
   const std::array<QString, kPoseRoles> labels = {
-      sceneText("seed"), sceneText("iteration %1").arg(state.cursor().iteration + 1),
+      sceneText("seed"),
+      state.snapshot()
+          ? sceneText("iteration %1")
+                .arg(fromText(sessions::iterationName(*state.snapshot(), state.cursor().iteration)))
+          : QString(),
       sceneText("nudged"), sceneText("truth"), sceneText("annotated")};
   const bool run_rejected = state.snapshot() && isRejected(*state.snapshot());
   for (int i = 0; i < kPoseRoles; ++i) {

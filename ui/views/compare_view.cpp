@@ -110,6 +110,16 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
   std::vector<Choice> choices;
   const sessions::SessionCase* shown = shownCase(document_, state_);
   if (!shown) return choices;
+  // Runs come first: what the last change did is what is compared most often.
+  const auto& runs = document_.session().runs;
+  const ViewState::SnapshotPtr& shown_run = state_.snapshot();
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run)
+    if (run->case_id == shown->id && !(shown_run && run->digest == shown_run->digest))
+      choices.push_back({tr("Run of %1: %2").arg(timeText(run->time), fromText(run->status)),
+                         run->status == "converged" ? kPoseLine : kRejectedLine,
+                         std::nullopt,
+                         *run,
+                         {}});
   if (const auto seed = poseOf(state_, PoseRole::kSeed))
     choices.push_back({tr("Seed"), kSeedLine, seed, std::nullopt, {}});
   if (const auto truth = poseOf(state_, PoseRole::kTruth))
@@ -121,15 +131,6 @@ std::vector<CompareView::Choice> CompareView::choicesNow() const {
                        std::nullopt,
                        {},
                        true});
-  const auto& runs = document_.session().runs;
-  const ViewState::SnapshotPtr& shown_run = state_.snapshot();
-  for (auto run = runs.rbegin(); run != runs.rend(); ++run)
-    if (run->case_id == shown->id && !(shown_run && run->digest == shown_run->digest))
-      choices.push_back({tr("Run of %1: %2").arg(timeText(run->time), fromText(run->status)),
-                         run->status == "converged" ? kPoseLine : kRejectedLine,
-                         std::nullopt,
-                         *run,
-                         {}});
   for (const std::string& id : sessions::casesOfRig(document_.session(), shown->id))
     choices.push_back(
         {tr("Camera of %1").arg(fromText(id)), kPoseLine, std::nullopt, std::nullopt, id});

@@ -6,8 +6,10 @@
 
 #include <QtWidgets>
 
+#include "sessions/trace/run_headline.h"
 #include "sessions/trace/scene_render.h"
 #include "sessions/trace/surface_point.h"
+#include "ui/models/text.h"
 #include "ui/run/task_runner.h"
 #include "ui/style/icons.h"
 #include "ui/views/canvas_chips.h"
@@ -51,16 +53,10 @@ QString stageName(Stage stage) {
 
 /// "Iteration 2.3, match".
 QString shownText(const ViewState& state) {
-  const auto iteration = state.iteration();
-  if (!iteration) return state.snapshot() ? ImagePanel::tr("Seed") : QString();
-  const auto& all = state.snapshot()->iterations;
-  int number = 0;
-  for (int i = 0; i <= state.cursor().iteration; ++i)
-    if (all[static_cast<std::size_t>(i)]->attempt == iteration->attempt) ++number;
-  return ImagePanel::tr("Iteration %1.%2%3")
-      .arg(iteration->attempt + 1)
-      .arg(number)
-      .arg(stageName(state.cursor().stage));
+  if (!state.iteration()) return state.snapshot() ? ImagePanel::tr("Seed") : QString();
+  return ImagePanel::tr("Iteration %1%2")
+      .arg(fromText(sessions::iterationName(*state.snapshot(), state.cursor().iteration)),
+           stageName(state.cursor().stage));
 }
 
 }  // namespace

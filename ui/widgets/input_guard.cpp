@@ -26,8 +26,9 @@ bool InputGuard::eventFilter(QObject* watched, QEvent* event) {
     event->ignore();  // what lies below scrolls
     return true;
   }
-  // The wheel would give the field the focus, and with it the value and the keys.
-  if (event->type() == QEvent::Polish && isField(watched)) {
+  // The wheel would give the field the focus, and with it the value and the keys. Not when it is
+  // polished: some are before there is a guard.
+  if (event->type() == QEvent::Show && isField(watched)) {
     auto* field = static_cast<QWidget*>(watched);
     if (field->focusPolicy() == Qt::WheelFocus) field->setFocusPolicy(Qt::StrongFocus);
   }

@@ -24,6 +24,7 @@
 #include "ui/window/window_docks.h"
 #include "ui/window/window_frame.h"
 #include "ui/window/window_menus.h"
+#include "ui/workspaces/remedies.h"
 #include "ui/workspaces/remedies_panel.h"
 #include "ui/workspaces/run_bar.h"
 #include "ui/workspaces/verdict_bar.h"
@@ -104,6 +105,7 @@ void MainWindow::connectAll() {
   auto* jobs = new JobController(parts_, docks_->review.controller(), frame_->jobs(), this);
   connect(menus_, &WindowMenus::stopRequested, jobs, &JobController::stop);
   connect(&document_, &Document::opened, this, &MainWindow::showFittingWorkspace);
+  connect(files_, &SessionFiles::caseMade, this, &MainWindow::showFittingWorkspace);
   new QueueLinks(parts_, *docks_, this);
   auto* levels = new LevelsController(parts_, docks_->levels, this);
   connect(levels, &LevelsController::noted, this, note);
@@ -164,6 +166,8 @@ void MainWindow::connectDecisions(VerdictController& verdicts) {
   connect(&form, &DecisionForm::questionEnded, this, [this] {
     if (docks_->queue.isInSight()) docks_->queue.focusList();
   });
+  connect(&docks_->review, &ReviewPanel::checkShowRequested, &verdicts,
+          [&verdicts](const std::string& id) { verdicts.perform(stepOfCheck(id)); });
   connect(&docks_->queue, &QueuePanel::validationRequested, &verdicts,
           [&verdicts] { verdicts.askForDecision(ReviewController::Act::kValidate); });
   connect(&docks_->queue, &QueuePanel::rejectionRequested, &verdicts,

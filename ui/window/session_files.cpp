@@ -362,11 +362,11 @@ void SessionFiles::addCase(const QString& kept) {
       });
 }
 
-/// False when the operator has cancelled.
+/// Part of the open session, or a new one where none can be edited. False when the operator has
+/// cancelled.
 bool SessionFiles::takeCase(sessions::SessionCase session_case) {
   Document& document = parts_.document;
-  const bool alone = makes_new_session_ || !document.isEditable();
-  if (alone && document.isEditable() && !mayLeave()) return false;
+  const bool alone = !document.isEditable();
   if (!alone && !askForId(session_case)) return false;
   const QString id = QString::fromStdString(session_case.id);
   const sessions::Session session =
@@ -375,6 +375,7 @@ bool SessionFiles::takeCase(sessions::SessionCase session_case) {
     document.createUntitled(session);
   } else if (document.edit(session, tr("Add %1").arg(id))) {
     parts_.cases.chooseCase(id);
+    Q_EMIT caseMade();
   }
   return true;
 }

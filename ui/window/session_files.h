@@ -72,8 +72,6 @@ class SessionFiles : public QObject {
   /// Creates a case without a seed.
   void makeSeedless();
   void forgetCollected();
-  /// Whether a case becomes a new session or is added to the open one.
-  void setMakesNewSession(bool makes) { makes_new_session_ = makes; }
   /// Opens an example session under a new name and runs it.
   void openExample(const std::filesystem::path& file);
   /// Opens an untitled session left by a program that ended.
@@ -96,6 +94,8 @@ class SessionFiles : public QObject {
   void noted(const QString& message);
   /// Files of a case were added or removed.
   void collectedChanged();
+  /// The collected files have become a case.
+  void caseMade();
   /// The new session should be reviewed in the queue.
   void queueWanted();
 
@@ -121,7 +121,6 @@ class SessionFiles : public QObject {
   QImage picture_;
   QString kept_;  ///< names of the files from an earlier drop
   std::optional<double> mesh_extent_;
-  bool makes_new_session_ = false;
   bool recovers_ = false;  ///< without a question
 };
 

@@ -35,9 +35,13 @@ constexpr SlotText kSlotTexts[StartPage::kSlotCount] = {
      QT_TR_NOOP("The camera's approximate pose (json). Annotations can give it later.")},
 };
 
+QString headingText(const QString& title, const QString& caption) {
+  return QStringLiteral("<b style='font-size:large'>%1</b>&nbsp; %2")
+      .arg(title.toHtmlEscaped(), caption.toHtmlEscaped());
+}
+
 QLabel* heading(const QString& title, const QString& caption) {
-  auto* label = new QLabel(QStringLiteral("<b style='font-size:large'>%1</b>&nbsp; %2")
-                               .arg(title.toHtmlEscaped(), caption.toHtmlEscaped()));
+  auto* label = new QLabel(headingText(title, caption));
   label->setWordWrap(true);
   return label;
 }
@@ -84,8 +88,8 @@ StartPage::StartPage(SessionFiles& files, Document& document, QWidget* parent)
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(24, 16, 24, 16);
   column->setSpacing(16);
-  column->addWidget(
-      heading(tr("New case"), tr("Drop files anywhere in the window; each goes to its slot.")));
+  heading_ = named(heading({}, {}), "newCase");
+  column->addWidget(heading_);
   column->addWidget(buildSlots());
   auto* halves = new QHBoxLayout;
   halves->setSpacing(24);
@@ -99,6 +103,11 @@ StartPage::StartPage(SessionFiles& files, Document& document, QWidget* parent)
 }
 
 void StartPage::refresh() {
+  const QString session = document_.isUntitled() ? tr("the open session")
+                                                 : fromText(document_.file().filename().string());
+  heading_->setText(
+      headingText(document_.isEditable() ? tr("New case of %1").arg(session) : tr("New case"),
+                  tr("Drop files anywhere in the window; each goes to its slot.")));
   showSlots();
   showRecent();
   showLeft();

@@ -62,6 +62,7 @@ class StartPage : public QScrollArea {
   SessionFiles& files_;
   Document& document_;
   std::array<FileSlot, kSlotCount> slots_;
+  QLabel* heading_ = nullptr;  ///< of the slots: names the session that gets the case
   QVBoxLayout* units_ = nullptr;
   QString shown_units_;
   QPushButton* seedless_ = nullptr;

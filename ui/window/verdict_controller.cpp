@@ -80,6 +80,13 @@ void VerdictController::follow() {
   connect(&review, &ReviewController::reviewStatusChanged, this, soon);
   connect(&review, &ReviewController::convergenceChanged, this, soon);
   connect(&workspaces_, &Workspaces::changed, this, soon);
+  // The bar is green only once the checks have passed.
+  const auto follow_runs = [this, &review] {
+    review.setFollowsRuns(workspaces_.current() == Workspace::kRun ||
+                          workspaces_.current() == Workspace::kDiagnose);
+  };
+  connect(&workspaces_, &Workspaces::changed, this, follow_runs);
+  follow_runs();
   // Of a failed run the first thing to see is what may help.
   connect(&workspaces_, &Workspaces::changed, this, [this](Workspace workspace) {
     const auto& run = parts_.state.snapshot();
@@ -148,6 +155,7 @@ Situation VerdictController::situation() const {
   situation.workspace = workspaces_.current();
   situation.files = files_.situation();
   situation.has_case = parts_.state.currentCase() != nullptr;
+  situation.has_next = !nextCase().isEmpty();
   if (const auto* shown = shownCase(parts_.document, parts_.state))
     situation.has_seed = shown->has_seed;
   situation.load_problem = parts_.cases.loadProblem();

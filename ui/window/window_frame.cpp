@@ -142,7 +142,10 @@ void WindowFrame::connectAll() {
     if (workspaces_.current() == Workspace::kDiagnose)
       workspaces_.reveal(QStringLiteral("inspector"));
   });
-  connect(cases_, &CaseStrip::caseRequested, &parts_.cases, &CaseController::chooseCase);
+  connect(cases_, &CaseStrip::caseRequested, this, [this](const QString& id) {
+    if (workspaces_.current() == Workspace::kStart) workspaces_.show(Workspace::kRun);
+    parts_.cases.chooseCase(id);
+  });
   connect(cases_, &CaseStrip::listRequested, this, [this] {
     QDockWidget* list = workspaces_.dock(QStringLiteral("cases"));
     list->setVisible(!list->isVisible());
@@ -188,7 +191,6 @@ void WindowFrame::arrange() {
   top_bar_->setCurrent(workspace);
   docks_.layers.setShortList(layersOf(workspace));
   stack_->setCurrentWidget(start ? static_cast<QWidget*>(start_) : canvas_column_);
-  files_.setMakesNewSession(start);
   if (start) start_->refresh();
   cases_->setNarrow(narrow);
   cases_->setForDecisions(workspace == Workspace::kReview);

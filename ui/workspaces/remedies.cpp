@@ -2,6 +2,8 @@
 #include "ui/workspaces/remedies.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include <QCoreApplication>
 #include <QStringList>
@@ -12,22 +14,21 @@ namespace boresight::ui {
 namespace {
 
 constexpr Remedy kWider = {Step::kWiderSearch,
-                           QT_TR_NOOP("The seed's edges look turned about the view axis")};
-constexpr Remedy kNudge = {Step::kNudgeSeed,
-                           QT_TR_NOOP("The seed's edges look like the image, but displaced")};
+                           QT_TR_NOOP("The seed looks turned about the view axis")};
+constexpr Remedy kNudge = {Step::kNudgeSeed, QT_TR_NOOP("The seed looks right, but displaced")};
 constexpr Remedy kFarther = {
     Step::kUncertainty,
-    QT_TR_NOOP("Arrows agree but end at window borders: the seed is farther off than stated")};
+    QT_TR_NOOP(
+        "Matches lie at the border of what was searched: the seed is farther off than stated")};
 constexpr Remedy kMasked = {
-    Step::kMask,
-    QT_TR_NOOP("Part of the station is hidden, or edges are everywhere: print, shadows")};
+    Step::kMask, QT_TR_NOOP("Something hides part of the station, or print and shadows add edges")};
 constexpr Remedy kMarks = {Step::kAnnotate,
-                           QT_TR_NOOP("The pose is unknown: four points give a seed")};
-constexpr Remedy kSheet = {Step::kInputs,
-                           QT_TR_NOOP("Wrong mesh, unit, camera or calibration: see the warnings")};
+                           QT_TR_NOOP("Nothing else helps: four marked points give a seed")};
+constexpr Remedy kSheet = {
+    Step::kInputs, QT_TR_NOOP("Mesh, unit, camera or calibration may be wrong: see the warnings")};
 constexpr Remedy kOthers = {
     Step::kCompetingPoses,
-    QT_TR_NOOP("Repetition or symmetry: another pose explains the image as well")};
+    QT_TR_NOOP("The station repeats itself: another pose explains the image as well")};
 
 const std::vector<Remedy>& likeliestFor(const sessions::LocalizationTrace& trace) {
   static const std::vector<Remedy> kNothing;
@@ -82,6 +83,22 @@ std::vector<Remedy> remediesFor(const sessions::LocalizationTrace& trace,
   std::stable_partition(remedies.begin(), remedies.end(),
                         [](const Remedy& remedy) { return !remedy.tried; });
   return remedies;
+}
+
+Step stepOfCheck(const std::string& check_id) {
+  static constexpr std::pair<std::string_view, Step> kSteps[] = {
+      {"convergence_", Step::kCompetingPoses},
+      {"matches_at_border", Step::kUncertainty},
+      {"image_saturated", Step::kMask},
+      {"image_", Step::kInputs},
+      {"camera_", Step::kInputs},
+      {"mesh_scale", Step::kInputs},
+      {"agreement_annotation", Step::kAnnotate},
+      {"agreement_onboard", Step::kFirstDifference},
+  };
+  for (const auto& [beginning, step] : kSteps)
+    if (check_id.starts_with(beginning)) return step;
+  return Step::kInspect;  // of the run itself: its matches and edges
 }
 
 QString triedText(const std::vector<Remedy>& remedies) {

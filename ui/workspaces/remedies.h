@@ -24,6 +24,9 @@ struct Remedy {
 std::vector<Remedy> remediesFor(const sessions::LocalizationTrace& trace,
                                 const std::vector<Step>& tried = {});
 
+/// The step that shows where the figure of a failed check comes from.
+Step stepOfCheck(const std::string& check_id);
+
 /// "wider search, nudged seed"; empty when nothing was tried.
 QString triedText(const std::vector<Remedy>& remedies);
 

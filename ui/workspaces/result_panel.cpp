@@ -14,12 +14,18 @@
 #include "ui/widgets/widgets.h"
 
 namespace boresight::ui {
+namespace {
+
+constexpr int kNeededLines = 2;  ///< their room is kept, so that nothing below moves
+
+}  // namespace
 
 ResultPanel::ResultPanel(ViewState& state, QualityController& quality, QWidget* parent)
     : QWidget(parent),
       state_(state),
       quality_(quality),
       rejected_(named(new QLabel, "rejectedPose")),
+      heading_(new QLabel(tr("Camera from station"))),
       pose_(named(new QTableWidget(2, 4), "resultPose")) {
   auto* figures = new QHBoxLayout;
   figures->setSpacing(16);
@@ -32,14 +38,14 @@ ResultPanel::ResultPanel(ViewState& state, QualityController& quality, QWidget* 
   pose_->setHorizontalHeaderLabels({QString(), tr("x"), tr("y"), tr("z")});
   for (int column = 1; column < pose_->columnCount(); ++column)
     pose_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  pose_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  pose_->horizontalHeader()->setStretchLastSection(true);
+  pose_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  pose_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   pose_->setMinimumWidth(kNarrow.run_side - 24);  // of whole numbers
   rejected_->setText(tr("✗ Rejected: this pose is not a result."));
   auto* column = new QVBoxLayout(this);
   column->addLayout(figures);
   column->addWidget(rejected_);
-  column->addWidget(new QLabel(tr("Camera from station")));
+  column->addWidget(heading_);
   column->addWidget(pose_, 1);
   state_.onChange(ViewChange::kSnapshot | ViewChange::kCase | ViewChange::kCursor, this,
                   &ResultPanel::showRun);
@@ -54,6 +60,8 @@ ResultPanel::Figure ResultPanel::addFigure(QHBoxLayout& row) {
   large.setBold(true);
   figure.value->setFont(large);
   figure.needed->setWordWrap(true);
+  figure.needed->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  figure.needed->setMinimumHeight(kNeededLines * fontMetrics().lineSpacing());
   auto* column = new QVBoxLayout;
   column->setSpacing(2);
   for (QWidget* each :
@@ -113,6 +121,7 @@ void ResultPanel::showPose() {
   const auto pose = poseOf(state_, state_.iteration() ? PoseRole::kEstimate : PoseRole::kSeed);
   const bool rejected = run && run->finished && !run->converged() && state_.iteration();
   rejected_->setVisible(rejected);
+  heading_->setVisible(!rejected);  // one line in either case: nothing below moves
   pose_->setEnabled(!rejected);
   pose_->setVisible(pose.has_value());
   if (!pose) return;

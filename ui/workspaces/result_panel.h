@@ -40,6 +40,7 @@ class ResultPanel : public QWidget {
   Figure agreement_;
   Figure precision_;
   QLabel* rejected_ = nullptr;
+  QLabel* heading_ = nullptr;
   QTableWidget* pose_ = nullptr;
 };
 

@@ -29,7 +29,7 @@ QString stageName(Stage stage) {
   return tr(name);
 }
 
-/// Green only where the requirement holds and no check that was run fails.
+/// Green only where the requirement holds and no check fails.
 void toneOfPose(const Situation& situation, Verdict& verdict) {
   if (!situation.quality) return;  // being measured
   const bool good = situation.quality->holds() && situation.review.failed == 0;
@@ -271,7 +271,7 @@ Verdict ofRun(const Situation& situation) {
   verdict.head = fromText(headline.head);
   verdict.sentence = fromText(headline.sentence);
   if (trace.converged()) {
-    toneOfPose(situation, verdict);
+    if (situation.review.current) toneOfPose(situation, verdict);
     if (situation.quality) verdict.sentence += qualityText(*situation.quality);
     if (situation.review.failed > 0)
       verdict.sentence += tr(" %1.").arg(failedText(situation.review.failed));
@@ -342,9 +342,7 @@ std::optional<Verdict> ofProgress(const Situation& situation) {
   return std::nullopt;
 }
 
-}  // namespace
-
-Verdict verdictOf(const Situation& situation) {
+Verdict verdictWithNext(const Situation& situation) {
   if (!situation.has_case && situation.load_problem.isEmpty() && situation.file_problem.isEmpty())
     return situation.reading.isEmpty() ? ofFiles(situation.files) : ofReading(situation.reading);
   if (situation.workspace == Workspace::kStart && situation.files.added > 0)
@@ -369,6 +367,16 @@ Verdict verdictOf(const Situation& situation) {
   if (decisionIsOfShownRun(situation)) return ofDecision(situation);
   if (auto verdict = ofProgress(situation)) return *verdict;
   return ofRun(situation);
+}
+
+}  // namespace
+
+Verdict verdictOf(const Situation& situation) {
+  Verdict verdict = verdictWithNext(situation);
+  if (situation.has_next) return verdict;
+  if (verdict.step == Step::kNextCase) verdict.step = Step::kNone;
+  std::erase(verdict.others, Step::kNextCase);
+  return verdict;
 }
 
 }  // namespace boresight::ui

@@ -74,6 +74,7 @@ struct Situation {
   FilesSituation files;
   bool has_case = false;
   bool has_seed = true;
+  bool has_next = true;  ///< another case is open to be decided
   QString load_problem;
   QString input_problem;  ///< input that a run would reject, or empty
   QString input_step;     ///< step that corrects it: "Choose camera..."

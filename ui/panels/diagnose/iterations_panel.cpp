@@ -9,6 +9,7 @@
 
 #include "core/base/math.h"
 #include "sessions/text/units.h"
+#include "sessions/trace/run_headline.h"
 #include "ui/models/text.h"
 #include "ui/plots/plots.h"
 #include "ui/widgets/column_fitter.h"
@@ -82,17 +83,6 @@ const StageText& textOf(Stage stage) {
 
 }  // namespace
 
-QString iterationNameOf(const sessions::LocalizationTrace& run, int iteration) {
-  if (iteration < 0 || iteration >= static_cast<int>(run.iterations.size()))
-    return RunScrubber::tr("seed");
-  const int attempt = run.iterations[static_cast<std::size_t>(iteration)]->attempt;
-  int number = 1;
-  for (int i = iteration;
-       i > 0 && run.iterations[static_cast<std::size_t>(i - 1)]->attempt == attempt; --i)
-    ++number;
-  return QStringLiteral("%1.%2").arg(attempt + 1).arg(number);
-}
-
 RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), view_(view) {
   ui_.setupUi(this);
   actions_ = {ui_.goFirst, ui_.goPrevious,      ui_.goNext,
@@ -121,7 +111,7 @@ RunScrubber::RunScrubber(ViewState& view, QWidget* parent) : QWidget(parent), vi
 void RunScrubber::showPlace() {
   const auto* run = view_.snapshot().get();
   const int iteration = view_.cursor().iteration;
-  const QString name = run ? iterationNameOf(*run, iteration) : tr("seed");
+  const QString name = run ? fromText(sessions::iterationName(*run, iteration)) : tr("seed");
   ui_.shownIteration->setText(
       iteration < 0 ? name
                     : tr("%1 (%2 of %3)").arg(name).arg(iteration + 1).arg(run->iterations.size()));
@@ -371,8 +361,8 @@ void IterationsModel::setSnapshot(SnapshotPtr snapshot) {
   std::vector<IterationRow> rows;
   if (snapshot) rows.push_back({tr("seed"), nullptr, {}});
   for (std::size_t i = 0; snapshot && i < snapshot->iterations.size(); ++i)
-    rows.push_back({iterationNameOf(*snapshot, static_cast<int>(i)), snapshot->iterations[i],
-                    statusText(*snapshot, i)});
+    rows.push_back({fromText(sessions::iterationName(*snapshot, static_cast<int>(i))),
+                    snapshot->iterations[i], statusText(*snapshot, i)});
   const bool goes_on = continues(snapshot_.get(), snapshot.get());
   snapshot_ = std::move(snapshot);
   setRows(std::move(rows), goes_on);

@@ -35,9 +35,6 @@ int shownStage(const std::vector<Stage>& stages, Stage cursor);
 /// stage of an iteration is kFinished, so that a cursor there follows an iteration under way.
 RunCursor stageFrom(const sessions::LocalizationTrace& run, const RunCursor& cursor, int steps);
 
-/// "2.3": the third iteration of the second attempt; "seed" for -1.
-QString iterationNameOf(const sessions::LocalizationTrace& run, int iteration);
-
 /// Walks the cursor through a run: a slider over the iterations (leftmost: the seed), buttons, and
 /// one button per stage of the chosen iteration. The window gives the actions their shortcuts.
 class RunScrubber : public QWidget {
